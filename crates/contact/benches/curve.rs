@@ -1,0 +1,85 @@
+//! What the memory curve costs: a trial, a commit and the frozen branch, by depth of the stack.
+
+#![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+use std::time::Duration;
+use stickslip_contact::{Apex, Curve, Interface, Move, Pair, Profile, Segment};
+
+const D: f64 = 1.8e-7;
+
+fn laws() -> [(&'static str, Interface); 2] {
+    [("paraboloid", Profile::paraboloid(1e-3)), ("sphere", Profile::sphere(1e-3))].map(|(name, profile)| {
+        (name, Interface::new(Pair::from_moduli(1.15e11, 0.95e11).unwrap(), profile.unwrap(), 0.15).unwrap())
+    })
+}
+
+/// A curve with a number of nested turns, and the displacement of the last two.
+fn nested(law: &Interface, turns: i32) -> (Curve, f64, f64) {
+    let mut curve = Curve::new(law, Apex { d: D, u: 0.0 });
+    let u_c = law.gross_slip_displacement(D);
+    let turn = |k: i32| 0.95 * u_c * 0.8_f64.powi(k) * if k % 2 == 0 { 1.0 } else { -1.0 };
+    for k in 0..turns {
+        curve.commit(law, Segment::Straight(Apex { d: D, u: turn(k) })).unwrap();
+    }
+    (curve, turn(turns - 2), turn(turns - 1))
+}
+
+fn trials(bench: &mut Criterion) {
+    for (name, law) in laws() {
+        for depth in [1, 4, 16] {
+            let (curve, before, last) = nested(&law, depth);
+            let to = |share: f64, d: f64| Apex { d, u: last + share * (before - last) };
+            let moves = [
+                ("cuts one piece", to(0.3, D)),
+                ("shrinking", to(0.3, 0.98 * D)),
+                ("cuts all", Apex { d: D, u: 3.0 * law.gross_slip_displacement(D) }),
+            ];
+            for (kind, to) in moves {
+                bench.bench_function(&format!("trial, {name}, {depth} turns, {kind}"), |b| {
+                    b.iter(|| black_box(&curve).trial(&law, Move::Chord(black_box(to))));
+                });
+            }
+        }
+    }
+}
+
+fn branches(bench: &mut Criterion) {
+    for (name, law) in laws() {
+        let (curve, before, last) = nested(&law, 4);
+        let branch = curve.branch(&law, (before - last).signum(), 0.0);
+        let (u, area) = (0.7 * last + 0.3 * before, law.profile().area(D));
+        bench.bench_function(&format!("force of a frozen branch, {name}"), |b| {
+            b.iter(|| black_box(&branch).force(&law, black_box(D), black_box(u), area));
+        });
+    }
+}
+
+fn commits(bench: &mut Criterion) {
+    for (name, law) in laws() {
+        for depth in [1, 4, 16] {
+            let (mut curve, before, last) = nested(&law, depth);
+            let to = |u: f64| Segment::Straight(Apex { d: D, u });
+            let (there, back) = (to(last + 0.3 * (before - last)), to(last));
+            // There and back is a loop that closes: the stack stays as deep as it is, and nothing is cloned.
+            bench.bench_function(&format!("two commits, {name}, {depth} turns"), |b| {
+                b.iter(|| {
+                    let lost = curve.commit(&law, black_box(there)).unwrap();
+                    lost + curve.commit(&law, black_box(back)).unwrap()
+                });
+            });
+            assert!(curve.depth() < 30);
+        }
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(1))
+        .sample_size(20);
+    targets = trials, branches, commits
+}
+criterion_main!(benches);

@@ -1,0 +1,381 @@
+//! The memory curve: the exact state of a contact, without springs.
+//!
+//! All springs of one height h share one history, so the state is a curve p(h), 0 ≤ h ≤ d: the position at
+//! which a spring of height h is anchored; its stretch is u - p(h). The pair (d, u) is the apex of a wedge
+//! |p-u| ≤ κ(d-h) that may never leave the curve outside: moving the apex drags the curve. No piece is steeper
+//! than κ, so a drag cuts the curve from the edge inwards only, and a stack of knots holds it.
+//!
+//! With m the length below a height, and M, N its first and second integrals,
+//!
+//! * F_x = G\* ∫ p' m dh, a sum of slope × ΔM over the pieces,
+//! * elastic energy = ½G\* ∫ (u-p)² dm, by the recursion of [`knot::Knot`],
+//! * friction work = G\* ∫ dm ∫ κ(d-h) |dp|, over the swept pieces ([`sweep`]).
+//!
+//! Contains Cattaneo–Mindlin, Jäger and Ciavarella (4.30–4.33) and Masing's rules as special cases. The same
+//! idea is published as the method of memory diagrams (Aleshin, Bou Matar, Van Den Abeele, Int. J. Solids
+//! Struct. 2015).
+
+mod branch;
+mod cut;
+mod knot;
+mod sweep;
+
+pub use branch::{Branch, Course};
+
+use crate::{Apex, ContactError, ContactState, Interface, Move, Outcome, Response, Segment, SpringState};
+use cut::{Cut, Drag};
+use knot::Knot;
+
+/// State of a contact that remembers exactly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// From the centre to the edge, the last one is the apex; empty while the contact is open.
+    knots: Vec<Knot>,
+    apex: Apex,
+    front: Front,
+    cone: Cone,
+    capacity: usize,
+    merged: Merged,
+}
+
+/// What bounding the stack has cost.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Merged {
+    /// Number of knots given up.
+    pub knots: u64,
+    /// Sum of the magnitudes of the steps in F_x, N.
+    pub force: f64,
+    /// Sum of the magnitudes of the steps in the elastic energy, J.
+    pub energy: f64,
+}
+
+/// Where the springs at their limit begin after the last move that was not zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Front {
+    /// +1 forward, -1 backward, 0 none at its limit.
+    sense: f64,
+    /// Springs higher than this are at their limit; -∞ in gross slip.
+    height: f64,
+}
+
+impl Front {
+    const STICK: Self = Self { sense: 0.0, height: f64::INFINITY };
+}
+
+/// Slopes of the top piece that keep every knot merged into it within round-off of where it was: without this
+/// bound a slightly curved growth in many tiny steps would be straightened without limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Cone {
+    low: f64,
+    high: f64,
+}
+
+impl Cone {
+    const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+}
+
+/// Deviation of a merged knot, in units of the last place of the largest of |u| and κd.
+const COLLINEAR_ULPS: f64 = 2.0;
+
+/// Knots that one move adds at most: the place where it cuts, or touches, and the apex.
+const KNOTS_PER_MOVE: usize = 2;
+
+impl Curve {
+    /// Knots kept by default; a free decay adds two per period, for ever.
+    pub const DEFAULT_CAPACITY: usize = 4096;
+
+    /// The untouched contact: open or just touching (d ≤ 0) or pressed with unstretched springs (d > 0).
+    pub fn new(law: &Interface, at: Apex) -> Self {
+        Self::with_capacity(law, at, Self::DEFAULT_CAPACITY)
+    }
+
+    /// The same with a stack of another capacity (at least 8 knots).
+    pub fn with_capacity(law: &Interface, at: Apex, capacity: usize) -> Self {
+        let capacity = capacity.max(8);
+        // Room for what most histories need; a thousand contacts should not take the full stack each.
+        let mut knots = Vec::with_capacity(capacity.min(256));
+        if at.d > 0.0 {
+            let first = Knot::touch(at.u);
+            knots.push(first);
+            knots.push(first.grow(law, at.d, 0.0, at.u));
+        }
+        Self { knots, apex: at, front: Front::STICK, cone: Cone::ALL, capacity, merged: Merged::default() }
+    }
+
+    /// Where the contact stands.
+    pub fn apex(&self) -> Apex {
+        self.apex
+    }
+
+    /// Number of knots in the stack.
+    pub fn depth(&self) -> usize {
+        self.knots.len()
+    }
+
+    /// Knots (h, p) from the centre to the apex, m.
+    pub fn knots(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.knots.iter().map(|k| (k.h, k.p))
+    }
+
+    /// What bounding the stack has cost so far.
+    pub fn merged(&self) -> Merged {
+        self.merged
+    }
+
+    /// Tangential force F_x, N.
+    pub fn force(&self, law: &Interface) -> f64 {
+        law.tangential_modulus() * self.knots.last().map_or(0.0, |k| k.shear)
+    }
+
+    /// Tangential elastic energy ½G\*∫(u-p)²dm, J.
+    pub fn elastic(&self, law: &Interface) -> f64 {
+        0.5 * law.tangential_modulus() * self.knots.last().map_or(0.0, |k| k.square)
+    }
+
+    /// State of the whole contact after the last move that was not zero.
+    pub fn state(&self, law: &Interface) -> ContactState {
+        zone(law, self.apex.d, self.front).0
+    }
+
+    /// Radius inside which no spring is at its limit, m.
+    pub fn stick_radius(&self, law: &Interface) -> f64 {
+        zone(law, self.apex.d, self.front).1
+    }
+
+    /// Anchor p(h) of the springs at height h, m; none outside the contact.
+    pub fn anchor(&self, h: f64) -> Option<f64> {
+        if self.knots.is_empty() || !(0.0..=self.apex.d).contains(&h) {
+            return None;
+        }
+        Some(cut::anchor(&self.knots, h))
+    }
+
+    /// Stretch u - p(h) of the springs at height h, m; zero outside the contact.
+    pub fn stretch(&self, h: f64) -> f64 {
+        self.anchor(h).map_or(0.0, |p| self.apex.u - p)
+    }
+
+    /// State of the springs at height h after the last move that was not zero.
+    pub fn spring_state(&self, h: f64) -> SpringState {
+        if h >= self.apex.d || self.knots.is_empty() {
+            SpringState::Open
+        } else if self.front.sense == 0.0 || h <= self.front.height {
+            SpringState::Stick
+        } else if self.front.sense > 0.0 {
+            SpringState::SlipForward
+        } else {
+            SpringState::SlipBackward
+        }
+    }
+
+    /// Force and tangents that a move would give. Costs the pieces that the move would cut, usually one.
+    pub fn trial(&self, law: &Interface, to: Move) -> Response {
+        let modulus = law.tangential_modulus();
+        match to {
+            Move::Grown { to, force } => {
+                Response { force, stiffness: law.stick_stiffness(to.d), coupling: 0.0 }
+            }
+            Move::Chord(to) => match self.drag(law, to) {
+                Drag::Open => Response::default(),
+                Drag::Stick(knot) => Response {
+                    force: modulus * knot.shear,
+                    stiffness: law.stick_stiffness(to.d),
+                    coupling: 0.0,
+                },
+                Drag::Slip(cut) => cut.response(law, to),
+            },
+        }
+    }
+
+    /// Everything that a chord would give, its friction work included.
+    pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {
+        let touch = [self.touching(to)];
+        let knots = if self.knots.is_empty() { &touch[..] } else { &self.knots[..] };
+        let from = if self.knots.is_empty() { touch[0].apex() } else { self.apex };
+        let modulus = law.tangential_modulus();
+        let friction = sweep::work(law, knots, from, to);
+        let (end, front) = match self.drag(law, to) {
+            Drag::Open => return Outcome { friction, ..Outcome::default() },
+            Drag::Stick(knot) if to == self.apex => (knot, self.front),
+            Drag::Stick(knot) => (knot, Front::STICK),
+            Drag::Slip(cut) => (cut.end(law, to), cut.front()),
+        };
+        let (state, stick_radius) = zone(law, to.d, front);
+        Outcome {
+            force: modulus * end.shear,
+            elastic: 0.5 * modulus * end.square,
+            friction,
+            stick_radius,
+            state,
+        }
+    }
+
+    /// Accepts a segment: the only thing that moves the memory. Returns the friction work, J.
+    ///
+    /// Fails, leaving everything as it was, for a motion that is not finite.
+    pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        let to = segment.end();
+        if !(to.d.is_finite() && to.u.is_finite()) {
+            return Err(ContactError::NotFinite { d: to.d, u: to.u });
+        }
+        if let Segment::Grown { force, energy, .. } = segment
+            && !(force.is_finite() && energy.is_finite())
+        {
+            return Err(ContactError::SumsNotFinite { force, energy });
+        }
+        if to == self.apex {
+            return Ok(0.0);
+        }
+        // Before the move: a knot made first would carry the sums of the stack as it was, the error be hidden in a
+        // step at the apex and booked again by every later merge.
+        while self.knots.len() + KNOTS_PER_MOVE > self.capacity {
+            self.merge_smallest(law);
+        }
+        if let Segment::Grown { to, force, energy, joins } = segment {
+            // A path that ends no deeper than it began has not grown: rounding, left to the chord below.
+            if to.d > self.apex.d.max(0.0) {
+                self.grow(law, to, (force, energy), joins);
+                return Ok(0.0);
+            }
+        }
+        if self.knots.is_empty() && to.d > 0.0 {
+            let touch = self.touching(to);
+            self.knots.push(touch);
+            self.apex = touch.apex();
+            self.cone = Cone::ALL;
+        }
+        let friction = if self.knots.is_empty() { 0.0 } else { sweep::work(law, &self.knots, self.apex, to) };
+        match self.drag(law, to) {
+            Drag::Open => {
+                self.knots.clear();
+                self.front = Front::STICK;
+            }
+            Drag::Stick(knot) => {
+                self.front = Front::STICK;
+                self.push_grown(law, knot);
+            }
+            Drag::Slip(cut) => self.push_cut(law, cut, to),
+        }
+        self.apex = to;
+        Ok(friction)
+    }
+
+    /// Which way a chord from the committed apex drags the curve.
+    fn drag(&self, law: &Interface, to: Apex) -> Drag {
+        if to.d <= 0.0 {
+            return Drag::Open;
+        }
+        let touch = [self.touching(to)];
+        let knots = if self.knots.is_empty() { &touch[..] } else { &self.knots[..] };
+        Drag::of(law, knots, to)
+    }
+
+    /// The knot an open contact touches with on its way to `to`: the path crosses d = 0 there.
+    fn touching(&self, to: Apex) -> Knot {
+        let Apex { d, u } = self.apex;
+        let share = if to.d > d { (-d / (to.d - d)).clamp(0.0, 1.0) } else { 0.0 };
+        Knot::touch(u + share * (to.u - u))
+    }
+
+    /// Growth in full stick along a curved path, its force and energy integrated elsewhere.
+    fn grow(&mut self, law: &Interface, to: Apex, (force, energy): (f64, f64), joins: bool) {
+        if self.knots.is_empty() {
+            let touch = self.touching(to);
+            self.knots.push(touch);
+        }
+        if let Some(last) = self.knots.last_mut() {
+            last.joined = joins;
+            let modulus = law.tangential_modulus();
+            let knot = last.grow_by(law, to, force / modulus, 2.0 * energy / modulus);
+            self.knots.push(knot);
+        }
+        self.front = Front::STICK;
+        self.cone = Cone::NONE;
+        self.apex = to;
+    }
+
+    /// Pushes a straight piece of growth, merging it with the piece below where the two are collinear.
+    fn push_grown(&mut self, law: &Interface, knot: Knot) {
+        let count = self.knots.len();
+        let top = self.knots[count - 1];
+        if count >= 2 {
+            let base = self.knots[count - 2];
+            let slack =
+                COLLINEAR_ULPS * f64::EPSILON * top.p.abs().max(knot.p.abs()).max(law.stick_slope() * knot.h);
+            let reach = top.h - base.h;
+            let cone = Cone {
+                low: self.cone.low.max((top.p - base.p - slack) / reach),
+                high: self.cone.high.min((top.p - base.p + slack) / reach),
+            };
+            let slope = (knot.p - base.p) / (knot.h - base.h);
+            let straight = top.slope == top.gain && top.slope.abs() < law.stick_slope();
+            if straight && (cone.low..=cone.high).contains(&slope) {
+                self.knots[count - 1] = base.grow(law, knot.h, slope, knot.p);
+                self.cone = cone;
+                return;
+            }
+        }
+        self.knots.push(knot);
+        self.cone = Cone::ALL;
+    }
+
+    /// Replaces what was cut by the straight edge of the wedge.
+    fn push_cut(&mut self, law: &Interface, cut: Cut, to: Apex) {
+        let end = cut.end(law, to);
+        self.knots.truncate(cut.kept);
+        if cut.splits || self.knots.is_empty() {
+            self.knots.push(cut.knot);
+        }
+        if end.h > cut.knot.h {
+            self.knots.push(end);
+        } else if let Some(top) = self.knots.last_mut() {
+            // A move below the last place of the level cuts nothing; the apex still takes it.
+            top.p = to.u;
+        }
+        self.front = cut.front();
+        self.cone = Cone::NONE;
+    }
+
+    /// Gives up the knot whose loss changes the anchors least, and books the change.
+    fn merge_smallest(&mut self, law: &Interface) {
+        let triangle = |w: &[Knot]| {
+            let (a, b, c) = (&w[0], &w[1], &w[2]);
+            ((c.slope - b.slope) * (b.h - a.h) * (c.h - b.h)).abs()
+        };
+        let smallest = self.knots.windows(3).map(triangle).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((place, _)) = smallest else { return };
+        let (force, energy) = (self.force(law), self.elastic(law));
+        self.knots.remove(place + 1);
+        for i in place + 1..self.knots.len() {
+            let (below, old) = (self.knots[i - 1], self.knots[i]);
+            let (slope, gain) = if i == place + 1 {
+                let slope = (old.p - below.p) / (old.h - below.h);
+                (slope, slope)
+            } else {
+                (old.slope, old.gain)
+            };
+            let joined = old.joined;
+            self.knots[i] = below.extend(old.h, old.p, slope, gain, old.area, old.volume);
+            self.knots[i].joined = joined;
+        }
+        self.merged.knots += 1;
+        self.merged.force += (self.force(law) - force).abs();
+        self.merged.energy += (self.elastic(law) - energy).abs();
+    }
+}
+
+/// State and stick radius of a contact of indentation d with a given slip front.
+fn zone(law: &Interface, d: f64, front: Front) -> (ContactState, f64) {
+    let profile = law.profile();
+    if d <= 0.0 {
+        (ContactState::Open, 0.0)
+    } else if front.sense == 0.0 || (front.height > 0.0 && profile.length(front.height) >= profile.length(d))
+    {
+        (ContactState::Stick, profile.radius(d))
+    } else if front.height <= 0.0 {
+        (ContactState::Slip, 0.0)
+    } else {
+        (ContactState::Partial, profile.radius(front.height))
+    }
+}

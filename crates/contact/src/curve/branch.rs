@@ -1,0 +1,171 @@
+//! One smooth branch of the hysteresis, frozen: what an event-aware stepper integrates between two events.
+//!
+//! While the edge of the wedge drags in one sense and cuts one and the same piece of the old curve,
+//!
+//! F_x = σG\*[S₁ + γ(M(h_c)-M₁) + κ(M(d)-M(h_c))],  h_c = h₁ + (ℓ₁-L)/(κ-σk),  L = σu - κd,
+//!
+//! with ℓ₁ the level of the knot below the piece. The law goes on smoothly beyond both ends of its piece, so a
+//! step that oversteps an event meets no kink; the event is found afterwards, where [`Branch::margin`] or the
+//! sense of sliding changes sign.
+
+use super::{Curve, cut::Cut, knot::Knot};
+use crate::{Apex, Interface};
+
+/// What a contact is doing, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Course {
+    /// No contact.
+    #[default]
+    Open,
+    /// The contact grows in full stick: s₊ ≤ 0 ≤ s₋; its force depends on the path and is a state.
+    Grow,
+    /// The lower edge of the wedge drags: s₊ > 0.
+    Forward,
+    /// The upper edge of the wedge drags: s₋ < 0.
+    Backward,
+}
+
+impl Course {
+    /// +1 forward, -1 backward, 0 otherwise.
+    pub fn sense(self) -> f64 {
+        match self {
+            Self::Forward => 1.0,
+            Self::Backward => -1.0,
+            Self::Open | Self::Grow => 0.0,
+        }
+    }
+}
+
+/// A frozen branch: a sense and the piece of the curve that it cuts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Branch {
+    sense: f64,
+    slope: f64,
+    /// G\*σ.
+    factor: f64,
+    /// ℓ₁, the level at which the piece ends; ∞ in gross slip.
+    level: f64,
+    /// Level at which the piece begins, above it the edge still cuts later pieces of the same path of growth; -∞ for a
+    /// piece on its own.
+    entry: f64,
+    /// 1/(κ-σk).
+    flow: f64,
+    height: f64,
+    /// S₁ - γM₁ in the frame of the sense.
+    offset: f64,
+    /// γ - κ in the frame of the sense.
+    excess: f64,
+}
+
+impl Branch {
+    /// Whether every spring slips.
+    pub fn is_gross(&self) -> bool {
+        self.level == f64::INFINITY
+    }
+
+    /// Whether the law of this branch holds at (d, u): not yet, where the edge still cuts later pieces of the path of
+    /// growth at whose foot the branch lies. Those are for [`Curve::dragged`] to find.
+    #[inline]
+    pub fn covers(&self, d: f64, u: f64) -> bool {
+        self.sense * u - self.slope * d >= self.entry
+    }
+
+    /// F_x at (d, u), N, with M(d) at hand.
+    #[inline]
+    pub fn force(&self, law: &Interface, d: f64, u: f64, area: f64) -> f64 {
+        let front = if self.is_gross() {
+            0.0
+        } else {
+            self.excess * law.profile().area(self.front(d, u)) + self.offset
+        };
+        self.factor * (front + self.slope * area)
+    }
+
+    /// Height h_c of the slip front at (d, u), m; beyond its piece the branch goes on straight.
+    #[inline]
+    pub fn front(&self, d: f64, u: f64) -> f64 {
+        self.height + self.margin(d, u) * self.flow
+    }
+
+    /// How far the edge may still move before the piece is used up, m; ∞ in gross slip.
+    #[inline]
+    pub fn margin(&self, d: f64, u: f64) -> f64 {
+        self.level - (self.sense * u - self.slope * d)
+    }
+}
+
+impl Branch {
+    /// +1 forward, -1 backward.
+    pub fn sense(&self) -> f64 {
+        self.sense
+    }
+
+    /// Friction power, W: G\*κL̇∫(d-h)dm over the springs at their limit, those higher than `front`,
+    /// = G\*κL̇[M(d) - M(h_c) - (d-h_c)m(h_c)].
+    pub fn friction_power(&self, law: &Interface, front: f64, (d, dd): (f64, f64), du: f64) -> f64 {
+        let profile = law.profile();
+        let front = if self.is_gross() { 0.0 } else { front.clamp(0.0, d.max(0.0)) };
+        let limit = profile.area(d) - profile.area(front) - (d - front) * profile.length(front);
+        law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd) * limit
+    }
+}
+
+impl Curve {
+    /// The course of a contact in motion, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ. Where both edges close in
+    /// on a shrinking contact, the side decides on which the path leaves the curve.
+    pub fn course(&self, law: &Interface, dd: f64, du: f64) -> Course {
+        let limit = law.stick_slope() * dd;
+        if self.apex.d < 0.0 || self.apex.d == 0.0 && dd <= 0.0 {
+            Course::Open
+        } else if dd > 0.0 && du.abs() <= limit {
+            Course::Grow
+        } else if du.abs() > -limit {
+            if du > 0.0 { Course::Forward } else { Course::Backward }
+        } else {
+            let slope = self.knots.last().map_or(0.0, |k| k.slope);
+            if du > slope * dd { Course::Forward } else { Course::Backward }
+        }
+    }
+
+    /// The branch of a sense (+1 or -1) that starts at the committed apex. Knots within `slack` (m) of the
+    /// edge count as reached: the caller has just located the end of the piece there.
+    pub fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
+        let slope = law.stick_slope();
+        let factor = law.tangential_modulus() * sense;
+        let reach = |k: &Knot| sense * k.p - slope * k.h;
+        let level = sense * self.apex.u - slope * self.apex.d + slack;
+        let gross = Branch {
+            sense,
+            slope,
+            factor,
+            level: f64::INFINITY,
+            entry: f64::NEG_INFINITY,
+            flow: 0.0,
+            height: 0.0,
+            offset: 0.0,
+            excess: 0.0,
+        };
+        // A piece along the edge itself has no crossing: the edge takes it whole.
+        let crosses = |w: &[Knot]| reach(&w[0]) > level && slope - sense * w[1].slope > 1e-9 * slope;
+        let Some(top) = self.knots.windows(2).rposition(crosses) else { return gross };
+        // The pieces of one path of growth are one: the branch ends where the path began.
+        let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
+        let (base, end) = (&self.knots[foot], &self.knots[foot + 1]);
+        let gain = sense * end.gain;
+        Branch {
+            level: reach(base),
+            entry: if foot < top { reach(end) } else { f64::NEG_INFINITY },
+            flow: 1.0 / (slope - sense * end.slope),
+            height: base.h,
+            offset: sense * base.shear - gain * base.area,
+            excess: gain - slope,
+            ..gross
+        }
+    }
+
+    /// F_x (N) and height of the slip front (m) of a chord to an apex inside contact, dragged by the edge of a sense.
+    pub fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64) {
+        let cut = Cut::find(law, &self.knots, sense, to);
+        (cut.response(law, to).force, if cut.gross { 0.0 } else { cut.knot.h })
+    }
+}

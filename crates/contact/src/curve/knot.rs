@@ -1,0 +1,110 @@
+//! A turning point of the memory curve, with the sums of everything below it.
+
+use crate::{Apex, Interface};
+
+/// A knot (h, p) and the integrals over the curve below it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Knot {
+    /// Height, m.
+    pub(super) h: f64,
+    /// Anchor p(h), m.
+    pub(super) p: f64,
+    /// Slope dp/dh of the piece that ends here; kept, because p of a far-travelled contact has lost its digits.
+    pub(super) slope: f64,
+    /// Force per ΔM of the piece that ends here: its slope, or the mean of a curved path of growth.
+    pub(super) gain: f64,
+    /// M(h), m².
+    pub(super) area: f64,
+    /// N(h), m³.
+    pub(super) volume: f64,
+    /// ∫₀ʰ p' m dh, m²; G\* times this is F_x of a contact that ends here.
+    pub(super) shear: f64,
+    /// ∫₀ʰ (p(h)-p)² dm, m³; ½G\* times this is the elastic energy of a contact that ends here.
+    pub(super) square: f64,
+    /// Whether the piece above goes on smoothly from the piece below: one path of growth in several pieces.
+    pub(super) joined: bool,
+}
+
+impl Knot {
+    /// The knot of a contact that just touches at displacement u.
+    pub(super) fn touch(u: f64) -> Self {
+        Self {
+            h: 0.0,
+            p: u,
+            slope: 0.0,
+            gain: 0.0,
+            area: 0.0,
+            volume: 0.0,
+            shear: 0.0,
+            square: 0.0,
+            joined: false,
+        }
+    }
+
+    /// The apex that stands on this knot.
+    pub(super) fn apex(&self) -> Apex {
+        Apex { d: self.h, u: self.p }
+    }
+
+    /// The end of a straight piece from here to (h, p). The slope is given, not taken from the difference of
+    /// two rounded anchors.
+    #[inline]
+    pub(super) fn grow(&self, law: &Interface, h: f64, slope: f64, p: f64) -> Self {
+        let profile = law.profile();
+        self.extend(h, p, slope, slope, profile.area(h), profile.volume(h))
+    }
+
+    /// The same with M(h) and N(h) at hand, and a gain of its own.
+    ///
+    /// ∫(p₂-p)²dm grows by 2S₁Δp + 2kγ(ΔN - ΔhM₁) over a piece of slope k and gain γ, where S₁ is the shear
+    /// below: dB = 2S dp, S = S₁ + γ(M-M₁).
+    #[inline]
+    pub(super) fn extend(&self, h: f64, p: f64, slope: f64, gain: f64, area: f64, volume: f64) -> Self {
+        let rise = h - self.h;
+        Self {
+            h,
+            p,
+            slope,
+            gain,
+            area,
+            volume,
+            shear: self.shear + gain * (area - self.area),
+            square: self.square
+                + 2.0 * slope * (rise * self.shear + gain * (volume - self.volume - rise * self.area)),
+            joined: false,
+        }
+    }
+
+    /// The end of a curved path of growth, with the sums integrated along it.
+    pub(super) fn grow_by(&self, law: &Interface, to: Apex, shear: f64, square: f64) -> Self {
+        let profile = law.profile();
+        let (area, volume) = (profile.area(to.d), profile.volume(to.d));
+        let (rise, swell) = (to.d - self.h, area - self.area);
+        Self {
+            h: to.d,
+            p: to.u,
+            slope: if rise > 0.0 { (to.u - self.p) / rise } else { 0.0 },
+            gain: if swell > 0.0 { (shear - self.shear) / swell } else { 0.0 },
+            area,
+            volume,
+            shear,
+            square,
+            joined: false,
+        }
+    }
+
+    /// The point at height h of the piece that starts here and ends at `end`.
+    ///
+    /// Where the end's energy came from an integration along a curved path, the difference to the straight
+    /// piece is shared out by height.
+    pub(super) fn point(&self, law: &Interface, end: &Self, h: f64) -> Self {
+        let profile = law.profile();
+        let p = self.p + end.slope * (h - self.h);
+        let mut point = self.extend(h, p, end.slope, end.gain, profile.area(h), profile.volume(h));
+        if end.gain != end.slope {
+            let straight = self.extend(end.h, end.p, end.slope, end.gain, end.area, end.volume);
+            point.square += (end.square - straight.square) * (h - self.h) / (end.h - self.h);
+        }
+        point
+    }
+}

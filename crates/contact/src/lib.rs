@@ -1,0 +1,31 @@
+//! Frictional contact by the method of dimensionality reduction (MDR): knows no time and no mass.
+//!
+//! A contact is constant data, an [`Interface`] (effective moduli, profile, friction), and a memory of where
+//! it has been. Two engines keep that memory: the exact [`Curve`] and the handbook's [`Row`] of springs. Both
+//! obey one contract: `trial` borrows shared and leaves no trace, memory moves only in `commit`, once per
+//! accepted [`Segment`]. [`Memory`] is either of them, chosen when a model is built.
+//!
+//! In reading order: [`Material`] and [`Pair`]; [`Profile`]; [`Interface`]; [`Move`], [`Segment`] and what
+//! comes back; [`Curve`] with its [`Branch`]es; [`Row`]; [`Engine`]; [`FirstLoading`] for a designer's
+//! questions.
+//!
+//! Theory: Popov, Heß, Willert, *Handbook of Contact Mechanics* (2019), section 4.4 and chapter 11; equation
+//! numbers are the handbook's. SI units throughout.
+
+mod curve;
+mod engine;
+mod first_loading;
+mod interface;
+mod material;
+mod motion;
+mod profile;
+mod row;
+
+pub use curve::{Branch, Course, Curve, Merged};
+pub use engine::{Engine, Memory};
+pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
+pub use interface::{FrictionError, Interface};
+pub use material::{Material, MaterialError, Pair};
+pub use motion::{Apex, ContactError, ContactState, Move, Outcome, Response, Segment, SpringState};
+pub use profile::{Profile, ProfileError};
+pub use row::{Row, Springs, SpringsError};

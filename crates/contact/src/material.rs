@@ -1,0 +1,136 @@
+//! Elastic materials and the effective moduli of a pair.
+
+use thiserror::Error;
+
+/// A linear elastic, isotropic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    youngs_modulus: f64,
+    poisson_ratio: f64,
+}
+
+/// Why a material or a pair cannot be built.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum MaterialError {
+    /// Young's modulus must be positive and finite, Pa.
+    #[error("expected a Young's modulus above 0 Pa, got {0}")]
+    YoungsModulus(f64),
+    /// Poisson's ratio lies in (-1, 0.5].
+    #[error("expected a Poisson's ratio in (-1, 0.5], got {0}")]
+    PoissonRatio(f64),
+    /// An effective modulus must be positive and finite, Pa.
+    #[error("expected an effective modulus above 0 Pa, got {0}")]
+    EffectiveModulus(f64),
+}
+
+impl Material {
+    /// A material from Young's modulus E (Pa, above 0) and Poisson's ratio ν in (-1, 0.5].
+    pub fn new(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, MaterialError> {
+        if !(youngs_modulus > 0.0 && youngs_modulus.is_finite()) {
+            return Err(MaterialError::YoungsModulus(youngs_modulus));
+        }
+        if !(poisson_ratio > -1.0 && poisson_ratio <= 0.5) {
+            return Err(MaterialError::PoissonRatio(poisson_ratio));
+        }
+        Ok(Self { youngs_modulus, poisson_ratio })
+    }
+
+    /// Young's modulus E, Pa.
+    pub fn youngs_modulus(&self) -> f64 {
+        self.youngs_modulus
+    }
+
+    /// Poisson's ratio ν.
+    pub fn poisson_ratio(&self) -> f64 {
+        self.poisson_ratio
+    }
+
+    /// Shear modulus G = E/(2(1+ν)), Pa.
+    pub fn shear_modulus(&self) -> f64 {
+        self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+    }
+}
+
+/// Effective moduli of two half-spaces in contact (Handbook of Contact Mechanics, eq. 4.13).
+///
+/// 1/E\* = Σ(1-ν²)/E, 1/G\* = Σ(2-ν)/(4G).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    normal: f64,
+    tangential: f64,
+    mismatch: f64,
+}
+
+impl Pair {
+    /// The pair of two materials; the order does not matter for the moduli.
+    pub fn new(first: Material, second: Material) -> Self {
+        let normal = |m: Material| (1.0 - m.poisson_ratio.powi(2)) / m.youngs_modulus;
+        let tangential = |m: Material| (2.0 - m.poisson_ratio) / (4.0 * m.shear_modulus());
+        let shear = |m: Material| (1.0 - 2.0 * m.poisson_ratio) / m.shear_modulus();
+        let bulk = |m: Material| 2.0 * (1.0 - m.poisson_ratio) / m.shear_modulus();
+        Self {
+            normal: 1.0 / (normal(first) + normal(second)),
+            tangential: 1.0 / (tangential(first) + tangential(second)),
+            mismatch: (shear(first) - shear(second)) / (bulk(first) + bulk(second)),
+        }
+    }
+
+    /// A pair given by its effective moduli E\* and G\* (Pa, both above 0); taken as elastically similar.
+    pub fn from_moduli(normal: f64, tangential: f64) -> Result<Self, MaterialError> {
+        for modulus in [normal, tangential] {
+            if !(modulus > 0.0 && modulus.is_finite()) {
+                return Err(MaterialError::EffectiveModulus(modulus));
+            }
+        }
+        Ok(Self { normal, tangential, mismatch: 0.0 })
+    }
+
+    /// Effective modulus E\*, Pa.
+    pub fn normal_modulus(&self) -> f64 {
+        self.normal
+    }
+
+    /// Effective shear modulus G\*, Pa.
+    pub fn tangential_modulus(&self) -> f64 {
+        self.tangential
+    }
+
+    /// Dundurs' constant β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]; zero for elastically
+    /// similar bodies, for which the theory is exact.
+    pub fn dundurs_beta(&self) -> f64 {
+        self.mismatch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ruby_on_steel_has_the_published_mismatch() {
+        // Dundurs' β of ruby (400 GPa, .27) on steel (210 GPa, .30) is 0.076.
+        let pair = Pair::new(Material::new(400e9, 0.27).unwrap(), Material::new(210e9, 0.30).unwrap());
+        approx::assert_abs_diff_eq!(pair.dundurs_beta().abs(), 0.076, epsilon = 5e-4);
+    }
+
+    #[test]
+    fn equal_materials_give_half_the_plane_strain_modulus() {
+        let m = Material::new(210e9, 0.3).unwrap();
+        let pair = Pair::new(m, m);
+        approx::assert_relative_eq!(pair.normal_modulus(), 210e9 / (2.0 * 0.91), max_relative = 1e-15);
+        approx::assert_relative_eq!(
+            pair.tangential_modulus(),
+            2.0 * m.shear_modulus() / 1.7,
+            max_relative = 1e-15
+        );
+        assert_eq!(pair.dundurs_beta(), 0.0);
+    }
+
+    #[test]
+    fn what_is_out_of_range_is_refused() {
+        assert_eq!(Material::new(0.0, 0.3), Err(MaterialError::YoungsModulus(0.0)));
+        assert_eq!(Material::new(1.0, -1.0), Err(MaterialError::PoissonRatio(-1.0)));
+        assert!(Material::new(f64::NAN, 0.3).is_err() && Material::new(1.0, f64::NAN).is_err());
+        assert!(Material::new(1.0, 0.5).is_ok() && Material::new(1.0, 0.51).is_err());
+    }
+}

@@ -1,0 +1,271 @@
+//! Profiles of the gap, as what the foundation makes of them: three functions of one number.
+
+mod foundation;
+mod kappa;
+mod power;
+mod sphere;
+
+pub(crate) use foundation::Foundation;
+
+use power::Power;
+use sphere::Sphere;
+use thiserror::Error;
+
+/// The profile of the gap between two bodies. Constant.
+///
+/// A profile f(r) is used through its one-dimensional equivalent g(x) (4.20): springs side by side, the spring
+/// at x touching once the indentation h exceeds g(x). For forces all that counts is how much length lies below
+/// a height: m(h) = [`Self::length`], M(h) = ∫₀ʰ m = [`Self::area`] and N(h) = ∫₀ʰ M = [`Self::volume`].
+/// The three are 0 for h ≤ 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    law: Law,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Law {
+    Flat { radius: f64 },
+    Power(Power),
+    Sphere(Sphere),
+    Foundation(Foundation),
+}
+
+/// Why a profile cannot be built.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum ProfileError {
+    /// A radius must be positive and finite, m.
+    #[error("expected a radius above 0 m, got {0}")]
+    Radius(f64),
+    /// The slope of a cone must be positive and finite.
+    #[error("expected a slope above 0, got {0}")]
+    Slope(f64),
+    /// The coefficient of a power law must be positive and finite, and so must its reciprocal.
+    #[error("expected a coefficient above 0, got {0}")]
+    Coefficient(f64),
+    /// The exponent of a power law must be positive and finite.
+    #[error("expected an exponent above 0, got {0}")]
+    Exponent(f64),
+    /// A foundation needs at least one spring.
+    #[error("expected at least one height")]
+    Empty,
+    /// Each height has its length.
+    #[error("expected a length for each of the {heights} heights, got {lengths}")]
+    Unpaired {
+        /// Number of heights.
+        heights: usize,
+        /// Number of lengths.
+        lengths: usize,
+    },
+    /// A height must be finite and at least 0, m.
+    #[error("expected height {index} to be at least 0 m, got {value}")]
+    Height {
+        /// Place in the list, from 0.
+        index: usize,
+        /// What stands there.
+        value: f64,
+    },
+    /// A length must be positive and finite, m.
+    #[error("expected length {index} to be above 0 m, got {value}")]
+    Length {
+        /// Place in the list, from 0.
+        index: usize,
+        /// What stands there.
+        value: f64,
+    },
+}
+
+/// The value if it is positive and finite, otherwise the error made from it.
+fn positive(value: f64, error: fn(f64) -> ProfileError) -> Result<f64, ProfileError> {
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(error(value)) }
+}
+
+impl Profile {
+    /// A flat punch of radius b (m): g = 0 for |x| < b, so m = 2b at every h > 0.
+    pub fn flat(radius: f64) -> Result<Self, ProfileError> {
+        Ok(Self { law: Law::Flat { radius: positive(radius, ProfileError::Radius)? } })
+    }
+
+    /// A cone f = r tanθ, given its slope tanθ: g = (π/2) tanθ |x|.
+    pub fn cone(slope: f64) -> Result<Self, ProfileError> {
+        let slope = positive(slope, ProfileError::Slope)?;
+        Ok(Self { law: Law::Power(Power::new(std::f64::consts::FRAC_PI_2 * slope, 1.0)?) })
+    }
+
+    /// A paraboloid f = r²/2R of radius of curvature R (m), the Hertz contact: g = x²/R, M = (4/3)√R h^{3/2}.
+    pub fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
+        let radius = positive(radius, ProfileError::Radius)?;
+        Ok(Self { law: Law::Power(Power::paraboloid(radius)?) })
+    }
+
+    /// A sphere of radius R (m), exact: f = R-√(R²-r²), g = (x/2) ln((R+x)/(R-x)).
+    ///
+    /// Not the paraboloid: at equal depth the contact radius is smaller by (a/R)²/6, 1.7e-5 at a/R = 0.01.
+    pub fn sphere(radius: f64) -> Result<Self, ProfileError> {
+        Ok(Self { law: Law::Sphere(Sphere::new(positive(radius, ProfileError::Radius)?)) })
+    }
+
+    /// A power law f = A rⁿ, A in m^{1-n}, n > 0: g = `κ_n` A |x|ⁿ, `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2).
+    pub fn power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
+        positive(coefficient, ProfileError::Coefficient)?;
+        positive(exponent, ProfileError::Exponent)?;
+        let foundation = kappa::kappa(exponent) * coefficient;
+        Ok(Self { law: Law::Power(Power::new(foundation, exponent)?) })
+    }
+
+    /// A power law given by its foundation, g = B |x|ⁿ, B in m^{1-n}, n > 0.
+    pub fn foundation_power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
+        Ok(Self { law: Law::Power(Power::new(coefficient, exponent)?) })
+    }
+
+    /// A foundation given spring by spring: heights (m, at least 0, in any order) and the length of each (m).
+    ///
+    /// So enters a rough line g(x), monotone or not: the distribution of its heights alone matters.
+    pub fn foundation(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
+        Ok(Self { law: Law::Foundation(Foundation::new(heights, lengths)?) })
+    }
+
+    /// m(h), m: total length of the foundation with g < h; 2a(h) for a convex profile.
+    #[inline]
+    pub fn length(&self, h: f64) -> f64 {
+        match &self.law {
+            _ if h.is_nan() || h <= 0.0 => 0.0,
+            Law::Flat { radius } => 2.0 * radius,
+            Law::Power(law) => law.length(h),
+            Law::Sphere(law) => law.length(h),
+            Law::Foundation(law) => law.length(h),
+        }
+    }
+
+    /// M(h) = ∫₀ʰ m, m²: the normal force over E\* (4.26).
+    #[inline]
+    pub fn area(&self, h: f64) -> f64 {
+        match &self.law {
+            _ if h.is_nan() || h <= 0.0 => 0.0,
+            Law::Flat { radius } => 2.0 * radius * h,
+            Law::Power(law) => law.area(h),
+            Law::Sphere(law) => law.area(h),
+            Law::Foundation(law) => law.area(h),
+        }
+    }
+
+    /// N(h) = ∫₀ʰ M, m³: the normal elastic energy over E\*.
+    #[inline]
+    pub fn volume(&self, h: f64) -> f64 {
+        match &self.law {
+            _ if h.is_nan() || h <= 0.0 => 0.0,
+            Law::Flat { radius } => radius * h * h,
+            Law::Power(law) => law.volume(h),
+            Law::Sphere(law) => law.volume(h),
+            Law::Foundation(law) => law.volume(h),
+        }
+    }
+
+    /// a(h) = m(h)/2, m: the contact radius; for a foundation given spring by spring half the length in contact.
+    #[inline]
+    pub fn radius(&self, h: f64) -> f64 {
+        0.5 * self.length(h)
+    }
+
+    /// g(a), m: the indentation at which the contact radius is a; 0 for a ≤ 0, infinite where no indentation
+    /// reaches (beyond a flat punch's or a sphere's radius, beyond the springs of a list).
+    ///
+    /// A flat punch and a list of springs take one radius over a whole range of h: this is its lower end.
+    #[inline]
+    pub fn depth(&self, a: f64) -> f64 {
+        match &self.law {
+            _ if a.is_nan() || a <= 0.0 => 0.0,
+            Law::Flat { radius } => {
+                if a > *radius {
+                    f64::INFINITY
+                } else {
+                    0.0
+                }
+            }
+            Law::Power(law) => law.depth(a),
+            Law::Sphere(law) => law.depth(a),
+            Law::Foundation(law) => law.height_of_length(2.0 * a),
+        }
+    }
+
+    /// dg/da at a > 0: what the indentation gains per contact radius; 0 where that is not defined, see
+    /// [`Self::is_strictly_convex`].
+    pub fn depth_slope(&self, a: f64) -> f64 {
+        match &self.law {
+            _ if a.is_nan() || a <= 0.0 => 0.0,
+            Law::Power(law) => law.exponent() * law.depth(a) / a,
+            Law::Sphere(law) => law.depth_slope(a),
+            Law::Flat { .. } | Law::Foundation(_) => 0.0,
+        }
+    }
+
+    /// Height at which the length m (m) is reached, m: g(m/2), with the conventions of [`Self::depth`].
+    pub fn height_of_length(&self, m: f64) -> f64 {
+        self.depth(0.5 * m)
+    }
+
+    /// Height at which the area M (m²) is reached, m: the inverse of [`Self::area`]; 0 for M ≤ 0.
+    pub fn height_of_area(&self, area: f64) -> f64 {
+        match &self.law {
+            _ if area.is_nan() || area <= 0.0 => 0.0,
+            Law::Flat { radius } => area / (2.0 * radius),
+            Law::Power(law) => law.height_of_area(area),
+            Law::Sphere(law) => law.height_of_area(area),
+            Law::Foundation(law) => law.height_of_area(area),
+        }
+    }
+
+    /// Exponent n of a power law; none for every other profile, the flat punch (its limit n → ∞) included.
+    pub fn exponent(&self) -> Option<f64> {
+        match &self.law {
+            Law::Power(law) => Some(law.exponent()),
+            _ => None,
+        }
+    }
+
+    /// Largest height for which the profile stands, m; none if there is no limit.
+    ///
+    /// A sphere ends where a → R: its height is limited to g(0.999R) = 3.796R, beyond which its functions
+    /// still return finite numbers.
+    pub fn reach(&self) -> Option<f64> {
+        match &self.law {
+            Law::Sphere(law) => Some(law.reach()),
+            _ => None,
+        }
+    }
+
+    /// Whether each contact radius belongs to one indentation only.
+    pub fn is_strictly_convex(&self) -> bool {
+        matches!(self.law, Law::Power(_) | Law::Sphere(_))
+    }
+
+    /// ∫ w m dh over a thin strip of heights (its width well below its height) with w straight between its values
+    /// at the ends: no difference of M or N, so no cancellation.
+    ///
+    /// Five nodes of Gauss and Legendre where m is smooth: for a width of 1/16 of the height they miss less than
+    /// 1e-18 of it.
+    pub(crate) fn moment(&self, [from, to]: [f64; 2], [low, high]: [f64; 2]) -> f64 {
+        const RULE: [(f64, f64); 5] = [
+            (-0.906_179_845_938_664, 0.118_463_442_528_094_54),
+            (-0.538_469_310_105_683_1, 0.239_314_335_249_683_24),
+            (0.0, 0.284_444_444_444_444_44),
+            (0.538_469_310_105_683_1, 0.239_314_335_249_683_24),
+            (0.906_179_845_938_664, 0.118_463_442_528_094_54),
+        ];
+        let width = to - from;
+        if let Law::Foundation(law) = &self.law {
+            return law.moment([from, to], [low, (high - low) / width]);
+        }
+        let (middle, mean, half) = (0.5 * (from + to), 0.5 * (low + high), 0.5 * (high - low));
+        let node =
+            |(x, weight): &(f64, f64)| weight * (mean + half * x) * self.length(middle + 0.5 * width * x);
+        width * RULE.iter().map(node).sum::<f64>()
+    }
+
+    /// The springs of a foundation given spring by spring.
+    pub(crate) fn springs(&self) -> Option<&Foundation> {
+        match &self.law {
+            Law::Foundation(law) => Some(law),
+            _ => None,
+        }
+    }
+}

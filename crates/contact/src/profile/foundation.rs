@@ -1,0 +1,155 @@
+//! A foundation given spring by spring: piecewise straight, quadratic, cubic.
+
+use super::ProfileError;
+
+/// Springs by ascending height, with the sums up to each.
+///
+/// Between two heights m is constant, so M and N follow from the sums at the lower one by adding positive
+/// terms: nothing cancels, however many springs there are.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Foundation {
+    /// Heights, m, ascending.
+    heights: Vec<f64>,
+    /// Length of each, m.
+    lengths: Vec<f64>,
+    /// Place in `heights` of each spring in the order given.
+    ranks: Vec<usize>,
+    /// Sums at each height, the spring of that height included in m.
+    sums: Vec<Sums>,
+}
+
+/// m, M and N at a height.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Sums {
+    length: f64,
+    area: f64,
+    volume: f64,
+}
+
+/// A sum with the rounding error it has made so far (Neumaier, ZAMM 54, 1974).
+#[derive(Default)]
+struct Compensated {
+    sum: f64,
+    error: f64,
+}
+
+impl Compensated {
+    fn add(&mut self, term: f64) -> f64 {
+        let sum = self.sum + term;
+        let (big, small) = if self.sum.abs() >= term.abs() { (self.sum, term) } else { (term, self.sum) };
+        self.error += (big - sum) + small;
+        self.sum = sum;
+        self.sum + self.error
+    }
+}
+
+impl Foundation {
+    pub(super) fn new(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
+        check(heights, lengths)?;
+        let mut order: Vec<usize> = (0..heights.len()).collect();
+        order.sort_by(|&i, &j| heights[i].total_cmp(&heights[j]));
+        let mut ranks = vec![0; order.len()];
+        for (rank, &index) in order.iter().enumerate() {
+            ranks[index] = rank;
+        }
+        let heights: Vec<f64> = order.iter().map(|&i| heights[i].abs()).collect();
+        let lengths: Vec<f64> = order.iter().map(|&i| lengths[i]).collect();
+        let sums = sums(&heights, &lengths);
+        Ok(Self { heights, lengths, ranks, sums })
+    }
+
+    pub(crate) fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    pub(crate) fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    /// Place among the ascending heights of each spring in the order given.
+    pub(crate) fn ranks(&self) -> &[usize] {
+        &self.ranks
+    }
+
+    /// The sums at the last height below h and how far h lies above it.
+    #[inline]
+    fn below(&self, h: f64) -> (Sums, f64) {
+        let count = self.heights.partition_point(|&height| height < h);
+        if count == 0 { (Sums::default(), 0.0) } else { (self.sums[count - 1], h - self.heights[count - 1]) }
+    }
+
+    pub(super) fn length(&self, h: f64) -> f64 {
+        self.below(h).0.length
+    }
+
+    pub(super) fn area(&self, h: f64) -> f64 {
+        let (sums, rise) = self.below(h);
+        sums.area + sums.length * rise
+    }
+
+    pub(super) fn volume(&self, h: f64) -> f64 {
+        let (sums, rise) = self.below(h);
+        sums.volume + (sums.area + 0.5 * sums.length * rise) * rise
+    }
+
+    /// ∫ w m dh between two heights, w straight from a value with a slope: one term per height in between.
+    pub(super) fn moment(&self, [from, to]: [f64; 2], [value, slope]: [f64; 2]) -> f64 {
+        let (mut at, mut length, mut sum) = (from, self.below(from).0.length, 0.0);
+        let first = self.heights.partition_point(|&height| height < from);
+        let inside = self.heights[first..].iter().zip(&self.sums[first..]).take_while(|(h, _)| **h < to);
+        for (edge, next) in inside.map(|(h, sums)| (*h, sums.length)).chain([(to, 0.0)]) {
+            let middle = value + slope * (0.5 * ((at - from) + (edge - from)));
+            sum += length * middle * (edge - at);
+            (at, length) = (edge, next);
+        }
+        sum
+    }
+
+    /// Lowest height whose spring completes the length m > 0; infinite beyond all springs.
+    pub(super) fn height_of_length(&self, length: f64) -> f64 {
+        let place = self.sums.partition_point(|sums| sums.length < length);
+        self.heights.get(place).copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// Height at which M > 0 is reached.
+    pub(super) fn height_of_area(&self, area: f64) -> f64 {
+        // M is 0 at the lowest height, so at least one spring lies below.
+        let place = self.sums.partition_point(|sums| sums.area < area).max(1) - 1;
+        let sums = self.sums[place];
+        self.heights[place] + (area - sums.area) / sums.length
+    }
+}
+
+fn check(heights: &[f64], lengths: &[f64]) -> Result<(), ProfileError> {
+    if heights.len() != lengths.len() {
+        return Err(ProfileError::Unpaired { heights: heights.len(), lengths: lengths.len() });
+    }
+    if heights.is_empty() {
+        return Err(ProfileError::Empty);
+    }
+    let wrong_height = heights.iter().position(|h| !(*h >= 0.0 && h.is_finite()));
+    if let Some(index) = wrong_height {
+        return Err(ProfileError::Height { index, value: heights[index] });
+    }
+    let wrong_length = lengths.iter().position(|l| !(*l > 0.0 && l.is_finite()));
+    match wrong_length {
+        Some(index) => Err(ProfileError::Length { index, value: lengths[index] }),
+        None => Ok(()),
+    }
+}
+
+fn sums(heights: &[f64], lengths: &[f64]) -> Vec<Sums> {
+    let (mut length, mut area, mut volume) =
+        (Compensated::default(), Compensated::default(), Compensated::default());
+    let (mut at, mut last) = (Sums::default(), 0.0);
+    let step = |(&height, &own): (&f64, &f64)| {
+        let rise = height - last;
+        let before = at;
+        at.volume = volume.add((before.area + 0.5 * before.length * rise) * rise);
+        at.area = area.add(before.length * rise);
+        at.length = length.add(own);
+        last = height;
+        at
+    };
+    heights.iter().zip(lengths).map(step).collect()
+}

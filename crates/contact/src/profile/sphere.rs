@@ -1,0 +1,196 @@
+//! The exact sphere. With η = h/R, s = a/R and t = artanh s it obeys η = s t, and
+//!
+//! * m = 2Rs, M = R²[(s²+1)t - s],
+//! * N = R³[(4/3)η²s - (2η-2/3)I - (2/3)K], I = ∫₀ˢ x artanh x dx = [(s²-1)t + s]/2,
+//!   K = ∫₀ᵗ τ tanh τ dτ = t²/2 + t ln(1+q) - [π²/12 + Li₂(-q)]/2, q = e^{-2t}.
+//!
+//! M is (4.26) for the sphere; N follows from N = ∫₀ᵃ(h-g)²dx by parts. Both cancel at small s, so there the
+//! inverse of η = s artanh s is used as a power series, whose integrals need no difference.
+
+/// A sphere of radius R, m.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sphere {
+    radius: f64,
+}
+
+/// Number of terms of the series.
+const TERMS: usize = 20;
+
+/// Largest η of the series, a/R = 0.648. Its radius of convergence is about π, so that what is left out is
+/// c₂₀ 2⁻²⁰ = 3e-18.
+const SERIES_END: f64 = 0.5;
+
+/// s = √η Σ cₖηᵏ: η = s artanh s = Σ s^{2k+2}/(2k+1) reverted in 60 digits; c₁ = -1/6, c₂ = -1/360, c₃ = 11/5040.
+const RATIO: [f64; TERMS] = [
+    1.0,
+    -0.16666666666666666,
+    -0.002777777777777778,
+    0.0021825396825396826,
+    0.000747905643738977,
+    0.00010826686173908396,
+    -1.793717960219283e-05,
+    -1.5742192019473766e-05,
+    -4.385505449405401e-06,
+    -1.9676657477001152e-07,
+    3.6635311401833907e-07,
+    1.7022218544241752e-07,
+    3.0707188929590216e-08,
+    -6.054259808882989e-09,
+    -6.0369138315322924e-09,
+    -1.872887220681542e-09,
+    -9.677417529600484e-11,
+    1.8029324267645432e-10,
+    8.984198616787132e-11,
+    1.7332516127075533e-11,
+];
+
+/// M/R² = η^{3/2} Σ 2cₖ/(k+3/2) ηᵏ.
+const AREA: [f64; TERMS] = integrated(RATIO, 2.0, 1.5);
+
+/// N/R³ = η^{5/2} Σ 2cₖ/((k+3/2)(k+5/2)) ηᵏ.
+const VOLUME: [f64; TERMS] = integrated(AREA, 1.0, 2.5);
+
+/// The series factor·Σ cₖ/(k+power) ηᵏ.
+const fn integrated(series: [f64; TERMS], factor: f64, power: f64) -> [f64; TERMS] {
+    let mut result = series;
+    let mut k = 0;
+    while k < TERMS {
+        result[k] = factor * series[k] / (k as f64 + power);
+        k += 1;
+    }
+    result
+}
+
+/// Σ cₖxᵏ in four interleaved Horner chains: a quarter of the latency of one.
+#[inline]
+fn sum(c: &[f64; TERMS], x: f64) -> f64 {
+    let (x2, mut chains) = (x * x, [c[16], c[17], c[18], c[19]]);
+    let x4 = x2 * x2;
+    for k in [12, 8, 4, 0] {
+        for (lane, chain) in chains.iter_mut().enumerate() {
+            *chain = *chain * x4 + c[k + lane];
+        }
+    }
+    (chains[0] + chains[1] * x) + (chains[2] + chains[3] * x) * x2
+}
+
+/// t of t tanh t = η, for η ≥ [`SERIES_END`].
+///
+/// Newton's method, kept inside the bracket η < t < η + 0.2785 (the largest 2t/(e^{2t}+1)). The start is a
+/// fit good to 2e-3, so three steps reach the last bit.
+fn invert(eta: f64) -> f64 {
+    const STEPS: usize = 8;
+    let fit = 5.0747 + eta * (-7.59144 + eta * (12.87772 + eta * (-7.41881 + eta * 2.08249)));
+    let (low, high) = (eta, eta + 0.2785);
+    let mut t = eta + 1.0 / fit;
+    for _ in 0..STEPS {
+        let e = (-2.0 * t).exp();
+        let tanh = (1.0 - e) / (1.0 + e);
+        let slope = tanh + 4.0 * t * e / ((1.0 + e) * (1.0 + e));
+        let step = (t * tanh - eta) / slope;
+        t = (t - step).clamp(low, high);
+        // Quadratic convergence: the step after this one would be below 1e-17.
+        if step.abs() <= 1e-8 {
+            break;
+        }
+    }
+    t
+}
+
+/// Li₂(-q) for 0 ≤ q < 0.22, by u = -ln(1+q): Σ Bₙ uⁿ⁺¹/(n+1)! (DLMF 25.12), truncation below 1e-17.
+fn dilogarithm(log1q: f64) -> f64 {
+    let (u, w) = (-log1q, log1q * log1q);
+    let tail = 1.0 / 36.0 + w * (-1.0 / 3600.0 + w * (1.0 / 211_680.0 + w * (-1.0 / 10_886_400.0)));
+    u - 0.25 * w + u * w * tail
+}
+
+impl Sphere {
+    /// Largest a/R to which the profile is held to stand; the functions are checked up to here.
+    const LARGEST_RATIO: f64 = 0.999;
+
+    pub(super) fn new(radius: f64) -> Self {
+        Self { radius }
+    }
+
+    pub(super) fn reach(&self) -> f64 {
+        self.depth(Self::LARGEST_RATIO * self.radius)
+    }
+
+    pub(super) fn depth(&self, a: f64) -> f64 {
+        let s = a / self.radius;
+        if s < 1.0 { a * s.atanh() } else { f64::INFINITY }
+    }
+
+    /// g'(a) = artanh s + s/(1-s²), s = a/R.
+    pub(super) fn depth_slope(&self, a: f64) -> f64 {
+        let s = a / self.radius;
+        if s < 1.0 { s.atanh() + s / (1.0 - s * s) } else { f64::INFINITY }
+    }
+
+    #[inline]
+    pub(super) fn length(&self, h: f64) -> f64 {
+        2.0 * self.radius * ratio(h / self.radius)
+    }
+
+    #[inline]
+    pub(super) fn area(&self, h: f64) -> f64 {
+        self.radius * self.radius * area(h / self.radius)
+    }
+
+    pub(super) fn volume(&self, h: f64) -> f64 {
+        let eta = h / self.radius;
+        let volume = if eta <= SERIES_END {
+            eta * eta * eta.sqrt() * sum(&VOLUME, eta)
+        } else {
+            let t = invert(eta);
+            volume_beyond(eta, t)
+        };
+        self.radius * self.radius * self.radius * volume
+    }
+
+    /// Newton's method on M, which is convex in h: after the first step it descends on the root monotonically.
+    pub(super) fn height_of_area(&self, area_wanted: f64) -> f64 {
+        const STEPS: usize = 60;
+        let wanted = area_wanted / (self.radius * self.radius);
+        let hertz = (0.5625 * wanted * wanted).cbrt();
+        let mut eta = if wanted < 1.0 { hertz * (1.0 + hertz / 15.0) } else { 0.5 * (wanted + 1.0) };
+        for _ in 0..STEPS {
+            let step = (area(eta) - wanted) / (2.0 * ratio(eta));
+            if !step.is_finite() {
+                break;
+            }
+            eta = (eta - step).max(0.5 * eta);
+            if step.abs() <= 1e-9 * eta {
+                break;
+            }
+        }
+        eta * self.radius
+    }
+}
+
+/// s = a/R at η.
+#[inline]
+fn ratio(eta: f64) -> f64 {
+    if eta <= SERIES_END { eta.sqrt() * sum(&RATIO, eta) } else { (eta / invert(eta)).min(1.0) }
+}
+
+/// M/R² at η.
+#[inline]
+fn area(eta: f64) -> f64 {
+    if eta <= SERIES_END {
+        return eta * eta.sqrt() * sum(&AREA, eta);
+    }
+    let t = invert(eta);
+    let s = eta / t;
+    (s * s + 1.0) * t - s
+}
+
+/// N/R³ at η beyond the series.
+fn volume_beyond(eta: f64, t: f64) -> f64 {
+    const TWELFTH_PI2: f64 = std::f64::consts::PI * std::f64::consts::PI / 12.0;
+    let s = eta / t;
+    let log1q = (-2.0 * t).exp().ln_1p();
+    let first = 0.5 * ((s * s - 1.0) * t + s);
+    let second = 0.5 * t * t + t * log1q - 0.5 * (TWELFTH_PI2 + dilogarithm(log1q));
+    eta * eta * s * (4.0 / 3.0) - (2.0 * eta - 2.0 / 3.0) * first - second * (2.0 / 3.0)
+}
