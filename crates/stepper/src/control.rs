@@ -1,0 +1,190 @@
+//! How long the next step is.
+
+/// Step control with a proportional and a weak integral part.
+///
+/// factor = safety · ε^-α · ε₋₁^β with α = 1/k - 0.75 β, β = 0.2/k for an estimate that falls with hᵏ; ε the error of
+/// this step, ε₋₁ that of the last accepted one, 1 = just at the tolerance.
+/// Source: Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.4 and Hairer, Wanner, *Solving ODEs II*,
+/// section IV.2 (PI control).
+///
+/// All that it remembers is part of a run's state: cloneable and comparable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepControl {
+    limits: StepLimits,
+    alpha: f64,
+    beta: f64,
+    memory: Memory,
+}
+
+/// What a [`StepControl`] may do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLimits {
+    /// Aimed-at part of the step that would just meet the tolerance; 0.5 to 1, default 0.9.
+    pub safety: f64,
+    /// Strongest shortening at once; below 1, default 0.2.
+    pub shrink: f64,
+    /// Strongest lengthening at once; above 1, default 6.
+    pub grow: f64,
+    /// Longest step, s; default unbounded.
+    pub longest: f64,
+}
+
+impl Default for StepLimits {
+    fn default() -> Self {
+        Self { safety: 0.9, shrink: 0.2, grow: 6.0, longest: f64::INFINITY }
+    }
+}
+
+/// What the control remembers of earlier steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Memory {
+    /// Natural logarithm of the last accepted error, not below that of [`Memory::FLOOR`].
+    pub log_error: f64,
+    /// Whether the last attempt was rejected; then the next step does not grow.
+    pub rejected: bool,
+}
+
+impl Memory {
+    /// Errors below this count as this: a step that fell far below the tolerance says nothing about the next one.
+    pub const FLOOR: f64 = 1e-4;
+    /// Nothing remembered: as after a step with the error [`Memory::FLOOR`], which makes the first factor cautious.
+    pub const BLANK: Self = Self { log_error: -9.210_340_371_976_182, rejected: false };
+}
+
+/// What becomes of an attempt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// Whether the step met the tolerance.
+    pub accepted: bool,
+    /// Length of the next attempt, with the sign of this one.
+    pub next: f64,
+}
+
+impl StepControl {
+    /// Control for an error estimate that falls with the power `order` of the step (8 for [`Dop853`](crate::Dop853)).
+    #[must_use]
+    pub fn new(order: u32, limits: StepLimits) -> Self {
+        let order = f64::from(order.max(1));
+        let beta = 0.2 / order;
+        Self { limits, alpha: 1.0 / order - 0.75 * beta, beta, memory: Memory::BLANK }
+    }
+
+    /// Judges an attempt of length `h` with this `error`; anything but a number up to 1 is rejected.
+    #[inline]
+    pub fn propose(&mut self, error: f64, h: f64) -> Verdict {
+        let StepLimits { safety, shrink, grow, .. } = self.limits;
+        if !error.is_finite() {
+            self.memory.rejected = true;
+            return Verdict { accepted: false, next: h * shrink };
+        }
+        if error > 1.0 {
+            self.memory.rejected = true;
+            let factor = safety * (-self.alpha * error.ln()).exp();
+            return Verdict { accepted: false, next: h * factor.max(shrink) };
+        }
+        // Below the smallest normal number the logarithm would leave the range of the exponential.
+        let log_error = error.max(f64::MIN_POSITIVE).ln();
+        let factor = safety * (self.beta * self.memory.log_error - self.alpha * log_error).exp();
+        let ceiling = if self.memory.rejected { 1.0 } else { grow };
+        self.memory = Memory { log_error: log_error.max(Memory::BLANK.log_error), rejected: false };
+        Verdict { accepted: true, next: self.limit(h * factor.max(shrink).min(ceiling)) }
+    }
+
+    /// Step after one that an event or a corner cut short.
+    ///
+    /// A step cut to a tenth has an error of 1e-8 of the uncut one and says nothing about the next. The caller passes
+    /// as `wished` the step it would have liked (what [`propose`](Self::propose) gave last before the cut); it comes
+    /// back, at most the longest allowed, and the memory of errors is wiped. Do not call `propose` for the cut step.
+    pub fn after_event(&mut self, wished: f64) -> f64 {
+        self.memory = Memory::BLANK;
+        self.limit(wished)
+    }
+
+    /// What is remembered, to be saved with the state of a run.
+    #[must_use]
+    pub fn memory(&self) -> Memory {
+        self.memory
+    }
+
+    /// Goes on from a saved memory.
+    pub fn set_memory(&mut self, memory: Memory) {
+        self.memory = memory;
+    }
+
+    fn limit(&self, h: f64) -> f64 {
+        h.abs().min(self.limits.longest).copysign(h)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn control() -> StepControl {
+        StepControl::new(8, StepLimits::default())
+    }
+
+    #[test]
+    fn blank_memory_is_the_floor() {
+        assert!((Memory::BLANK.log_error - Memory::FLOOR.ln()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn steady_error_settles_below_the_tolerance() {
+        // error = C h^8 has its fixed point where safety · ε^(β-α) = 1.
+        let mut control = control();
+        let mut h = 1e-3;
+        for _ in 0..200 {
+            let verdict = control.propose((h / 0.37_f64).powi(8), h);
+            h = verdict.next;
+        }
+        let (beta, order) = (0.025_f64, 8.0_f64);
+        let settled = 0.9_f64.powf(1.0 / (1.0 / order - 1.75 * beta));
+        assert!(((h / 0.37).powi(8) - settled).abs() < 1e-9, "{h} {settled}");
+    }
+
+    #[test]
+    fn rejection_shrinks_and_the_next_step_does_not_grow() {
+        let mut control = control();
+        let no = control.propose(256.0, 1.0);
+        assert!(!no.accepted && no.next < 0.5 && no.next > 0.2);
+        let yes = control.propose(1e-9, no.next);
+        assert!(yes.accepted);
+        assert_eq!(yes.next, no.next);
+        assert!(control.propose(1e-9, 1.0).next > 2.0);
+    }
+
+    #[test]
+    fn not_finite_is_rejected() {
+        let mut control = control();
+        for error in [f64::NAN, f64::INFINITY] {
+            assert_eq!(control.propose(error, 2.0), Verdict { accepted: false, next: 0.4 });
+        }
+    }
+
+    #[test]
+    fn zero_error_grows_by_the_clamp_and_signs_survive() {
+        let mut control = control();
+        assert_eq!(control.propose(0.0, -1.0).next, -6.0);
+    }
+
+    #[test]
+    fn an_event_does_not_shorten_the_next_step() {
+        let limits = StepLimits { longest: 3.0, ..StepLimits::default() };
+        let mut control = StepControl::new(8, limits);
+        let wished = control.propose(0.5, 1.0).next;
+        assert_eq!(control.after_event(wished), wished);
+        assert_eq!(control.memory(), Memory::BLANK);
+        assert_eq!(control.after_event(7.0), 3.0);
+    }
+
+    #[test]
+    fn memory_is_all_that_it_remembers() {
+        let mut one = control();
+        one.propose(0.3, 1.0);
+        let mut two = control();
+        two.set_memory(one.memory());
+        assert_eq!(one, two);
+        assert_eq!(one.propose(0.7, 1.0), two.propose(0.7, 1.0));
+    }
+}

@@ -1,0 +1,290 @@
+//! The explicit Runge–Kutta method DOP853: order 8, error estimate of orders 5 and 3, dense output of order 7.
+//!
+//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993,
+//! sections II.5, II.6, II.10 and the program DOP853.
+
+mod dense;
+mod tableau;
+
+use crate::System;
+use tableau::{
+    END, Error3, Error5, NODES, Row, Slopes, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9,
+    Stage10, Stage11, Stage12, Weights,
+};
+
+/// Order of the method.
+pub const ORDER: u32 = 8;
+
+/// One step of DOP853 at a time: it attempts, someone else accepts.
+///
+/// ```text
+/// start ──► attempt ──► (dense, value, …) ──► accept ──► attempt …
+///             ▲  │ error too large, or an event inside: same start, other step
+///             └──┘
+/// ```
+///
+/// A step costs 11 evaluations and one more for the slopes at its end, which are the next step's first; the dense
+/// output costs three more, only when asked for. Nothing is allocated after construction.
+#[derive(Debug, Clone)]
+pub struct Dop853 {
+    dimension: usize,
+    time: f64,
+    end_time: f64,
+    step: f64,
+    begin: Vec<f64>,
+    end: Vec<f64>,
+    stage: Vec<f64>,
+    slope: Vec<f64>,
+    k: Vec<Slopes>,
+    polynomials: Vec<dense::Polynomial>,
+    first_known: bool,
+    last_known: bool,
+    dense_known: bool,
+    evaluations: u64,
+}
+
+impl Dop853 {
+    /// Workspace for systems of `dimension` coupled components among `total`.
+    ///
+    /// A `total` below `dimension` counts as `dimension`.
+    #[must_use]
+    pub fn new(dimension: usize, total: usize) -> Self {
+        let total = total.max(dimension);
+        Self {
+            dimension,
+            time: 0.0,
+            end_time: 0.0,
+            step: 0.0,
+            begin: vec![0.0; total],
+            end: vec![0.0; total],
+            stage: vec![0.0; dimension],
+            slope: vec![0.0; total],
+            k: vec![[0.0; 16]; total],
+            polynomials: vec![dense::Polynomial::default(); total],
+            first_known: false,
+            last_known: false,
+            dense_known: false,
+            evaluations: 0,
+        }
+    }
+
+    /// Puts the stepper at time `t` and state `y` (`total` components; missing ones are 0) and evaluates the slopes
+    /// there.
+    pub fn start<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64]) {
+        self.time = t;
+        self.begin.fill(0.0);
+        for (to, from) in self.begin.iter_mut().zip(y) {
+            *to = *from;
+        }
+        self.restart_slopes(system);
+    }
+
+    /// Evaluates the slopes at the current point again.
+    ///
+    /// Due after anything that makes them jump: an event, a waveform's corner, a state changed through
+    /// [`begin_mut`](Self::begin_mut). What was attempted from here is forgotten.
+    pub fn restart_slopes<S: System + ?Sized>(&mut self, system: &S) {
+        self.forget_step();
+        system.slopes(self.time, &self.begin[..self.dimension], &mut self.slope);
+        self.evaluations += 1;
+        self.keep::<0>();
+        self.first_known = true;
+    }
+
+    /// Tries a step of length `h` and returns its error: 1 is just at the tolerance.
+    ///
+    /// `scale` is the absolute tolerance of each coupled component, above 0. The error is
+    /// h e₅² / √(e₅² + 0.01 e₃²), where e₅ and e₃ are the largest components of the two embedded estimates in units of
+    /// `scale`; it falls with h⁸. [`f64::INFINITY`] if anything is not finite.
+    ///
+    /// May be called any number of times from the same start; [`accept`](Self::accept) moves on.
+    pub fn attempt<S: System + ?Sized>(&mut self, system: &S, h: f64, scale: &[f64]) -> f64 {
+        self.attempt_span(system, h, self.time + h, scale)
+    }
+
+    /// Like [`attempt`](Self::attempt), but ends at the time `end` to the last bit, as a waveform's corner wants it.
+    pub fn attempt_until<S: System + ?Sized>(&mut self, system: &S, end: f64, scale: &[f64]) -> f64 {
+        self.attempt_span(system, end - self.time, end, scale)
+    }
+
+    /// Evaluates the slopes at the end of the step tried, at the first call only; [`end_slope`](Self::end_slope) reads
+    /// them.
+    pub fn end_slopes<S: System + ?Sized>(&mut self, system: &S) {
+        if !self.last_known {
+            system.slopes(self.end_time, &self.end[..self.dimension], &mut self.slope);
+            self.evaluations += 1;
+            self.keep::<END>();
+            self.last_known = true;
+        }
+    }
+
+    /// Moves to the end of the step tried. Slopes evaluated there become the first ones of the next step.
+    pub fn accept(&mut self) {
+        std::mem::swap(&mut self.begin, &mut self.end);
+        self.time = self.end_time;
+        let known = self.last_known;
+        if known {
+            for k in &mut self.k {
+                k[0] = k[END];
+            }
+        }
+        self.forget_step();
+        self.first_known = known;
+    }
+
+    /// Time at the start of the step, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Time at the end of the step tried, s.
+    #[must_use]
+    pub fn end_time(&self) -> f64 {
+        self.end_time
+    }
+
+    /// State at the start of the step, `total` components.
+    #[must_use]
+    pub fn begin(&self) -> &[f64] {
+        &self.begin
+    }
+
+    /// State at the start of the step, to be changed by an event. [`restart_slopes`](Self::restart_slopes) is due
+    /// afterwards.
+    pub fn begin_mut(&mut self) -> &mut [f64] {
+        &mut self.begin
+    }
+
+    /// State at the end of the step tried, `total` components.
+    #[must_use]
+    pub fn end(&self) -> &[f64] {
+        &self.end
+    }
+
+    /// Slope of component `i` at the start of the step; NaN where it is not known yet.
+    #[must_use]
+    pub fn begin_slope(&self, i: usize) -> f64 {
+        self.k.get(i).filter(|_| self.first_known).map_or(f64::NAN, |k| k[0])
+    }
+
+    /// Slope of component `i` at the end of the step tried; NaN before [`end_slopes`](Self::end_slopes).
+    #[must_use]
+    pub fn end_slope(&self, i: usize) -> f64 {
+        self.k.get(i).filter(|_| self.last_known).map_or(f64::NAN, |k| k[END])
+    }
+
+    /// Evaluations of the slopes since construction.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// A first step for a fresh start (Hairer, Nørsett, Wanner, section II.4), at most `longest`; one evaluation.
+    pub fn first_step<S: System + ?Sized>(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
+        if !self.first_known {
+            self.restart_slopes(system);
+        }
+        let norm = |of: &dyn Fn(usize) -> f64| {
+            scale.iter().enumerate().take(self.dimension).map(|(i, s)| (of(i) / s).abs()).fold(0.0, f64::max)
+        };
+        let (size, speed) = (norm(&|i| self.begin[i]), norm(&|i| self.k[i][0]));
+        let trial = if size > 1e-5 && speed > 1e-5 { 0.01 * size / speed } else { 1e-6 * longest };
+        let trial = trial.min(longest);
+        for ((to, y), k) in self.stage.iter_mut().zip(&self.begin).zip(&self.k) {
+            *to = y + trial * k[0];
+        }
+        system.slopes(self.time + trial, &self.stage, &mut self.slope);
+        self.evaluations += 1;
+        let bend = norm(&|i| (self.slope[i] - self.k[i][0]) / trial);
+        let largest = speed.max(bend);
+        let step = if largest > 1e-15 { (0.01 / largest).powf(1.0 / f64::from(ORDER)) } else { 1e3 * trial };
+        step.min(100.0 * trial).min(longest)
+    }
+
+    fn attempt_span<S: System + ?Sized>(&mut self, system: &S, h: f64, end: f64, scale: &[f64]) -> f64 {
+        if !self.first_known {
+            self.restart_slopes(system);
+        }
+        self.forget_step();
+        self.step = h;
+        self.end_time = end;
+        self.recall::<0>();
+        self.stage::<Stage2, S>(system, self.time + NODES[1] * h);
+        self.stage::<Stage3, S>(system, self.time + NODES[2] * h);
+        self.stage::<Stage4, S>(system, self.time + NODES[3] * h);
+        self.stage::<Stage5, S>(system, self.time + NODES[4] * h);
+        self.stage::<Stage6, S>(system, self.time + NODES[5] * h);
+        self.stage::<Stage7, S>(system, self.time + NODES[6] * h);
+        self.stage::<Stage8, S>(system, self.time + NODES[7] * h);
+        self.stage::<Stage9, S>(system, self.time + NODES[8] * h);
+        self.stage::<Stage10, S>(system, self.time + NODES[9] * h);
+        self.stage::<Stage11, S>(system, self.time + NODES[10] * h);
+        // The last stage has node 1: the very end of the step, not t + h, which may differ in the last bit.
+        self.stage::<Stage12, S>(system, end);
+        self.evaluations += 11;
+        self.keep::<11>();
+        for ((to, y), k) in self.end.iter_mut().zip(&self.begin).zip(&self.k) {
+            *to = y + h * Weights::dot(k);
+        }
+        self.error(scale)
+    }
+
+    /// One stage: keep the newest slope, combine all so far over the coupled components, evaluate the next.
+    ///
+    /// Evaluations follow on one another, so what counts is the path from one slope to the next: a product and a sum.
+    #[inline(always)]
+    fn stage<R: Row, S: System + ?Sized>(&mut self, system: &S, t: f64) {
+        let h = self.step;
+        let last = h * R::LAST;
+        for (((to, y), k), newest) in self.stage.iter_mut().zip(&self.begin).zip(&mut self.k).zip(&self.slope)
+        {
+            *to = (y + h * R::rest(k)) + last * newest;
+            k[R::NEWEST] = *newest;
+        }
+        let quadratures = self.k[self.dimension..].iter_mut().zip(&self.slope[self.dimension..]);
+        for (k, newest) in quadratures {
+            k[R::NEWEST] = *newest;
+        }
+        system.slopes(t, &self.stage, &mut self.slope);
+    }
+
+    #[inline(always)]
+    fn keep<const J: usize>(&mut self) {
+        for (k, slope) in self.k.iter_mut().zip(&self.slope) {
+            k[J] = *slope;
+        }
+    }
+
+    #[inline(always)]
+    fn recall<const J: usize>(&mut self) {
+        for (slope, k) in self.slope.iter_mut().zip(&self.k) {
+            *slope = k[J];
+        }
+    }
+
+    /// The estimate of DOP853 with the largest component instead of the mean: with a mean, components at rest would
+    /// dilute the one that matters.
+    fn error(&self, scale: &[f64]) -> f64 {
+        let (mut five, mut three, mut probe) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for (k, scale) in self.k.iter().zip(scale) {
+            let unit = 1.0 / scale;
+            let (e5, e3) = ((Error5::dot(k) * unit).abs(), (Error3::dot(k) * unit).abs());
+            five = five.max(e5);
+            three = three.max(e3);
+            // `max` drops NaN, a sum does not.
+            probe += e5 + e3;
+        }
+        probe += self.end.iter().sum::<f64>();
+        if !probe.is_finite() {
+            return f64::INFINITY;
+        }
+        let norm = (five * five + 0.01 * three * three).sqrt();
+        if norm > 0.0 { self.step.abs() * five * (five / norm) } else { 0.0 }
+    }
+
+    fn forget_step(&mut self) {
+        self.last_known = false;
+        self.dense_known = false;
+    }
+}

@@ -1,0 +1,106 @@
+//! Dense output of order 7 (Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.6, equation (6.12) ff.).
+
+use super::Dop853;
+use super::tableau::{Dense5, Dense6, Dense7, Dense8, END, NODES, Row, Stage14, Stage15, Stage16};
+use crate::System;
+
+/// The polynomial of one component over a step in nested form:
+/// c₀ + s(c₁ + (1-s)(c₂ + s(c₃ + (1-s)(c₄ + s(c₅ + (1-s)(c₆ + s c₇)))))), s the fraction of the step.
+pub(super) type Polynomial = [f64; 8];
+
+impl Dop853 {
+    /// Makes the dense output of the step tried: the end slopes if they are not known yet, and three evaluations.
+    /// Nothing happens if it is there already.
+    pub fn dense<S: System + ?Sized>(&mut self, system: &S) {
+        if self.dense_known {
+            return;
+        }
+        self.end_slopes(system);
+        self.recall::<END>();
+        self.stage::<Stage14, S>(system, self.time + NODES[13] * self.step);
+        self.stage::<Stage15, S>(system, self.time + NODES[14] * self.step);
+        self.stage::<Stage16, S>(system, self.time + NODES[15] * self.step);
+        self.keep::<15>();
+        self.evaluations += 3;
+        let h = self.step;
+        for (((c, k), begin), end) in self.polynomials.iter_mut().zip(&self.k).zip(&self.begin).zip(&self.end)
+        {
+            let rise = end - begin;
+            let bend = h * k[0] - rise;
+            *c = [
+                *begin,
+                rise,
+                bend,
+                rise - h * k[END] - bend,
+                h * Dense5::dot(k),
+                h * Dense6::dot(k),
+                h * Dense7::dot(k),
+                h * Dense8::dot(k),
+            ];
+        }
+        self.dense_known = true;
+    }
+
+    /// Whether [`dense`](Self::dense) has been called for the step tried.
+    #[must_use]
+    pub fn has_dense(&self) -> bool {
+        self.dense_known
+    }
+
+    /// Component `i` at time `t` of the step, by the dense output; NaN where there is none.
+    #[must_use]
+    #[inline]
+    pub fn value(&self, i: usize, t: f64) -> f64 {
+        self.polynomial(i).map_or(f64::NAN, |c| value(c, self.fraction(t)))
+    }
+
+    /// All components at time `t` of the step, by the dense output; NaN where there is none.
+    pub fn values(&self, t: f64, out: &mut [f64]) {
+        if !self.dense_known {
+            out.fill(f64::NAN);
+            return;
+        }
+        let s = self.fraction(t);
+        for (to, c) in out.iter_mut().zip(&self.polynomials) {
+            *to = value(c, s);
+        }
+    }
+
+    /// Time derivative of the dense output of component `i` at time `t` of the step (order 6); NaN where there is
+    /// none.
+    #[must_use]
+    #[inline]
+    pub fn rate(&self, i: usize, t: f64) -> f64 {
+        self.polynomial(i).map_or(f64::NAN, |c| rate(c, self.fraction(t)) / self.step)
+    }
+
+    #[inline]
+    fn polynomial(&self, i: usize) -> Option<&Polynomial> {
+        self.polynomials.get(i).filter(|_| self.dense_known)
+    }
+
+    /// Fraction of the step done at time `t`, exactly 0 and 1 at its ends.
+    #[inline]
+    fn fraction(&self, t: f64) -> f64 {
+        if t == self.end_time { 1.0 } else { (t - self.time) / self.step }
+    }
+}
+
+#[inline]
+fn value(c: &Polynomial, s: f64) -> f64 {
+    let r = 1.0 - s;
+    c[0] + s * (c[1] + r * (c[2] + s * (c[3] + r * (c[4] + s * (c[5] + r * (c[6] + s * c[7]))))))
+}
+
+/// Derivative by s: the nested form and its derivative are carried from the innermost bracket outwards.
+#[inline]
+fn rate(c: &Polynomial, s: f64) -> f64 {
+    let r = 1.0 - s;
+    let (p, d) = (c[6] + s * c[7], c[7]);
+    let (p, d) = (c[5] + r * p, r * d - p);
+    let (p, d) = (c[4] + s * p, s * d + p);
+    let (p, d) = (c[3] + r * p, r * d - p);
+    let (p, d) = (c[2] + s * p, s * d + p);
+    let (p, d) = (c[1] + r * p, r * d - p);
+    s * d + p
+}

@@ -1,0 +1,59 @@
+//! Time stepping for systems with memory; knows no contact.
+//!
+//! A stepper attempts; someone else accepts. Every stepper evaluates a [`System`] through a shared borrow, so that a
+//! trial leaves no trace, and the owner of the system moves its memory after an accepted step. After a jump the stepper
+//! is told.
+//!
+//! In reading order:
+//!
+//! * [`System`]: coupled components and quadratures.
+//! * [`Dop853`]: order 8(5,3) with dense output, one attempt at a time; may be redone up to an event.
+//! * [`StepControl`]: how long the next step is.
+//! * [`root()`], [`bracket`], [`hermite_dip`]: where inside a step a guard crosses zero.
+//! * [`Rk4`], [`Verlet`]: fixed steps.
+//! * [`reference`](mod@reference): a driver for the solver `Dopri5` of the crate `ode_solvers`, without events.
+//!
+//! ```
+//! use stickslip_stepper::{Dop853, StepControl, StepLimits, System};
+//!
+//! /// ẍ = -x, and the work ∫ẋ² dt of a damper that is not there.
+//! struct Oscillator;
+//!
+//! impl System for Oscillator {
+//!     fn dimension(&self) -> usize { 2 }
+//!     fn positions(&self) -> usize { 1 }
+//!     fn total(&self) -> usize { 3 }
+//!     fn slopes(&self, _t: f64, y: &[f64], dy: &mut [f64]) {
+//!         dy.copy_from_slice(&[y[1], -y[0], y[1] * y[1]]);
+//!     }
+//! }
+//!
+//! let (mut stepper, mut control) = (Dop853::new(2, 3), StepControl::new(8, StepLimits::default()));
+//! stepper.start(&Oscillator, 0.0, &[1.0, 0.0, 0.0]);
+//! let mut h: f64 = 0.1;
+//! while stepper.time() < 1.0 {
+//!     let end = (stepper.time() + h).min(1.0);
+//!     let error = stepper.attempt_until(&Oscillator, end, &[1e-9, 1e-9]);
+//!     let verdict = control.propose(error, end - stepper.time());
+//!     if verdict.accepted {
+//!         stepper.end_slopes(&Oscillator);
+//!         stepper.accept();
+//!     }
+//!     h = verdict.next;
+//! }
+//! assert!((stepper.begin()[0] - 1.0_f64.cos()).abs() < 1e-8);
+//! ```
+
+mod system;
+pub use system::System;
+mod dop853;
+pub use dop853::{Dop853, ORDER as DOP853_ORDER};
+mod control;
+pub use control::{Memory as ControlMemory, StepControl, StepLimits, Verdict};
+mod root;
+pub use root::{bracket, hermite_dip, root};
+mod rk4;
+pub use rk4::Rk4;
+mod verlet;
+pub use verlet::Verlet;
+pub mod reference;

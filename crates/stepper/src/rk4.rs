@@ -1,0 +1,72 @@
+//! The classical Runge–Kutta method of order 4 at a fixed step.
+
+use crate::System;
+
+/// Classical Runge–Kutta method (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2): four evaluations
+/// per step, no error estimate.
+///
+/// A step evaluates through `&System` only; the owner moves the system's memory after it.
+#[derive(Debug, Clone)]
+pub struct Rk4 {
+    dimension: usize,
+    stage: Vec<f64>,
+    slope: Vec<f64>,
+    sum: Vec<f64>,
+    evaluations: u64,
+}
+
+impl Rk4 {
+    /// Workspace for systems of `dimension` coupled components among `total`.
+    #[must_use]
+    pub fn new(dimension: usize, total: usize) -> Self {
+        let total = total.max(dimension);
+        Self {
+            dimension,
+            stage: vec![0.0; dimension],
+            slope: vec![0.0; total],
+            sum: vec![0.0; total],
+            evaluations: 0,
+        }
+    }
+
+    /// Moves `y` (`total` components) from `t` to `t + h`.
+    pub fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
+        let half = 0.5 * h;
+        for (to, from) in self.stage.iter_mut().zip(y.iter()) {
+            *to = *from;
+        }
+        system.slopes(t, &self.stage[..self.dimension], &mut self.slope);
+        self.sum.copy_from_slice(&self.slope);
+        self.stage(system, t + half, y, half);
+        self.add(2.0);
+        self.stage(system, t + half, y, half);
+        self.add(2.0);
+        self.stage(system, t + h, y, h);
+        self.add(1.0);
+        for (y, sum) in y.iter_mut().zip(&self.sum) {
+            *y += h / 6.0 * sum;
+        }
+        self.evaluations += 4;
+    }
+
+    /// Evaluations of the slopes since construction.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    #[inline(always)]
+    fn stage<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64], reach: f64) {
+        for ((to, y), k) in self.stage.iter_mut().zip(y).zip(&self.slope) {
+            *to = y + reach * k;
+        }
+        system.slopes(t, &self.stage, &mut self.slope);
+    }
+
+    #[inline(always)]
+    fn add(&mut self, weight: f64) {
+        for (sum, k) in self.sum.iter_mut().zip(&self.slope) {
+            *sum += weight * k;
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! What is stepped.
+
+/// A system of ordinary differential equations whose right-hand side may remember.
+///
+/// Evaluation borrows shared: a stepper tries as many points as it likes and leaves no trace. Whoever owns the system
+/// moves its memory once a step has been accepted.
+///
+/// The state has [`total`](Self::total) components. The first [`dimension`](Self::dimension) of them are coupled; the
+/// rest are quadratures (work, dissipation), integrals on whose value no slope depends: they are carried along at the
+/// same order, but neither cost stage combinations nor steer the step.
+pub trait System {
+    /// Number of coupled components.
+    fn dimension(&self) -> usize;
+
+    /// Number of positions: the first `positions` components, whose slopes are the `positions` components after them
+    /// (velocities). Only [`Verlet`](crate::Verlet) uses it; 0 if the system has no such structure.
+    fn positions(&self) -> usize;
+
+    /// Number of coupled components and quadratures, at least `dimension`.
+    fn total(&self) -> usize;
+
+    /// Slopes at time `t` (s) and state `y`.
+    ///
+    /// `y` has `dimension` components, `dy` has `total` and must be filled completely.
+    fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]);
+}

@@ -1,0 +1,101 @@
+//! Velocity Verlet at a fixed step.
+
+use crate::System;
+
+/// Velocity Verlet (Swope et al., J. Chem. Phys. 76, 637, 1982): order 2, one evaluation per step.
+///
+/// With x the positions, v the velocities, a(t, x, v) the accelerations, z further coupled components and quadratures:
+///
+/// ```text
+/// x₁ = x₀ + h v₀ + h²/2 a₀
+/// a₁ = a(t+h, x₁, v₀ + h a₀)        z at z₀ + h ż₀
+/// v₁ = v₀ + h/2 (a₀ + a₁)           z₁ = z₀ + h/2 (ż₀ + ż₁)
+/// ```
+///
+/// The slopes at the end are kept as the next step's first ones. They were made with the predicted velocity, which
+/// keeps the order; [`restart`](Self::restart) drops them, as due when they jump (a corner of a waveform, a state
+/// changed from outside).
+#[derive(Debug, Clone)]
+pub struct Verlet {
+    positions: usize,
+    stage: Vec<f64>,
+    first: Vec<f64>,
+    last: Vec<f64>,
+    known: bool,
+    evaluations: u64,
+}
+
+impl Verlet {
+    /// Workspace for systems of `positions` positions among `dimension` coupled components among `total`.
+    ///
+    /// More positions than half of `dimension` count as that half.
+    #[must_use]
+    pub fn new(positions: usize, dimension: usize, total: usize) -> Self {
+        let total = total.max(dimension);
+        Self {
+            positions: positions.min(dimension / 2),
+            stage: vec![0.0; dimension],
+            first: vec![0.0; total],
+            last: vec![0.0; total],
+            known: false,
+            evaluations: 0,
+        }
+    }
+
+    /// Forgets the slopes of the last step: the next step evaluates its first ones anew.
+    pub fn restart(&mut self) {
+        self.known = false;
+    }
+
+    /// Slopes at the end of the last step, `total` components; none before the first step and after a restart.
+    /// They belong to a run's state.
+    #[must_use]
+    pub fn slopes(&self) -> Option<&[f64]> {
+        self.known.then_some(self.first.as_slice())
+    }
+
+    /// Goes on from saved slopes of `total` components.
+    pub fn set_slopes(&mut self, slopes: &[f64]) {
+        for (to, from) in self.first.iter_mut().zip(slopes) {
+            *to = *from;
+        }
+        self.known = slopes.len() >= self.first.len();
+    }
+
+    /// Moves `y` (`total` components) from `t` to `t + h`.
+    pub fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
+        if !self.known {
+            for (to, from) in self.stage.iter_mut().zip(y.iter()) {
+                *to = *from;
+            }
+            system.slopes(t, &self.stage, &mut self.first);
+            self.evaluations += 1;
+        }
+        for ((to, y), k) in self.stage.iter_mut().zip(y.iter()).zip(&self.first) {
+            *to = y + h * k;
+        }
+        let half = 0.5 * h;
+        // Velocities from the state: the kept slopes of the positions are the predicted ones, and with those the
+        // energy of an undamped oscillator grows.
+        let motion = y.iter().zip(y.iter().zip(&self.first).skip(self.positions));
+        for (to, (x, (v, a))) in self.stage.iter_mut().zip(motion).take(self.positions) {
+            *to = x + h * (v + half * a);
+        }
+        system.slopes(t + h, &self.stage, &mut self.last);
+        self.evaluations += 1;
+        for ((y, a), b) in y.iter_mut().zip(&self.first).zip(&self.last).skip(self.positions) {
+            *y += half * (a + b);
+        }
+        for (y, x) in y.iter_mut().zip(&self.stage).take(self.positions) {
+            *y = *x;
+        }
+        std::mem::swap(&mut self.first, &mut self.last);
+        self.known = true;
+    }
+
+    /// Evaluations of the slopes since construction.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
