@@ -23,7 +23,7 @@ mod sweep;
 pub use branch::{Branch, Course};
 
 use crate::{Apex, ContactError, ContactState, Interface, Move, Outcome, Response, Segment, SpringState};
-use cut::{Cut, Drag};
+use cut::{Drag, Edge};
 use knot::Knot;
 
 /// State of a contact that remembers exactly.
@@ -171,20 +171,21 @@ impl Curve {
 
     /// Force and tangents that a move would give. Costs the pieces that the move would cut, usually one.
     pub fn trial(&self, law: &Interface, to: Move) -> Response {
-        let modulus = law.tangential_modulus();
         match to {
             Move::Grown { to, force } => {
                 Response { force, stiffness: law.stick_stiffness(to.d), coupling: 0.0 }
             }
-            Move::Chord(to) => match self.drag(law, to) {
-                Drag::Open => Response::default(),
-                Drag::Stick(knot) => Response {
-                    force: modulus * knot.shear,
-                    stiffness: law.stick_stiffness(to.d),
-                    coupling: 0.0,
-                },
-                Drag::Slip(cut) => cut.response(law, to),
-            },
+            Move::Chord(to) => {
+                let touch;
+                let knots = match &self.knots[..] {
+                    [] => {
+                        touch = [self.touching(to)];
+                        &touch[..]
+                    }
+                    knots => knots,
+                };
+                respond(law, knots, to)
+            }
         }
     }
 
@@ -195,11 +196,12 @@ impl Curve {
         let from = if self.knots.is_empty() { touch[0].apex() } else { self.apex };
         let modulus = law.tangential_modulus();
         let friction = sweep::work(law, knots, from, to);
-        let (end, front) = match self.drag(law, to) {
+        let top = knots[knots.len() - 1];
+        let (end, front) = match drag(law, knots, to) {
             Drag::Open => return Outcome { friction, ..Outcome::default() },
-            Drag::Stick(knot) if to == self.apex => (knot, self.front),
-            Drag::Stick(knot) => (knot, Front::STICK),
-            Drag::Slip(cut) => (cut.end(law, to), cut.front()),
+            Drag::Rest => (top, self.front),
+            Drag::Stick => (top.stick(law, to), Front::STICK),
+            Drag::Slip(edge) => (edge.end(law, &edge.foot(law, knots, to), to), edge.front()),
         };
         let (state, stick_radius) = zone(law, to.d, front);
         Outcome {
@@ -246,29 +248,20 @@ impl Curve {
             self.cone = Cone::ALL;
         }
         let friction = if self.knots.is_empty() { 0.0 } else { sweep::work(law, &self.knots, self.apex, to) };
-        match self.drag(law, to) {
+        match drag(law, &self.knots, to) {
             Drag::Open => {
                 self.knots.clear();
                 self.front = Front::STICK;
             }
-            Drag::Stick(knot) => {
+            Drag::Rest => {}
+            Drag::Stick => {
                 self.front = Front::STICK;
-                self.push_grown(law, knot);
+                self.push_grown(law, to);
             }
-            Drag::Slip(cut) => self.push_cut(law, cut, to),
+            Drag::Slip(edge) => self.push_cut(law, edge, to),
         }
         self.apex = to;
         Ok(friction)
-    }
-
-    /// Which way a chord from the committed apex drags the curve.
-    fn drag(&self, law: &Interface, to: Apex) -> Drag {
-        if to.d <= 0.0 {
-            return Drag::Open;
-        }
-        let touch = [self.touching(to)];
-        let knots = if self.knots.is_empty() { &touch[..] } else { &self.knots[..] };
-        Drag::of(law, knots, to)
     }
 
     /// The knot an open contact touches with on its way to `to`: the path crosses d = 0 there.
@@ -296,9 +289,10 @@ impl Curve {
     }
 
     /// Pushes a straight piece of growth, merging it with the piece below where the two are collinear.
-    fn push_grown(&mut self, law: &Interface, knot: Knot) {
+    fn push_grown(&mut self, law: &Interface, to: Apex) {
         let count = self.knots.len();
         let top = self.knots[count - 1];
+        let knot = top.stick(law, to);
         if count >= 2 {
             let base = self.knots[count - 2];
             let slack =
@@ -321,19 +315,20 @@ impl Curve {
     }
 
     /// Replaces what was cut by the straight edge of the wedge.
-    fn push_cut(&mut self, law: &Interface, cut: Cut, to: Apex) {
-        let end = cut.end(law, to);
-        self.knots.truncate(cut.kept);
-        if cut.splits || self.knots.is_empty() {
-            self.knots.push(cut.knot);
+    fn push_cut(&mut self, law: &Interface, edge: Edge, to: Apex) {
+        let foot = edge.foot(law, &self.knots, to);
+        let end = edge.end(law, &foot, to);
+        self.knots.truncate(edge.kept);
+        if edge.splits || edge.is_gross() {
+            self.knots.push(foot);
         }
-        if end.h > cut.knot.h {
+        if end.h > foot.h {
             self.knots.push(end);
         } else if let Some(top) = self.knots.last_mut() {
             // A move below the last place of the level cuts nothing; the apex still takes it.
             top.p = to.u;
         }
-        self.front = cut.front();
+        self.front = edge.front();
         self.cone = Cone::NONE;
     }
 
@@ -362,6 +357,29 @@ impl Curve {
         self.merged.knots += 1;
         self.merged.force += (self.force(law) - force).abs();
         self.merged.energy += (self.elastic(law) - energy).abs();
+    }
+}
+
+/// Which way a chord drags a curve of at least one knot.
+#[inline]
+fn drag(law: &Interface, knots: &[Knot], to: Apex) -> Drag {
+    if to.d <= 0.0 { Drag::Open } else { Drag::of(law, knots, to) }
+}
+
+/// Force and tangents at the end of a chord from a curve of at least one knot.
+#[inline]
+fn respond(law: &Interface, knots: &[Knot], to: Apex) -> Response {
+    let top = &knots[knots.len() - 1];
+    let sticking = |shear: f64| Response {
+        force: law.tangential_modulus() * shear,
+        stiffness: law.stick_stiffness(to.d),
+        coupling: 0.0,
+    };
+    match drag(law, knots, to) {
+        Drag::Open => Response::default(),
+        Drag::Rest => sticking(top.shear),
+        Drag::Stick => sticking(top.stick(law, to).shear),
+        Drag::Slip(edge) => edge.response(law, knots, to),
     }
 }
 

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at what it did not expect")]
 
 use serde_json::Value;
-use stickslip_contact::{Apex, Curve, Interface, Move, Outcome, Pair, Profile, Segment};
+use stickslip_contact::{Apex, Curve, Interface, Move, Outcome, Pair, Profile, Row, Segment, Springs};
 
 struct History {
     law: Interface,
@@ -147,5 +147,34 @@ fn friction_work_closes_the_energy_balance() {
         }
         let gap = (input - curve.elastic(law) - friction).abs();
         assert!(gap <= 2e-7 * friction, "history {i}: {gap:e} of {friction:e}");
+    }
+}
+
+/// Number of springs whose state differs between the engines, and number compared.
+fn differing_states(history: &History, count: usize) -> (usize, usize) {
+    let History { law, rows } = history;
+    let span = 2.0 * law.profile().radius(largest(rows, 0));
+    let springs = Springs::new(law.profile(), count, span).unwrap();
+    let heights: Vec<f64> = springs.heights_in_place().collect();
+    let (mut curve, mut row) = (Curve::new(law, Apex::default()), Row::new(&springs));
+    let (mut differing, mut compared) = (0, 0);
+    for [d, u, ..] in rows.iter().copied() {
+        let segment = Segment::Straight(Apex { d, u });
+        curve.commit(law, segment).unwrap();
+        row.commit(&springs, law, segment).unwrap();
+        for (h, state) in heights.iter().zip(row.states(&springs, law)) {
+            compared += 1;
+            differing += usize::from(curve.spring_state(*h) != state);
+        }
+    }
+    (differing, compared)
+}
+
+#[test]
+fn both_engines_see_the_same_springs_stick_and_slip() {
+    for (i, history) in histories().iter().enumerate() {
+        let (differing, compared) = differing_states(history, 512);
+        assert!(compared > 2000, "history {i}");
+        assert_eq!(differing, 0, "history {i}: {differing} of {compared} springs");
     }
 }

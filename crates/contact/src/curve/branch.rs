@@ -8,7 +8,7 @@
 //! step that oversteps an event meets no kink; the event is found afterwards, where [`Branch::margin`] or the
 //! sense of sliding changes sign.
 
-use super::{Curve, cut::Cut, knot::Knot};
+use super::{Curve, cut::Edge, knot::Knot};
 use crate::{Apex, Interface};
 
 /// What a contact is doing, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
@@ -165,7 +165,7 @@ impl Curve {
 
     /// F_x (N) and height of the slip front (m) of a chord to an apex inside contact, dragged by the edge of a sense.
     pub fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64) {
-        let cut = Cut::find(law, &self.knots, sense, to);
-        (cut.response(law, to).force, if cut.gross { 0.0 } else { cut.knot.h })
+        let edge = Edge::find(law, &self.knots, sense, to);
+        (law.tangential_modulus() * edge.shear(law, &self.knots, to), edge.height)
     }
 }

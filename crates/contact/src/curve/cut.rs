@@ -9,25 +9,25 @@ use crate::{Apex, Interface, Response};
 pub(super) enum Drag {
     /// Contact is lost.
     Open,
-    /// Nothing slips; the curve ends in this knot.
-    Stick(Knot),
+    /// Nothing moves.
+    Rest,
+    /// Nothing slips: the contact grows.
+    Stick,
     /// An edge of the wedge drags the curve.
-    Slip(Cut),
+    Slip(Edge),
 }
 
-/// The place where an edge of the wedge leaves the old curve.
+/// The edge of the wedge that drags, and where it leaves the old curve.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cut {
+pub(super) struct Edge {
     /// +1: the lower edge drags the curve forward; -1: the upper edge drags it backward.
     pub(super) sense: f64,
-    /// Number of knots that stay.
+    /// Number of knots that stay; none in gross slip.
     pub(super) kept: usize,
-    /// Whether `knot` is a new one, inside a piece.
+    /// Height at which the edge begins, m.
+    pub(super) height: f64,
+    /// Whether it begins inside a piece, above the last knot that stays.
     pub(super) splits: bool,
-    /// Where the new edge begins; at height 0 in gross slip.
-    pub(super) knot: Knot,
-    /// Whether the whole curve is dragged.
-    pub(super) gross: bool,
 }
 
 impl Drag {
@@ -38,14 +38,14 @@ impl Drag {
         let (rise, shift) = (to.d - top.h, to.u - top.p);
         let limit = law.stick_slope() * rise;
         if rise == 0.0 && shift == 0.0 {
-            return Self::Stick(*top);
+            return Self::Rest;
         }
         if rise > 0.0 && shift.abs() <= limit {
-            return Self::Stick(top.grow(law, to.d, shift / rise, to.u));
+            return Self::Stick;
         }
         // Both edges close in on a shrinking contact; the apex lies on one side of the old curve.
         let forward = if shift.abs() >= -limit { shift > 0.0 } else { to.u > anchor(knots, to.d) };
-        Self::Slip(Cut::find(law, knots, if forward { 1.0 } else { -1.0 }, to))
+        Self::Slip(Edge::find(law, knots, if forward { 1.0 } else { -1.0 }, to))
     }
 }
 
@@ -55,7 +55,7 @@ pub(super) fn anchor(knots: &[Knot], h: f64) -> f64 {
     knots[above].p - knots[above].slope * (knots[above].h - h)
 }
 
-impl Cut {
+impl Edge {
     /// Walks down the stack. In the frame of the sense, σp - κh falls along the curve, and all that lies below
     /// its value at the apex is dragged.
     #[inline]
@@ -67,46 +67,70 @@ impl Cut {
         while kept > 0 && (reach(&knots[kept - 1]) < level || knots[kept - 1].h > to.d) {
             kept -= 1;
         }
-        if kept == 0 {
-            let knot = Knot::touch(sense * level);
-            return Self { sense, kept, splits: false, knot, gross: true };
-        }
-        let base = &knots[kept - 1];
+        let Some(base) = kept.checked_sub(1).map(|i| &knots[i]) else {
+            return Self { sense, kept, height: 0.0, splits: false };
+        };
         let Some(end) = knots.get(kept) else {
-            return Self { sense, kept, splits: false, knot: *base, gross: false };
+            return Self { sense, kept, height: base.h, splits: false };
         };
         let steep = slope - sense * end.slope;
         // A piece along the edge itself has no crossing: it is cut at its foot.
         let rise = if steep > 4.0 * f64::EPSILON * slope { (reach(base) - level) / steep } else { 0.0 };
-        let h = (base.h + rise).min(end.h).min(to.d);
-        if h <= base.h {
-            return Self { sense, kept, splits: false, knot: *base, gross: false };
-        }
-        Self { sense, kept, splits: true, knot: base.point(law, end, h), gross: false }
+        let height = (base.h + rise).min(end.h).min(to.d);
+        Self { sense, kept, height: height.max(base.h), splits: height > base.h }
     }
 
-    /// The apex at the end of the new edge.
-    #[inline]
-    pub(super) fn end(&self, law: &Interface, to: Apex) -> Knot {
-        self.knot.grow(law, to.d, self.sense * law.stick_slope(), to.u)
+    /// Whether the whole curve is dragged.
+    pub(super) fn is_gross(&self) -> bool {
+        self.kept == 0
     }
 
     /// Where the springs at their limit begin.
     pub(super) fn front(&self) -> Front {
-        Front { sense: self.sense, height: if self.gross { f64::NEG_INFINITY } else { self.knot.h } }
+        Front { sense: self.sense, height: if self.is_gross() { f64::NEG_INFINITY } else { self.height } }
+    }
+
+    /// The knot at which the edge begins.
+    pub(super) fn foot(&self, law: &Interface, knots: &[Knot], to: Apex) -> Knot {
+        if self.is_gross() {
+            return Knot::touch(to.u - self.sense * law.stick_slope() * to.d);
+        }
+        let base = &knots[self.kept - 1];
+        if self.splits { base.point(law, &knots[self.kept], self.height) } else { *base }
+    }
+
+    /// The apex at the end of the edge.
+    #[inline]
+    pub(super) fn end(&self, law: &Interface, foot: &Knot, to: Apex) -> Knot {
+        foot.grow(law, to.d, self.sense * law.stick_slope(), to.u)
     }
 
     /// Force and tangents: with the front at h_c, ∂F/∂u = G\*m(h_c), ∂F/∂d = σκG\*[m(d)-m(h_c)].
     #[inline]
-    pub(super) fn response(&self, law: &Interface, to: Apex) -> Response {
+    pub(super) fn response(&self, law: &Interface, knots: &[Knot], to: Apex) -> Response {
         let (modulus, edge) = (law.tangential_modulus(), self.sense * law.stick_slope());
-        let profile = law.profile();
-        let shear = self.knot.shear + edge * (profile.area(to.d) - self.knot.area);
-        let stiffness = if self.gross { 0.0 } else { law.stick_stiffness(self.knot.h) };
+        let shear = self.shear(law, knots, to);
+        let stiffness = if self.is_gross() { 0.0 } else { law.stick_stiffness(self.height) };
         Response {
             force: modulus * shear,
             stiffness,
             coupling: edge * (law.stick_stiffness(to.d) - stiffness),
         }
+    }
+
+    /// Force over G\*, m², at the end of the edge.
+    #[inline]
+    pub(super) fn shear(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
+        let edge = self.sense * law.stick_slope();
+        let whole = match knots.last() {
+            Some(top) if top.h == to.d => top.area,
+            _ => law.profile().area(to.d),
+        };
+        let Some(base) = self.kept.checked_sub(1).map(|i| &knots[i]) else { return edge * whole };
+        if !self.splits {
+            return base.shear + edge * (whole - base.area);
+        }
+        let area = law.profile().area(self.height);
+        base.shear + knots[self.kept].gain * (area - base.area) + edge * (whole - area)
     }
 }

@@ -54,6 +54,12 @@ impl Knot {
         self.extend(h, p, slope, slope, profile.area(h), profile.volume(h))
     }
 
+    /// The end of a straight piece of growth in full stick.
+    #[inline]
+    pub(super) fn stick(&self, law: &Interface, to: Apex) -> Self {
+        self.grow(law, to.d, (to.u - self.p) / (to.d - self.h), to.u)
+    }
+
     /// The same with M(h) and N(h) at hand, and a gain of its own.
     ///
     /// ∫(p₂-p)²dm grows by 2S₁Δp + 2kγ(ΔN - ΔhM₁) over a piece of slope k and gain γ, where S₁ is the shear

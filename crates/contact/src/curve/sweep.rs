@@ -11,7 +11,7 @@
 //!
 //! Booking limit force × slip instead would miss most of the loss where the limit falls inside the step.
 
-use super::cut::{Cut, anchor};
+use super::cut::{Edge, anchor};
 use super::knot::Knot;
 use crate::{Apex, Interface, Profile};
 
@@ -30,11 +30,11 @@ pub(super) fn work(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f64
     let sense = if forward { 1.0 } else { -1.0 };
     let sweep = Sweep { law, from, to, rise, shift, sense, level: sense * to.u - slope * to.d };
 
-    let cut = Cut::find(law, knots, sense, to);
-    let first = cut.kept.max(1);
-    let mut lower = if cut.splits { cut.knot } else { knots[first - 1] };
+    let edge = Edge::find(law, knots, sense, to);
+    let first = edge.kept.max(1);
+    let mut lower = if edge.is_gross() { knots[0] } else { edge.foot(law, knots, to) };
     // The dragging begins with 0 at the cut; in gross slip the centre is dragged as well.
-    let mut drag = if cut.gross { sweep.level + slope * lower.h - sense * lower.p } else { 0.0 };
+    let mut drag = if edge.is_gross() { sweep.level + slope * lower.h - sense * lower.p } else { 0.0 };
     let mut total = 0.0;
     for upper in &knots[first.min(knots.len())..] {
         total += sweep.piece(&lower, upper, drag);

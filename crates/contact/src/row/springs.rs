@@ -119,6 +119,11 @@ impl Springs {
         self.positions.len()
     }
 
+    /// Height of every spring, m, in the order of [`Self::positions`].
+    pub fn heights_in_place(&self) -> impl Iterator<Item = f64> + '_ {
+        self.ranks().iter().map(|rank| self.heights()[*rank])
+    }
+
     /// Place x of every spring, m, ascending; springs of a list lie side by side in the order given.
     pub fn positions(&self) -> &[f64] {
         &self.positions
