@@ -1,0 +1,115 @@
+//! The stack of knots: how it grows, is cut, and stays bounded.
+
+use super::cut::Edge;
+use super::knot::Knot;
+use super::{Curve, Front};
+use crate::{Apex, Interface};
+
+/// Slopes of the top piece that keep every knot merged into it within round-off of where it was: without this
+/// bound a slightly curved growth in many tiny steps would be straightened without limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cone {
+    low: f64,
+    high: f64,
+}
+
+impl Cone {
+    pub(super) const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    pub(super) const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+}
+
+/// Deviation of a merged knot, in units of the last place of the largest of |u| and κd.
+const COLLINEAR_ULPS: f64 = 2.0;
+
+/// Knots that one move adds at most: the place where it cuts, or touches, and the apex.
+pub(super) const KNOTS_PER_MOVE: usize = 2;
+
+impl Curve {
+    /// Growth in full stick along a curved path, its force and energy integrated elsewhere.
+    pub(super) fn grow(&mut self, law: &Interface, to: Apex, (force, energy): (f64, f64), joins: bool) {
+        if self.knots.is_empty() {
+            let touch = self.touching(to);
+            self.knots.push(touch);
+        }
+        if let Some(last) = self.knots.last_mut() {
+            last.joined = joins;
+            let modulus = law.tangential_modulus();
+            let knot = last.grow_by(law, to, force / modulus, 2.0 * energy / modulus);
+            self.knots.push(knot);
+        }
+        self.front = Front::STICK;
+        self.cone = Cone::NONE;
+        self.apex = to;
+    }
+
+    /// Pushes a straight piece of growth, merging it with the piece below where the two are collinear.
+    pub(super) fn push_grown(&mut self, law: &Interface, to: Apex) {
+        let count = self.knots.len();
+        let top = self.knots[count - 1];
+        let knot = top.stick(law, to);
+        if count >= 2 {
+            let base = self.knots[count - 2];
+            let slack =
+                COLLINEAR_ULPS * f64::EPSILON * top.p.abs().max(knot.p.abs()).max(law.stick_slope() * knot.h);
+            let reach = top.h - base.h;
+            let cone = Cone {
+                low: self.cone.low.max((top.p - base.p - slack) / reach),
+                high: self.cone.high.min((top.p - base.p + slack) / reach),
+            };
+            let slope = (knot.p - base.p) / (knot.h - base.h);
+            let straight = top.slope == top.gain && top.slope.abs() < law.stick_slope();
+            if straight && (cone.low..=cone.high).contains(&slope) {
+                self.knots[count - 1] = base.grow(law, knot.h, slope, knot.p);
+                self.cone = cone;
+                return;
+            }
+        }
+        self.knots.push(knot);
+        self.cone = Cone::ALL;
+    }
+
+    /// Replaces what was cut by the straight edge of the wedge.
+    pub(super) fn push_cut(&mut self, law: &Interface, edge: Edge, to: Apex) {
+        let foot = edge.foot(law, &self.knots, to);
+        let end = edge.end(law, &foot, to);
+        self.knots.truncate(edge.kept);
+        if edge.splits || edge.is_gross() {
+            self.knots.push(foot);
+        }
+        if end.h > foot.h {
+            self.knots.push(end);
+        } else if let Some(top) = self.knots.last_mut() {
+            // A move below the last place of the level cuts nothing; the apex still takes it.
+            top.p = to.u;
+        }
+        self.front = edge.front();
+        self.cone = Cone::NONE;
+    }
+
+    /// Gives up the knot whose loss changes the anchors least, and books the change.
+    pub(super) fn merge_smallest(&mut self, law: &Interface) {
+        let triangle = |w: &[Knot]| {
+            let (a, b, c) = (&w[0], &w[1], &w[2]);
+            ((c.slope - b.slope) * (b.h - a.h) * (c.h - b.h)).abs()
+        };
+        let smallest = self.knots.windows(3).map(triangle).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((place, _)) = smallest else { return };
+        let (force, energy) = (self.force(law), self.elastic(law));
+        self.knots.remove(place + 1);
+        for i in place + 1..self.knots.len() {
+            let (below, old) = (self.knots[i - 1], self.knots[i]);
+            let (slope, gain) = if i == place + 1 {
+                let slope = (old.p - below.p) / (old.h - below.h);
+                (slope, slope)
+            } else {
+                (old.slope, old.gain)
+            };
+            let joined = old.joined;
+            self.knots[i] = below.extend(old.h, old.p, slope, gain, old.area, old.volume);
+            self.knots[i].joined = joined;
+        }
+        self.merged.knots += 1;
+        self.merged.force += (self.force(law) - force).abs();
+        self.merged.energy += (self.elastic(law) - energy).abs();
+    }
+}
