@@ -1,0 +1,161 @@
+//! Cuts a long record into cycles.
+
+use crate::series::{SeriesError, check, check_lengths, check_positive, check_time};
+use std::ops::Range;
+
+/// Where a cycle ends and the next begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cut {
+    /// From one reversal of u to the next of the same kind; what comes before the first reversal (the first
+    /// loading) and after the last is dropped.
+    Reversals {
+        /// A reversal counts once u has come back by more than this, m, above 0; above the noise, below the
+        /// smallest stroke.
+        least: f64,
+    },
+    /// At t₀, t₀ + T, t₀ + 2T, …
+    Period {
+        /// Start t₀, s.
+        start: f64,
+        /// Period T, s, above 0.
+        period: f64,
+    },
+}
+
+/// Cuts (t, u, q) into cycles. Each range holds both ends of its cycle, so neighbours share a sample and the
+/// path of one cycle is complete; a trailing part that is no whole cycle is dropped.
+///
+/// # Errors
+/// Series of different lengths, not finite, with decreasing times, or shorter than a period. No reversals is no
+/// error: the list is then empty.
+pub fn split_cycles(t: &[f64], u: &[f64], q: &[f64], cut: Cut) -> Result<Vec<Range<usize>>, SeriesError> {
+    check_time(t, 2)?;
+    check_lengths(("u", u), ("t", t))?;
+    check_lengths(("q", q), ("t", t))?;
+    check("u", u, 2)?;
+    check("q", q, 2)?;
+    let places = match cut {
+        Cut::Reversals { least } => {
+            check_positive("least", least)?;
+            // Every second reversal is of the same kind.
+            reversals(u, least).into_iter().step_by(2).collect()
+        }
+        Cut::Period { start, period } => period_starts(t, start, period)?,
+    };
+    Ok(places.windows(2).map(|ends| ends[0]..ends[1] + 1).collect())
+}
+
+/// Places of the reversals of u, alternately maxima and minima; each is confirmed by a way back longer than
+/// `least`. The start of the record counts as none.
+fn reversals(u: &[f64], least: f64) -> Vec<usize> {
+    let mut found = Vec::new();
+    let (mut low, mut high) = (0, 0);
+    let mut direction = 0_i8;
+    for (i, &value) in u.iter().enumerate() {
+        if value > u[high] {
+            high = i;
+        }
+        if value < u[low] {
+            low = i;
+        }
+        if direction >= 0 && u[high] - value > least {
+            if high > 0 || direction > 0 {
+                found.push(high);
+            }
+            (direction, low) = (-1, i);
+        } else if direction <= 0 && value - u[low] > least {
+            if low > 0 || direction < 0 {
+                found.push(low);
+            }
+            (direction, high) = (1, i);
+        }
+    }
+    found
+}
+
+/// The sample nearest to each t₀ + kT inside the record.
+fn period_starts(t: &[f64], start: f64, period: f64) -> Result<Vec<usize>, SeriesError> {
+    check_positive("period", period)?;
+    check("start", &[start], 1)?;
+    let (first, last) = (t[0], t[t.len() - 1]);
+    // Sums of rounded time steps miss the end of a period by a little.
+    let slack = 1e-6 * period;
+    let mut places = Vec::new();
+    let mut k = ((first - slack - start) / period).ceil().max(0.0);
+    loop {
+        let time = start + k * period;
+        if time > last + slack {
+            break;
+        }
+        let after = t.partition_point(|&s| s < time).min(t.len() - 1);
+        let before = after.saturating_sub(1);
+        let place = if time - t[before] < t[after] - time { before } else { after };
+        if places.last().is_some_and(|&p| p >= place) {
+            // Fewer samples than periods.
+            return Err(SeriesError::TooShort { series: "t", least: places.len() + 2, got: t.len() });
+        }
+        places.push(place);
+        k += 1.0;
+    }
+    if places.len() < 2 {
+        return Err(SeriesError::ShorterThanPeriod { duration: last - first.max(start), period });
+    }
+    Ok(places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// u = sin(2πt) over `cycles` s, `n` samples per cycle.
+    fn sine(cycles: usize, n: usize) -> (Vec<f64>, Vec<f64>) {
+        let t: Vec<f64> = (0..=cycles * n).map(|i| i as f64 / n as f64).collect();
+        let u = t.iter().map(|t| (TAU * t).sin()).collect();
+        (t, u)
+    }
+
+    #[test]
+    fn reversals_of_a_sine_are_a_period_apart() {
+        let (t, u) = sine(5, 100);
+        let cycles = split_cycles(&t, &u, &u, Cut::Reversals { least: 0.1 }).unwrap();
+        // Maxima at 0.25, 1.25, … 4.25.
+        assert_eq!(cycles, [25..126, 125..226, 225..326, 325..426]);
+    }
+
+    #[test]
+    fn noise_below_the_least_way_back_makes_no_reversals() {
+        let (t, mut u) = sine(5, 100);
+        for (i, v) in u.iter_mut().enumerate() {
+            *v += if i % 2 == 0 { 0.02 } else { -0.02 };
+        }
+        let cycles = split_cycles(&t, &u, &u, Cut::Reversals { least: 0.1 }).unwrap();
+        assert_eq!(cycles.len(), 4);
+        assert!(cycles.iter().all(|c| c.len().abs_diff(101) <= 14), "{cycles:?}");
+    }
+
+    #[test]
+    fn a_known_period_cuts_where_it_says() {
+        let (t, u) = sine(3, 10);
+        let cut = Cut::Period { start: 0.5, period: 1.0 };
+        assert_eq!(split_cycles(&t, &u, &u, cut).unwrap(), [5..16, 15..26]);
+        // A start before the record, and sums of steps that round.
+        let t: Vec<f64> = (0..=30).scan(0.0, |s, _| Some(std::mem::replace(s, *s + 0.1))).collect();
+        let cut = Cut::Period { start: 0.0, period: 1.0 };
+        assert_eq!(split_cycles(&t, &u, &u, cut).unwrap(), [0..11, 10..21, 20..31]);
+    }
+
+    #[test]
+    fn what_cannot_be_cut_is_refused() {
+        let (t, u) = sine(1, 10);
+        let cut = Cut::Period { start: 0.0, period: 2.0 };
+        assert!(matches!(split_cycles(&t, &u, &u, cut), Err(SeriesError::ShorterThanPeriod { .. })));
+        let cut = Cut::Period { start: 0.0, period: 1e-3 };
+        assert!(matches!(split_cycles(&t, &u, &u, cut), Err(SeriesError::TooShort { .. })));
+        let cut = Cut::Period { start: 0.0, period: 0.0 };
+        assert!(matches!(split_cycles(&t, &u, &u, cut), Err(SeriesError::Parameter { .. })));
+        let cut = Cut::Reversals { least: 0.1 };
+        assert!(matches!(split_cycles(&t, &u[1..], &u, cut), Err(SeriesError::Lengths { .. })));
+        assert_eq!(split_cycles(&t, &vec![1.0; t.len()], &u, cut).unwrap(), []);
+    }
+}

@@ -1,0 +1,24 @@
+//! Loops, regimes and steps: plain series in, numbers out, whether they were simulated or measured.
+//!
+//! Every quantity has one definition, written at its field. In reading order:
+//!
+//! * [`series`] – what a series must fulfil, and the error that says where it does not;
+//! * [`cycles`] – cuts a long record into cycles;
+//! * [`fretting`] – the quantities of one cycle: amplitudes, loop area, ratios, stiffness;
+//! * [`regime`] – thresholds between partial and gross slip, and on which side a cycle lies;
+//! * [`steps`] – the quantities of a drive: step length, back-step, mean speed, repeatability;
+//! * [`prefix`] – the SI prefix that makes a series readable.
+
+pub mod cycles;
+pub mod fretting;
+pub mod prefix;
+pub mod regime;
+pub mod series;
+pub mod steps;
+
+pub use cycles::{Cut, split_cycles};
+pub use fretting::Cycle;
+pub use prefix::Prefix;
+pub use regime::{Regime, Thresholds};
+pub use series::SeriesError;
+pub use steps::{Steady, Step, Steps};

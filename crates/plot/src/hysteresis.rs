@@ -1,0 +1,67 @@
+//! Hysteresis loops: tangential force over displacement.
+
+use crate::Label;
+use crate::figure::{Arrangement, Axis, Figure, Panel, Reference, Series};
+
+/// One loop, of a contact or of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HysteresisLoop<'a> {
+    /// Name in the legend.
+    pub name: &'a str,
+    /// Displacement u, m.
+    pub u: &'a [f64],
+    /// Tangential force `F_x`, N.
+    pub force: &'a [f64],
+    /// Displacement `u_c` at which gross slip starts, m; none where it is unknown or changes.
+    pub gross_slip: Option<f64>,
+    /// Limit force `μF_N`, N; none where it is unknown or changes.
+    pub limit: Option<f64>,
+}
+
+/// Force over displacement: in units on the left; on the right, for the loops that have them, divided by `u_c` and
+/// `μF_N`, with the limits ±1. The left panel shows the limit `μF_N` where all loops have the same.
+pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> {
+    let plain = Panel {
+        x: Axis::new(Label::plain("displacement u"), "m"),
+        y: Axis::new(Label::markup("tangential force F_x"), "N"),
+        series: loops.iter().map(|l| Series::new(l.name, l.u, l.force)).collect(),
+        references: common_limit(loops).map(limits).unwrap_or_default(),
+        ..Panel::default()
+    };
+    // Places in the palette go with the left panel, so that one legend serves both.
+    let scaled: Vec<Series<'a>> =
+        loops.iter().enumerate().filter_map(|(place, l)| normalised(place, l)).collect();
+    let mut panels = vec![plain];
+    if !scaled.is_empty() {
+        panels.push(Panel {
+            x: Axis::new(Label::markup("u/u_c"), ""),
+            y: Axis::new(Label::markup("F_x/(μF_N)"), ""),
+            series: scaled,
+            references: limits(1.0),
+            ..Panel::default()
+        });
+    }
+    Figure { title: Label::plain(title), panels, arrangement: Arrangement::Row, ..Figure::default() }
+}
+
+/// The limit force of all loops; none where they differ or one has none.
+fn common_limit(loops: &[HysteresisLoop<'_>]) -> Option<f64> {
+    let first = usable(loops.first()?.limit)?;
+    loops.iter().all(|l| l.limit == Some(first)).then_some(first)
+}
+
+fn limits(of: f64) -> Vec<Reference> {
+    [of, -of].map(|y| Reference::Horizontal { y, label: Label::markup("±μF_N") }).to_vec()
+}
+
+fn usable(value: Option<f64>) -> Option<f64> {
+    value.filter(|v| *v > 0.0 && v.is_finite())
+}
+
+fn normalised<'a>(place: usize, l: &HysteresisLoop<'a>) -> Option<Series<'a>> {
+    let (gross_slip, limit) = (usable(l.gross_slip)?, usable(l.limit)?);
+    let divided = |values: &[f64], by: f64| -> Vec<f64> { values.iter().map(|v| v / by).collect() };
+    let mut series = Series::new(l.name, divided(l.u, gross_slip), divided(l.force, limit));
+    series.style.ink = Some(crate::Ink::Palette(place));
+    Some(series)
+}

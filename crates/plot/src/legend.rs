@@ -1,0 +1,149 @@
+//! Legends: beside the data, never over it.
+
+use crate::figure::{Panel, Reference};
+use crate::theme::Stroke;
+use crate::{Label, PlotError, Theme};
+
+/// One line of a legend's list.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Entry {
+    pub(crate) label: Label,
+    /// None for the note that entries were left out.
+    pub(crate) stroke: Option<Stroke>,
+}
+
+/// Entries in rows.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Legend {
+    /// Entries with their left edges, px from the legend's.
+    pub(crate) rows: Vec<Vec<(f64, Entry)>>,
+}
+
+/// Length of the line sample, em.
+pub(crate) const SAMPLE: f64 = 2.3;
+/// Between sample and text, em.
+pub(crate) const SAMPLE_GAP: f64 = 0.4;
+/// Height of a row, em.
+pub(crate) const ROW: f64 = 1.4;
+/// Between two entries, em.
+const ENTRY_GAP: f64 = 1.3;
+
+/// What a panel's legend has to name: labelled series in order, then labelled reference lines, each name and
+/// look once.
+pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
+    let series = panel.series.iter().enumerate();
+    let curves = series.map(|(place, s)| (s.label.clone(), theme.stroke(s.style, place)));
+    let lines = panel.references.iter().map(|reference| match reference {
+        Reference::Horizontal { label, .. } | Reference::Vertical { label, .. } => {
+            (label.clone(), theme.reference())
+        }
+    });
+    let mut entries: Vec<Entry> = Vec::new();
+    for (label, stroke) in curves.chain(lines).filter(|(label, _)| !label.is_empty()) {
+        let entry = Entry { label, stroke: Some(stroke) };
+        if !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    }
+    entries
+}
+
+impl Entry {
+    /// Width of the line sample and its gap, px.
+    fn sample(&self, em: f64) -> f64 {
+        if self.stroke.is_some() { (SAMPLE + SAMPLE_GAP) * em } else { 0.0 }
+    }
+
+    fn width(&self, em: f64) -> Result<f64, PlotError> {
+        Ok(self.sample(em) + self.label.width(em)?)
+    }
+}
+
+impl Legend {
+    /// Entries in as few rows of a width as hold them; what needs more than `most` rows is only counted.
+    pub(crate) fn new(entries: &[Entry], width: f64, em: f64, most: usize) -> Result<Self, PlotError> {
+        let all = Self::flow(entries, width, em)?;
+        if all.rows.len() <= most {
+            return Ok(all);
+        }
+        // Leave out from the end until the rest and the note fit.
+        for kept in (0..entries.len()).rev() {
+            let mut shorter = entries[..kept].to_vec();
+            shorter.push(Entry {
+                label: Label::plain(&format!("… and {} more", entries.len() - kept)),
+                stroke: None,
+            });
+            let legend = Self::flow(&shorter, width, em)?;
+            if legend.rows.len() <= most {
+                return Ok(legend);
+            }
+        }
+        Ok(Self::default())
+    }
+
+    /// Width of the widest row, px.
+    pub(crate) fn width(&self, em: f64) -> Result<f64, PlotError> {
+        let mut most = 0.0_f64;
+        for (left, entry) in self.rows.iter().filter_map(|row| row.last()) {
+            most = most.max(left + entry.width(em)?);
+        }
+        Ok(most)
+    }
+
+    /// Height, px.
+    pub(crate) fn height(&self, em: f64) -> f64 {
+        self.rows.len() as f64 * ROW * em
+    }
+
+    fn flow(entries: &[Entry], width: f64, em: f64) -> Result<Self, PlotError> {
+        let mut rows: Vec<Vec<(f64, Entry)>> = Vec::new();
+        let mut at = 0.0;
+        for entry in entries {
+            let label = entry.label.cut(em, width - entry.sample(em))?;
+            let entry = Entry { label, stroke: entry.stroke };
+            let long = entry.width(em)?;
+            match rows.last_mut() {
+                Some(row) if at + long <= width => row.push((at, entry)),
+                _ => {
+                    at = 0.0;
+                    rows.push(vec![(0.0, entry)]);
+                }
+            }
+            at += long + ENTRY_GAP * em;
+        }
+        Ok(Self { rows })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Series;
+
+    fn panel(names: usize) -> Panel<'static> {
+        let series =
+            (0..names).map(|i| Series::new(format!("series number {i}"), vec![0.0], vec![0.0])).collect();
+        Panel { series, ..Panel::default() }
+    }
+
+    #[test]
+    fn rows_wrap_and_a_crowd_is_counted() {
+        let theme = Theme::light();
+        let few = Legend::new(&entries(&panel(5), &theme), 1000.0, 30.0, 3).unwrap();
+        assert_eq!(few.rows.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 1]);
+        let many = Legend::new(&entries(&panel(50), &theme), 1000.0, 30.0, 3).unwrap();
+        assert_eq!(many.rows.len(), 3);
+        let named = many.rows.iter().flatten().filter(|(_, entry)| entry.stroke.is_some()).count();
+        assert_eq!(many.rows[2].last().unwrap().1.label.text(), format!("… and {} more", 50 - named));
+        assert!(named >= 5 && many.width(30.0).unwrap() <= 1000.0);
+    }
+
+    #[test]
+    fn one_name_is_listed_once() {
+        let theme = Theme::light();
+        let line = |y| Reference::Horizontal { y, label: Label::plain("limit") };
+        let panel = Panel { references: vec![line(1.0), line(-1.0)], ..panel(0) };
+        assert_eq!(entries(&panel, &theme).len(), 1);
+        assert!(Legend::new(&[], 100.0, 30.0, 3).unwrap().rows.is_empty());
+    }
+}

@@ -1,0 +1,84 @@
+//! The range of values an axis has to show.
+
+use crate::figure::{Panel, Reference};
+
+/// Largest magnitude that is drawn: differences and squares of such values are still finite.
+pub(crate) const LARGEST: f64 = 1e150;
+/// Smallest span and magnitude told from zero.
+const SMALLEST: f64 = 1e-150;
+/// Spans below this share of the magnitude are round-off: the series is constant.
+const ROUND_OFF: f64 = 1e-13;
+/// Half the range shown around a constant, as a share of it.
+const AROUND_CONSTANT: f64 = 0.05;
+
+/// Smallest and largest of the values seen; none where none was seen.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Extent(Option<(f64, f64)>);
+
+impl Extent {
+    fn include(&mut self, value: f64) {
+        let (low, high) = self.0.unwrap_or((value, value));
+        self.0 = Some((low.min(value), high.max(value)));
+    }
+
+    pub(crate) fn union(self, other: Self) -> Self {
+        match (self.0, other.0) {
+            (Some((a, b)), Some((c, d))) => Self(Some((a.min(c), b.max(d)))),
+            (some, none) => Self(some.or(none)),
+        }
+    }
+
+    /// A range of some width that holds every value, with a margin on both sides; none of nothing.
+    pub(crate) fn range(self, margin: f64) -> Option<(f64, f64)> {
+        let (low, high) = self.0?;
+        let size = low.abs().max(high.abs());
+        if high - low <= (ROUND_OFF * size).max(SMALLEST) {
+            let centre = low / 2.0 + high / 2.0;
+            let half = (1.0 + 2.0 * margin) * if size <= SMALLEST { 1.0 } else { AROUND_CONSTANT * size };
+            return Some((centre - half, centre + half));
+        }
+        Some((low - margin * (high - low), high + margin * (high - low)))
+    }
+}
+
+/// Extents of a panel in x and y, reference lines included; drawable points alone.
+pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
+    let (mut x, mut y) = (Extent::default(), Extent::default());
+    for point in panel.series.iter().flat_map(|series| series.points().flatten()) {
+        x.include(point.0);
+        y.include(point.1);
+    }
+    for reference in &panel.references {
+        match *reference {
+            Reference::Horizontal { y: value, .. } if value.abs() <= LARGEST => y.include(value),
+            Reference::Vertical { x: value, .. } if value.abs() <= LARGEST => x.include(value),
+            _ => {}
+        }
+    }
+    (x, y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(values: &[f64]) -> Option<(f64, f64)> {
+        let mut extent = Extent::default();
+        values.iter().for_each(|&v| extent.include(v));
+        extent.range(0.0)
+    }
+
+    #[test]
+    fn every_extent_has_width() {
+        assert_eq!(range(&[]), None);
+        assert_eq!(range(&[1.0, -3.0]), Some((-3.0, 1.0)));
+        assert_eq!(range(&[0.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(&[5e-324]), Some((-1.0, 1.0)));
+        assert_eq!(range(&[2.0]), Some((1.9, 2.1)));
+        // Round-off of a constant is no signal.
+        let (low, high) = range(&[1.0, 1.0 + f64::EPSILON]).unwrap();
+        assert!(high - low > 0.09);
+        let (low, high) = range(&[-LARGEST, LARGEST]).unwrap();
+        assert!((high - low).is_finite());
+    }
+}

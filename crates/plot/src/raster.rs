@@ -1,0 +1,198 @@
+//! The backend for pictures: coverage-exact strokes with round joins, glyphs as outlines.
+//!
+//! Plotters' own bitmap smooths lines of 1 px only, leaves a curve hollow where it runs over itself, and sets
+//! glyphs without their left bearing.
+
+use crate::font;
+use crate::paint::{BASELINE, FONT_SIZE, UNITS};
+use plotters_backend::text_anchor::HPos;
+use plotters_backend::{
+    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+    FontTransform,
+};
+use thiserror::Error;
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform,
+};
+
+/// A picture in the making.
+pub(crate) struct Raster {
+    pixmap: Pixmap,
+}
+
+/// What the raster cannot do.
+#[derive(Debug, Clone, Error)]
+pub(crate) enum RasterError {
+    /// The built-in font cannot be read.
+    #[error("the built-in font cannot be read")]
+    Font,
+    /// Only plain horizontal and vertical text is drawn.
+    #[error("this turn of a text is not supported")]
+    Turn,
+}
+
+type Drawn = Result<(), DrawingErrorKind<RasterError>>;
+
+/// A path is stroked in pieces of this many points: the cost of a single one grows faster than its length.
+const PIECE: usize = 1000;
+
+impl Raster {
+    /// A transparent picture; none for a size of zero or beyond memory.
+    pub(crate) fn new((width, height): (u32, u32)) -> Option<Self> {
+        Pixmap::new(width, height).map(|pixmap| Self { pixmap })
+    }
+
+    /// Red, green, blue of every pixel, row by row.
+    pub(crate) fn rgb(&self) -> Vec<u8> {
+        self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
+    }
+
+    fn fill_path(&mut self, path: &Path, colour: BackendColor, transform: Transform) {
+        self.pixmap.fill_path(path, &paint(colour), FillRule::Winding, transform, None);
+    }
+}
+
+impl DrawingBackend for Raster {
+    type ErrorType = RasterError;
+
+    fn get_size(&self) -> (u32, u32) {
+        (self.pixmap.width() * UNITS, self.pixmap.height() * UNITS)
+    }
+
+    fn ensure_prepared(&mut self) -> Drawn {
+        Ok(())
+    }
+
+    fn present(&mut self) -> Drawn {
+        Ok(())
+    }
+
+    fn draw_pixel(&mut self, (x, y): BackendCoord, color: BackendColor) -> Drawn {
+        self.draw_rect((x, y), (x + 1, y + 1), &color, true)
+    }
+
+    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Drawn {
+        self.draw_path([from, to], style)
+    }
+
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        style: &S,
+        fill: bool,
+    ) -> Drawn {
+        if !fill {
+            return self.draw_path([from, (to.0, from.1), to, (from.0, to.1), from], style);
+        }
+        let ((left, top), (right, bottom)) = (pixels(from), pixels(to));
+        if let Some(rect) = Rect::from_ltrb(left, top, right, bottom) {
+            self.pixmap.fill_rect(rect, &paint(style.color()), Transform::identity(), None);
+        }
+        Ok(())
+    }
+
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> Drawn {
+        let points: Vec<(f32, f32)> = path.into_iter().map(pixels).collect();
+        let stroke = Stroke {
+            width: style.stroke_width() as f32 / UNITS as f32,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        };
+        let paint = paint(style.color());
+        let mut start = 0;
+        while start + 1 < points.len() {
+            let end = (start + PIECE).min(points.len());
+            if let Some(path) = polyline(&points[start..end], false) {
+                self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
+            }
+            // Neighbouring pieces share a point.
+            start = end - 1;
+        }
+        Ok(())
+    }
+
+    fn draw_circle<S: BackendStyle>(
+        &mut self,
+        centre: BackendCoord,
+        radius: u32,
+        style: &S,
+        fill: bool,
+    ) -> Drawn {
+        let (x, y) = pixels(centre);
+        let Some(path) = PathBuilder::from_circle(x, y, radius as f32 / UNITS as f32) else { return Ok(()) };
+        if fill {
+            self.fill_path(&path, style.color(), Transform::identity());
+        } else {
+            let width = style.stroke_width() as f32 / UNITS as f32;
+            let stroke = Stroke { width, ..Stroke::default() };
+            self.pixmap.stroke_path(&path, &paint(style.color()), &stroke, Transform::identity(), None);
+        }
+        Ok(())
+    }
+
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> Drawn {
+        let points: Vec<(f32, f32)> = path.into_iter().map(pixels).collect();
+        if let Some(path) = polyline(&points, true) {
+            self.fill_path(&path, style.color(), Transform::identity());
+        }
+        Ok(())
+    }
+
+    /// Draws a text as plotters' SVG places it: top anchor, baseline [`BASELINE`] em below.
+    fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Drawn {
+        let failed = |e: RasterError| DrawingErrorKind::DrawingError(e);
+        let em = style.size() / FONT_SIZE / f64::from(UNITS);
+        let width = em * font::advance(text).map_err(|_| failed(RasterError::Font))?;
+        let start = match style.anchor().h_pos {
+            HPos::Left => 0.0,
+            HPos::Center => -width / 2.0,
+            HPos::Right => -width,
+        };
+        let (x, y) = pixels(at);
+        let turned = match style.transform() {
+            FontTransform::None => Transform::from_translate(x, y),
+            FontTransform::Rotate270 => Transform::from_row(0.0, -1.0, 1.0, 0.0, x, y),
+            _ => return Err(failed(RasterError::Turn)),
+        };
+        let mut outline = PathBuilder::new();
+        font::outline(text, em, &mut outline).map_err(|_| failed(RasterError::Font))?;
+        if let Some(path) = outline.finish() {
+            self.fill_path(&path, style.color(), turned.pre_translate(start as f32, (BASELINE * em) as f32));
+        }
+        Ok(())
+    }
+}
+
+fn polyline(points: &[(f32, f32)], closed: bool) -> Option<Path> {
+    let mut path = PathBuilder::with_capacity(points.len() + 1, points.len() + 1);
+    let mut points = points.iter();
+    let &(x, y) = points.next()?;
+    path.move_to(x, y);
+    points.for_each(|&(x, y)| path.line_to(x, y));
+    if closed {
+        path.close();
+    }
+    path.finish()
+}
+
+fn pixels((x, y): BackendCoord) -> (f32, f32) {
+    (x as f32 / UNITS as f32, y as f32 / UNITS as f32)
+}
+
+fn paint(colour: BackendColor) -> Paint<'static> {
+    let (r, g, b) = colour.rgb;
+    let mut paint = Paint::default();
+    let alpha = (colour.alpha.clamp(0.0, 1.0) * 255.0).round() as u8;
+    paint.set_color(Color::from_rgba8(r, g, b, alpha));
+    paint
+}

@@ -1,0 +1,263 @@
+//! What is drawn of a long series: no more than the picture can show, and no less.
+
+use std::collections::{HashMap, HashSet};
+
+/// A point of the picture, px.
+pub(crate) type Point = (f64, f64);
+
+/// Width of a column, px: whatever a curve does inside one shows as its outermost points.
+const COLUMN: f64 = 0.5;
+/// Polylines longer than this are searched for pieces that repeat earlier ones.
+const LONG: usize = 20_000;
+/// A curve's last stretch, px, which it is not said to retrace.
+const RECENT: f64 = 10.0;
+
+/// Polylines of a series of points with gaps (none). Of a run of points inside one column only the first, the last
+/// and the outermost in both directions stay, so a spike of a single sample among millions is drawn in full height.
+pub(crate) fn thinned(points: impl Iterator<Item = Option<Point>>) -> Vec<Vec<Point>> {
+    let mut lines = Vec::new();
+    let mut line = Vec::new();
+    let mut run: Option<Run> = None;
+    for point in points {
+        let Some(point) = point else {
+            run.take().into_iter().for_each(|run| run.finish(&mut line));
+            if !line.is_empty() {
+                lines.push(std::mem::take(&mut line));
+            }
+            continue;
+        };
+        match &mut run {
+            Some(run) if run.column == column(point) => run.include(point),
+            _ => {
+                run.take().into_iter().for_each(|run| run.finish(&mut line));
+                run = Some(Run::new(point));
+            }
+        }
+    }
+    run.into_iter().for_each(|run| run.finish(&mut line));
+    if !line.is_empty() {
+        lines.push(line);
+    }
+    lines
+}
+
+/// Drops pieces that run from the same spot to the same spot (a quarter of a pixel) as an earlier piece: the
+/// thousandth cycle of a closed loop costs nothing. Short polylines are left alone.
+pub(crate) fn without_repeats(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
+    if lines.iter().map(Vec::len).sum::<usize>() <= LONG {
+        return lines;
+    }
+    let spot = |(x, y): Point| ((x * 4.0).round() as i64, (y * 4.0).round() as i64);
+    let mut seen = HashSet::new();
+    let mut kept = Vec::new();
+    for line in lines {
+        let Some(&start) = line.first() else { continue };
+        let mut piece = vec![start];
+        for pair in line.windows(2) {
+            if seen.insert((spot(pair[0]), spot(pair[1]))) {
+                piece.push(pair[1]);
+                continue;
+            }
+            if piece.len() > 1 {
+                kept.push(std::mem::take(&mut piece));
+            }
+            piece.clear();
+            piece.push(pair[1]);
+        }
+        if piece.len() > 1 || line.len() == 1 {
+            kept.push(piece);
+        }
+    }
+    kept
+}
+
+/// Pieces of polylines that do not follow, within about a pixel, where the same curve has run before: dashes of a
+/// second cycle would fill the gaps of the first.
+pub(crate) fn without_retraced(lines: &[Vec<Point>]) -> Vec<Vec<Point>> {
+    let mut trail: HashMap<(i64, i64), f64> = HashMap::new();
+    let mut gone = 0.0;
+    let mut kept = Vec::new();
+    for line in lines {
+        let mut piece: Vec<Point> = line.first().copied().into_iter().collect();
+        for pair in line.windows(2) {
+            let (from, to) = (pair[0], pair[1]);
+            let way = (to.0 - from.0).hypot(to.1 - from.1);
+            let steps = way.ceil().max(1.0);
+            for k in 1..=steps as usize {
+                let share = k as f64 / steps;
+                let at = (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
+                gone += way / steps;
+                if retraced(&trail, at, gone) {
+                    if piece.len() > 1 {
+                        kept.push(std::mem::take(&mut piece));
+                    }
+                    piece.clear();
+                } else {
+                    trail.entry(cell(at)).or_insert(gone);
+                }
+                // Steps along one stretch add no corners; after a retraced one the piece starts afresh.
+                if piece.is_empty() || k as f64 == steps {
+                    piece.push(at);
+                }
+            }
+        }
+        if piece.len() > 1 || line.len() == 1 {
+            kept.push(piece);
+        }
+    }
+    kept
+}
+
+/// Whether the curve passed here, or next to here, before the last [`RECENT`] px of its way.
+fn retraced(trail: &HashMap<(i64, i64), f64>, at: Point, gone: f64) -> bool {
+    let (x, y) = cell(at);
+    let near = |dx: i64, dy: i64| trail.get(&(x + dx, y + dy)).is_some_and(|before| gone - before > RECENT);
+    (-1..=1).any(|dx| (-1..=1).any(|dy| near(dx, dy)))
+}
+
+fn cell((x, y): Point) -> (i64, i64) {
+    (x.floor() as i64, y.floor() as i64)
+}
+
+/// Length of polylines, px.
+pub(crate) fn length(lines: &[Vec<Point>]) -> f64 {
+    let way = |pair: &[Point]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+    lines.iter().flat_map(|line| line.windows(2)).map(way).sum()
+}
+
+fn column((x, _): Point) -> i64 {
+    (x / COLUMN).floor() as i64
+}
+
+/// Consecutive points inside one column, reduced to six, each with its place in the order of drawing.
+struct Run {
+    column: i64,
+    count: usize,
+    first: Point,
+    last: Point,
+    outermost: [(usize, Point); 4],
+}
+
+impl Run {
+    fn new(point: Point) -> Self {
+        Self { column: column(point), count: 1, first: point, last: point, outermost: [(0, point); 4] }
+    }
+
+    fn include(&mut self, point: Point) {
+        let place = self.count;
+        self.count += 1;
+        self.last = point;
+        let [left, right, top, bottom] = &mut self.outermost;
+        let replace = |slot: &mut (usize, Point), further: bool| {
+            if further {
+                *slot = (place, point);
+            }
+        };
+        replace(left, point.0 < left.1.0);
+        replace(right, point.0 > right.1.0);
+        replace(top, point.1 < top.1.1);
+        replace(bottom, point.1 > bottom.1.1);
+    }
+
+    fn finish(self, line: &mut Vec<Point>) {
+        let mut points = [(0, self.first); 6];
+        points[1..5].copy_from_slice(&self.outermost);
+        points[5] = (self.count - 1, self.last);
+        points.sort_by_key(|&(place, _)| place);
+        let mut before = None;
+        for (place, point) in points {
+            if before != Some(place) {
+                line.push(point);
+            }
+            before = Some(place);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn extremes(points: impl Iterator<Item = Point>) -> [f64; 4] {
+        points.fold(
+            [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY],
+            |[a, b, c, d], (x, y)| [a.min(x), b.max(x), c.min(y), d.max(y)],
+        )
+    }
+
+    #[test]
+    fn a_million_points_become_thousands_and_keep_a_single_spike() {
+        let n = 1_000_000;
+        let points: Vec<Point> = (0..n)
+            .map(|i| {
+                (1000.0 * f64::from(i) / f64::from(n), if i == 654_321 { -300.0 } else { f64::from(i % 7) })
+            })
+            .collect();
+        let lines = thinned(points.iter().copied().map(Some));
+        assert_eq!(lines.len(), 1);
+        assert!(lines[0].len() <= 6 * 2000 + 6, "{}", lines[0].len());
+        assert!(lines[0].contains(&points[654_321]));
+        assert_eq!(lines[0].first(), points.first());
+        assert_eq!(lines[0].last(), points.last());
+    }
+
+    #[test]
+    fn gaps_stay_gaps() {
+        let lines =
+            thinned([Some((0.0, 0.0)), None, None, Some((5.0, 1.0)), Some((9.0, 1.0)), None].into_iter());
+        assert_eq!(lines, [vec![(0.0, 0.0)], vec![(5.0, 1.0), (9.0, 1.0)]]);
+    }
+
+    #[test]
+    fn repeated_cycles_are_drawn_once() {
+        let circle = |i: usize| {
+            let angle = std::f64::consts::TAU * (i % 400) as f64 / 400.0;
+            (500.0 + 300.0 * angle.cos(), 400.0 + 300.0 * angle.sin())
+        };
+        let lines = thinned((0..400_000).map(|i| Some(circle(i))));
+        assert!(lines[0].len() > 300_000);
+        let kept = without_repeats(lines);
+        assert!(kept.iter().map(Vec::len).sum::<usize>() < 1300);
+        let (all, drawn) = (extremes((0..400).map(circle)), extremes(kept.into_iter().flatten()));
+        assert_eq!(all, drawn);
+    }
+
+    #[test]
+    fn a_second_cycle_is_not_traced_again() {
+        // Circles sampled differently every time round: 2π·300 px are left of five rounds.
+        let circle = |i: usize| {
+            let angle = std::f64::consts::TAU * i as f64 / 399.3;
+            (500.0 + 300.0 * angle.cos(), 400.0 + 300.0 * angle.sin())
+        };
+        let once = without_retraced(&thinned((0..2000).map(|i| Some(circle(i)))));
+        let expected = std::f64::consts::TAU * 300.0;
+        assert!((length(&once) / expected - 1.0).abs() < 0.02, "{} of {expected}", length(&once));
+        // A curve that never comes back keeps its length.
+        let spiral = |i: usize| {
+            (
+                500.0 + 0.02 * i as f64 * (0.01 * i as f64).cos(),
+                400.0 + 0.02 * i as f64 * (0.01 * i as f64).sin(),
+            )
+        };
+        let lines = thinned((0..10_000).map(|i| Some(spiral(i))));
+        assert!((length(&without_retraced(&lines)) / length(&lines) - 1.0).abs() < 0.02);
+    }
+
+    proptest! {
+        #[test]
+        fn extremes_of_every_stretch_stay(
+            points in proptest::collection::vec(proptest::option::weighted(0.95, (0.0..40.0_f64, -50.0..50.0_f64)), 0..300)
+        ) {
+            // Stretch by stretch between gaps, nothing is added, the order stays, and the bounding box is the same.
+            let lines = thinned(points.iter().copied());
+            let stretches: Vec<&[Option<Point>]> = points.split(Option::is_none).filter(|s| !s.is_empty()).collect();
+            prop_assert_eq!(lines.len(), stretches.len());
+            for (line, stretch) in lines.iter().zip(stretches) {
+                let mut rest = stretch.iter().flatten();
+                prop_assert!(line.iter().all(|p| rest.any(|q| q == p)));
+                prop_assert_eq!(extremes(line.iter().copied()), extremes(stretch.iter().flatten().copied()));
+            }
+        }
+    }
+}

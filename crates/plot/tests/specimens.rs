@@ -1,0 +1,334 @@
+//! Whole figures: closed-form loops, a staircase, and what a user may throw at them. Every picture is written to
+//! the build's folder for temporary files, to be looked at.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
+
+use proptest::prelude::*;
+use std::path::Path;
+use stickslip_plot::{
+    Arrangement, Axis, Dash, Figure, HysteresisLoop, Ink, Label, Panel, PlotError, Reference, Series, Theme,
+    Track, Trajectory, draw_png, draw_svg, loop_figure, read_text, trajectory_figure,
+};
+
+/// Draws both outputs, keeps them, checks what every figure must fulfil.
+fn draw(name: &str, figure: &Figure<'_>) -> Vec<u8> {
+    let bytes = draw_png(figure).unwrap();
+    let drawing = draw_svg(figure).unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    std::fs::write(folder.join(format!("{name}.png")), &bytes).unwrap();
+    std::fs::write(folder.join(format!("{name}.svg")), &drawing).unwrap();
+    assert_eq!(bytes, draw_png(figure).unwrap(), "the same figure gives the same bytes");
+    let (width, height, pixels) = decode(&bytes);
+    assert_eq!((width, height), figure.size);
+    assert_clear_border(&pixels, width, height);
+    bytes
+}
+
+fn decode(bytes: &[u8]) -> (u32, u32, Vec<u8>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    (info.width, info.height, pixels)
+}
+
+/// Nothing is cut: the outermost pixels all have the background's colour.
+fn assert_clear_border(pixels: &[u8], width: u32, height: u32) {
+    let (w, h) = (width as usize, height as usize);
+    let pixel = |x: usize, y: usize| &pixels[3 * (y * w + x)..3 * (y * w + x) + 3];
+    let corner = pixel(0, 0).to_vec();
+    let (mut rows, mut columns) =
+        ((0..w).flat_map(|x| [(x, 0), (x, h - 1)]), (0..h).flat_map(|y| [(0, y), (w - 1, y)]));
+    assert!(rows.all(|(x, y)| pixel(x, y) == corner) && columns.all(|(x, y)| pixel(x, y) == corner));
+}
+
+/// First loading to amplitude U and two cycles of the closed-form loop of a sphere (p = 3/2), u in m, F_x in N.
+fn sphere_loop(ratio: f64, u_c: f64, limit: f64) -> (Vec<f64>, Vec<f64>) {
+    let law = |way: f64, folds: f64| folds * limit * (1.0 - (1.0 - way / (folds * u_c)).max(0.0).powf(1.5));
+    let amplitude = ratio * u_c;
+    let top = law(amplitude, 1.0);
+    let steps = 400;
+    let share = |i: usize| i as f64 / steps as f64;
+    let mut points: Vec<(f64, f64)> =
+        (0..steps).map(|i| share(i) * amplitude).map(|u| (u, law(u, 1.0))).collect();
+    for _ in 0..2 {
+        points.extend(
+            (0..steps).map(|i| 2.0 * amplitude * share(i)).map(|w| (amplitude - w, top - law(w, 2.0))),
+        );
+        points.extend(
+            (0..=steps).map(|i| 2.0 * amplitude * share(i)).map(|w| (w - amplitude, law(w, 2.0) - top)),
+        );
+    }
+    points.into_iter().unzip()
+}
+
+/// A sawtooth foot (slow rise, flyback of 2 %) and a slider that follows its rise after a backlash of 0.3 strokes,
+/// stays behind in the flyback and rings.
+fn staircase(count: usize, backlash: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+    let (stroke, period) = (1e-6, 1e-3);
+    let n = 500;
+    let (mut t, mut foot, mut slider) = (vec![], vec![], vec![]);
+    for i in 0..=count * n {
+        let (k, phase) = ((i / n) as f64, (i % n) as f64 / n as f64);
+        let rise = (phase / 0.98).min(1.0);
+        let ring = 0.08 * (-phase * 12.0).exp() * (phase * 80.0).sin() * f64::from(k > 0.0);
+        t.push((k + phase) * period);
+        foot.push(stroke * (rise - ((phase - 0.98) / 0.02).max(0.0)));
+        slider.push(stroke * ((1.0 - backlash) * k + (rise - backlash).max(0.0) - ring));
+    }
+    (t, foot, slider)
+}
+
+#[test]
+fn loops_of_several_amplitudes() {
+    let (u_c, limit) = (39.695e-9, 0.06);
+    let ratios = [0.4, 0.7, 1.0, 1.4];
+    let data: Vec<_> = ratios.iter().map(|&ratio| sphere_loop(ratio, u_c, limit)).collect();
+    let names: Vec<String> = ratios.iter().map(|ratio| format!("U = {ratio:.1} u_c")).collect();
+    let loops: Vec<_> = data
+        .iter()
+        .zip(&names)
+        .map(|((u, force), name)| HysteresisLoop {
+            name,
+            u,
+            force,
+            gross_slip: Some(u_c),
+            limit: Some(limit),
+        })
+        .collect();
+    let mut figure = loop_figure("Hysteresis of a sphere on a plane, constant normal force", &loops);
+    figure.provenance = vec![
+        ("Software".into(), "stickslip 0.1.0".into()),
+        ("Scenario hash".into(), "1f2e3d".into()),
+        ("Comment".into(), "tolerance 1e-8, μ = 0.2, größer\nsecond line".into()),
+        ("Stepper".into(), "event ∂".into()),
+    ];
+    let bytes = draw("loops", &figure);
+    let texts = read_text(&bytes).unwrap();
+    for pair in &figure.provenance {
+        assert!(texts.contains(pair), "{pair:?} in {texts:?}");
+    }
+    assert!(texts.iter().any(|(key, text)| key == "Title" && text.starts_with("Hysteresis")));
+    let drawing = draw_svg(&figure).unwrap();
+    assert!(drawing.contains("tolerance 1e-8") && drawing.contains("width=\"1600\""));
+}
+
+#[test]
+fn one_loop_without_limits() {
+    let (u, force) = sphere_loop(0.9, 3e-6, 12.0);
+    draw(
+        "loop-plain",
+        &loop_figure(
+            "",
+            &[HysteresisLoop { name: "ball_1", u: &u, force: &force, gross_slip: None, limit: None }],
+        ),
+    );
+}
+
+#[test]
+fn staircase_over_a_sawtooth() {
+    let ((t, foot, slider), (_, _, loaded)) = (staircase(6, 0.3), staircase(6, 0.65));
+    let relative =
+        |slider: &[f64]| -> Vec<f64> { foot.iter().zip(slider).map(|(foot, x)| foot - x).collect() };
+    let (u, u_loaded) = (relative(&slider), relative(&loaded));
+    let trajectory = Trajectory {
+        time: &t,
+        feet: vec![Track { name: "foot", values: &foot }],
+        sliders: vec![
+            Track { name: "slider, no load", values: &slider },
+            Track { name: "slider, λ = 0.5", values: &loaded },
+        ],
+        relative: vec![
+            Track { name: "slider, no load", values: &u },
+            Track { name: "slider, λ = 0.5", values: &u_loaded },
+        ],
+        gross_slip: None,
+    };
+    let figure = trajectory_figure("Inertia drive, stroke 1 µm, period 1 ms", &trajectory);
+    draw("staircase", &figure);
+    let alone = Trajectory { relative: vec![], ..trajectory };
+    draw("staircase-alone", &trajectory_figure("Staircase", &alone));
+}
+
+#[test]
+fn a_million_points() {
+    let n = 1_000_000;
+    let t: Vec<f64> = (0..n).map(|i| f64::from(i) * 1e-6).collect();
+    // A beat, noise of a linear congruence, and one spike.
+    let mut seed = 1_u32;
+    let mut noise = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(seed) / f64::from(u32::MAX) - 0.5
+    };
+    let mut x: Vec<f64> =
+        t.iter().map(|t| 1e-6 * ((40.0 * t).sin() * (9000.0 * t).sin() + 0.2 * noise())).collect();
+    x[700_123] = 3e-6;
+    let trajectory =
+        Trajectory { time: &t, sliders: vec![Track { name: "slider", values: &x }], ..Trajectory::default() };
+    let figure = trajectory_figure("One million points", &trajectory);
+    let (width, height, pixels) = decode(&draw("million", &figure));
+    // The spike reaches the top of the frame, far above the rest: blue where nothing else is.
+    let blue = |p: &[u8]| p[2] > 150 && p[0] < 100;
+    let upper = &pixels[..3 * (width * height / 3) as usize];
+    assert!(upper.chunks(3).filter(|p| blue(p)).count() > 100);
+}
+
+#[test]
+fn many_cycles_of_one_loop() {
+    let (u, force) = sphere_loop(0.8, 40e-9, 0.06);
+    let cycles = |v: &[f64]| -> Vec<f64> { v[400..1202].iter().copied().cycle().take(802 * 600).collect() };
+    let (u, force) = (cycles(&u), cycles(&force));
+    let one = HysteresisLoop {
+        name: "600 cycles",
+        u: &u,
+        force: &force,
+        gross_slip: Some(40e-9),
+        limit: Some(0.06),
+    };
+    draw("cycles", &loop_figure("A limit cycle, six hundred times", &[one]));
+}
+
+fn panel(label: &str, xs: Vec<f64>, ys: Vec<f64>) -> Panel<'static> {
+    Panel {
+        x: Axis::new(Label::plain("time t"), "s"),
+        y: Axis::new(Label::plain("displacement u"), "m"),
+        series: vec![Series::new(label, xs, ys)],
+        ..Panel::default()
+    }
+}
+
+#[test]
+fn degenerate_series() {
+    let ramp: Vec<f64> = (0..10).map(f64::from).collect();
+    let panels = [
+        panel("empty", vec![], vec![]),
+        panel("not a number", ramp.clone(), vec![f64::NAN; 10]),
+        panel("one point", vec![1.0], vec![2e-6]),
+        panel("constant", ramp.clone(), vec![5e-6; 10]),
+        panel(
+            "with gaps",
+            ramp.clone(),
+            ramp.iter().map(|x| if *x == 5.0 { f64::INFINITY } else { 1e-9 * x }).collect(),
+        ),
+        panel("far away", ramp.clone(), ramp.iter().map(|x| 0.001_234_5 + 1e-10 * x).collect()),
+    ];
+    for (place, rows) in panels.chunks(3).enumerate() {
+        let figure = Figure {
+            title: "Degenerate series".into(),
+            panels: rows.to_vec(),
+            size: (2400, 900),
+            ..Figure::default()
+        };
+        draw(&format!("degenerate-{place}"), &figure);
+    }
+    let huge = panel("huge", vec![-1e150, 1e150, 1e300, 3.0], vec![1e-320, 1e150, 0.0, f64::MIN]);
+    draw("huge", &Figure { panels: vec![huge], ..Figure::default() });
+}
+
+#[test]
+fn crowded_legends_and_long_words() {
+    let ramp: Vec<f64> = (0..50).map(f64::from).collect();
+    let series = (0..40)
+        .map(|k| {
+            let ys: Vec<f64> = ramp.iter().map(|x| (x / 8.0 + f64::from(k) / 6.0).sin()).collect();
+            Series::new(format!("sweep {k}: normal force {} mN", 10 * k), ramp.clone(), ys)
+        })
+        .collect();
+    let long =
+        "An unreasonably long title that goes on about the drive, its preload, its stroke, and its period "
+            .repeat(4);
+    let crowded = Panel {
+        x: Axis::new(Label::plain(&"a label far longer than its axis ".repeat(5)), "s"),
+        y: Axis::new(Label::plain(&"another label longer than its axis ".repeat(3)), "1"),
+        series,
+        references: vec![Reference::Vertical { x: 20.0, label: "start".into() }],
+        aspect: Some(1.0),
+        ..Panel::default()
+    };
+    draw("crowded", &Figure { title: long.as_str().into(), panels: vec![crowded], ..Figure::default() });
+}
+
+#[test]
+fn all_line_styles() {
+    let ramp: Vec<f64> = (0..200).map(|i| f64::from(i) / 20.0).collect();
+    let series = (0..8)
+        .map(|k| {
+            let ys: Vec<f64> = ramp.iter().map(|x| (x - 0.3 * f64::from(k)).sin() + f64::from(k)).collect();
+            Series::new(format!("curve {k}"), ramp.clone(), ys)
+        })
+        .collect();
+    let panel =
+        Panel { x: Axis::new("x".into(), "m"), y: Axis::new("y".into(), ""), series, ..Panel::default() };
+    draw(
+        "styles",
+        &Figure { title: "Line styles".into(), panels: vec![panel], size: (800, 500), ..Figure::default() },
+    );
+}
+
+#[test]
+fn a_dark_theme_is_a_struct_away() {
+    let (u, force) = sphere_loop(0.9, 40e-9, 0.06);
+    let one = HysteresisLoop { name: "", u: &u, force: &force, gross_slip: Some(40e-9), limit: Some(0.06) };
+    let mut figure = loop_figure("Dark", &[one]);
+    let light = Theme::light();
+    figure.theme = Theme {
+        background: stickslip_plot::Colour(0x12, 0x14, 0x18),
+        foreground: stickslip_plot::Colour(0xEE, 0xEE, 0xEE),
+        grid: stickslip_plot::Colour(0x33, 0x36, 0x3C),
+        ..light
+    };
+    figure.panels[0].series[0].style.ink = Some(Ink::Palette(5));
+    figure.panels[1].series[0].style.dash = Some(Dash::Dotted);
+    draw("dark", &figure);
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused() {
+    let fine = || panel("fine", vec![0.0, 1.0], vec![0.0, 1.0]);
+    let refused = |figure: &Figure<'_>| (draw_png(figure).unwrap_err(), draw_svg(figure).unwrap_err()).0;
+    assert_eq!(refused(&Figure::default()), PlotError::NoPanels);
+    let size = Figure { panels: vec![fine()], size: (100, 100_000), ..Figure::default() };
+    assert_eq!(refused(&size), PlotError::Size { width: 100, height: 100_000 });
+    let lengths = Figure { panels: vec![fine(), panel("", vec![1.0], vec![])], ..Figure::default() };
+    assert_eq!(refused(&lengths), PlotError::Lengths { panel: 1, series: 0, xs: 1, ys: 0 });
+    let crowd = Figure { panels: vec![fine(); 20], ..Figure::default() };
+    assert!(matches!(refused(&crowd), PlotError::NoRoom { .. }));
+    let key = Figure {
+        panels: vec![fine()],
+        provenance: vec![(" key".into(), String::new())],
+        ..Figure::default()
+    };
+    assert_eq!(draw_png(&key).unwrap_err(), PlotError::Key(" key".into()));
+    assert!(read_text(b"no picture").is_err());
+}
+
+fn any_value() -> impl Strategy<Value = f64> {
+    prop_oneof![4 => -1e-6..1e-6_f64, 1 => proptest::num::f64::ANY, 1 => Just(f64::NAN), 1 => Just(f64::INFINITY), 1 => Just(0.0)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+    #[test]
+    fn no_series_makes_it_panic(
+        points in proptest::collection::vec((any_value(), any_value()), 0..60),
+        references in proptest::collection::vec(any_value(), 0..3),
+        (column, share_x) in (any::<bool>(), any::<bool>()),
+        (title, unit) in (any::<String>(), "[a-zµ²%]{0,4}"),
+    ) {
+        let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        let mut first = panel(&title, xs.clone(), ys.clone());
+        first.y.unit = unit;
+        first.aspect = references.first().copied();
+        first.share = references.last().copied().unwrap_or(1.0);
+        first.references = references.iter().map(|&y| Reference::Horizontal { y, label: Label::markup(&title) }).collect();
+        let arrangement = if column { Arrangement::Column { share_x } } else { Arrangement::Row };
+        let panels = vec![first, panel("b", ys, xs)];
+        let figure = Figure { title: Label::markup(&title), panels, arrangement, size: (800, 600), ..Figure::default() };
+        match draw_png(&figure) {
+            Ok(bytes) => {
+                let (width, height, pixels) = decode(&bytes);
+                assert_clear_border(&pixels, width, height);
+            }
+            Err(error) => prop_assert!(matches!(error, PlotError::NoRoom { .. }), "{}", error),
+        }
+        prop_assert_eq!(draw_svg(&figure).is_ok(), draw_png(&figure).is_ok());
+    }
+}
