@@ -1,0 +1,107 @@
+//! The folder of a run: its files appear together, each whole.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+
+/// Pictures a run may leave; those of an earlier run are removed, lest they be taken for this one's.
+const PICTURES: [&str; 2] = ["loop.png", "trajectory.png"];
+
+/// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
+/// the end: after a crash there is the old file or the whole new one.
+#[derive(Debug)]
+pub(crate) struct Folder {
+    path: PathBuf,
+    staged: Vec<(&'static str, NamedTempFile)>,
+}
+
+impl Folder {
+    /// Makes the folder if it is not there.
+    pub(crate) fn make(path: &Path) -> io::Result<Self> {
+        fs::create_dir_all(path)?;
+        Ok(Self { path: path.to_owned(), staged: Vec::new() })
+    }
+
+    /// An empty file beside the place of `name`.
+    pub(crate) fn draft(&self, name: &str) -> io::Result<NamedTempFile> {
+        let prefix = format!(".{name}-");
+        let mut builder = Builder::new();
+        builder.prefix(&prefix);
+        // Results are for everybody whom the user's mask lets read; temporary files are for nobody else by default.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        builder.tempfile_in(&self.path)
+    }
+
+    /// Takes a written draft as the file `name`; it appears with [`Self::publish`].
+    pub(crate) fn stage(&mut self, name: &'static str, mut file: NamedTempFile) -> io::Result<()> {
+        file.flush()?;
+        file.as_file().sync_all()?;
+        self.staged.push((name, file));
+        Ok(())
+    }
+
+    /// Writes a whole file; it appears with [`Self::publish`].
+    pub(crate) fn write(&mut self, name: &'static str, bytes: &[u8]) -> io::Result<()> {
+        let mut file = self.draft(name)?;
+        file.write_all(bytes)?;
+        self.stage(name, file)
+    }
+
+    /// Names staged so far.
+    pub(crate) fn names(&self) -> Vec<&'static str> {
+        self.staged.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// Gives all files their names, in the order they were staged.
+    pub(crate) fn publish(self) -> io::Result<()> {
+        for picture in PICTURES {
+            if !self.staged.iter().any(|(name, _)| *name == picture) {
+                match fs::remove_file(self.path.join(picture)) {
+                    Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                    _ => {}
+                }
+            }
+        }
+        for (name, file) in self.staged {
+            file.persist(self.path.join(name)).map_err(|error| error.error)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn listing(path: &Path) -> Vec<String> {
+        let entries = fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = entries.collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn files_appear_together_and_old_pictures_go() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("a/b");
+        let mut folder = Folder::make(&path).unwrap();
+        fs::write(path.join("loop.png"), "old").unwrap();
+        fs::write(path.join("mine.txt"), "kept").unwrap();
+        folder.write("trace.csv", b"t\n").unwrap();
+        assert!(!path.join("trace.csv").exists());
+        folder.publish().unwrap();
+        assert_eq!(listing(&path), ["mine.txt", "trace.csv"]);
+        assert_eq!(fs::read(path.join("trace.csv")).unwrap(), b"t\n");
+    }
+
+    #[test]
+    fn nothing_is_left_of_what_was_not_published() {
+        let root = tempfile::tempdir().unwrap();
+        let mut folder = Folder::make(root.path()).unwrap();
+        folder.write("trace.csv", b"t\n").unwrap();
+        drop(folder);
+        assert!(listing(root.path()).is_empty());
+    }
+}

@@ -1,0 +1,154 @@
+//! A scenario that was found good, with everything its run needs.
+
+use crate::table::Columns;
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use stickslip_drive::scene::Normal;
+use stickslip_drive::scene::Varying::Constant;
+use stickslip_drive::{Channel, Model, SceneError, State, Stepper};
+use stickslip_scenario::{Scenario, ScenarioError, suggestion};
+use thiserror::Error;
+
+/// Most numbers that the rows of a run may have together: what is kept of them takes up to 2 GB of memory, and the
+/// table some 5 GB of disk.
+pub(crate) const MOST_VALUES: u64 = 250_000_000;
+
+/// A checked scenario: no input can be wrong any more.
+pub(crate) struct Job {
+    /// The scenario's name: that of its file, without ending.
+    pub(crate) name: String,
+    /// Where its results go.
+    pub(crate) folder: PathBuf,
+    pub(crate) scenario: Scenario,
+    pub(crate) model: Model,
+    /// The state at t = 0.
+    pub(crate) start: State,
+    pub(crate) columns: Columns,
+    /// The scenario as it is run, in canonical JSON.
+    pub(crate) resolved: String,
+    /// SHA-256 of [`Self::resolved`], in hexadecimal digits.
+    pub(crate) hash: String,
+}
+
+/// Why a file makes no job.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(crate) enum Refusal {
+    /// Something in the scenario.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// A file without a name to call the results by.
+    #[error("{}: expected the name of a file", .0.display())]
+    NoName(PathBuf),
+    /// Two files of one name.
+    #[error("{}: its results would go to {}, like those of {}\n   help: give one of the files another name, or run them apart", .file.display(), .folder.display(), .other.display())]
+    SameFolder {
+        /// The later file.
+        file: PathBuf,
+        /// Where both would go.
+        folder: PathBuf,
+        /// The earlier file.
+        other: PathBuf,
+    },
+}
+
+impl Job {
+    /// Reads a scenario, builds it and checks everything that can be wrong with the input; writes nothing.
+    pub(crate) fn prepare(file: &Path, set: &[(String, String)], out: &Path) -> Result<Self, Refusal> {
+        let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();
+        let scenario = Scenario::load_with(file, &overrides)?;
+        let stem = file.file_stem().ok_or_else(|| Refusal::NoName(file.to_owned()))?;
+        let locate = |error: SceneError| scenario.locate(&error.path, error.message, error.help);
+        let model = Model::new(&scenario.scene).map_err(locate)?;
+        let start = model.start(&scenario.plan).map_err(locate)?;
+        let channels = model.channels();
+        let columns = columns(&scenario, &channels)?;
+        check_rows(&scenario, channels.len())?;
+        let resolved = scenario.resolved();
+        let hash = hash(&resolved);
+        let name = stem.to_string_lossy().into_owned();
+        Ok(Self { name, folder: out.join(stem), scenario, model, start, columns, resolved, hash })
+    }
+
+    /// The scenario's title, or else its name.
+    pub(crate) fn title(&self) -> &str {
+        if self.scenario.title.is_empty() { &self.name } else { &self.scenario.title }
+    }
+
+    /// Number of identical contacts behind contact `c`.
+    pub(crate) fn count(&self, c: usize) -> u32 {
+        self.scenario.scene.contacts.get(c).map_or(1, |contact| contact.part.count)
+    }
+
+    /// Whether the load of contact `c` never changes.
+    pub(crate) fn has_constant_load(&self, c: usize) -> bool {
+        self.scenario.scene.contacts.get(c).is_some_and(|contact| match contact.part.normal {
+            Normal::Force(load) | Normal::Indentation(load) | Normal::Radius(load) => {
+                matches!(load, Constant(_))
+            }
+        })
+    }
+
+    /// Name of the stepper and its tolerance or step with that word.
+    pub(crate) fn stepper(&self) -> (&'static str, &'static str, f64) {
+        match self.scenario.plan.stepper {
+            Stepper::Event { tolerance } => ("event", "tolerance", tolerance),
+            Stepper::Verlet { step } => ("verlet", "step_s", step),
+            Stepper::Rk4 { step } => ("rk4", "step_s", step),
+            Stepper::Dopri5 { tolerance } => ("dopri5", "tolerance", tolerance),
+        }
+    }
+}
+
+/// The columns asked for.
+fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, ScenarioError> {
+    let Some(names) = &scenario.channels else { return Ok(Columns::all(channels)) };
+    let mut places = Vec::new();
+    for (i, name) in names.iter().enumerate() {
+        let at = format!("output.channels[{i}]");
+        let Some(place) = channels.iter().position(|channel| channel.name == *name) else {
+            let help = suggestion(name, channels.iter().map(|channel| channel.name.as_str()));
+            return Err(scenario.locate(
+                &at,
+                format!("there is no channel \"{}\"", name.escape_debug()),
+                help,
+            ));
+        };
+        if places.contains(&place) {
+            return Err(scenario.locate(&at, "this channel is in the list already", None));
+        }
+        places.push(place);
+    }
+    Ok(Columns::chosen(channels, &places))
+}
+
+/// Refuses a run whose rows would fill the memory.
+fn check_rows(scenario: &Scenario, width: usize) -> Result<(), ScenarioError> {
+    let Some(every) = scenario.plan.every else { return Ok(()) };
+    let rows = scenario.plan.duration / every;
+    let most = MOST_VALUES as f64 / width as f64;
+    if rows <= most {
+        return Ok(());
+    }
+    let message =
+        format!("the run would have {rows:.3e} rows of {width} channels, expected at most {most:.3e}");
+    let help = format!("write a row every {:.1e} s or more seldom", scenario.plan.duration / most);
+    Err(scenario.locate("output.every", message, Some(help)))
+}
+
+fn hash(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(digits, "{byte:02x}");
+        digits
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_hash_is_sha_256() {
+        // FIPS 180-2, appendix B.1.
+        assert_eq!(super::hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

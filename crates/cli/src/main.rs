@@ -1,0 +1,37 @@
+//! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
+//!
+//! In reading order: [`arguments`]; [`batch`] (several files, messages in order) and its [`verdict`]; [`job`] (a
+//! scenario that was found good, with everything a run needs); [`run`] (one job from start to files); [`record`] with
+//! [`table`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared
+//! for the analysis); [`summary`], [`figures`], [`report`] (what is told); [`folder`] (how files are written);
+//! [`progress`], [`interrupt`].
+
+mod arguments;
+mod batch;
+mod books;
+mod contact_path;
+mod figures;
+mod folder;
+mod interrupt;
+mod job;
+mod periods;
+mod progress;
+mod real;
+mod record;
+mod report;
+mod run;
+mod series;
+mod summary;
+mod table;
+mod verdict;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let verdict = match Arguments::parse().command {
+        Command::Run(arguments) => batch::run(&arguments),
+    };
+    ExitCode::from(verdict.code())
+}

@@ -1,0 +1,61 @@
+//! Progress of the runs, on a terminal only.
+
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
+use std::io::IsTerminal;
+
+/// Ticks of a bar: one per 0.01 %.
+const TICKS: u64 = 10_000;
+
+/// The bars of all runs.
+pub(crate) struct Progress {
+    bars: MultiProgress,
+}
+
+/// The bar of one run.
+pub(crate) struct Bar {
+    bar: ProgressBar,
+    duration: f64,
+}
+
+impl Progress {
+    /// Shows bars on stderr if that is a terminal and they are wanted.
+    pub(crate) fn new(wanted: bool) -> Self {
+        let shown = wanted && std::io::stderr().is_terminal();
+        let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        Self { bars: MultiProgress::with_draw_target(target) }
+    }
+
+    /// A bar for a run of `duration` s.
+    pub(crate) fn start(&self, name: &str, duration: f64) -> Bar {
+        let bar = self.bars.add(ProgressBar::new(TICKS));
+        let rate = move |state: &ProgressState, text: &mut dyn Write| {
+            let simulated = state.pos() as f64 / TICKS as f64 * duration;
+            let _ = write!(text, "{:.3} s/s", simulated / state.elapsed().as_secs_f64().max(1e-9));
+        };
+        // The template is fixed and good; the plain style would do, too.
+        let style = ProgressStyle::with_template("{prefix} {percent:>3} % {bar:30} {eta} left, {rate}");
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+        bar.set_style(style.with_key("rate", rate));
+        bar.set_prefix(name.to_owned());
+        Bar { bar, duration }
+    }
+
+    /// Does something with the bars out of the way.
+    pub(crate) fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
+        self.bars.suspend(act)
+    }
+}
+
+impl Bar {
+    /// The run has come to time t, s.
+    pub(crate) fn at(&self, t: f64) {
+        self.bar.set_position((t / self.duration * TICKS as f64) as u64);
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

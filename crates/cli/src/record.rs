@@ -1,0 +1,106 @@
+//! What a run leaves behind while it goes on: tables on disk, series and books in memory.
+
+use crate::books::Books;
+use crate::folder::Folder;
+use crate::interrupt::Interrupt;
+use crate::job::{Job, MOST_VALUES};
+use crate::progress::Bar;
+use crate::series::Series;
+use crate::table::Table;
+use std::io;
+use stickslip_drive::{Event, Record};
+
+/// Names of the tables.
+pub(crate) const TRACE: &str = "trace.csv";
+/// Names of the tables.
+pub(crate) const EVENTS: &str = "events.csv";
+
+/// Writes rows and events as they come.
+pub(crate) struct Recorder<'a> {
+    job: &'a Job,
+    interrupt: &'a Interrupt,
+    bar: &'a Bar,
+    trace: Table,
+    events: Table,
+    kept: Kept,
+    failure: Option<io::Error>,
+}
+
+/// What stays in memory.
+pub(crate) struct Kept {
+    /// Rows and moments after events.
+    pub(crate) series: Series,
+    /// Energies.
+    pub(crate) books: Books,
+    /// Number of rows of the trace.
+    pub(crate) rows: u64,
+    /// Events left out of the series for want of room.
+    pub(crate) left_out: u64,
+}
+
+impl<'a> Recorder<'a> {
+    /// Opens the tables.
+    pub(crate) fn new(
+        job: &'a Job,
+        interrupt: &'a Interrupt,
+        bar: &'a Bar,
+        folder: &Folder,
+    ) -> io::Result<Self> {
+        let channels = job.model.channels();
+        Ok(Self {
+            job,
+            interrupt,
+            bar,
+            trace: Table::new(folder.draft(TRACE)?, job.columns.clone(), &[])?,
+            events: Table::new(folder.draft(EVENTS)?, job.columns.clone(), &["source", "kind"])?,
+            kept: Kept { series: Series::new(&channels), books: Books::new(&channels), rows: 0, left_out: 0 },
+            failure: None,
+        })
+    }
+
+    /// Closes the tables.
+    pub(crate) fn finish(self, folder: &mut Folder) -> io::Result<Kept> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
+        }
+        folder.stage(TRACE, self.trace.finish()?)?;
+        folder.stage(EVENTS, self.events.finish()?)?;
+        Ok(self.kept)
+    }
+
+    fn note(&mut self, result: io::Result<()>) {
+        if let Err(failure) = result {
+            self.failure.get_or_insert(failure);
+        }
+    }
+}
+
+impl Record for Recorder<'_> {
+    fn row(&mut self, values: &[f64]) {
+        let written = self.trace.write(&[], values);
+        self.note(written);
+        self.kept.rows += 1;
+        self.kept.series.push(values);
+        self.kept.books.read(values);
+        self.bar.at(values.first().copied().unwrap_or(0.0));
+    }
+
+    fn event(&mut self, event: &Event, values: &[f64]) {
+        let waveform = |w: usize| self.job.scenario.scene.waveforms.get(w).map(|w| w.name.clone());
+        let source = self.job.model.source_name(event.source, |w| waveform(w).unwrap_or_default());
+        let written = self.events.write(&[&source, event.kind.name()], values);
+        self.note(written);
+        self.kept.books.read(values);
+        // Rows are bounded before the run starts; events are not.
+        if self.kept.series.size() < 2 * MOST_VALUES {
+            self.kept.series.push(values);
+        } else {
+            self.kept.left_out += 1;
+        }
+    }
+
+    fn goes_on(&mut self, t: f64) -> bool {
+        self.bar.at(t);
+        self.failure.is_none() && !self.interrupt.is_raised()
+    }
+}

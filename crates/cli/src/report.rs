@@ -1,0 +1,128 @@
+//! What a run tells people, and how it ended.
+
+use crate::job::{Job, Refusal};
+use crate::real::Real;
+use crate::run::Outcome;
+use crate::summary::{Status, Summary};
+use crate::verdict::Verdict;
+use std::io;
+use stickslip_analysis::Prefix;
+
+/// A spread below this share of the step does not show in its digits.
+const SHOWN: f64 = 1e-4;
+
+/// What is to be printed of one scenario.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Report {
+    pub(crate) verdict: Verdict,
+    /// For people, on stdout.
+    pub(crate) result: String,
+    /// For machines, on stdout.
+    pub(crate) json: String,
+    /// On stderr.
+    pub(crate) error: String,
+}
+
+impl Report {
+    fn failed(verdict: Verdict, error: String) -> Self {
+        Self { verdict, result: String::new(), json: String::new(), error }
+    }
+
+    /// A scenario that is not run.
+    pub(crate) fn refused(refusal: &Refusal) -> Self {
+        Self::failed(Verdict::BadInput, refusal.to_string())
+    }
+
+    /// A scenario whose turn did not come.
+    pub(crate) fn skipped(job: &Job) -> Self {
+        Self::failed(Verdict::Interrupted, format!("{}: not run", job.name))
+    }
+
+    /// The folder of the results cannot be made.
+    pub(crate) fn no_folder(job: &Job, error: &io::Error) -> Self {
+        let folder = job.folder.display();
+        let help = "   help: choose another place with --out";
+        Self::failed(
+            Verdict::BadInput,
+            format!("{}: the folder {folder} cannot be made: {error}\n{help}", job.name),
+        )
+    }
+
+    /// The results cannot be written.
+    pub(crate) fn not_written(job: &Job, error: &io::Error) -> Self {
+        let folder = job.folder.display();
+        Self::failed(
+            Verdict::Stopped,
+            format!("{}: the results cannot be written to {folder}: {error}", job.name),
+        )
+    }
+
+    /// A run that has written its results.
+    pub(crate) fn ended(job: &Job, outcome: &Outcome, summary: &Summary) -> io::Result<Self> {
+        let folder = job.folder.display();
+        let (verdict, error) = match (&outcome.error, summary.status) {
+            (Some(error), Status::Interrupted) => {
+                (Verdict::Interrupted, format!("{}: {error}; the results so far are in {folder}", job.name))
+            }
+            (Some(error), _) => {
+                let help = error.advice();
+                let message = format!("{}: stopped: {error}\n   help: {help}", job.name);
+                (Verdict::Stopped, format!("{message}\n   the results so far are in {folder}"))
+            }
+            (None, _) => (Verdict::Done, String::new()),
+        };
+        let result = if verdict == Verdict::Done { result(job, outcome, summary) } else { String::new() };
+        Ok(Self { verdict, result, json: summary.line()?, error })
+    }
+}
+
+/// What was done, the numbers looked for first, where the files are.
+fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
+    let (simulated, wall) = (quantity(summary.simulated, "s"), quantity(Real(outcome.wall), "s"));
+    let mut lines = vec![format!("{}: {simulated} simulated in {wall}", job.name)];
+    if let Some(steps) = &summary.steps {
+        let steady = &steps.steady;
+        let spread = steady.repeatability.filter(|r| r.0 > SHOWN * steady.step.0.abs());
+        let spread = spread.map(|r| format!(" ± {}", quantity(r, "m"))).unwrap_or_default();
+        let back = steady.back_step.map(|b| format!(", back-step {:.1} %", 100.0 * b.0)).unwrap_or_default();
+        let speed = quantity(steps.mean_speed, "m/s");
+        lines.push(format!("  steady step {}{spread}{back}, mean speed {speed}", quantity(steady.step, "m")));
+    }
+    for (name, contact) in &summary.contacts.0 {
+        if let Some(fretting) = &contact.fretting {
+            let regime = match fretting.regime {
+                Some("stick") => "stick, ".to_owned(),
+                Some(regime) => format!("{regime} slip, "),
+                None => String::new(),
+            };
+            lines.push(format!("  {name}: {regime}{} lost per cycle", quantity(fretting.dissipated, "J")));
+        }
+    }
+    lines.push(format!("  {}: {}", job.folder.display(), summary.files().join(", ")));
+    lines.join("\n")
+}
+
+/// Four digits with an SI prefix.
+fn quantity(value: Real, unit: &str) -> String {
+    let prefix = Prefix::of_magnitude(value.0);
+    let shown = prefix.apply(value.0);
+    let digits = match shown.abs() {
+        x if x >= 100.0 => 1,
+        x if x >= 10.0 => 2,
+        _ => 3,
+    };
+    if shown == 0.0 { format!("0 {unit}") } else { format!("{shown:.digits$} {}{unit}", prefix.symbol) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_digits_are_shown() {
+        assert_eq!(quantity(Real(161.847e-9), "m"), "161.8 nm");
+        assert_eq!(quantity(Real(-1.5e-5), "m/s"), "-15.00 µm/s");
+        assert_eq!(quantity(Real(0.0), "J"), "0 J");
+        assert_eq!(quantity(Real(2.0), "s"), "2.000 s");
+    }
+}

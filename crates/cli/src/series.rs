@@ -1,0 +1,69 @@
+//! What is kept of a run for the summary and the pictures.
+
+use stickslip_drive::Channel;
+
+/// Quantities kept; the rest is in the tables only.
+const KEPT: [&str; 7] = ["time_s", "x_m", "vx_m_s", "u_m", "d_m", "fx_N", "fn_N"];
+
+/// Rows and the moments after events, in order of time: all are exact states of the run, and the turning points
+/// between two rows are among them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Series {
+    columns: Vec<Column>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Column {
+    place: usize,
+    name: String,
+    values: Vec<f64>,
+}
+
+impl Series {
+    /// An empty series of a model's channels.
+    pub(crate) fn new(channels: &[Channel]) -> Self {
+        let quantity = |name: &str| name.rsplit_once('.').map_or(name, |(_, quantity)| quantity).to_owned();
+        let kept = channels.iter().enumerate().filter(|(_, c)| KEPT.contains(&quantity(&c.name).as_str()));
+        let columns = kept.map(|(place, c)| Column { place, name: c.name.clone(), values: Vec::new() });
+        Self { columns: columns.collect() }
+    }
+
+    /// Appends a row of all channels.
+    pub(crate) fn push(&mut self, row: &[f64]) {
+        for column in &mut self.columns {
+            column.values.extend(row.get(column.place));
+        }
+    }
+
+    /// Numbers kept so far.
+    pub(crate) fn size(&self) -> u64 {
+        self.columns.len() as u64 * self.time().len() as u64
+    }
+
+    /// Times, s.
+    pub(crate) fn time(&self) -> &[f64] {
+        self.columns.first().map_or(&[], |column| &column.values)
+    }
+
+    /// A column by part and quantity; empty where there is none.
+    pub(crate) fn column(&self, part: &str, quantity: &str) -> &[f64] {
+        let is = |name: &str| name.rsplit_once('.') == Some((part, quantity));
+        self.columns.iter().find(|column| is(&column.name)).map_or(&[], |column| &column.values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_is_found_by_part_and_quantity() {
+        let names = ["time_s", "ball.state", "ball.u_m", "ball 2.u_m"];
+        let channels = names.map(|name| Channel { name: name.to_owned(), is_state: false });
+        let mut series = Series::new(&channels);
+        series.push(&[0.0, 1.0, 2.0, 3.0]);
+        assert_eq!((series.time(), series.column("ball", "u_m")), (&[0.0][..], &[2.0][..]));
+        assert_eq!((series.column("ball 2", "u_m"), series.column("ball", "state")), (&[3.0][..], &[][..]));
+        assert_eq!(series.size(), 3);
+    }
+}

@@ -1,0 +1,184 @@
+//! `summary.json`: what a run came to, in numbers.
+
+mod contacts;
+mod steps;
+
+use crate::books::Balance;
+use crate::job::Job;
+use crate::real::Real;
+use crate::run::Outcome;
+use contacts::ContactSummary;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use std::io;
+use stickslip_drive::RunError;
+
+pub(crate) use contacts::periods;
+pub(crate) use steps::DriveSummary;
+
+/// The summary of a run. Everything but [`Self::timing`] is the same whenever the same scenario is run.
+#[derive(Debug, Serialize)]
+pub(crate) struct Summary {
+    #[serde(skip_serializing_if = "String::is_empty")]
+    title: String,
+    program: Program,
+    /// SHA-256 of the resolved scenario beside the summary.
+    scenario_sha256: String,
+    stepper: Stepper,
+    pub(crate) status: Status,
+    /// Why the run did not come to its end, and what to try.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Stop>,
+    /// Time reached.
+    #[serde(rename = "simulated_s")]
+    pub(crate) simulated: Real,
+    counts: Counts,
+    /// By name.
+    pub(crate) contacts: Parts<ContactSummary>,
+    /// Steps of the drive; none without a free body driven by a periodic waveform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) steps: Option<DriveSummary>,
+    energy: Balance,
+    /// What is missing, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<String>,
+    /// Files beside the summary.
+    files: Vec<String>,
+    /// What differs from run to run.
+    timing: Timing,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Status {
+    /// At its time.
+    Done,
+    /// By itself, before its time.
+    Stopped,
+    /// By a signal.
+    Interrupted,
+}
+
+/// Things by name, in the scenario's order.
+#[derive(Debug)]
+pub(crate) struct Parts<T>(pub(crate) Vec<(String, T)>);
+
+#[derive(Debug, Serialize)]
+struct Program {
+    name: &'static str,
+    version: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Stepper {
+    name: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<Real>,
+    #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
+    step: Option<Real>,
+}
+
+#[derive(Debug, Serialize)]
+struct Stop {
+    message: String,
+    advice: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Counts {
+    steps: u64,
+    rejected: u64,
+    evaluations: u64,
+    events: u64,
+    rows: u64,
+}
+
+#[derive(Debug, Serialize)]
+struct Timing {
+    #[serde(rename = "wall_s")]
+    wall: Real,
+    simulated_s_per_s: Real,
+}
+
+impl Summary {
+    /// The summary of a run, still without its list of files.
+    pub(crate) fn new(job: &Job, outcome: &Outcome) -> Self {
+        let mut notes = Vec::new();
+        if outcome.kept.left_out > 0 {
+            let left_out = outcome.kept.left_out;
+            notes.push(format!("{left_out} events are in events.csv only: loops and steps are without them"));
+        }
+        let simulated = outcome.state.time();
+        let (name, word, value) = job.stepper();
+        let value_if = |wanted| (word == wanted).then_some(Real(value));
+        let counts = outcome.state.counts();
+        Self {
+            title: job.scenario.title.clone(),
+            program: Program { name: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION") },
+            scenario_sha256: job.hash.clone(),
+            stepper: Stepper { name, tolerance: value_if("tolerance"), step: value_if("step_s") },
+            status: Status::of(outcome.error.as_ref()),
+            error: outcome.error.as_ref().map(|e| Stop { message: e.to_string(), advice: e.advice() }),
+            simulated: Real(simulated),
+            counts: Counts {
+                steps: counts.steps,
+                rejected: counts.rejected,
+                evaluations: counts.evaluations,
+                events: counts.events,
+                rows: outcome.kept.rows,
+            },
+            contacts: contacts::of(job, outcome, &mut notes),
+            steps: steps::of(job, outcome, &mut notes),
+            energy: outcome.kept.books.balance(),
+            notes,
+            files: Vec::new(),
+            timing: Timing { wall: Real(outcome.wall), simulated_s_per_s: Real(simulated / outcome.wall) },
+        }
+    }
+
+    /// Says what is missing, and why.
+    pub(crate) fn note(&mut self, note: String) {
+        self.notes.push(note);
+    }
+
+    /// Names the files beside the summary.
+    pub(crate) fn set_files(&mut self, files: Vec<String>) {
+        self.files = files;
+    }
+
+    /// The files beside the summary.
+    pub(crate) fn files(&self) -> &[String] {
+        &self.files
+    }
+
+    /// As JSON for people and machines.
+    pub(crate) fn pretty(&self) -> io::Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    /// As JSON in one line.
+    pub(crate) fn line(&self) -> io::Result<String> {
+        Ok(serde_json::to_string(self)?)
+    }
+}
+
+impl Status {
+    fn of(error: Option<&RunError>) -> Self {
+        match error {
+            None => Self::Done,
+            Some(RunError::Interrupted { .. }) => Self::Interrupted,
+            Some(_) => Self::Stopped,
+        }
+    }
+}
+
+impl<T: Serialize> Serialize for Parts<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, part) in &self.0 {
+            map.serialize_entry(name, part)?;
+        }
+        map.end()
+    }
+}

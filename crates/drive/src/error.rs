@@ -1,0 +1,119 @@
+//! What can be wrong with a scene, and what can stop a run.
+
+use stickslip_contact::ContactError;
+use thiserror::Error;
+
+/// A scene that makes no model: what, where (key path as in the scenario file), what would be allowed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{path}: {message}")]
+pub struct SceneError {
+    /// Key path, such as `contacts.ball.friction` or `loads[0].x`.
+    pub path: String,
+    /// What was expected and what came.
+    pub message: String,
+    /// What to try.
+    pub help: Option<String>,
+}
+
+impl SceneError {
+    pub(crate) fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { path: path.into(), message: message.into(), help: None }
+    }
+
+    pub(crate) fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+}
+
+/// Why a run stopped itself: what, where, when. [`RunError::advice`] says what to try.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RunError {
+    /// Step control asks for steps below the resolution of time.
+    #[error("at t = {t:e} s the step fell to {step:e} s, below what a double can tell apart")]
+    StepTooSmall {
+        /// Time, s.
+        t: f64,
+        /// Step, s.
+        step: f64,
+    },
+    /// A coordinate is no longer a number.
+    #[error("at t = {t:e} s the motion of `{body}` is no longer finite")]
+    NotFinite {
+        /// Time, s.
+        t: f64,
+        /// Name of the body.
+        body: String,
+    },
+    /// Too many steps.
+    #[error("the limit of {limit} steps was reached at t = {t:e} s")]
+    TooManySteps {
+        /// Time, s.
+        t: f64,
+        /// The limit.
+        limit: u64,
+    },
+    /// Too many events.
+    #[error("the limit of {limit} events was reached at t = {t:e} s")]
+    TooManyEvents {
+        /// Time, s.
+        t: f64,
+        /// The limit.
+        limit: u64,
+    },
+    /// Events accumulate at one moment.
+    #[error("events of contact `{contact}` accumulate at t = {t:e} s: {count} within {window:e} s")]
+    Zeno {
+        /// Time, s.
+        t: f64,
+        /// Name of the contact.
+        contact: String,
+        /// Number of events.
+        count: u32,
+        /// Length of the window, s.
+        window: f64,
+    },
+    /// A contact cannot follow the motion.
+    #[error("contact `{contact}` at t = {t:e} s: {source}")]
+    Contact {
+        /// Time, s.
+        t: f64,
+        /// Name of the contact.
+        contact: String,
+        /// Why.
+        source: ContactError,
+    },
+    /// The wall-clock limit.
+    #[error("the limit of {limit} s of wall time was reached at t = {t:e} s")]
+    OutOfTime {
+        /// Time, s.
+        t: f64,
+        /// The limit, s.
+        limit: f64,
+    },
+    /// Whoever watches the run asked it to stop.
+    #[error("interrupted at t = {t:e} s")]
+    Interrupted {
+        /// Time, s.
+        t: f64,
+    },
+}
+
+impl RunError {
+    /// What to try.
+    pub fn advice(&self) -> &'static str {
+        match self {
+            Self::StepTooSmall { .. } => {
+                "loosen the tolerance, or look for a mass or stiffness off by orders of magnitude"
+            }
+            Self::NotFinite { .. } => {
+                "take a smaller step, or the event stepper: an explicit step must stay below 2/ω of the stiffest mode"
+            }
+            Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
+            Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",
+            Self::Zeno { .. } => "add a little damping at this contact, or use a fixed step",
+            Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
+            Self::OutOfTime { .. } => "raise run.limits.wall or shorten the run",
+            Self::Interrupted { .. } => "run again to the end",
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Events: the moments at which the law of motion changes.
+//!
+//! An event of a step from t₀ to t₁ lies in the half-open interval (t₀, t₁]; a guard that is zero at t₀ is the
+//! event just handled and counts again only after it has been positive.
+
+/// One event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// Time, s.
+    pub t: f64,
+    /// Where it comes from.
+    pub source: Source,
+    /// What happened.
+    pub kind: EventKind,
+}
+
+/// Where an event comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// Contact at this place of the scene.
+    Contact(usize),
+    /// Waveform at this place of the scene.
+    Waveform(usize),
+}
+
+/// What happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum EventKind {
+    /// The sense of sliding turns.
+    Reversal,
+    /// A piece of the memory is used up: a hysteresis loop closes.
+    LoopClosed,
+    /// Gross slip begins.
+    GrossSlip,
+    /// Gross slip ends.
+    GrossSlipEnds,
+    /// The contact begins to grow in full stick.
+    FullStick,
+    /// Slip begins in a contact that grew in full stick.
+    SlipBegins,
+    /// Two bodies touch.
+    Touch,
+    /// Two bodies part.
+    LiftOff,
+    /// A waveform turns a corner.
+    Corner,
+    /// A waveform jumps.
+    Jump,
+}
+
+impl EventKind {
+    /// Name in `events.csv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reversal => "reversal",
+            Self::LoopClosed => "loop closed",
+            Self::GrossSlip => "gross slip",
+            Self::GrossSlipEnds => "gross slip ends",
+            Self::FullStick => "full stick",
+            Self::SlipBegins => "slip begins",
+            Self::Touch => "touch",
+            Self::LiftOff => "lift-off",
+            Self::Corner => "corner",
+            Self::Jump => "jump",
+        }
+    }
+}

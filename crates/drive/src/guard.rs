@@ -1,0 +1,98 @@
+//! Guards: functions that are positive while a contact's decreed mode holds.
+
+use crate::EventKind;
+use crate::model::{Contact, Motion};
+use crate::state::Mode;
+use stickslip_contact::Course;
+
+/// A function that falls through zero where a mode ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Guard {
+    /// σu̇ - κḋ: the dragging edge still drags.
+    Drag,
+    /// Length left of the piece of memory being cut.
+    Piece,
+    /// d - h_c: the apex of a shrinking contact stays on its side of the old curve.
+    Side,
+    /// κḋ - u̇ in full stick.
+    Lower,
+    /// κḋ + u̇ in full stick.
+    Upper,
+    /// d: still in contact.
+    Contact,
+    /// -d: still apart.
+    Gap,
+}
+
+/// Round-off deadbands, relative to the natural displacement and velocity: without them a body at rest rings in
+/// its last bit.
+const DEADBAND: f64 = 1e-13;
+/// How near to its zero a guard counts as there, in units of the tolerance: the law is continuous across events,
+/// so what is missed counts in second order only.
+pub(crate) const NEARNESS: f64 = 1e-3;
+
+impl Guard {
+    /// The guards of a contact in a mode.
+    pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {
+        match (mode, contact.is_constant()) {
+            (Mode::Open, true) => &[],
+            (Mode::Open, false) => &[Self::Gap],
+            (Mode::Grow, _) => &[Self::Lower, Self::Upper, Self::Contact],
+            (Mode::Slip(branch), true) if branch.is_gross() => &[Self::Drag],
+            (Mode::Slip(branch), false) if branch.is_gross() => &[Self::Drag, Self::Contact],
+            (Mode::Slip(_), true) => &[Self::Drag, Self::Piece],
+            (Mode::Slip(_), false) => &[Self::Drag, Self::Piece, Self::Side, Self::Contact],
+            (Mode::Whole { .. }, true) => &[Self::Drag],
+            (Mode::Whole { .. }, false) => &[Self::Drag, Self::Contact],
+        }
+    }
+
+    /// Its value.
+    #[inline]
+    pub(crate) fn value(self, contact: &Contact, mode: &Mode, at: &Motion) -> f64 {
+        let slope = contact.law.stick_slope();
+        match (self, mode) {
+            // A row needs its reversals only: its springs know by themselves when they stick.
+            (Self::Drag, Mode::Whole { sense }) if *sense == 0.0 => f64::INFINITY,
+            (Self::Drag, Mode::Whole { sense }) => sense * at.du,
+            (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
+            (Self::Piece, Mode::Slip(branch)) => branch.margin(at.d, at.u),
+            (Self::Side, Mode::Slip(branch)) => at.d - branch.front(at.d, at.u),
+            (Self::Piece | Self::Side, _) => f64::INFINITY,
+            (Self::Lower, _) => slope * at.dd - at.du,
+            (Self::Upper, _) => slope * at.dd + at.du,
+            (Self::Contact, _) => at.d,
+            (Self::Gap, _) => -at.d,
+        }
+    }
+
+    /// How far below zero a guard must fall to count, and how near to zero it counts as there.
+    pub(crate) fn bands(self, contact: &Contact, tolerance: f64) -> (f64, f64) {
+        let unit = match self {
+            Self::Drag | Self::Lower | Self::Upper => contact.natural_velocity(),
+            Self::Piece => contact.natural.0,
+            Self::Side | Self::Contact | Self::Gap => contact.natural.0 / contact.law.stick_slope().max(1e-9),
+        };
+        (DEADBAND * unit, (NEARNESS * tolerance).max(2.0 * DEADBAND) * unit)
+    }
+
+    /// What it means that this guard fell: the event and the course after it.
+    pub(crate) fn fired(self, contact: &Contact, mode: &Mode, at: &Motion) -> (EventKind, Course) {
+        let slope = contact.law.stick_slope();
+        let turned = if mode.sense() > 0.0 { Course::Backward } else { Course::Forward };
+        let same = if mode.sense() > 0.0 { Course::Forward } else { Course::Backward };
+        match self {
+            Self::Drag if at.dd > 0.0 && matches!(mode, Mode::Slip(_)) => {
+                (EventKind::FullStick, Course::Grow)
+            }
+            Self::Drag if mode.is_gross() => (EventKind::GrossSlipEnds, turned),
+            Self::Drag | Self::Side => (EventKind::Reversal, turned),
+            Self::Piece => (EventKind::LoopClosed, same),
+            Self::Lower => (EventKind::SlipBegins, Course::Forward),
+            Self::Upper => (EventKind::SlipBegins, Course::Backward),
+            Self::Contact => (EventKind::LiftOff, Course::Open),
+            Self::Gap if at.du.abs() <= slope * at.dd => (EventKind::Touch, Course::Grow),
+            Self::Gap => (EventKind::Touch, if at.du > 0.0 { Course::Forward } else { Course::Backward }),
+        }
+    }
+}

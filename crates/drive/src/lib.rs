@@ -1,0 +1,35 @@
+//! Rigid bodies, actuators, waveforms and frictional contacts as equations of motion, and their runs.
+//!
+//! A [`Scene`] says what is there; [`Model::new`] checks it and assembles the constants. A run is the sentence
+//! that joins four things: the [`Model`] (constant), the [`State`] (all that the future depends on), a
+//! workspace (scratch) and a [`Record`] (output): [`Model::start`] makes the state, [`run`] moves it along a
+//! [`Plan`].
+//!
+//! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`]; [`State`]; the equations of motion; guards
+//! and events; the runs, event-aware, at fixed step and by the plain reference; what is written down.
+//!
+//! Coordinates are displacements along the slide, in SI. Free normal motion and pitch are not modelled yet:
+//! they enter as further coordinates of [`scene::Body`] and a further [`scene::Normal`].
+
+mod equations;
+mod equilibrium;
+mod error;
+mod event;
+mod guard;
+mod model;
+mod plan;
+mod record;
+mod run;
+pub mod scene;
+mod state;
+mod waveform;
+
+pub use error::{RunError, SceneError};
+pub use event::{Event, EventKind, Source};
+pub use model::Model;
+pub use plan::{Limits, Plan, Stepper};
+pub use record::{Channel, Record, Trace, state_name};
+pub use run::run;
+pub use scene::Scene;
+pub use state::{Counts, State};
+pub use waveform::{Harmonic, Piece, Sample, Shape, Timing, Waveform, WaveformError};

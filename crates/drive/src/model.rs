@@ -1,0 +1,216 @@
+//! The constants of a drive, checked and assembled.
+
+mod build;
+mod scale;
+
+use crate::{Sample, Waveform};
+use stickslip_contact::{Apex, Engine, Interface};
+
+/// A checked scene as constants: what evaluation needs and nothing else.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    pub(crate) waveforms: Vec<Waveform>,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) free: Vec<Free>,
+    pub(crate) contacts: Vec<Contact>,
+    pub(crate) links: Vec<Link>,
+    pub(crate) loads: Vec<Load>,
+    /// Number of contacts whose force is a state while they grow.
+    pub(crate) growing: usize,
+    pub(crate) equilibrium: bool,
+}
+
+/// Where a position comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// Stays at this x, m.
+    Held(f64),
+    /// A free coordinate.
+    Free(usize),
+    /// Follows a waveform.
+    Driven(usize),
+}
+
+/// A body under its name.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Body {
+    pub(crate) name: String,
+    pub(crate) place: Place,
+}
+
+/// A free coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Free {
+    pub(crate) body: usize,
+    /// kg.
+    pub(crate) mass: f64,
+    /// 1/kg.
+    pub(crate) mobility: f64,
+    /// Gravity and constant loads, N.
+    pub(crate) force: f64,
+    pub(crate) start: (f64, f64),
+    /// Natural scales of position and velocity, m and m/s.
+    pub(crate) scale: (f64, f64),
+}
+
+/// A contact's constants.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Contact {
+    pub(crate) name: String,
+    pub(crate) first: Place,
+    pub(crate) second: Place,
+    /// u = x(first) - x(second) - offset, m.
+    pub(crate) offset: f64,
+    pub(crate) law: Interface,
+    pub(crate) engine: Engine,
+    pub(crate) press: Press,
+    /// Number of identical contacts.
+    pub(crate) count: f64,
+    /// Displacement reached before the start, m.
+    pub(crate) start: f64,
+    /// Place among the growing contacts.
+    pub(crate) slot: Option<usize>,
+    /// Natural displacement u_c, m, and angular frequency, rad/s.
+    pub(crate) natural: (f64, f64),
+}
+
+/// What sets the indentation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Press {
+    /// Constant d (m) with M(d) (m²) and m(d) (m) at hand.
+    Constant { d: f64, area: f64, length: f64 },
+    /// A waveform of the normal force, N.
+    Force(usize),
+    /// A waveform of the indentation, m.
+    Indentation(usize),
+    /// A waveform of the contact radius, m.
+    Radius(usize),
+}
+
+/// Spring, damper or actuator: force on the second body k(s-e) + c(ṡ-ė) + preload, e = x(second) - x(first).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Link {
+    pub(crate) first: Place,
+    pub(crate) second: Place,
+    pub(crate) stiffness: f64,
+    pub(crate) damping: f64,
+    pub(crate) preload: f64,
+    pub(crate) stroke: Stroke,
+}
+
+/// Free stroke of a link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Stroke {
+    Constant(f64),
+    Driven(usize),
+}
+
+/// A load that varies in time, on a free coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Load {
+    pub(crate) free: usize,
+    pub(crate) waveform: usize,
+}
+
+/// Motion of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Motion {
+    pub(crate) d: f64,
+    pub(crate) u: f64,
+    /// ḋ, m/s.
+    pub(crate) dd: f64,
+    /// u̇, m/s.
+    pub(crate) du: f64,
+}
+
+impl Motion {
+    pub(crate) fn apex(&self) -> Apex {
+        Apex { d: self.d, u: self.u }
+    }
+}
+
+impl Contact {
+    /// Natural velocity u_c ω, m/s.
+    pub(crate) fn natural_velocity(&self) -> f64 {
+        self.natural.0 * self.natural.1
+    }
+
+    /// Indentation d (m) and its rate (m/s) from a sample of the waveform that presses.
+    #[inline]
+    pub(crate) fn pressed(&self, sample: Sample) -> (f64, f64) {
+        match self.press {
+            Press::Constant { d, .. } => (d, 0.0),
+            Press::Indentation(_) => (sample.value, sample.rate),
+            Press::Force(_) => {
+                let d = self.law.indentation(sample.value.max(0.0));
+                let stiffness = self.law.normal_stiffness(d);
+                (d, if stiffness > 0.0 { sample.rate / stiffness } else { 0.0 })
+            }
+            Press::Radius(_) => {
+                let (radius, profile) = (sample.value.max(0.0), self.law.profile());
+                (profile.depth(radius), sample.rate * profile.depth_slope(radius))
+            }
+        }
+    }
+
+    /// Whether the indentation never changes.
+    pub(crate) fn is_constant(&self) -> bool {
+        matches!(self.press, Press::Constant { .. })
+    }
+}
+
+impl Model {
+    /// Names of the bodies, in the scene's order.
+    pub fn bodies(&self) -> impl Iterator<Item = &str> {
+        self.bodies.iter().map(|b| b.name.as_str())
+    }
+
+    /// Names and laws of the contacts, in the scene's order.
+    pub fn contacts(&self) -> impl Iterator<Item = (&str, &Interface)> {
+        self.contacts.iter().map(|c| (c.name.as_str(), &c.law))
+    }
+
+    /// Number of free coordinates.
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Gross-slip displacement u_c (m) and normal force of one contact (N) of contact `index` at t = 0.
+    pub fn contact_scale(&self, index: usize) -> Option<(f64, f64)> {
+        let contact = self.contacts.get(index)?;
+        let d = self.indentation(contact, 0.0);
+        Some((contact.law.gross_slip_displacement(d), contact.law.normal_force(d)))
+    }
+
+    /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.
+    pub fn contact_frequency(&self, index: usize) -> Option<f64> {
+        self.contacts.get(index).map(|c| c.natural.1)
+    }
+
+    /// Whether the integrals of work need an error control of their own: where contacts grow, and where nothing else
+    /// is integrated.
+    pub(crate) fn steers_by_work(&self) -> bool {
+        self.growing > 0 || self.free.is_empty()
+    }
+
+    /// Natural scale of work, J: μF_N u_c of the smallest contact.
+    pub(crate) fn work_scale(&self) -> f64 {
+        let work = |c: &Contact| {
+            let deepest = c.natural.0 / c.law.stick_slope().max(f64::MIN_POSITIVE);
+            c.law.friction() * c.law.normal_force(deepest) * c.natural.0
+        };
+        let smallest = self.contacts.iter().map(work).filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
+        if smallest.is_finite() { smallest } else { 1.0 }
+    }
+
+    /// Indentation of a contact at time t, m.
+    pub(crate) fn indentation(&self, contact: &Contact, t: f64) -> f64 {
+        match contact.press {
+            Press::Constant { d, .. } => d,
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
+                let waveform = &self.waveforms[w];
+                contact.pressed(waveform.sample(&waveform.piece_at(t), t)).0
+            }
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! How a scene is run: how long, by which stepper, what is written down.
+
+/// How a scene is run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// Simulated time, s, above 0.
+    pub duration: f64,
+    /// Time stepping.
+    pub stepper: Stepper,
+    /// Guards against endless work.
+    pub limits: Limits,
+    /// Interval of the rows of the trace, s; none: only the first and the last row.
+    pub every: Option<f64>,
+}
+
+/// Time stepping. Tolerances are relative to natural scales (u_c, μF_N and the velocities they make).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stepper {
+    /// Embedded pair of order 8 with located events.
+    Event {
+        /// Local error per step, 1e-13 to 1e-2.
+        tolerance: f64,
+    },
+    /// Velocity Verlet at a fixed step.
+    Verlet {
+        /// Step, s.
+        step: f64,
+    },
+    /// Classical Runge–Kutta of order 4 at a fixed step.
+    Rk4 {
+        /// Step, s.
+        step: f64,
+    },
+    /// Dormand–Prince 5(4) of the crate `ode_solvers`, without events: the plain explicit reference.
+    Dopri5 {
+        /// Local error per step, 1e-13 to 1e-2.
+        tolerance: f64,
+    },
+}
+
+/// Guards against endless work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Most accepted and rejected steps of a run.
+    pub steps: u64,
+    /// Most located events of a run.
+    pub events: u64,
+    /// Most wall-clock time, s.
+    pub wall: Option<f64>,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { steps: 2_000_000_000, events: 200_000_000, wall: None }
+    }
+}

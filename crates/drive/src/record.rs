@@ -1,0 +1,221 @@
+//! What is written down: rows on a regular grid, events, and their channels.
+
+use crate::Model;
+use crate::equations::Equations;
+use crate::event::{Event, Source};
+use crate::model::{Contact, Link, Place, Stroke};
+use crate::state::{Mode, State};
+use stickslip_contact::{ContactState, Outcome};
+
+/// Receiver of a run's output. Whatever it does, the trajectory stays the same.
+pub trait Record {
+    /// A row of values, one for each of [`Model::channels`].
+    fn row(&mut self, values: &[f64]);
+
+    /// An event and the row of values after it.
+    fn event(&mut self, event: &Event, values: &[f64]);
+
+    /// Asked now and then with the time reached, s; `false` interrupts the run.
+    fn goes_on(&mut self, t: f64) -> bool {
+        let _ = t;
+        true
+    }
+
+    /// Whether events are wanted; their rows cost an evaluation each.
+    fn wants_events(&self) -> bool {
+        true
+    }
+}
+
+/// One column of a trace.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Channel {
+    /// Name with its SI unit, such as `slider.x_m`.
+    pub name: String,
+    /// Whether the values are codes of [`state_name`] instead of numbers.
+    pub is_state: bool,
+}
+
+/// A record that keeps everything in memory.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trace {
+    width: usize,
+    values: Vec<f64>,
+    events: Vec<Event>,
+    after: Vec<f64>,
+}
+
+impl Trace {
+    /// A trace of a model's channels.
+    pub fn new(model: &Model) -> Self {
+        Self { width: model.channels().len(), ..Self::default() }
+    }
+
+    /// Rows in order of time.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        self.values.chunks_exact(self.width.max(1))
+    }
+
+    /// Events in order of time, each with the values after it.
+    pub fn events(&self) -> impl ExactSizeIterator<Item = (&Event, &[f64])> {
+        self.events.iter().zip(self.after.chunks_exact(self.width.max(1)))
+    }
+
+    /// One column.
+    pub fn column(&self, index: usize) -> impl Iterator<Item = f64> + '_ {
+        self.rows().filter_map(move |row| row.get(index).copied())
+    }
+}
+
+impl Record for Trace {
+    fn row(&mut self, values: &[f64]) {
+        self.values.extend_from_slice(values);
+    }
+
+    fn event(&mut self, event: &Event, values: &[f64]) {
+        self.events.push(*event);
+        self.after.extend_from_slice(values);
+    }
+}
+
+/// Code of a contact's state in a row.
+fn state_code(state: ContactState) -> f64 {
+    match state {
+        ContactState::Open => 0.0,
+        ContactState::Stick => 1.0,
+        ContactState::Partial => 2.0,
+        ContactState::Slip => 3.0,
+    }
+}
+
+/// Word for a state code: open, stick, partial or slip.
+pub fn state_name(code: f64) -> &'static str {
+    match code {
+        0.0 => "open",
+        1.0 => "stick",
+        2.0 => "partial",
+        _ => "slip",
+    }
+}
+
+impl Model {
+    /// Channels of a row, in order.
+    pub fn channels(&self) -> Vec<Channel> {
+        let mut names = vec!["time_s".to_owned()];
+        for body in self.bodies.iter().filter(|b| !matches!(b.place, Place::Held(_))) {
+            names.extend(["x_m", "vx_m_s"].map(|q| format!("{}.{q}", body.name)));
+        }
+        for contact in &self.contacts {
+            let quantities = ["u_m", "d_m", "fx_N", "fn_N", "stick_m", "state", "elastic_J", "friction_J"];
+            names.extend(quantities.map(|q| format!("{}.{q}", contact.name)));
+        }
+        let energies = ["input", "kinetic", "elastic", "friction", "damping", "error"];
+        names.extend(energies.map(|e| format!("energy.{e}_J")));
+        names.into_iter().map(|name| Channel { is_state: name.ends_with(".state"), name }).collect()
+    }
+
+    /// Name of the source of an event.
+    pub fn source_name(&self, source: Source, waveform: impl Fn(usize) -> String) -> String {
+        match source {
+            Source::Contact(c) => self.contacts[c].name.clone(),
+            Source::Waveform(w) => waveform(w),
+        }
+    }
+}
+
+/// Energies of a moment, J.
+#[derive(Debug, Clone, Copy, Default)]
+struct Books {
+    input: f64,
+    kinetic: f64,
+    elastic: f64,
+    friction: f64,
+}
+
+/// Fills `row` with the channels at time t; `y` reads a component.
+pub(crate) fn fill(
+    equations: &Equations<'_>,
+    state: &State,
+    t: f64,
+    y: &impl Fn(usize) -> f64,
+    row: &mut Vec<f64>,
+) {
+    row.clear();
+    row.push(t);
+    let (model, layout) = (equations.model, equations.layout);
+    let mut books = Books { input: y(layout.input()) + state.jumps, ..Books::default() };
+    for body in &model.bodies {
+        if !matches!(body.place, Place::Held(_)) {
+            let (x, v) = equations.place(body.place, t, y);
+            row.extend([x, v]);
+        }
+    }
+    for (c, contact) in model.contacts.iter().enumerate() {
+        contact_columns(equations, state, (c, contact), t, y, row, &mut books);
+    }
+    for link in &model.links {
+        books.elastic += link_energy(equations, link, t, y);
+    }
+    for (i, free) in model.free.iter().enumerate() {
+        books.kinetic += 0.5 * free.mass * y(layout.velocity(i)).powi(2);
+    }
+    let damping = y(layout.damping());
+    let error = books.input - (books.kinetic + books.elastic - state.origin) - books.friction - damping;
+    row.extend([books.input, books.kinetic, books.elastic, books.friction, damping, error]);
+}
+
+/// Columns of one contact: the sum over its identical members.
+fn contact_columns(
+    equations: &Equations<'_>,
+    state: &State,
+    (c, contact): (usize, &Contact),
+    t: f64,
+    y: &impl Fn(usize) -> f64,
+    row: &mut Vec<f64>,
+    books: &mut Books,
+) {
+    let layout = equations.layout;
+    let motion = equations.motion(contact, t, y);
+    let slot = contact.slot.filter(|_| layout.growing > 0);
+    let mut outcome = match (state.modes[c], slot) {
+        (Mode::Grow, Some(slot)) => Outcome {
+            force: y(layout.force(slot)),
+            elastic: y(layout.elastic(slot)),
+            friction: 0.0,
+            stick_radius: contact.law.profile().radius(motion.d),
+            state: ContactState::Stick,
+        },
+        _ => state.memories[c].preview(&contact.law, motion.apex()),
+    };
+    if let Some(slot) = slot {
+        outcome.friction = y(layout.friction(slot));
+    }
+    let count = contact.count;
+    let friction = state.friction[c] + count * outcome.friction;
+    let normal = count * contact.law.normal_energy(motion.d);
+    if !contact.is_constant() {
+        books.input += normal;
+    }
+    books.elastic += normal + count * outcome.elastic;
+    books.friction += friction;
+    row.extend([
+        motion.u,
+        motion.d,
+        count * outcome.force,
+        count * contact.law.normal_force(motion.d),
+        outcome.stick_radius,
+        state_code(outcome.state),
+        count * outcome.elastic,
+        friction,
+    ]);
+}
+
+/// Potential energy of a link, J: ½k(s-e)² less the work its preload has done.
+pub(crate) fn link_energy(equations: &Equations<'_>, link: &Link, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
+    let stroke = match link.stroke {
+        Stroke::Constant(s) => s,
+        Stroke::Driven(w) => equations.sample(w, t).value,
+    };
+    let length = equations.place(link.second, t, y).0 - equations.place(link.first, t, y).0;
+    0.5 * link.stiffness * (stroke - length).powi(2) - link.preload * length
+}

@@ -1,0 +1,136 @@
+//! Steps without located events: every accepted step is one chord of every contact.
+
+use super::output::Grid;
+use super::watch::Watch;
+use crate::equations::Equations;
+use crate::event::{Event, EventKind, Source};
+use crate::model::{Model, Motion};
+use crate::record::{self, Record};
+use crate::state::{Layout, Mode, State};
+use crate::{Plan, RunError};
+use stickslip_contact::{ContactState, Segment};
+
+/// A run by chords: accepts steps, writes rows between them, notices events after the fact.
+pub(super) struct Chords<'a> {
+    pub(super) model: &'a Model,
+    pub(super) state: &'a mut State,
+    pub(super) layout: Layout,
+    grid: Grid,
+    watch: Watch,
+    record: &'a mut dyn Record,
+    /// Sense of sliding and state of each contact after the last step.
+    standings: Vec<(f64, ContactState)>,
+    row: Vec<f64>,
+}
+
+impl<'a> Chords<'a> {
+    /// Drops the extra components of growing contacts: chords do not carry them.
+    pub(super) fn new(
+        model: &'a Model,
+        plan: &Plan,
+        state: &'a mut State,
+        record: &'a mut dyn Record,
+    ) -> Self {
+        let layout = Layout { free: model.free.len(), growing: 0 };
+        state.y.truncate(2 * layout.free);
+        state.y.resize(layout.total(), 0.0);
+        for mode in &mut state.modes {
+            *mode = Mode::Whole { sense: 0.0 };
+        }
+        let grid = Grid::new(plan.every, state.t, plan.duration);
+        let watch = Watch::new(model, plan.limits);
+        let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
+        Self { model, state, layout, grid, watch, record, standings, row: Vec::new() }
+    }
+
+    pub(super) fn equations(&self) -> Equations<'_> {
+        equations(self.model, self.layout, self.state)
+    }
+
+    /// Writes the first or the last row.
+    pub(super) fn write_now(&mut self) {
+        self.grid.write_now(&equations(self.model, self.layout, self.state), self.state, self.record);
+    }
+
+    /// Accepts the step that ends at t in y: rows on the way, then the commit of all contacts.
+    pub(super) fn accept(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
+        if let Some(i) = (0..2 * self.layout.free).find(|i| !y[*i].is_finite()) {
+            let body = self.model.free[i % self.layout.free].body;
+            return Err(RunError::NotFinite { t, body: self.model.bodies[body].name.clone() });
+        }
+        self.rows(t, y);
+        let eq = equations(self.model, self.layout, self.state);
+        let motions: Vec<Motion> = self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])).collect();
+        for (c, (contact, motion)) in self.model.contacts.iter().zip(&motions).enumerate() {
+            let work = self.state.memories[c].commit(&contact.law, Segment::Straight(motion.apex()));
+            let work =
+                work.map_err(|source| RunError::Contact { t, contact: contact.name.clone(), source })?;
+            self.state.friction[c] += contact.count * work;
+        }
+        self.state.y.copy_from_slice(y);
+        self.state.t = t;
+        self.state.counts.steps += 1;
+        if self.record.wants_events() {
+            self.notice(&motions);
+        }
+        self.watch.step(self.state, self.record)
+    }
+
+    /// Rows inside the step: positions by the cubic through both ends, velocities and work in proportion.
+    fn rows(&mut self, t: f64, y: &[f64]) {
+        let eq = equations(self.model, self.layout, self.state);
+        let (t0, from, n) = (self.state.t, &self.state.y, self.layout.free);
+        let h = t - t0;
+        while let Some(due) = self.grid.due(t) {
+            let s = if due < t { (due - t0) / h } else { 1.0 };
+            let between = |i: usize| {
+                let straight = from[i] + s * (y[i] - from[i]);
+                if s == 1.0 {
+                    y[i]
+                } else if i < n {
+                    let (v0, v1, mean) = (from[n + i], y[n + i], (y[i] - from[i]) / h);
+                    straight + h * s * (1.0 - s) * ((1.0 - s) * (v0 - mean) - s * (v1 - mean))
+                } else {
+                    straight
+                }
+            };
+            self.grid.write(&eq, self.state, due, &between, self.record);
+        }
+    }
+
+    /// Events as they show after the step.
+    fn notice(&mut self, motions: &[Motion]) {
+        for (c, motion) in motions.iter().enumerate() {
+            let contact = &self.model.contacts[c];
+            let memory = &self.state.memories[c];
+            let now = memory.preview(&contact.law, memory.apex()).state;
+            let sense = if motion.du == 0.0 { self.standings[c].0 } else { motion.du.signum() };
+            let (before, was) = std::mem::replace(&mut self.standings[c], (sense, now));
+            let kind = match (was, now) {
+                (ContactState::Open, ContactState::Open) => continue,
+                (ContactState::Open, _) if self.state.counts.steps > 1 => EventKind::Touch,
+                (_, ContactState::Open) => EventKind::LiftOff,
+                (ContactState::Slip, now) if now != ContactState::Slip => EventKind::GrossSlipEnds,
+                (was, ContactState::Slip) if was != ContactState::Slip => EventKind::GrossSlip,
+                _ if before * sense < 0.0 => EventKind::Reversal,
+                _ => continue,
+            };
+            self.state.counts.events += 1;
+            let event = Event { t: self.state.t, source: Source::Contact(c), kind };
+            let eq = equations(self.model, self.layout, self.state);
+            record::fill(&eq, self.state, self.state.t, &|i| self.state.y[i], &mut self.row);
+            self.record.event(&event, &self.row);
+        }
+    }
+}
+
+fn equations<'s>(model: &'s Model, layout: Layout, state: &'s State) -> Equations<'s> {
+    Equations {
+        model,
+        pieces: &state.pieces,
+        memories: &state.memories,
+        modes: &state.modes,
+        layout,
+        crossing: true,
+    }
+}

@@ -1,0 +1,272 @@
+//! The event-aware run: smooth laws between located events.
+//!
+//! Each contact follows the law decreed at its last event, which goes on smoothly beyond the event that will end
+//! it. A step is attempted on these laws; if a guard falls below zero inside it, the moment is found on the dense
+//! output and the step is redone to end there. Then memory is committed, all contacts together, and those whose
+//! guard fell get their next law by decree. Corners of waveforms end steps exactly.
+
+mod locate;
+mod path;
+mod switch;
+
+use super::output::Grid;
+use super::watch::Watch;
+use crate::equations::Equations;
+use crate::event::EventKind;
+use crate::guard::Guard;
+use crate::model::{Model, Motion};
+use crate::record::Record;
+use crate::state::{Layout, Mode, State};
+use crate::{Plan, RunError, Waveform};
+use path::MOST_PIECES;
+use stickslip_contact::Segment;
+use stickslip_stepper::{Dop853, StepControl, StepLimits};
+
+/// Scratch of one run; all that its future depends on is in the [`State`].
+pub(super) struct Run<'a> {
+    model: &'a Model,
+    end: f64,
+    every: Option<f64>,
+    tolerance: f64,
+    layout: Layout,
+    solver: Dop853,
+    scale: Vec<f64>,
+    watch: Watch,
+    /// Longest step, s: a fraction of the period of the fastest smooth waveform.
+    longest: f64,
+    /// Whether any waveform jumps.
+    jumpy: bool,
+    /// Motions of the contacts at the end of the step.
+    motions: Vec<Motion>,
+    /// What the contacts commit at the end of the step.
+    segments: Vec<(usize, Segment)>,
+    /// Guards that fell at the end of the step.
+    fired: Vec<(usize, Guard)>,
+    /// Waveforms that turned a corner at the end of the step.
+    turned: Vec<(usize, EventKind)>,
+    row: Vec<f64>,
+}
+
+/// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
+const OVERSTEP: f64 = 1.05;
+
+/// How a step ends.
+#[derive(Clone, Copy, PartialEq)]
+enum Ending {
+    Smooth,
+    Event,
+    Corner,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(model: &'a Model, plan: &Plan, tolerance: f64) -> Self {
+        let layout = model.layout();
+        Self {
+            model,
+            end: plan.duration,
+            every: plan.every,
+            tolerance,
+            layout,
+            solver: Dop853::new(layout.dimension(), layout.total()),
+            // Where work is integrated along curved paths, its integrals steer the steps as well.
+            scale: vec![0.0; if model.steers_by_work() { layout.total() } else { layout.dimension() }],
+            watch: Watch::new(model, plan.limits),
+            longest: model.waveforms.iter().map(Waveform::resolution).fold(plan.duration, f64::min),
+            jumpy: model.waveforms.iter().any(Waveform::has_jumps),
+            motions: Vec::with_capacity(model.contacts.len()),
+            segments: Vec::with_capacity(model.contacts.len() + MOST_PIECES as usize),
+            fired: Vec::with_capacity(model.contacts.len()),
+            turned: Vec::with_capacity(model.waveforms.len()),
+            row: Vec::new(),
+        }
+    }
+
+    pub(super) fn go(mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
+        let mut grid = Grid::new(self.every, state.t, self.end);
+        let limits = StepLimits { longest: self.longest, ..StepLimits::default() };
+        let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(8, limits));
+        self.begin(state);
+        grid.write_now(&equations(self.model, self.layout, state), state, record);
+        let mut outcome = Ok(());
+        while state.t < self.end && outcome.is_ok() {
+            outcome = self.step(state, &mut control, &mut grid, record);
+        }
+        state.control = Some(control);
+        state.counts.evaluations += self.solver.evaluations();
+        grid.write_now(&equations(self.model, self.layout, state), state, record);
+        outcome
+    }
+
+    /// Decrees the first laws and proposes a first step, unless the state goes on from an earlier run.
+    fn begin(&mut self, state: &mut State) {
+        self.solver.start(&equations(self.model, self.layout, state), state.t, &state.y);
+        if state.step > 0.0 {
+            return;
+        }
+        for c in 0..self.model.contacts.len() {
+            self.decide(state, c);
+        }
+        self.set_scale(state);
+        let eq = equations(self.model, self.layout, state);
+        self.solver.start(&eq, state.t, &state.y);
+        let longest = self.longest.min(self.end);
+        state.step = if self.layout.dimension() == 0 {
+            longest
+        } else {
+            self.solver.first_step(&eq, longest, &self.scale)
+        };
+    }
+
+    /// One attempt and, if it succeeds, everything that belongs to an accepted step.
+    fn step(
+        &mut self,
+        state: &mut State,
+        control: &mut StepControl,
+        grid: &mut Grid,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        self.set_scale(state);
+        let corner = state.pieces.iter().map(|p| p.end).fold(self.end, f64::min);
+        let eq = equations(self.model, self.layout, state);
+        let target = aim(state.t, state.step.min(self.longest).min(self.expected(&eq, state)), corner);
+        let h = target - state.t;
+        let error = self.solver.attempt_until(&eq, target, &self.scale);
+        let verdict = control.propose(error, h);
+        if !verdict.accepted {
+            return self.reject(state, verdict.next, record);
+        }
+        self.solver.end_slopes(&eq);
+        let mut wished = if h < state.step { state.step.max(verdict.next) } else { verdict.next };
+        let mut ending = if target == corner { Ending::Corner } else { Ending::Smooth };
+        self.fired.clear();
+        if let Some(fall) = self.first_fall(&eq, state) {
+            if fall.t < target {
+                self.solver.attempt_until(&eq, fall.t, &self.scale);
+                self.solver.end_slopes(&eq);
+                ending = Ending::Event;
+                // The next law has not earned a longer step yet.
+                wished = if h < state.step { state.step } else { h.min(verdict.next) };
+            }
+            self.collect_fallen(&eq, state, fall);
+        }
+        let rejected = u64::from(ending == Ending::Event);
+        state.counts.rejected += rejected;
+        self.accept(state, grid, record)?;
+        state.step = if ending == Ending::Smooth { wished } else { control.after_event(wished) };
+        if ending == Ending::Corner {
+            self.turn_corners(state, record);
+        }
+        if ending == Ending::Corner || !self.fired.is_empty() {
+            self.handle_fallen(state, ending == Ending::Corner, record)?;
+            self.restart(state);
+        }
+        self.watch.step(state, record)
+    }
+
+    fn reject(&mut self, state: &mut State, next: f64, record: &mut dyn Record) -> Result<(), RunError> {
+        state.counts.rejected += 1;
+        state.step = next;
+        if next > 4.0 * f64::EPSILON * state.t.abs() && next > f64::MIN_POSITIVE {
+            return self.watch.step(state, record);
+        }
+        Err(RunError::StepTooSmall { t: state.t, step: next })
+    }
+
+    /// Rows inside the step, then the commit of all contacts, then time moves on.
+    fn accept(
+        &mut self,
+        state: &mut State,
+        grid: &mut Grid,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let t = self.solver.end_time();
+        let eq = equations(self.model, self.layout, state);
+        while let Some(due) = grid.due(t) {
+            self.solver.dense(&eq);
+            let solver = &self.solver;
+            grid.write(&eq, state, due, &|i| solver.value(i, due), record);
+        }
+        self.trace_segments(state, t);
+        let end = self.solver.end();
+        if let Some(i) = (0..2 * self.layout.free).find(|i| !end[*i].is_finite()) {
+            let body = self.model.free[i % self.layout.free].body;
+            return Err(RunError::NotFinite { t, body: self.model.bodies[body].name.clone() });
+        }
+        state.y.copy_from_slice(end);
+        state.t = t;
+        state.counts.steps += 1;
+        self.solver.accept();
+        self.commit(state)
+    }
+
+    /// About when the first piece of memory will be used up, s from now: a step much longer would only be thrown away.
+    fn expected(&self, eq: &Equations<'_>, state: &State) -> f64 {
+        let mut first = f64::INFINITY;
+        for (contact, mode) in self.model.contacts.iter().zip(&state.modes) {
+            if let Mode::Slip(branch) = mode {
+                let motion = eq.motion(contact, state.t, |i| state.y[i]);
+                let speed = Guard::Drag.value(contact, mode, &motion);
+                let (left, pull) =
+                    (branch.margin(motion.d, motion.u), mode.sense() * self.acceleration(eq, contact, false));
+                // left = speed t + pull t²/2; a slowing edge may never get there.
+                let reaches = speed * speed + 2.0 * pull * left;
+                if speed > 0.0 && reaches > 0.0 {
+                    first = first.min(2.0 * left / (speed + reaches.sqrt()));
+                }
+            }
+        }
+        OVERSTEP * first.max(0.0) + f64::MIN_POSITIVE
+    }
+
+    /// Tells the solver that the laws, and perhaps the forces of growing contacts, have changed.
+    fn restart(&mut self, state: &State) {
+        self.solver.begin_mut().copy_from_slice(&state.y);
+        self.solver.restart_slopes(&equations(self.model, self.layout, state));
+    }
+
+    /// Absolute error allowed per component: the tolerance times the natural scale, and never below what rounding
+    /// of a far-travelled coordinate makes of the force.
+    fn set_scale(&mut self, state: &State) {
+        let layout = self.layout;
+        for (i, free) in self.model.free.iter().enumerate() {
+            let (length, speed) = free.scale;
+            let floor = 8.0 * f64::EPSILON * state.y[i].abs() / length;
+            self.scale[i] = (self.tolerance + floor) * length;
+            let floor = floor + 8.0 * f64::EPSILON * state.y[layout.velocity(i)].abs() / speed;
+            self.scale[layout.velocity(i)] = (self.tolerance + floor) * speed;
+        }
+        for contact in &self.model.contacts {
+            if let Some(slot) = contact.slot {
+                let deepest = contact.natural.0 / contact.law.stick_slope().max(f64::MIN_POSITIVE);
+                let limit = contact.law.friction() * contact.law.normal_force(deepest);
+                self.scale[layout.force(slot)] = self.tolerance * limit.max(f64::MIN_POSITIVE);
+            }
+        }
+        let work = self.tolerance * self.model.work_scale();
+        self.scale.iter_mut().skip(layout.dimension()).for_each(|scale| *scale = work);
+    }
+}
+
+/// The equations on the state as it stands.
+fn equations<'s>(model: &'s Model, layout: Layout, state: &'s State) -> Equations<'s> {
+    Equations {
+        model,
+        pieces: &state.pieces,
+        memories: &state.memories,
+        modes: &state.modes,
+        layout,
+        crossing: false,
+    }
+}
+
+/// End of the next step: the corner exactly, or so that no sliver is left before it.
+fn aim(t: f64, step: f64, corner: f64) -> f64 {
+    let left = corner - t;
+    if step >= 0.999 * left {
+        corner
+    } else if 2.0 * step > left {
+        t + 0.5 * left
+    } else {
+        t + step
+    }
+}

@@ -1,0 +1,96 @@
+//! The plain explicit reference: `Dopri5` of `ode_solvers`, one instance per smooth stretch, no events.
+
+use super::chords::Chords;
+use crate::record::Record;
+use crate::{Model, Plan, RunError, State};
+use stickslip_stepper::System;
+use stickslip_stepper::reference::{Memory, ReferenceError, ReferenceOptions, integrate};
+
+/// A run whose steps an outside solver chooses.
+struct Driven<'a> {
+    chords: Chords<'a>,
+    outcome: Result<(), RunError>,
+}
+
+impl System for Driven<'_> {
+    fn dimension(&self) -> usize {
+        self.chords.layout.dimension()
+    }
+
+    fn positions(&self) -> usize {
+        self.chords.layout.free
+    }
+
+    fn total(&self) -> usize {
+        self.chords.layout.total()
+    }
+
+    fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.chords.equations().slopes(t, y, dy);
+    }
+}
+
+impl Memory for Driven<'_> {
+    fn accept(&mut self, t: f64, y: &[f64]) {
+        // The solver cannot be stopped from here; after an error the rest of the stretch is not recorded.
+        if self.outcome.is_ok() && t > self.chords.state.t {
+            self.outcome = self.chords.accept(t, y);
+        }
+    }
+}
+
+/// Runs from corner to corner.
+pub(super) fn run(
+    model: &Model,
+    plan: &Plan,
+    tolerance: f64,
+    state: &mut State,
+    record: &mut dyn Record,
+) -> Result<(), RunError> {
+    let scale: Vec<f64> = model.free.iter().map(|f| tolerance * f.scale.0).collect();
+    let speed = model.free.iter().map(|f| tolerance * f.scale.1);
+    let scale: Vec<f64> = scale.into_iter().chain(speed).collect();
+    let mut driven = Driven { chords: Chords::new(model, plan, state, record), outcome: Ok(()) };
+    driven.chords.write_now();
+    let mut options = ReferenceOptions::default();
+    while driven.chords.state.t < plan.duration && driven.outcome.is_ok() {
+        let t = driven.chords.state.t;
+        let corner = driven.chords.state.pieces.iter().map(|p| p.end).fold(plan.duration, f64::min);
+        let y = driven.chords.state.y.clone();
+        let limit = plan.limits.steps.saturating_sub(driven.chords.state.counts.steps);
+        options.steps = u32::try_from(limit).unwrap_or(u32::MAX);
+        let stretch = integrate(&mut driven, (t, corner), &y, &scale, &options)
+            .map_err(|error| failure(&error, plan, &driven.chords));
+        match stretch {
+            Ok(stretch) => {
+                options.first = Some(stretch.step);
+                driven.chords.state.counts.rejected += stretch.rejected;
+                driven.chords.state.counts.evaluations += stretch.evaluations;
+            }
+            Err(error) if driven.outcome.is_ok() => driven.outcome = Err(error),
+            Err(_) => {}
+        }
+        driven.turn_corners(model);
+    }
+    driven.chords.write_now();
+    driven.outcome
+}
+
+impl Driven<'_> {
+    fn turn_corners(&mut self, model: &Model) {
+        let state = &mut *self.chords.state;
+        for (piece, waveform) in state.pieces.iter_mut().zip(&model.waveforms) {
+            while piece.end <= state.t {
+                *piece = waveform.after(piece);
+            }
+        }
+    }
+}
+
+fn failure(error: &ReferenceError, plan: &Plan, chords: &Chords<'_>) -> RunError {
+    let t = chords.state.t;
+    match error {
+        ReferenceError::TooManySteps { .. } => RunError::TooManySteps { t, limit: plan.limits.steps },
+        _ => RunError::StepTooSmall { t, step: 0.0 },
+    }
+}

@@ -1,0 +1,58 @@
+//! Guards against endless work.
+
+use crate::record::Record;
+use crate::{Limits, Model, RunError, State};
+use std::time::Instant;
+
+/// Events closer together than this part of a natural period count as accumulating …
+const ZENO_WINDOW: f64 = 1e-4;
+/// … and this many of them stop the run.
+const ZENO_COUNT: u32 = 200;
+/// Steps between two looks at the clock.
+const STRIDE: u64 = 1024;
+
+/// Watches limits, the clock, and events that accumulate.
+pub(super) struct Watch {
+    limits: Limits,
+    begun: Instant,
+    windows: Vec<(f64, u32)>,
+}
+
+impl Watch {
+    pub(super) fn new(model: &Model, limits: Limits) -> Self {
+        Self { limits, begun: Instant::now(), windows: vec![(f64::NEG_INFINITY, 0); model.contacts.len()] }
+    }
+
+    /// Called after every attempt.
+    pub(super) fn step(&self, state: &State, record: &mut dyn Record) -> Result<(), RunError> {
+        let tried = state.counts.steps + state.counts.rejected;
+        if tried >= self.limits.steps {
+            return Err(RunError::TooManySteps { t: state.t, limit: self.limits.steps });
+        }
+        if !tried.is_multiple_of(STRIDE) {
+            return Ok(());
+        }
+        if let Some(limit) = self.limits.wall.filter(|limit| self.begun.elapsed().as_secs_f64() > *limit) {
+            return Err(RunError::OutOfTime { t: state.t, limit });
+        }
+        if record.goes_on(state.t) { Ok(()) } else { Err(RunError::Interrupted { t: state.t }) }
+    }
+
+    /// Called after every event of contact `c`.
+    pub(super) fn event(&mut self, model: &Model, state: &State, c: usize) -> Result<(), RunError> {
+        if state.counts.events >= self.limits.events {
+            return Err(RunError::TooManyEvents { t: state.t, limit: self.limits.events });
+        }
+        let contact = &model.contacts[c];
+        let window = ZENO_WINDOW * std::f64::consts::TAU / contact.natural.1;
+        let (start, count) = &mut self.windows[c];
+        if state.t - *start > window {
+            (*start, *count) = (state.t, 0);
+        }
+        *count += 1;
+        if *count > ZENO_COUNT {
+            return Err(RunError::Zeno { t: state.t, contact: contact.name.clone(), count: *count, window });
+        }
+        Ok(())
+    }
+}

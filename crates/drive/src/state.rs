@@ -1,0 +1,202 @@
+//! All that the future of a run depends on.
+
+use crate::model::{Contact, Place};
+use crate::{Model, Piece};
+use stickslip_contact::{Apex, Branch, Course, Memory, Move};
+use stickslip_stepper::StepControl;
+
+/// State of a drive: cloneable, comparable. A run started from a copy goes on to the same bits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Time, s.
+    pub(crate) t: f64,
+    /// Components in the order of [`Layout`].
+    pub(crate) y: Vec<f64>,
+    pub(crate) memories: Vec<Memory>,
+    pub(crate) modes: Vec<Mode>,
+    /// Whether the last segment of each contact was growth that may go on smoothly.
+    pub(crate) grew: Vec<bool>,
+    /// The smooth piece each waveform is on.
+    pub(crate) pieces: Vec<Piece>,
+    /// Friction work of each contact booked at its commits, J.
+    pub(crate) friction: Vec<f64>,
+    /// Input that is not an integral over time: jumps, and normal work, J.
+    pub(crate) jumps: f64,
+    /// Kinetic plus elastic energy at t = 0, J.
+    pub(crate) origin: f64,
+    /// Next step, s; 0 before the first one.
+    pub(crate) step: f64,
+    /// Step in use when a contact last went into gross slip, s: what comes after needs it again.
+    pub(crate) stuck_step: f64,
+    pub(crate) control: Option<StepControl>,
+    pub(crate) counts: Counts,
+}
+
+/// Work done so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Attempts thrown away, by step control or to end at an event.
+    pub rejected: u64,
+    /// Evaluations of the equations of motion.
+    pub evaluations: u64,
+    /// Events.
+    pub events: u64,
+}
+
+/// What a contact is doing, decreed at the last event: the smooth law that is integrated until the next one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Mode {
+    /// No contact.
+    Open,
+    /// Grows in full stick; its force is a state.
+    Grow,
+    /// Slip spreads along one branch of the curve.
+    Slip(Branch),
+    /// The whole law from the committed memory, kinks and all, in one sense of sliding: a row of springs, or a
+    /// stepper without events.
+    Whole {
+        /// Sense of sliding.
+        sense: f64,
+    },
+}
+
+impl Mode {
+    /// +1 forward, -1 backward, 0 otherwise.
+    pub(crate) fn sense(&self) -> f64 {
+        match self {
+            Self::Open | Self::Grow => 0.0,
+            Self::Slip(branch) => branch.sense(),
+            Self::Whole { sense } => *sense,
+        }
+    }
+
+    pub(crate) fn is_gross(&self) -> bool {
+        matches!(self, Self::Slip(branch) if branch.is_gross())
+    }
+
+    /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
+    pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
+        match (memory, course) {
+            (_, Course::Open) => Self::Open,
+            (Memory::Row { .. }, course) => Self::Whole { sense: course.sense() },
+            (Memory::Curve(_), Course::Grow) => Self::Grow,
+            (Memory::Curve(curve), Course::Forward | Course::Backward) => {
+                Self::Slip(curve.branch(&contact.law, course.sense(), slack))
+            }
+        }
+    }
+}
+
+/// Places of the components: positions, velocities, forces of growing contacts; then the integrals on whose
+/// value nothing depends: input work, dissipation, and for each growing contact elastic energy and friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub(crate) free: usize,
+    pub(crate) growing: usize,
+}
+
+impl Layout {
+    pub(crate) fn dimension(self) -> usize {
+        2 * self.free + self.growing
+    }
+    pub(crate) fn total(self) -> usize {
+        self.dimension() + 2 + 2 * self.growing
+    }
+    pub(crate) fn velocity(self, i: usize) -> usize {
+        self.free + i
+    }
+    pub(crate) fn force(self, slot: usize) -> usize {
+        2 * self.free + slot
+    }
+    pub(crate) fn input(self) -> usize {
+        self.dimension()
+    }
+    pub(crate) fn damping(self) -> usize {
+        self.dimension() + 1
+    }
+    pub(crate) fn elastic(self, slot: usize) -> usize {
+        self.dimension() + 2 + 2 * slot
+    }
+    pub(crate) fn friction(self, slot: usize) -> usize {
+        self.dimension() + 3 + 2 * slot
+    }
+}
+
+impl Model {
+    pub(crate) fn layout(&self) -> Layout {
+        Layout { free: self.free.len(), growing: self.growing }
+    }
+
+    /// The state at t = 0, before anything is in equilibrium or classified.
+    pub(crate) fn rest(&self) -> State {
+        let layout = self.layout();
+        let mut y = vec![0.0; layout.total()];
+        for (i, free) in self.free.iter().enumerate() {
+            (y[i], y[layout.velocity(i)]) = free.start;
+        }
+        let pieces = self.waveforms.iter().map(|w| w.piece_at(0.0)).collect();
+        let memories: Vec<Memory> = self.contacts.iter().map(|c| self.touched(c)).collect();
+        State {
+            t: 0.0,
+            y,
+            modes: memories.iter().map(|_| Mode::Whole { sense: 0.0 }).collect(),
+            grew: vec![false; memories.len()],
+            memories,
+            pieces,
+            friction: vec![0.0; self.contacts.len()],
+            jumps: 0.0,
+            origin: 0.0,
+            step: 0.0,
+            stuck_step: f64::INFINITY,
+            control: None,
+            counts: Counts::default(),
+        }
+    }
+
+    /// The memory a contact starts with: untouched, or loaded monotonically to its starting displacement.
+    fn touched(&self, contact: &Contact) -> Memory {
+        let d = self.indentation(contact, 0.0);
+        let mut memory = contact.engine.memory(&contact.law, Apex { d, u: 0.0 });
+        let to = Apex { d, u: contact.start };
+        // Finite by the scene's checks, so the commit cannot fail.
+        let _ = memory.commit(&contact.law, stickslip_contact::Segment::Straight(to));
+        memory
+    }
+}
+
+impl State {
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// Work done so far.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Memories of the contacts, in the scene's order.
+    pub fn memories(&self) -> &[Memory] {
+        &self.memories
+    }
+
+    /// Position (m) and velocity (m/s) of body `index` of the scene.
+    pub fn body(&self, model: &Model, index: usize) -> Option<(f64, f64)> {
+        Some(match model.bodies.get(index)?.place {
+            Place::Held(x) => (x, 0.0),
+            Place::Free(i) => (self.y[i], self.y[model.layout().velocity(i)]),
+            Place::Driven(w) => {
+                let sample = model.waveforms[w].sample(&self.pieces[w], self.t);
+                (sample.value, sample.rate)
+            }
+        })
+    }
+
+    /// Tangential force of one contact, N, as the contacts stand.
+    pub fn tangential_force(&self, model: &Model, index: usize) -> Option<f64> {
+        let (contact, memory) = (model.contacts.get(index)?, self.memories.get(index)?);
+        Some(memory.trial(&contact.law, Move::Chord(memory.apex())).force)
+    }
+}

@@ -1,0 +1,241 @@
+//! Prescribed motions (or forces, or strokes) in time, with exact corners.
+//!
+//! A waveform is a chain of smooth pieces, each on a half-open interval [start, end). A stepper keeps the [`Piece`] it
+//! is on, samples that one also at its very end (the limit from the left), and then goes on to the piece
+//! [`Waveform::after`] it. A value that jumps does so between two pieces.
+
+mod corners;
+mod law;
+mod shape;
+mod sines;
+
+pub use shape::{Harmonic, Shape, Timing, WaveformError};
+
+use corners::Corners;
+use law::{Law, Straight};
+
+/// A prescribed function of time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Waveform {
+    shape: Shape,
+    timing: Timing,
+    corners: Option<Corners>,
+    /// Values held before the start and after the stop.
+    held: (f64, f64),
+    /// When it starts and stops, s.
+    window: (f64, f64),
+    range: (f64, f64),
+}
+
+/// A smooth piece of a waveform, on [start, end).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Start, s; [`f64::NEG_INFINITY`] for the value held before a waveform starts.
+    pub start: f64,
+    /// End, s; [`f64::INFINITY`] if there is none.
+    pub end: f64,
+    /// Place in the chain, 0 for what is held before the start.
+    pub index: u64,
+    law: Law,
+}
+
+/// Value of a waveform and its derivatives at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Value, in the unit of what is driven.
+    pub value: f64,
+    /// First derivative, per s.
+    pub rate: f64,
+    /// Second derivative, per s².
+    pub acceleration: f64,
+}
+
+impl Waveform {
+    /// Checks and prepares a waveform.
+    ///
+    /// # Errors
+    ///
+    /// [`WaveformError`] names the parameter, what was expected and what came.
+    pub fn new(shape: Shape, timing: Timing) -> Result<Self, WaveformError> {
+        shape::check(&shape, &timing)?;
+        let corners = match &shape {
+            Shape::Table { points } => Corners::table(points, timing.delay),
+            _ => Corners::periodic(&shape, &timing),
+        };
+        let window = match (&corners, &shape) {
+            (Some(corners), _) => corners.window(),
+            (None, Shape::Table { points }) => [timing.delay + points[0].0; 2].into(),
+            (None, _) => {
+                let stop = timing.cycles.map_or(f64::INFINITY, |n| n * timing.period + timing.delay);
+                (timing.delay, stop)
+            }
+        };
+        let range = range(&shape);
+        let mut waveform = Self { shape, timing, corners, held: (0.0, 0.0), window, range };
+        waveform.held = waveform.ends();
+        Ok(waveform)
+    }
+
+    /// The piece that holds at `t` (s).
+    #[must_use]
+    pub fn piece_at(&self, t: f64) -> Piece {
+        let (start, stop) = self.window;
+        if t >= stop {
+            self.last()
+        } else if t >= start {
+            self.corners.as_ref().map_or_else(|| self.sines(), |corners| corners.piece_at(t))
+        } else {
+            let law = Law::Straight(Straight::held(start, self.held.0));
+            Piece { start: f64::NEG_INFINITY, end: start, index: 0, law }
+        }
+    }
+
+    /// The piece after this one; the last piece has no end and is followed by itself.
+    #[must_use]
+    pub fn after(&self, piece: &Piece) -> Piece {
+        let mut next = *piece;
+        // Pieces shorter than the spacing of doubles are skipped: at most the flyback, never both ways.
+        for _ in 0..3 {
+            next = self.following(&next);
+            if next.start < next.end {
+                break;
+            }
+        }
+        next
+    }
+
+    /// Value, rate and acceleration at `t` (s) by the law of `piece`, also exactly at its end: the limit from the left.
+    #[must_use]
+    #[inline]
+    pub fn sample(&self, piece: &Piece, t: f64) -> Sample {
+        match &piece.law {
+            Law::Straight(straight) => straight.at(t),
+            Law::Cycloid(cycloid) => cycloid.at(t),
+            Law::Sines => sines::at(&self.shape, &self.timing, t),
+        }
+    }
+
+    /// Jump of the value at the end of `piece`; exactly 0 where it is continuous.
+    #[must_use]
+    pub fn jump_after(&self, piece: &Piece) -> f64 {
+        if piece.end == f64::INFINITY {
+            return 0.0;
+        }
+        let next = self.after(piece);
+        self.sample(&next, next.start).value - self.sample(piece, piece.end).value
+    }
+
+    /// Whether the value ever jumps by design.
+    #[must_use]
+    pub fn has_jumps(&self) -> bool {
+        match &self.shape {
+            Shape::Sawtooth { stroke, flyback } | Shape::Cycloid { stroke, flyback } => {
+                *stroke != 0.0 && self.timing.period - flyback >= self.timing.period
+            }
+            Shape::Table { points } => {
+                points.windows(2).any(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1)
+            }
+            Shape::Triangle { .. } | Shape::Sine { .. } | Shape::Harmonics { .. } => false,
+        }
+    }
+
+    /// Smallest and largest value over all time: exact but for sums of several sines, where it is a bound, safe and
+    /// usually within a few millionths.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        self.range
+    }
+
+    /// Period, s; none for a table.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        (!matches!(self.shape, Shape::Table { .. })).then_some(self.timing.period)
+    }
+
+    /// Longest step, s, that cannot overlook a wave inside a smooth piece: a quarter of the shortest one; infinite where
+    /// all pieces are straight.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        let period = self.timing.period;
+        let wave = match &self.shape {
+            Shape::Sine { .. } => period,
+            Shape::Harmonics { terms } => period / terms.iter().map(|term| term.order).fold(1.0, f64::max),
+            Shape::Cycloid { flyback, .. } if *flyback > 0.0 => flyback.min(period - flyback),
+            Shape::Cycloid { .. } => period,
+            Shape::Sawtooth { .. } | Shape::Triangle { .. } | Shape::Table { .. } => f64::INFINITY,
+        };
+        0.25 * wave
+    }
+
+    /// Its form, as given.
+    #[must_use]
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// When it runs, as given.
+    #[must_use]
+    pub fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    fn following(&self, piece: &Piece) -> Piece {
+        if piece.end >= self.window.1 {
+            return self.last();
+        }
+        match &self.corners {
+            Some(corners) => corners.piece(piece.index.saturating_add(1)),
+            None => self.sines(),
+        }
+    }
+
+    /// The piece of a waveform without corners.
+    fn sines(&self) -> Piece {
+        Piece { start: self.window.0, end: self.window.1, index: 1, law: Law::Sines }
+    }
+
+    /// What is held after the stop.
+    fn last(&self) -> Piece {
+        let stop = self.window.1;
+        let index = match (&self.corners, &self.shape) {
+            (Some(corners), _) => corners.after(),
+            (None, Shape::Table { .. }) => 1,
+            (None, _) => 2,
+        };
+        let law = Law::Straight(Straight::held(stop, self.held.1));
+        Piece { start: stop, end: f64::INFINITY, index, law }
+    }
+
+    /// Values to hold before the start and after the stop.
+    fn ends(&self) -> (f64, f64) {
+        if let Shape::Table { points } = &self.shape {
+            let (first, last) = (points.first(), points.last());
+            return (first.map_or(0.0, |p| p.1), last.map_or(0.0, |p| p.1));
+        }
+        let (start, stop) = self.window;
+        let first = self.corners.as_ref().map_or_else(|| self.sines(), |corners| corners.piece(1));
+        let before = self.sample(&first, start).value;
+        if stop == f64::INFINITY {
+            return (before, before);
+        }
+        let last = self.corners.as_ref().map_or(first, |corners| corners.piece(corners.after() - 1));
+        let jumped = self.corners.as_ref().and_then(Corners::beyond);
+        (before, jumped.unwrap_or_else(|| self.sample(&last, stop).value))
+    }
+}
+
+fn range(shape: &Shape) -> (f64, f64) {
+    match shape {
+        Shape::Sawtooth { stroke, .. } | Shape::Cycloid { stroke, .. } | Shape::Triangle { stroke } => {
+            (stroke.min(0.0), stroke.max(0.0))
+        }
+        Shape::Sine { amplitude, offset, .. } => (offset - amplitude.abs(), offset + amplitude.abs()),
+        Shape::Harmonics { terms } => sines::range(terms),
+        Shape::Table { points } => points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |range, point| {
+            (range.0.min(point.1), range.1.max(point.1))
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

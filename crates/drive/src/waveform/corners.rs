@@ -1,0 +1,174 @@
+//! Where a waveform turns: times of its corners and the values there.
+
+use super::law::{Cycloid, Law, Straight};
+use super::{Piece, Shape, Timing};
+use std::f64::consts::TAU;
+
+/// Segments between corners, numbered from 0 at the start of the period that the delay falls into.
+///
+/// Corner n lies at k·period + origin, never at a sum of steps: after a million periods it is as exact as at first.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Corners {
+    /// s; 0 for a table, whose corners come once.
+    period: f64,
+    /// Segments per period; for a table more than there are.
+    per_period: u64,
+    /// Times of the corners of the first period, s.
+    origins: Vec<f64>,
+    /// Values at the start and at the end of each segment.
+    values: Vec<(f64, f64)>,
+    cycloidal: bool,
+    /// First and last segment that run, and when the first starts and the last stops.
+    first: u64,
+    last: u64,
+    start: f64,
+    stop: f64,
+}
+
+impl Corners {
+    /// Corners of a checked periodic shape; none if it has no corners.
+    pub(super) fn periodic(shape: &Shape, timing: &Timing) -> Option<Self> {
+        let period = timing.period;
+        let (stroke, top, cycloidal) = match shape {
+            Shape::Sawtooth { stroke, flyback } => (*stroke, period - flyback, false),
+            Shape::Cycloid { stroke, flyback } => (*stroke, period - flyback, true),
+            Shape::Triangle { stroke } => (*stroke, 0.5 * period, false),
+            _ => return None,
+        };
+        // A top at the very end of the period is a jump: no segment leads back.
+        let knots = if top < period { vec![0.0, top] } else { vec![0.0] };
+        let values = [(0.0, stroke), (stroke, 0.0)][..knots.len()].to_vec();
+        let shift = shift(&knots, timing);
+        let origins = knots.iter().map(|knot| timing.delay + (knot - shift)).collect();
+        let mut corners = Self {
+            period,
+            per_period: knots.len() as u64,
+            origins,
+            values,
+            cycloidal,
+            first: 0,
+            last: u64::MAX,
+            start: timing.delay,
+            stop: f64::INFINITY,
+        };
+        corners.first = corners.segment_at(timing.delay);
+        if let Some(cycles) = timing.cycles {
+            corners.stop_at(cycles * period + timing.delay);
+        }
+        Some(corners)
+    }
+
+    /// Corners of a checked table; none if all its points share one time.
+    pub(super) fn table(points: &[(f64, f64)], delay: f64) -> Option<Self> {
+        let ways = || points.windows(2).filter(|pair| pair[0].0 < pair[1].0);
+        let (start, end) = (delay + points.first()?.0, delay + points.last()?.0);
+        let values: Vec<_> = ways().map(|pair| (pair[0].1, pair[1].1)).collect();
+        let last = (values.len() as u64).checked_sub(1)?;
+        let origins = ways().map(|pair| delay + pair[0].0).chain([end]).collect();
+        Some(Self {
+            period: 0.0,
+            per_period: u64::MAX,
+            origins,
+            values,
+            cycloidal: false,
+            first: 0,
+            last,
+            start,
+            stop: end,
+        })
+    }
+
+    /// When the first segment starts and the last stops, s.
+    pub(super) fn window(&self) -> (f64, f64) {
+        (self.start, self.stop)
+    }
+
+    /// Index of the piece after the last segment.
+    pub(super) fn after(&self) -> u64 {
+        (self.last - self.first).saturating_add(2)
+    }
+
+    /// The piece that holds at a time inside the window.
+    pub(super) fn piece_at(&self, t: f64) -> Piece {
+        self.piece(1 + self.segment_at(t).clamp(self.first, self.last) - self.first)
+    }
+
+    /// The piece with this index, 1 for the first segment that runs.
+    pub(super) fn piece(&self, index: u64) -> Piece {
+        let n = self.first.saturating_add(index.saturating_sub(1)).min(self.last);
+        let (from, to) = (self.corner(n), self.corner(n.saturating_add(1)));
+        let values = self.values.get(self.place(n)).copied().unwrap_or_default();
+        let (from, to) = ((from, values.0), (to, values.1));
+        let law = if self.cycloidal {
+            Law::Cycloid(Cycloid::between(from, to))
+        } else {
+            Law::Straight(Straight::between(from, to))
+        };
+        let start = if n == self.first { self.start } else { from.0 };
+        Piece { start, end: to.0.min(self.stop), index, law }
+    }
+
+    /// Value that a jump at the very end of the last segment leads to; none where the end is no corner.
+    pub(super) fn beyond(&self) -> Option<f64> {
+        let next = self.last.checked_add(1)?;
+        let corner = self.period > 0.0 && self.corner(next) == self.stop;
+        corner.then(|| self.values.get(self.place(next)).map(|value| value.0))?
+    }
+
+    /// Time of corner `n`, the start of segment `n`.
+    fn corner(&self, n: u64) -> f64 {
+        let origin = self.origins.get(self.place(n)).copied().unwrap_or(f64::INFINITY);
+        (n / self.per_period) as f64 * self.period + origin
+    }
+
+    fn place(&self, n: u64) -> usize {
+        usize::try_from(n % self.per_period).unwrap_or(usize::MAX)
+    }
+
+    /// The segment on [start, end) that contains `t`.
+    fn segment_at(&self, t: f64) -> u64 {
+        let origin = self.origins.first().copied().unwrap_or(0.0);
+        let periods = if self.period > 0.0 { ((t - origin) / self.period).floor().max(0.0) } else { 0.0 };
+        let passed = self.origins.partition_point(|o| periods * self.period + o <= t);
+        let mut n =
+            (periods as u64).saturating_mul(self.per_period).saturating_add(passed as u64).saturating_sub(1);
+        // The division may be off by one period where `t` lies on a corner.
+        for _ in 0..=self.origins.len() {
+            if n > 0 && self.corner(n) > t {
+                n -= 1;
+            } else if self.corner(n.saturating_add(1)) <= t {
+                n = n.saturating_add(1);
+            } else {
+                break;
+            }
+        }
+        n
+    }
+
+    /// Ends the waveform at `stop`, or at the corner that it misses by rounding only.
+    fn stop_at(&mut self, stop: f64) {
+        let slack = SLACK * self.period + 2.0 * f64::EPSILON * stop.abs();
+        let n = self.segment_at(stop);
+        let near = |n: u64| (self.corner(n) - stop).abs() <= slack;
+        (self.last, self.stop) = if n > self.first && near(n) {
+            (n - 1, self.corner(n))
+        } else if near(n.saturating_add(1)) {
+            (n, self.corner(n.saturating_add(1)))
+        } else {
+            (n, stop)
+        };
+    }
+}
+
+/// Part of a period below which a time counts as on a corner: a phase of π has an error of a few 1e-16 of it.
+const SLACK: f64 = 1e-13;
+
+/// Time by which the phase advances the waveform, within one period, on the knot itself if it is meant to be there.
+fn shift(knots: &[f64], timing: &Timing) -> f64 {
+    let period = timing.period;
+    let shift = (timing.phase / TAU).rem_euclid(1.0) * period;
+    if period - shift <= SLACK * period {
+        return 0.0;
+    }
+    knots.iter().copied().find(|knot| (knot - shift).abs() <= SLACK * period).unwrap_or(shift)
+}

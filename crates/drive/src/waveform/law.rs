@@ -1,0 +1,78 @@
+//! How a value moves along one smooth piece.
+
+use super::Sample;
+use std::f64::consts::{PI, TAU};
+
+/// Law of one piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Law {
+    /// Straight, or held.
+    Straight(Straight),
+    /// Cycloidal.
+    Cycloid(Cycloid),
+    /// By the sines of the waveform itself.
+    Sines,
+}
+
+/// A straight way between two corners.
+///
+/// It is anchored at the end with the smaller magnitude: where a value falls to 0 or rises from it, rounding cannot
+/// carry it to the other side. The other end is exact by decree.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Straight {
+    anchor: (f64, f64),
+    other: (f64, f64),
+    rate: f64,
+}
+
+impl Straight {
+    /// From one (time, value) to the other; the rate belongs to the rounded times, so that value and rate agree.
+    pub(super) fn between(from: (f64, f64), to: (f64, f64)) -> Self {
+        let time = to.0 - from.0;
+        let rate = if time > 0.0 { (to.1 - from.1) / time } else { 0.0 };
+        let (anchor, other) = if from.1.abs() <= to.1.abs() { (from, to) } else { (to, from) };
+        Self { anchor, other, rate }
+    }
+
+    /// Held at `value`; `time` is any finite time.
+    pub(super) fn held(time: f64, value: f64) -> Self {
+        Self { anchor: (time, value), other: (time, value), rate: 0.0 }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, t: f64) -> Sample {
+        let along = self.anchor.1 + self.rate * (t - self.anchor.0);
+        let value = if t == self.other.0 { self.other.1 } else { along };
+        Sample { value, rate: self.rate, acceleration: 0.0 }
+    }
+}
+
+/// A way between two corners by the cycloidal law: value₀ + Δ(τ - sin(2πτ)/2π), τ = (t - t₀)/(t₁ - t₀).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cycloid {
+    from: (f64, f64),
+    to: (f64, f64),
+}
+
+impl Cycloid {
+    pub(super) fn between(from: (f64, f64), to: (f64, f64)) -> Self {
+        Self { from, to }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, t: f64) -> Sample {
+        if t == self.to.0 {
+            return Sample { value: self.to.1, rate: 0.0, acceleration: 0.0 };
+        }
+        let (time, rise) = (self.to.0 - self.from.0, self.to.1 - self.from.1);
+        let part = (t - self.from.0) / time;
+        // Half angles: 1 - cos 2πτ = 2 sin² πτ loses nothing where the motion starts.
+        let (sin, cos) = (PI * part).sin_cos();
+        let mean = rise / time;
+        Sample {
+            value: self.from.1 + rise * (part - sin * cos / PI),
+            rate: mean * 2.0 * sin * sin,
+            acceleration: mean / time * 2.0 * TAU * sin * cos,
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Waveforms: prescribed courses in time.
+
+use super::Reserved;
+use crate::quantity::{Angle, AnyQuantity, Frequency, Time};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+
+/// A prescribed course in time. Peak-to-peak values are called stroke, half of it amplitude.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum WaveformForm {
+    /// Starts at 0, rises linearly to the stroke, falls linearly to 0 in the flyback that ends the period.
+    Sawtooth(SawtoothForm),
+    /// Rises linearly from 0 to the stroke in half a period and falls back.
+    Triangle(TriangleForm),
+    /// offset + amplitude · sin(ωt + phase).
+    Sine(SineForm),
+    /// Sum of amplitude · sin(order · ωt + phase).
+    Harmonics(HarmonicsForm),
+    /// Rises by the cycloidal law stroke · (τ - sin(2πτ)/2π), falls by the same law in the flyback that ends the period.
+    Cycloid(CycloidForm),
+    /// Straight between given points, held before the first and after the last.
+    Table(TableForm),
+    /// Not yet in this version.
+    Parabola(Reserved),
+    /// Not yet in this version.
+    Trapezoid(Reserved),
+    /// Not yet in this version.
+    Chirp(Reserved),
+    /// Not yet in this version.
+    Step(Reserved),
+}
+
+/// What all periodic waveforms share.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Periodic {
+    pub(crate) period: Option<Time>,
+    pub(crate) frequency: Option<Frequency>,
+    pub(crate) phase: Angle,
+    pub(crate) delay: Time,
+    pub(crate) cycles: Option<f64>,
+}
+
+// Written out in every waveform: serde's `flatten` would lose the places of errors.
+macro_rules! periodic {
+    ($(#[$meta:meta])* $name:ident { $($(#[$field_meta:meta])* $field:ident: $type:ty,)* }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        pub(crate) struct $name {
+            $($(#[$field_meta])* pub(crate) $field: $type,)*
+            /// Period, s, above 0; this or `frequency`.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub(crate) period: Option<Time>,
+            /// Frequency, Hz, above 0; this or `period`.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub(crate) frequency: Option<Frequency>,
+            /// Phase, rad: advances the waveform by phase/2π periods.
+            #[serde(default = "no_angle")]
+            pub(crate) phase: Angle,
+            /// Delay, s, at least 0: until then the first value is held.
+            #[serde(default = "no_time")]
+            pub(crate) delay: Time,
+            /// Number of cycles, above 0, after which the last value is held; without end by default.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(extend("exclusiveMinimum" = 0))]
+            pub(crate) cycles: Option<f64>,
+        }
+
+        impl $name {
+            pub(crate) fn periodic(&self) -> Periodic {
+                Periodic {
+                    period: self.period,
+                    frequency: self.frequency,
+                    phase: self.phase,
+                    delay: self.delay,
+                    cycles: self.cycles,
+                }
+            }
+        }
+    };
+}
+
+periodic! {
+    /// Sawtooth.
+    SawtoothForm {
+        /// Peak-to-peak value.
+        stroke: AnyQuantity,
+        /// Duration of the fall, s, at least 0 (a jump) and below the period.
+        flyback: Time,
+    }
+}
+
+periodic! {
+    /// Triangle.
+    TriangleForm {
+        /// Peak-to-peak value.
+        stroke: AnyQuantity,
+    }
+}
+
+periodic! {
+    /// Sine.
+    SineForm {
+        /// Half the peak-to-peak value.
+        amplitude: AnyQuantity,
+        /// Mean value.
+        #[serde(default = "no_value")]
+        offset: AnyQuantity,
+    }
+}
+
+periodic! {
+    /// Sum of sines.
+    HarmonicsForm {
+        /// The sines, at least one; at most 1000 in all waveforms together.
+        terms: Vec<HarmonicForm>,
+    }
+}
+
+periodic! {
+    /// Cycloid.
+    CycloidForm {
+        /// Peak-to-peak value.
+        stroke: AnyQuantity,
+        /// Duration of the fall, s, above 0 and below the period; half a period by default.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        flyback: Option<Time>,
+    }
+}
+
+/// One sine of a sum.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HarmonicForm {
+    /// Amplitude.
+    pub(crate) amplitude: AnyQuantity,
+    /// Multiple of the frequency, a whole number of at least 1.
+    #[schemars(range(min = 1, max = 1000))]
+    pub(crate) order: super::Count,
+    /// Phase, rad.
+    #[serde(default = "no_angle")]
+    pub(crate) phase: Angle,
+}
+
+/// Table: `points`, or `file` with the names of its columns.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TableForm {
+    /// Pairs of time and value, at least two, times rising; two equal times are a jump.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) points: Option<Vec<Point>>,
+    /// CSV file with a header, numbers in SI; at or below the scenario's own folder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) file: Option<String>,
+    /// Name of the column of times, s; with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) time: Option<String>,
+    /// Name of the column of values, SI; with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) value: Option<String>,
+    /// Delay, s, at least 0: added to all times.
+    #[serde(default = "no_time")]
+    pub(crate) delay: Time,
+}
+
+/// A point of a table.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Point(pub(crate) Time, pub(crate) AnyQuantity);
+
+impl<'de> Deserialize<'de> for Point {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PointVisitor;
+        impl<'de> Visitor<'de> for PointVisitor {
+            type Value = Point;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a pair [time, value]")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Point, A::Error> {
+                let short = |length| de::Error::invalid_length(length, &self);
+                let time = seq.next_element()?.ok_or_else(|| short(0))?;
+                let value = seq.next_element()?.ok_or_else(|| short(1))?;
+                if seq.next_element::<de::IgnoredAny>()?.is_some() {
+                    return Err(short(3));
+                }
+                Ok(Point(time, value))
+            }
+        }
+        deserializer.deserialize_seq(PointVisitor)
+    }
+}
+
+impl JsonSchema for Point {
+    fn schema_name() -> Cow<'static, str> {
+        "Point".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Time and value.",
+            "type": "array",
+            "prefixItems": [generator.subschema_for::<Time>(), generator.subschema_for::<AnyQuantity>()],
+            "minItems": 2,
+            "maxItems": 2
+        })
+    }
+}
+
+fn no_angle() -> Angle {
+    Angle::new(0.0)
+}
+
+fn no_time() -> Time {
+    Time::new(0.0)
+}
+
+fn no_value() -> AnyQuantity {
+    AnyQuantity { si: 0.0, kind: None }
+}

@@ -1,0 +1,34 @@
+//! The scenario file: the only crate that reads its JSON.
+//!
+//! [`Scenario::load`] makes a [`Scene`](stickslip_drive::Scene) and a [`Plan`](stickslip_drive::Plan) of a file. The
+//! form of the file and its meaning are two sets of types with one conversion between them, which does all checking.
+//! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept.
+//!
+//! In reading order: `syntax` (strict JSON, limits, duplicate keys) and `place` (the index) under `document`;
+//! `overrides` (`--set`); `units` and `quantity`; `form` (what may stand where, with the docs that become the schema)
+//! and `refusal` (what serde says about it, in our words); `tables` (files named by the scenario); `meaning` (the
+//! conversion); `resolved` (canonical JSON); `schema`.
+
+mod document;
+mod error;
+mod fault;
+mod form;
+mod meaning;
+mod overrides;
+mod path;
+mod place;
+mod quantity;
+mod refusal;
+mod resolved;
+mod scenario;
+mod schema;
+mod suggest;
+mod syntax;
+mod tables;
+mod units;
+
+pub use error::{Excerpt, Report, ScenarioError};
+pub use meaning::Figures;
+pub use scenario::{PlotName, Scenario};
+pub use schema::schema;
+pub use suggest::help as suggestion;

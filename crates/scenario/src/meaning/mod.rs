@@ -1,0 +1,82 @@
+//! From the form to a scene and a plan: all checking happens here, once.
+
+mod body;
+mod contact;
+mod coupling;
+mod names;
+mod range;
+mod run;
+mod waveform;
+
+use crate::PlotName;
+use crate::fault::Fault;
+use crate::form::Form;
+use crate::path::At;
+use crate::units::Kind;
+use stickslip_drive::{Plan, Scene};
+
+/// Whose period and whose motion make steps and speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Figures {
+    /// Place in [`Scene::waveforms`]; none where there are none, or several and none is named.
+    pub waveform: Option<usize>,
+    /// Place in [`Scene::bodies`]; none where there are none, or several and none is named.
+    pub body: Option<usize>,
+}
+
+/// What a form means.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Meaning {
+    pub(crate) scene: Scene,
+    pub(crate) plan: Plan,
+    pub(crate) figures: Figures,
+    pub(crate) channels: Option<Vec<String>>,
+    pub(crate) plots: Vec<PlotName>,
+}
+
+/// A scene under construction.
+struct Builder<'a> {
+    form: &'a Form,
+    scene: Scene,
+    /// What the scene's waveforms do not tell themselves.
+    courses: Vec<Course>,
+    /// Terms of all sums of sines so far.
+    terms: usize,
+}
+
+/// What is known of a waveform from its form alone.
+struct Course {
+    /// Dimension of its values, where its numbers tell.
+    kind: Option<Kind>,
+    /// Delay, s.
+    delay: f64,
+}
+
+/// Gives a form its meaning; the files of its tables are already points.
+pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
+    let mut builder = Builder { form, scene: Scene::default(), courses: Vec::new(), terms: 0 };
+    names::check(form)?;
+    builder.waveforms()?;
+    builder.materials()?;
+    builder.bodies()?;
+    builder.contacts()?;
+    builder.springs()?;
+    builder.actuators()?;
+    builder.loads()?;
+    builder.gravity()?;
+    let figures = builder.figures()?;
+    let plan = builder.plan(figures)?;
+    builder.start()?;
+    let at = At::ROOT;
+    let at = at.key("output");
+    if form.output.springs.is_some() {
+        return Err(at.key("springs").not_yet());
+    }
+    Ok(Meaning {
+        plan,
+        figures,
+        channels: form.output.channels.clone(),
+        plots: form.plots.clone(),
+        scene: builder.scene,
+    })
+}

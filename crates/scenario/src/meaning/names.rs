@@ -1,0 +1,99 @@
+//! Names of parts, and references to them.
+
+use super::Builder;
+use crate::fault::Fault;
+use crate::form::{Form, Parts, Two};
+use crate::path::At;
+use crate::suggest;
+use stickslip_drive::scene::Side;
+
+/// The body that is always there.
+pub(super) const GROUND: &str = "ground";
+/// Longest name, characters: it heads columns and legends.
+const MAX_LENGTH: usize = 64;
+/// Most parts of one kind: references are looked up by name, one after the other.
+const MAX_PARTS: usize = 10_000;
+
+/// All names of a form.
+pub(super) fn check(form: &Form) -> Result<(), Fault> {
+    let root = At::ROOT;
+    check_part(&root.key("materials"), &form.materials)?;
+    check_part(&root.key("waveforms"), &form.waveforms)?;
+    check_part(&root.key("bodies"), &form.bodies)?;
+    check_part(&root.key("contacts"), &form.contacts)?;
+    check_part(&root.key("springs"), &form.springs)?;
+    check_part(&root.key("actuators"), &form.actuators)?;
+    if form.bodies.find(GROUND).is_some() {
+        let fault = root.key("bodies").key(GROUND).fault("the ground is always there, fixed");
+        return Err(fault.on_key().help("choose another name for this body"));
+    }
+    check_columns(form)
+}
+
+fn check_part<T>(at: &At<'_>, parts: &Parts<T>) -> Result<(), Fault> {
+    if parts.0.len() > MAX_PARTS {
+        return Err(at
+            .fault(format!("expected at most {MAX_PARTS} of them, got {}", parts.0.len()))
+            .on_key());
+    }
+    for name in parts.names() {
+        // Names are steps of key paths and heads of columns.
+        let good = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ' | '+');
+        let trimmed = !name.starts_with(' ') && !name.ends_with(' ');
+        if name.is_empty() || !trimmed || name.chars().count() > MAX_LENGTH || !name.chars().all(good) {
+            let fault = at.key(name).fault("this name cannot be used").on_key();
+            let help = format!("1 to {MAX_LENGTH} letters, digits, _, -, + or blanks inside");
+            return Err(fault.help(help));
+        }
+    }
+    Ok(())
+}
+
+/// A trace's columns are headed by the names of bodies and contacts alike.
+fn check_columns(form: &Form) -> Result<(), Fault> {
+    let at = At::ROOT;
+    let at = at.key("contacts");
+    for name in form.contacts.names() {
+        if form.bodies.find(name).is_some() || name == GROUND {
+            let fault = at.key(name).fault("a body has this name already").on_key();
+            return Err(fault.help("bodies and contacts head columns of one table: choose another name"));
+        }
+        if name == "energy" || name == "time_s" {
+            return Err(at.key(name).fault("the trace needs this name for a column of its own").on_key());
+        }
+    }
+    Ok(())
+}
+
+impl Builder<'_> {
+    /// The place of a body by name.
+    pub(super) fn body(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
+        let bodies = &self.form.bodies;
+        bodies.find(name).ok_or_else(|| {
+            let fault = at.fault(format!("there is no body \"{}\"", crate::document::shown(name)));
+            fault.maybe_help(suggest::help(name, bodies.names()))
+        })
+    }
+
+    /// Both ends of a contact, spring or actuator.
+    pub(super) fn between(&self, at: &At<'_>, names: &Two) -> Result<[Side; 2], Fault> {
+        let at = at.key("between");
+        let mut sides = [Side::Ground; 2];
+        for (i, name) in names.0.iter().enumerate() {
+            if name != GROUND {
+                sides[i] =
+                    Side::Body(self.body(&at.index(i), name).map_err(|fault| self.or_ground(fault, name))?);
+            }
+        }
+        if sides[0] == sides[1] {
+            let message = format!("expected two different bodies, got \"{}\" twice", names.0[0]);
+            return Err(at.index(1).fault(message));
+        }
+        Ok(sides)
+    }
+
+    /// Here the ground would have been right, too.
+    fn or_ground(&self, fault: Fault, name: &str) -> Fault {
+        fault.maybe_help(suggest::help(name, self.form.bodies.names().chain([GROUND])))
+    }
+}

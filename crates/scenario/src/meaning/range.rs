@@ -1,0 +1,57 @@
+//! Admissible ranges and the sentences that name them.
+
+use crate::fault::Fault;
+use crate::path::At;
+use crate::quantity::{Dimension, Quantity};
+
+/// The value of a quantity above zero.
+pub(super) fn above_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) -> Result<f64, Fault> {
+    if quantity.si > 0.0 {
+        return Ok(quantity.si);
+    }
+    Err(at.expected(format_args!("{} above 0 {}", D::KIND.article(), D::KIND.si())))
+}
+
+/// The value of a quantity of at least zero.
+pub(super) fn at_least_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) -> Result<f64, Fault> {
+    if quantity.si >= 0.0 {
+        return Ok(quantity.si);
+    }
+    Err(at.expected(format_args!("{} of at least 0 {}", D::KIND.article(), D::KIND.si())))
+}
+
+/// A plain number above zero.
+pub(super) fn number_above_zero(at: &At<'_>, value: f64) -> Result<f64, Fault> {
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(at.expected("a number above 0")) }
+}
+
+/// A plain number between two bounds, both included.
+pub(super) fn number_between(at: &At<'_>, value: f64, low: f64, high: f64) -> Result<f64, Fault> {
+    if (low..=high).contains(&value) {
+        return Ok(value);
+    }
+    Err(at.expected(format_args!("a number between {} and {}", plain(low), plain(high))))
+}
+
+/// A whole number between two bounds, both included.
+pub(super) fn count_between(at: &At<'_>, value: u64, low: u64, high: u64) -> Result<u64, Fault> {
+    if (low..=high).contains(&value) {
+        return Ok(value);
+    }
+    Err(at.expected(format_args!("a whole number between {low} and {high}")))
+}
+
+/// A computed number in a sentence: six digits are plenty.
+pub(super) fn short(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
+    if rounded != 0.0 && !(1e-3..1e6).contains(&f64::abs(rounded)) {
+        format!("{rounded:e}")
+    } else {
+        format!("{rounded}")
+    }
+}
+
+/// Short numbers as they are, small ones with an exponent.
+fn plain(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { format!("{value}") }
+}

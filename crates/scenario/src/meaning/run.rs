@@ -1,0 +1,119 @@
+//! Figures, plan and output.
+
+use super::{Builder, Figures, range};
+use crate::fault::Fault;
+use crate::form::{LimitsForm, StepperForm};
+use crate::path::At;
+use crate::suggest;
+use stickslip_drive::scene::Freedom;
+use stickslip_drive::{Limits, Plan, Stepper};
+
+/// Tolerances that the steppers take.
+const TOLERANCE: (f64, f64) = (1e-13, 1e-2);
+
+impl Builder<'_> {
+    /// Whose period and motion count: those named, or the only ones there are.
+    pub(super) fn figures(&self) -> Result<Figures, Fault> {
+        let form = &self.form.figures;
+        let root = At::ROOT;
+        let at = root.key("figures");
+        let waveform = match &form.waveform {
+            Some(name) => Some(self.form.waveforms.find(name).ok_or_else(|| {
+                let fault = at
+                    .key("waveform")
+                    .fault(format!("there is no waveform \"{}\"", crate::document::shown(name)));
+                fault.maybe_help(suggest::help(name, self.form.waveforms.names()))
+            })?),
+            None => (self.scene.waveforms.len() == 1).then_some(0),
+        };
+        let body = match &form.body {
+            Some(name) => Some(self.body(&at.key("body"), name)?),
+            None => self.only_body(),
+        };
+        Ok(Figures { waveform, body })
+    }
+
+    /// The only free body, or the only body.
+    fn only_body(&self) -> Option<usize> {
+        let bodies = &self.scene.bodies;
+        let mut free = (0..bodies.len()).filter(|&i| bodies[i].part.x == Freedom::Free);
+        match (free.next(), free.next()) {
+            (Some(only), None) => Some(only),
+            (None, _) if bodies.len() == 1 => Some(0),
+            _ => None,
+        }
+    }
+
+    /// How long, by which stepper, what is written down.
+    pub(super) fn plan(&self, figures: Figures) -> Result<Plan, Fault> {
+        let form = &self.form.run;
+        let root = At::ROOT;
+        let at = root.key("run");
+        let duration = match (form.duration, form.cycles) {
+            (Some(duration), None) => range::above_zero(&at.key("duration"), duration)?,
+            (None, Some(cycles)) => self.cycles(&at.key("cycles"), cycles, figures)?,
+            (None, None) => {
+                return Err(at.missing("duration").help("a run has a duration or a number of cycles"));
+            }
+            (Some(_), Some(_)) => {
+                return Err(at
+                    .key("cycles")
+                    .fault("the duration is given already")
+                    .on_key()
+                    .help("keep one of them"));
+            }
+        };
+        let every = match self.form.output.every {
+            Some(every) => Some(range::above_zero(&root.key("output").key("every"), every)?),
+            None => None,
+        };
+        let stepper = stepper(&at.key("stepper"), &form.stepper, duration)?;
+        Ok(Plan { duration, stepper, limits: limits(&at.key("limits"), &form.limits)?, every })
+    }
+
+    fn cycles(&self, at: &At<'_>, cycles: f64, figures: Figures) -> Result<f64, Fault> {
+        let cycles = range::number_above_zero(at, cycles)?;
+        let Some(index) = figures.waveform else {
+            let fault = at.fault("there is no waveform, or more than one, to count the cycles of").on_key();
+            return Err(fault.help("name one in figures.waveform, or give run.duration"));
+        };
+        let named = &self.scene.waveforms[index];
+        let Some(period) = named.part.period() else {
+            let fault = at.fault(format!("the waveform \"{}\" has no period", named.name)).on_key();
+            return Err(fault.help("name another in figures.waveform, or give run.duration"));
+        };
+        let duration = self.courses[index].delay + cycles * period;
+        if duration.is_finite() { Ok(duration) } else { Err(at.expected("fewer cycles")) }
+    }
+}
+
+fn stepper(at: &At<'_>, form: &StepperForm, duration: f64) -> Result<Stepper, Fault> {
+    let tolerance = |name: &str, value: f64| {
+        let at = at.key(name);
+        range::number_between(&at.key("tolerance"), value, TOLERANCE.0, TOLERANCE.1)
+            .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most scenes"))
+    };
+    let step = |name: &str, value: crate::quantity::Time| {
+        let at = at.key(name);
+        let at = at.key("step");
+        let step = range::above_zero(&at, value)?;
+        if step <= duration {
+            return Ok(step);
+        }
+        Err(at.expected(format_args!("a time up to the duration of the run, {duration} s")))
+    };
+    Ok(match form {
+        StepperForm::Event(form) => Stepper::Event { tolerance: tolerance("event", form.tolerance)? },
+        StepperForm::Verlet(form) => Stepper::Verlet { step: step("verlet", form.step)? },
+        StepperForm::Rk4(form) => Stepper::Rk4 { step: step("rk4", form.step)? },
+        StepperForm::Dopri5(form) => Stepper::Dopri5 { tolerance: tolerance("dopri5", form.tolerance)? },
+    })
+}
+
+fn limits(at: &At<'_>, form: &LimitsForm) -> Result<Limits, Fault> {
+    Ok(Limits {
+        steps: range::count_between(&at.key("steps"), form.steps.0, 1, u64::MAX)?,
+        events: range::count_between(&at.key("events"), form.events.0, 1, u64::MAX)?,
+        wall: form.wall.map(|wall| range::above_zero(&at.key("wall"), wall)).transpose()?,
+    })
+}

@@ -1,0 +1,263 @@
+//! Waveforms: shapes, timing and the dimension of their values.
+
+use super::{Builder, Course, range};
+use crate::fault::Fault;
+use crate::form::{HarmonicsForm, Moving, Periodic, Point, TableForm, WaveformForm, WaveformRef};
+use crate::path::At;
+use crate::quantity::{AnyQuantity, Dimension, Time};
+use crate::suggest;
+use crate::units::Kind;
+use stickslip_drive::scene::{Named, Varying};
+use stickslip_drive::{Harmonic, Shape, Timing, Waveform, WaveformError};
+
+/// Highest order of a harmonic.
+const MAX_ORDER: u64 = 1000;
+/// Most terms of all sums together: each costs a sine in every evaluation, and thousands while the extremes are found.
+const MAX_TERMS: usize = 1000;
+
+/// Collects the dimension that the values of one waveform agree on.
+#[derive(Default)]
+struct Values {
+    kind: Option<Kind>,
+}
+
+impl Values {
+    fn take(&mut self, at: &At<'_>, value: AnyQuantity) -> Result<f64, Fault> {
+        match (self.kind, value.kind) {
+            (Some(known), Some(new)) if known != new => {
+                let message = format!("expected {} like the values before it", known.article());
+                Err(at.expected(message.trim_start_matches("expected ")))
+            }
+            (known, new) => {
+                self.kind = known.or(new);
+                Ok(value.si)
+            }
+        }
+    }
+}
+
+impl Builder<'_> {
+    /// All named waveforms, in the order of the file.
+    pub(super) fn waveforms(&mut self) -> Result<(), Fault> {
+        let form = self.form;
+        let root = At::ROOT;
+        let at = root.key("waveforms");
+        for (name, waveform) in form.waveforms.iter() {
+            self.add(&at.key(name), name.to_owned(), waveform)?;
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, at: &At<'_>, name: String, form: &WaveformForm) -> Result<usize, Fault> {
+        if let WaveformForm::Harmonics(sum) = form {
+            self.terms += sum.terms.len();
+            if self.terms > MAX_TERMS {
+                let message =
+                    format!("expected at most {MAX_TERMS} terms in all waveforms, got {}", self.terms);
+                return Err(at.key("harmonics").key("terms").fault(message));
+            }
+        }
+        let mut values = Values::default();
+        let (part, delay) = waveform(at, form, &mut values)?;
+        self.scene.waveforms.push(Named { name, part });
+        self.courses.push(Course { kind: values.kind, delay });
+        Ok(self.scene.waveforms.len() - 1)
+    }
+
+    /// The place of a waveform whose values must be of this dimension. One written out in place is named by its path.
+    pub(super) fn follow(&mut self, at: &At<'_>, waveform: &WaveformRef, kind: Kind) -> Result<usize, Fault> {
+        let at = at.key("follows");
+        let index = match waveform {
+            WaveformRef::Name(name) => self.form.waveforms.find(name).ok_or_else(|| {
+                let fault = at.fault(format!("there is no waveform \"{}\"", crate::document::shown(name)));
+                fault.maybe_help(suggest::help(name, self.form.waveforms.names()))
+            })?,
+            WaveformRef::Inline(form) => self.add(&at, at.path().to_string(), form)?,
+        };
+        match self.courses.get(index).and_then(|course| course.kind) {
+            Some(found) if found != kind => {
+                let message =
+                    format!("expected a waveform of {}s", kind.article().split_once(' ').map_or("", |w| w.1));
+                let help = format!("its values have the unit of {}", found.article());
+                Err(at.fault(message).help(help))
+            }
+            _ => Ok(index),
+        }
+    }
+
+    /// A quantity that may vary in time.
+    pub(super) fn varying<D: Dimension>(&mut self, at: &At<'_>, value: &Moving<D>) -> Result<Varying, Fault> {
+        match value {
+            Moving::Constant(quantity) => Ok(Varying::Constant(quantity.si)),
+            Moving::Follows(waveform) => self.follow(at, waveform, D::KIND).map(Varying::Follows),
+        }
+    }
+
+    /// A quantity that may vary in time but never falls below zero.
+    pub(super) fn varying_at_least_zero<D: Dimension>(
+        &mut self,
+        at: &At<'_>,
+        value: &Moving<D>,
+    ) -> Result<Varying, Fault> {
+        if let Moving::Constant(quantity) = value {
+            return range::at_least_zero(at, *quantity).map(Varying::Constant);
+        }
+        let varying = self.varying(at, value)?;
+        let (low, _) = self.range(varying);
+        if low < 0.0 {
+            let (article, si) = (D::KIND.article(), D::KIND.si());
+            let message = format!(
+                "expected {article} of at least 0 {si} at all times, but the waveform falls to {} {si}",
+                range::short(low)
+            );
+            return Err(at.key("follows").fault(message).help("add an offset, or take a smaller amplitude"));
+        }
+        Ok(varying)
+    }
+
+    /// Lowest and highest value over all time.
+    pub(super) fn range(&self, varying: Varying) -> (f64, f64) {
+        match varying {
+            Varying::Constant(value) => (value, value),
+            Varying::Follows(index) => self.scene.waveforms[index].part.range(),
+        }
+    }
+
+    /// Value at t = 0.
+    pub(super) fn at_start(&self, varying: Varying) -> f64 {
+        match varying {
+            Varying::Constant(value) => value,
+            Varying::Follows(index) => {
+                let waveform = &self.scene.waveforms[index].part;
+                waveform.sample(&waveform.piece_at(0.0), 0.0).value
+            }
+        }
+    }
+}
+
+fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values) -> Result<(Waveform, f64), Fault> {
+    let named = |name| at.key(name);
+    let (key, shape, timing) = match form {
+        WaveformForm::Sawtooth(form) => {
+            let at = named("sawtooth");
+            let timing = timing(&at, form.periodic(), "sawtooth")?;
+            let flyback = flyback(&at, form.flyback, timing.period)?;
+            let stroke = values.take(&at.key("stroke"), form.stroke)?;
+            ("sawtooth", Shape::Sawtooth { stroke, flyback }, timing)
+        }
+        WaveformForm::Triangle(form) => {
+            let at = named("triangle");
+            let stroke = values.take(&at.key("stroke"), form.stroke)?;
+            ("triangle", Shape::Triangle { stroke }, timing(&at, form.periodic(), "triangle")?)
+        }
+        WaveformForm::Sine(form) => {
+            let at = named("sine");
+            let amplitude = values.take(&at.key("amplitude"), form.amplitude)?;
+            let offset = values.take(&at.key("offset"), form.offset)?;
+            let timing = Timing { phase: 0.0, ..timing(&at, form.periodic(), "sine")? };
+            ("sine", Shape::Sine { amplitude, phase: form.phase.si, offset }, timing)
+        }
+        WaveformForm::Harmonics(form) => {
+            let at = named("harmonics");
+            ("harmonics", harmonics(&at, form, values)?, timing(&at, form.periodic(), "harmonics")?)
+        }
+        WaveformForm::Cycloid(form) => {
+            let at = named("cycloid");
+            let timing = timing(&at, form.periodic(), "cycloid")?;
+            let flyback = form.flyback.unwrap_or(Time::new(timing.period / 2.0));
+            range::above_zero(&at.key("flyback"), flyback)?;
+            let flyback = self::flyback(&at, flyback, timing.period)?;
+            let stroke = values.take(&at.key("stroke"), form.stroke)?;
+            ("cycloid", Shape::Cycloid { stroke, flyback }, timing)
+        }
+        WaveformForm::Table(form) => table(&named("table"), form, values)?,
+        WaveformForm::Parabola(_) => return Err(named("parabola").not_yet()),
+        WaveformForm::Trapezoid(_) => return Err(named("trapezoid").not_yet()),
+        WaveformForm::Chirp(_) => return Err(named("chirp").not_yet()),
+        WaveformForm::Step(_) => return Err(named("step").not_yet()),
+    };
+    let delay = timing.delay;
+    let waveform = Waveform::new(shape, timing).map_err(|error| refused(&at.key(key), &error))?;
+    Ok((waveform, delay))
+}
+
+/// What the waveform itself refuses beyond the checks here, at the key it names.
+fn refused(at: &At<'_>, error: &WaveformError) -> Fault {
+    let message = error.to_string();
+    let plain =
+        message.strip_prefix(error.key()).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
+    at.key(error.key()).fault(plain)
+}
+
+fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values) -> Result<Shape, Fault> {
+    let at = at.key("terms");
+    if form.terms.is_empty() {
+        return Err(at.fault("expected at least one term"));
+    }
+    let mut terms = Vec::with_capacity(form.terms.len());
+    for (i, term) in form.terms.iter().enumerate() {
+        let at = at.index(i);
+        let order = range::count_between(&at.key("order"), term.order.0, 1, MAX_ORDER)? as u32;
+        let amplitude = values.take(&at.key("amplitude"), term.amplitude)?;
+        terms.push(Harmonic { amplitude, order: order.into(), phase: term.phase.si });
+    }
+    Ok(Shape::Harmonics { terms })
+}
+
+fn flyback(at: &At<'_>, flyback: Time, period: f64) -> Result<f64, Fault> {
+    let at = at.key("flyback");
+    let value = range::at_least_zero(&at, flyback)?;
+    if value < period {
+        return Ok(value);
+    }
+    Err(at.expected(format_args!("a time below the period of {period} s")))
+}
+
+fn table(at: &At<'_>, form: &TableForm, values: &mut Values) -> Result<(&'static str, Shape, Timing), Fault> {
+    let Some(points) = &form.points else {
+        return Err(at
+            .missing("points")
+            .help("or \"file\" with the names of its columns \"time\" and \"value\""));
+    };
+    let delay = range::at_least_zero(&at.key("delay"), form.delay)?;
+    let at = at.key("points");
+    if points.len() < 2 {
+        return Err(at.fault(format!("expected at least two points, got {}", points.len())));
+    }
+    let mut pairs: Vec<(f64, f64)> = Vec::with_capacity(points.len());
+    for (i, &Point(time, value)) in points.iter().enumerate() {
+        let at = at.index(i);
+        if pairs.last().is_some_and(|last| time.si < last.0) {
+            return Err(at.index(0).expected("a time not before the point before it"));
+        }
+        if pairs.len() > 1 && pairs[i - 2].0 == time.si {
+            let fault = at.index(0).fault("three points have the same time");
+            return Err(fault.help("two points at one time are a jump; a third says nothing"));
+        }
+        pairs.push((time.si, values.take(&at.index(1), value)?));
+    }
+    Ok(("table", Shape::Table { points: pairs }, Timing { period: 1.0, delay, phase: 0.0, cycles: None }))
+}
+
+fn timing(at: &At<'_>, form: Periodic, name: &str) -> Result<Timing, Fault> {
+    let period = match (form.period, form.frequency) {
+        (Some(period), None) => range::above_zero(&at.key("period"), period)?,
+        (None, Some(frequency)) => 1.0 / range::above_zero(&at.key("frequency"), frequency)?,
+        (None, None) => {
+            return Err(at.missing("period").help(format!("a {name} has a period or a frequency")));
+        }
+        (Some(_), Some(_)) => {
+            return Err(at
+                .key("frequency")
+                .fault("the period is given already")
+                .on_key()
+                .help("keep one of them"));
+        }
+    };
+    if !period.is_finite() {
+        return Err(at.key("frequency").expected("a frequency whose period is a number"));
+    }
+    let delay = range::at_least_zero(&at.key("delay"), form.delay)?;
+    let cycles = form.cycles.map(|cycles| range::number_above_zero(&at.key("cycles"), cycles)).transpose()?;
+    Ok(Timing { period, delay, phase: form.phase.si, cycles })
+}

@@ -1,0 +1,147 @@
+//! Key paths such as `contacts.ball.friction` or `loads[0].x`: how parts of a scenario are named.
+
+use crate::document::shown;
+use crate::fault::Fault;
+use std::fmt;
+
+/// One step from a value to one inside it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// Into an object.
+    Key(String),
+    /// Into a list.
+    Index(usize),
+}
+
+/// A key path; empty for the whole scenario.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct KeyPath(pub(crate) Vec<Step>);
+
+impl KeyPath {
+    /// Reads `contacts.ball.friction` or `loads[0].x`; none where it is not of that form.
+    pub(crate) fn parse(text: &str) -> Option<Self> {
+        let mut steps = Vec::new();
+        if text.is_empty() {
+            return Some(Self(steps));
+        }
+        for part in text.split('.') {
+            let (key, indices) = part.split_at(part.find('[').unwrap_or(part.len()));
+            if key.is_empty() || key.contains(']') {
+                return None;
+            }
+            steps.push(Step::Key(key.to_owned()));
+            let mut rest = indices;
+            while !rest.is_empty() {
+                let (index, tail) = rest.strip_prefix('[')?.split_once(']')?;
+                steps.push(Step::Index(index.parse().ok()?));
+                rest = tail;
+            }
+        }
+        Some(Self(steps))
+    }
+}
+
+impl fmt::Display for KeyPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, step) in self.0.iter().enumerate() {
+            match step {
+                Step::Key(key) if i == 0 => write!(f, "{}", shown(key))?,
+                Step::Key(key) => write!(f, ".{}", shown(key))?,
+                Step::Index(index) => write!(f, "[{index}]")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Where a conversion is at work: a key path on the stack, written out only when there is something to report.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct At<'a> {
+    parent: Option<&'a At<'a>>,
+    step: Option<StepRef<'a>>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum StepRef<'a> {
+    Key(&'a str),
+    Index(usize),
+}
+
+impl<'a> At<'a> {
+    /// The whole scenario.
+    pub(crate) const ROOT: At<'static> = At { parent: None, step: None };
+
+    /// The value under a key.
+    pub(crate) fn key<'b>(&'b self, key: &'b str) -> At<'b> {
+        At { parent: Some(self), step: Some(StepRef::Key(key)) }
+    }
+
+    /// The entry of a list.
+    pub(crate) fn index(&self, index: usize) -> At<'_> {
+        At { parent: Some(self), step: Some(StepRef::Index(index)) }
+    }
+
+    /// The path, written out.
+    pub(crate) fn path(&self) -> KeyPath {
+        let mut steps = Vec::new();
+        let mut here = Some(self);
+        while let Some(at) = here {
+            match at.step {
+                Some(StepRef::Key(key)) => steps.push(Step::Key(key.to_owned())),
+                Some(StepRef::Index(index)) => steps.push(Step::Index(index)),
+                None => {}
+            }
+            here = at.parent;
+        }
+        steps.reverse();
+        KeyPath(steps)
+    }
+
+    /// Something is wrong here.
+    pub(crate) fn fault(&self, message: impl Into<String>) -> Fault {
+        Fault::new(self.path(), message)
+    }
+
+    /// The value here is not what was expected; the report adds what stands in the file.
+    pub(crate) fn expected(&self, what: impl fmt::Display) -> Fault {
+        Fault::new(self.path(), format!("expected {what}")).with_value()
+    }
+
+    /// A key that must be there is not.
+    pub(crate) fn missing(&self, key: &str) -> Fault {
+        Fault::new(self.path(), format!("missing key \"{key}\"")).on_key()
+    }
+
+    /// A key or value of the form that this version does not implement.
+    pub(crate) fn not_yet(&self) -> Fault {
+        let path = self.path();
+        let last = path.0.iter().rev().find_map(|step| match step {
+            Step::Key(key) => Some(key.clone()),
+            Step::Index(_) => None,
+        });
+        let name = last.unwrap_or_default();
+        Fault::new(path, format!("\"{name}\" is part of the form but not yet in this version")).on_key()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A key with a line end in it once broke the one-line message in two.
+    #[test]
+    fn keys_with_control_characters_stay_on_one_line() {
+        let path = KeyPath(vec![Step::Key("a\nb".to_owned())]);
+        assert_eq!(path.to_string(), "a\u{fffd}b");
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        for text in ["", "run", "contacts.ball.friction", "loads[0].x", "a[1][22].b"] {
+            assert_eq!(KeyPath::parse(text).unwrap().to_string(), text);
+        }
+        for text in [".", "a.", "a[", "a[x]", "a[1]b", "[0]", "a]"] {
+            assert_eq!(KeyPath::parse(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The index from key paths to places in the text: one tree, made once by the loader.
+
+use crate::path::{KeyPath, Step};
+
+/// A stretch of bytes of one source text: the file (source 0) or an override.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Span {
+    pub(crate) source: usize,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+}
+
+/// Where a value stands, and the values inside it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Place {
+    /// Its key with quotes; none for the root and for entries of lists.
+    pub(crate) key: Option<Span>,
+    pub(crate) value: Span,
+    pub(crate) inner: Inner,
+}
+
+/// The values inside a value.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Inner {
+    Leaf,
+    Object(Vec<(String, Place)>),
+    List(Vec<Place>),
+}
+
+impl Place {
+    /// The place one step further in.
+    pub(crate) fn step(&self, step: &Step) -> Option<&Self> {
+        match (&self.inner, step) {
+            (Inner::Object(entries), Step::Key(key)) => {
+                entries.iter().find(|(name, _)| name == key).map(|(_, place)| place)
+            }
+            (Inner::List(entries), Step::Index(index)) => entries.get(*index),
+            _ => None,
+        }
+    }
+
+    fn step_mut(&mut self, step: &Step) -> Option<&mut Self> {
+        match (&mut self.inner, step) {
+            (Inner::Object(entries), Step::Key(key)) => {
+                entries.iter_mut().find(|(name, _)| name == key).map(|(_, place)| place)
+            }
+            (Inner::List(entries), Step::Index(index)) => entries.get_mut(*index),
+            _ => None,
+        }
+    }
+
+    /// The deepest place along a path, and how many of its steps exist.
+    pub(crate) fn deepest(&self, path: &KeyPath) -> (&Self, usize) {
+        let mut here = self;
+        for (i, step) in path.0.iter().enumerate() {
+            match here.step(step) {
+                Some(next) => here = next,
+                None => return (here, i),
+            }
+        }
+        (here, path.0.len())
+    }
+
+    /// Puts a place under a path; an object is made of what stands in the way of a key that is not there.
+    pub(crate) fn put(&mut self, path: &[Step], place: Self) {
+        let Some((first, rest)) = path.split_first() else {
+            self.value = place.value;
+            self.key = self.key.or(place.key);
+            self.inner = place.inner;
+            return;
+        };
+        if self.step(first).is_none()
+            && let Step::Key(key) = first
+        {
+            if !matches!(self.inner, Inner::Object(_)) {
+                self.inner = Inner::Object(Vec::new());
+            }
+            if let Inner::Object(entries) = &mut self.inner {
+                let new = Self { key: place.key, value: place.value, inner: Inner::Object(Vec::new()) };
+                entries.push((key.clone(), new));
+            }
+        }
+        if let Some(next) = self.step_mut(first) {
+            next.put(rest, place);
+        }
+    }
+}

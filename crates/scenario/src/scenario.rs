@@ -1,0 +1,195 @@
+//! A scenario: the only door from a file to a scene and a plan.
+
+use crate::document::Document;
+use crate::error::{Report, ScenarioError};
+use crate::fault::Fault;
+use crate::form::Form;
+use crate::meaning::{self, Figures};
+use crate::path::{At, KeyPath};
+use crate::{overrides, refusal, resolved, suggest, syntax, tables};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use stickslip_drive::{Plan, Scene};
+
+/// Version of the form that this program reads.
+const VERSION: u64 = 1;
+
+/// A picture a scenario asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PlotName {
+    /// Tangential force over displacement of each contact.
+    Loop,
+    /// Positions over time.
+    Trajectory,
+}
+
+impl PlotName {
+    /// The name in the file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Loop => "loop",
+            Self::Trajectory => "trajectory",
+        }
+    }
+}
+
+/// A scenario, read and checked.
+#[derive(Debug, Clone)]
+pub struct Scenario {
+    /// A line for people; may be empty.
+    pub title: String,
+    /// What is there.
+    pub scene: Scene,
+    /// How it is run.
+    pub plan: Plan,
+    /// Whose period and whose motion make steps and speeds.
+    pub figures: Figures,
+    /// Columns of the trace; none: all.
+    pub channels: Option<Vec<String>>,
+    /// Pictures to draw.
+    pub plots: Vec<PlotName>,
+    form: Form,
+    document: Document,
+}
+
+impl Scenario {
+    /// Reads a scenario file.
+    ///
+    /// # Errors
+    /// Whatever is wrong with it, with its place.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, ScenarioError> {
+        Self::load_with(path, &[])
+    }
+
+    /// Reads a scenario file and overrides values: pairs of key path and value, as in `--set run.duration="20 ms"`.
+    /// A value is JSON where it reads as JSON and a string otherwise.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the file or an override, with its place.
+    pub fn load_with(path: impl AsRef<Path>, overrides: &[(&str, &str)]) -> Result<Self, ScenarioError> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        let text = read(path, &name)?;
+        let base = path.parent().unwrap_or(Path::new(""));
+        Self::from_str_with(&text, &name, base, overrides)
+    }
+
+    /// Reads a scenario from a text; `name` stands in errors, `base` is the folder its files are looked for in.
+    ///
+    /// # Errors
+    /// Whatever is wrong with it, with its place.
+    pub fn from_str(text: &str, name: &str, base: impl AsRef<Path>) -> Result<Self, ScenarioError> {
+        Self::from_str_with(text, name, base, &[])
+    }
+
+    /// [`Self::from_str`] with overrides as in [`Self::load_with`].
+    ///
+    /// # Errors
+    /// Whatever is wrong with the text or an override, with its place.
+    pub fn from_str_with(
+        text: &str,
+        name: &str,
+        base: impl AsRef<Path>,
+        overrides: &[(&str, &str)],
+    ) -> Result<Self, ScenarioError> {
+        let mut document = Document::read(name, text)?;
+        check_version(&document).map_err(|fault| document.report(fault))?;
+        for (path, value) in overrides {
+            overrides::apply(&mut document, path, value)?;
+        }
+        // Once more: an override may have touched it.
+        check_version(&document).map_err(|fault| document.report(fault))?;
+        let mut form: Form = serde_path_to_error::deserialize(&document.value)
+            .map_err(|error| document.report(refusal::fault(&document, &error)))?;
+        let inlined = tables::inline(&mut form, base.as_ref()).map_err(|fault| document.report(fault))?;
+        let meaning = meaning::of(&form).map_err(|fault| document.report(fault))?;
+        let scenario = Self {
+            title: form.title.clone(),
+            scene: meaning.scene,
+            plan: meaning.plan,
+            figures: meaning.figures,
+            channels: meaning.channels,
+            plots: meaning.plots,
+            form,
+            document,
+        };
+        if inlined && scenario.resolved().len() > syntax::MAX_BYTES {
+            let message =
+                format!("with its tables the scenario would have more than {} bytes", syntax::MAX_BYTES);
+            return Err(scenario
+                .document
+                .report(At::ROOT.key("waveforms").fault(message).help("keep fewer points")));
+        }
+        Ok(scenario)
+    }
+
+    /// The scenario as canonical JSON: SI numbers, overrides applied, defaults written out, tables inlined. Read back, it
+    /// means the same to the last bit.
+    pub fn resolved(&self) -> String {
+        // The form holds finite numbers and string keys only: serde_json has nothing to refuse.
+        serde_json::to_value(&self.form).map(|value| resolved::print(&value)).unwrap_or_default()
+    }
+
+    /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.
+    pub fn locate(&self, path: &str, message: impl Into<String>, help: Option<String>) -> ScenarioError {
+        let steps = KeyPath::parse(path).unwrap_or_default();
+        self.document.report(Fault::new(steps, message).maybe_help(help)).with_path(path)
+    }
+}
+
+fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
+    let failed = |message: String, help: Option<&str>| {
+        ScenarioError::new(Report {
+            file: name.to_owned(),
+            is_override: false,
+            excerpt: None,
+            path: String::new(),
+            message,
+            help: help.map(str::to_owned),
+        })
+    };
+    let unreadable = |error: std::io::Error| failed(format!("cannot be read: {error}"), None);
+    let mut bytes = Vec::new();
+    let limit = syntax::MAX_BYTES as u64;
+    File::open(path).map_err(unreadable)?.take(limit + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > limit {
+        let help = "long tables fit into a CSV file of their own";
+        return Err(failed(format!("a scenario has at most {limit} bytes, this file has more"), Some(help)));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        failed(format!("line {line} is not UTF-8 text"), Some("save the file as UTF-8"))
+    })
+}
+
+/// The version comes first: everything else may differ in another one.
+fn check_version(document: &Document) -> Result<(), Fault> {
+    let root = At::ROOT;
+    let Some(entries) = document.value.as_object() else {
+        return Err(root.fault("a scenario is a JSON object { … }"));
+    };
+    let at = root.key("stickslip");
+    match entries.get("stickslip") {
+        Some(version) if version.as_f64() == Some(VERSION as f64) => Ok(()),
+        Some(version) => {
+            let fault = at.expected(VERSION);
+            let newer = version.as_f64().is_some_and(|v| v > VERSION as f64);
+            let help =
+                if newer { "this file needs a newer program" } else { "the version of the form, a number" };
+            Err(fault.help(help))
+        }
+        None => {
+            let near = suggest::nearest("stickslip", entries.keys().map(String::as_str));
+            let help = match near {
+                Some(near) => format!("did you mean \"stickslip\" where \"{near}\" stands?"),
+                None => "a scenario starts with { \"stickslip\": 1, the version of its form".to_owned(),
+            };
+            Err(root.missing("stickslip").help(help))
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! Strict JSON: limits, syntax, duplicate keys and the places of all values.
+
+use crate::fault::Fault;
+use crate::path::{KeyPath, Step};
+use crate::place::{Inner, Place, Span};
+use jsonc_parser::ast;
+use jsonc_parser::common::{Range, Ranged};
+use jsonc_parser::errors::ParseErrorKind;
+use jsonc_parser::{CollectOptions, ParseOptions};
+use serde_json::Value;
+use std::collections::HashMap;
+
+/// Largest scenario taken, bytes.
+pub(crate) const MAX_BYTES: usize = 4 << 20;
+/// Deepest nesting of objects and lists taken; the form itself needs less than ten.
+const MAX_DEPTH: usize = 64;
+
+/// Where a text belongs: what its places and paths are counted from.
+pub(crate) struct Origin {
+    /// Place of the text in the list of sources.
+    pub(crate) source: usize,
+    /// Bytes of the source before the text.
+    pub(crate) offset: usize,
+    /// Path of the value that the text is.
+    pub(crate) path: KeyPath,
+}
+
+impl Origin {
+    fn span(&self, range: Range) -> Span {
+        Span { source: self.source, start: self.offset + range.start, end: self.offset + range.end }
+    }
+
+    fn fault(&self, range: Range, message: impl Into<String>) -> Fault {
+        Fault::new(self.path.clone(), message).at_span(self.span(range))
+    }
+}
+
+/// Reads a text: its value for the form, and the place of everything in it.
+pub(crate) fn read(text: &str, origin: &Origin) -> Result<(Value, Place), Fault> {
+    if text.len() > MAX_BYTES {
+        let message = format!("a scenario has at most {MAX_BYTES} bytes, this one has {}", text.len());
+        return Err(origin.fault(Range::new(0, 1), message));
+    }
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let origin =
+        &Origin { offset: origin.offset + text.len() - body.len(), path: origin.path.clone(), ..*origin };
+    check_outline(body, origin)?;
+    let tree = parse(body, origin)?;
+    let mut path = origin.path.clone();
+    let place = walk(&tree, None, &mut path, origin)?;
+    // The values are read a second time, by serde_json: it rounds numbers correctly, and it refuses whatever the
+    // first reader let pass that is not JSON.
+    let value = serde_json::from_str(body).map_err(|error| second_opinion(body, &error, origin))?;
+    Ok((value, place))
+}
+
+/// What must be known before anything recurses: nesting, and strings that swallow the lines after them.
+fn check_outline(text: &str, origin: &Origin) -> Result<(), Fault> {
+    let (mut depth, mut string, mut escaped) = (0_usize, None, false);
+    for (i, byte) in text.bytes().enumerate() {
+        match (byte, string) {
+            (b'\n', Some(start)) => {
+                let fault =
+                    origin.fault(Range::new(start, i), "not JSON: this string does not end on its line");
+                return Err(fault.help("a double quote is missing"));
+            }
+            (0..0x20, Some(_)) => {
+                let fault =
+                    origin.fault(Range::new(i, i + 1), "not JSON: a control character inside a string");
+                return Err(fault.help("write a blank, or \\t for a tab"));
+            }
+            _ if escaped => escaped = false,
+            (b'\\', Some(_)) => escaped = true,
+            (b'"', Some(_)) => string = None,
+            (_, Some(_)) => {}
+            (b'"', None) => string = Some(i),
+            (b'{' | b'[', None) => {
+                depth += 1;
+                if depth > MAX_DEPTH {
+                    let message = format!("objects and lists are nested more than {MAX_DEPTH} deep");
+                    return Err(origin.fault(Range::new(i, i + 1), message));
+                }
+            }
+            (b'}' | b']', None) => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn parse<'a>(text: &'a str, origin: &Origin) -> Result<ast::Value<'a>, Fault> {
+    let strict = ParseOptions {
+        allow_comments: false,
+        allow_loose_object_property_names: false,
+        allow_trailing_commas: false,
+        allow_missing_commas: false,
+        allow_single_quoted_strings: false,
+        allow_hexadecimal_numbers: false,
+        allow_unary_plus_numbers: false,
+        allow_bare_decimal_point_numbers: false,
+        allow_non_finite_numbers: false,
+        allow_extended_string_escapes: false,
+    };
+    match jsonc_parser::parse_to_ast(text, &CollectOptions::default(), &strict) {
+        Ok(result) => result.value.ok_or_else(|| {
+            origin
+                .fault(Range::new(0, 1), "there is nothing here: a scenario is a JSON object")
+                .help("start with { \"stickslip\": 1, \"title\": \"…\" }")
+        }),
+        Err(error) => {
+            let (message, help) = wording(error.kind());
+            let fault = origin.fault(error.range(), format!("not JSON: {message}"));
+            Err(fault.maybe_help(help.map(str::to_owned)))
+        }
+    }
+}
+
+fn wording(kind: &ParseErrorKind) -> (String, Option<&'static str>) {
+    let (message, help) = match kind {
+        ParseErrorKind::CommentsNotAllowed => ("comments are not allowed", "remarks fit into \"title\""),
+        ParseErrorKind::TrailingCommasNotAllowed => {
+            ("a comma before a closing bracket", "remove the comma, or the entry after it got lost")
+        }
+        ParseErrorKind::ExpectedComma => ("expected a comma", "entries are separated by commas"),
+        ParseErrorKind::ExpectedColonAfterObjectKey => {
+            ("expected a colon after the key", "write \"key\": value")
+        }
+        ParseErrorKind::ExpectedStringObjectProperty => {
+            ("keys stand in double quotes", "write \"key\": value")
+        }
+        ParseErrorKind::SingleQuotedStringsNotAllowed => {
+            ("strings stand in double quotes", "write \"text\" instead of 'text'")
+        }
+        ParseErrorKind::NonFiniteNumbersNotAllowed => {
+            ("NaN and infinities are not numbers of a scenario", "write a finite number")
+        }
+        ParseErrorKind::UnexpectedWord => {
+            ("a word without quotes", "strings and quantities with a unit stand in double quotes")
+        }
+        ParseErrorKind::UnexpectedToken => {
+            ("this is no JSON value", "numbers are finite decimals; strings stand in double quotes")
+        }
+        ParseErrorKind::MultipleRootJsonValues => {
+            ("something follows the end of the scenario", "one file holds one object")
+        }
+        ParseErrorKind::UnterminatedObject => ("this object is never closed", "a } is missing"),
+        ParseErrorKind::UnterminatedArray => ("this list is never closed", "a ] is missing"),
+        other => return (lower_first(&other.to_string()), None),
+    };
+    (message.to_owned(), Some(help))
+}
+
+fn lower_first(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map(|c| c.to_lowercase().chain(chars).collect()).unwrap_or_default()
+}
+
+/// Refusal by `serde_json`, whose place is a line and a column in bytes.
+fn second_opinion(text: &str, error: &serde_json::Error, origin: &Origin) -> Fault {
+    let line_start: usize =
+        text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
+    let at = line_start + error.column().saturating_sub(1);
+    let message = error.to_string();
+    let message = message.split(" at line ").next().unwrap_or_default();
+    origin.fault(Range::new(at, at + 1), format!("not JSON: {message}"))
+}
+
+/// Notes the places; refuses what JSON readers let pass in silence.
+fn walk(
+    value: &ast::Value<'_>,
+    key: Option<Span>,
+    path: &mut KeyPath,
+    origin: &Origin,
+) -> Result<Place, Fault> {
+    let span = origin.span(value.range());
+    let fault = |path: &KeyPath, message: &str| Fault::new(path.clone(), message).at_span(span);
+    let inner = match value {
+        ast::Value::Object(object) => walk_object(object, path, origin)?,
+        ast::Value::Array(array) => {
+            let mut places = Vec::with_capacity(array.elements.len());
+            for (i, element) in array.elements.iter().enumerate() {
+                path.0.push(Step::Index(i));
+                places.push(walk(element, None, path, origin)?);
+                path.0.pop();
+            }
+            Inner::List(places)
+        }
+        ast::Value::NumberLit(number) => {
+            if !number.value.parse::<f64>().is_ok_and(f64::is_finite) {
+                return Err(fault(path, "the number is beyond the largest floating-point number, 1.8e308"));
+            }
+            Inner::Leaf
+        }
+        ast::Value::NullKeyword(_) => {
+            return Err(
+                fault(path, "null is not a value of a scenario").help("leave the key out for its default")
+            );
+        }
+        ast::Value::StringLit(_) | ast::Value::BooleanLit(_) => Inner::Leaf,
+    };
+    Ok(Place { key, value: span, inner })
+}
+
+fn walk_object(object: &ast::Object<'_>, path: &mut KeyPath, origin: &Origin) -> Result<Inner, Fault> {
+    let mut first: HashMap<&str, usize> = HashMap::new();
+    let mut entries = Vec::with_capacity(object.properties.len());
+    for property in &object.properties {
+        let name = property.name.as_str();
+        let range = match &property.name {
+            ast::ObjectPropName::String(literal) => literal.range,
+            ast::ObjectPropName::Word(literal) => literal.range,
+        };
+        path.0.push(Step::Key(name.to_owned()));
+        if let Some(before) = first.insert(name, entries.len()) {
+            let twice = Fault::new(path.clone(), "this key stands here twice").at_span(origin.span(range));
+            let value = &object.properties[before].value;
+            return Err(twice.help(format!("remove one; the first is {}", brief(value))));
+        }
+        let place = walk(&property.value, Some(origin.span(range)), path, origin)?;
+        path.0.pop();
+        entries.push((name.to_owned(), place));
+    }
+    Ok(Inner::Object(entries))
+}
+
+fn brief(value: &ast::Value<'_>) -> String {
+    match value {
+        ast::Value::StringLit(literal) => format!("\"{}\"", crate::document::shown(&literal.value)),
+        ast::Value::NumberLit(literal) => crate::document::shown(literal.value),
+        ast::Value::BooleanLit(literal) => literal.value.to_string(),
+        ast::Value::Object(_) => "an object".to_owned(),
+        ast::Value::Array(_) => "a list".to_owned(),
+        ast::Value::NullKeyword(_) => "null".to_owned(),
+    }
+}

@@ -1,0 +1,174 @@
+//! Dimensions and units of the scenario file.
+
+use std::f64::consts::PI;
+
+/// Dimension of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Kind {
+    Length,
+    Time,
+    Frequency,
+    Velocity,
+    AngularVelocity,
+    Acceleration,
+    Mass,
+    Inertia,
+    Force,
+    Moment,
+    Stiffness,
+    Damping,
+    Pressure,
+    Angle,
+    Resistance,
+    SlewRate,
+    StrokePerVoltage,
+    Voltage,
+    Current,
+    Capacitance,
+}
+
+/// How a unit relates to the SI unit of its dimension.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Scale {
+    /// A power of ten: shifts the decimal exponent, so that nothing is rounded twice.
+    Ten(i32),
+    /// Any other factor.
+    Factor(f64),
+}
+
+impl Kind {
+    /// The dimension in a sentence.
+    pub(crate) fn article(self) -> &'static str {
+        self.words().0
+    }
+
+    /// A quantity of this dimension as one would write it.
+    pub(crate) fn example(self) -> &'static str {
+        self.words().1
+    }
+
+    /// Symbol of the SI unit.
+    pub(crate) fn si(self) -> &'static str {
+        self.words().2
+    }
+
+    fn words(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Self::Length => ("a length", "5 um", "m"),
+            Self::Time => ("a time", "10 ms", "s"),
+            Self::Frequency => ("a frequency", "1 kHz", "Hz"),
+            Self::Velocity => ("a velocity", "2 mm/s", "m/s"),
+            Self::AngularVelocity => ("an angular velocity", "3 rad/s", "rad/s"),
+            Self::Acceleration => ("an acceleration", "9.81 m/s²", "m/s²"),
+            Self::Mass => ("a mass", "10 g", "kg"),
+            Self::Inertia => ("a moment of inertia", "1e-6 kg m²", "kg m²"),
+            Self::Force => ("a force", "0.3 N", "N"),
+            Self::Moment => ("a moment", "1e-3 N m", "N m"),
+            Self::Stiffness => ("a stiffness", "2 N/um", "N/m"),
+            Self::Damping => ("a damping", "0.5 N s/m", "N s/m"),
+            Self::Pressure => ("a pressure", "210 GPa", "Pa"),
+            Self::Angle => ("an angle", "90 deg", "rad"),
+            Self::Resistance => ("a resistance", "50 Ω", "Ω"),
+            Self::SlewRate => ("a slew rate", "10 V/us", "V/s"),
+            Self::StrokePerVoltage => ("a stroke per voltage", "20 nm/V", "m/V"),
+            Self::Voltage => ("a voltage", "60 V", "V"),
+            Self::Current => ("a current", "100 mA", "A"),
+            Self::Capacitance => ("a capacitance", "200 nF", "F"),
+        }
+    }
+}
+
+/// All units: symbol as it is compared (see [`normalise`]), dimension, scale.
+pub(crate) const UNITS: &[(&str, Kind, Scale)] = {
+    use Kind::*;
+    use Scale::{Factor, Ten};
+    &[
+        ("nm", Length, Ten(-9)),
+        ("um", Length, Ten(-6)),
+        ("mm", Length, Ten(-3)),
+        ("m", Length, Ten(0)),
+        ("ns", Time, Ten(-9)),
+        ("us", Time, Ten(-6)),
+        ("ms", Time, Ten(-3)),
+        ("s", Time, Ten(0)),
+        ("min", Time, Factor(60.0)),
+        ("Hz", Frequency, Ten(0)),
+        ("kHz", Frequency, Ten(3)),
+        ("MHz", Frequency, Ten(6)),
+        ("m/s", Velocity, Ten(0)),
+        ("mm/s", Velocity, Ten(-3)),
+        ("um/s", Velocity, Ten(-6)),
+        ("nm/s", Velocity, Ten(-9)),
+        ("rad/s", AngularVelocity, Ten(0)),
+        ("m/s^2", Acceleration, Ten(0)),
+        ("mg", Mass, Ten(-6)),
+        ("g", Mass, Ten(-3)),
+        ("kg", Mass, Ten(0)),
+        ("kg m^2", Inertia, Ten(0)),
+        ("uN", Force, Ten(-6)),
+        ("mN", Force, Ten(-3)),
+        ("N", Force, Ten(0)),
+        ("kN", Force, Ten(3)),
+        ("N m", Moment, Ten(0)),
+        ("N/m", Stiffness, Ten(0)),
+        ("N/mm", Stiffness, Ten(3)),
+        ("N/um", Stiffness, Ten(6)),
+        ("kN/m", Stiffness, Ten(3)),
+        ("N s/m", Damping, Ten(0)),
+        ("Pa", Pressure, Ten(0)),
+        ("kPa", Pressure, Ten(3)),
+        ("MPa", Pressure, Ten(6)),
+        ("GPa", Pressure, Ten(9)),
+        ("deg", Angle, Factor(PI / 180.0)),
+        ("rad", Angle, Ten(0)),
+        ("mrad", Angle, Ten(-3)),
+        ("ohm", Resistance, Ten(0)),
+        ("kohm", Resistance, Ten(3)),
+        ("Mohm", Resistance, Ten(6)),
+        ("V/s", SlewRate, Ten(0)),
+        ("V/us", SlewRate, Ten(6)),
+        ("m/V", StrokePerVoltage, Ten(0)),
+        ("nm/V", StrokePerVoltage, Ten(-9)),
+        ("um/V", StrokePerVoltage, Ten(-6)),
+        ("mV", Voltage, Ten(-3)),
+        ("V", Voltage, Ten(0)),
+        ("kV", Voltage, Ten(3)),
+        ("uA", Current, Ten(-6)),
+        ("mA", Current, Ten(-3)),
+        ("A", Current, Ten(0)),
+        ("pF", Capacitance, Ten(-12)),
+        ("nF", Capacitance, Ten(-9)),
+        ("uF", Capacitance, Ten(-6)),
+        ("mF", Capacitance, Ten(-3)),
+        ("F", Capacitance, Ten(0)),
+    ]
+};
+
+/// One spelling for the many of a unit: µ (U+00B5) and μ (U+03BC) are u, ² is ^2, Ω is ohm, ° is deg, a middle dot or
+/// a star is a blank.
+pub(crate) fn normalise(unit: &str) -> String {
+    let mut plain = String::with_capacity(unit.len());
+    for c in unit.trim().chars() {
+        match c {
+            '\u{b5}' | '\u{3bc}' => plain.push('u'),
+            '\u{b2}' => plain.push_str("^2"),
+            '\u{3a9}' | '\u{2126}' => plain.push_str("ohm"),
+            '\u{b0}' => plain.push_str("deg"),
+            '\u{b7}' | '\u{22c5}' | '*' => plain.push(' '),
+            c if c.is_whitespace() => plain.push(' '),
+            c => plain.push(c),
+        }
+    }
+    plain.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// A unit by its symbol as a user writes it.
+pub(crate) fn find(symbol: &str) -> Option<(Kind, Scale)> {
+    let plain = normalise(symbol);
+    UNITS.iter().find(|(known, ..)| *known == plain).map(|&(_, kind, scale)| (kind, scale))
+}
+
+/// Symbols of a dimension, or of all.
+pub(crate) fn symbols(kind: Option<Kind>) -> impl Iterator<Item = &'static str> {
+    UNITS.iter().filter(move |(_, k, _)| kind.is_none_or(|kind| *k == kind)).map(|(symbol, ..)| *symbol)
+}

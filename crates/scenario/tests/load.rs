@@ -1,0 +1,362 @@
+//! Good scenarios: what they mean, what they resolve to, what overrides do to them.
+
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
+
+use proptest::prelude::*;
+use std::fs;
+use std::path::Path;
+use stickslip_contact::{Material, Pair, Profile};
+use stickslip_drive::scene::{ContactStart, EngineChoice, Freedom, Normal, Side, Start, Varying};
+use stickslip_drive::{Shape, Stepper, Timing, Waveform};
+use stickslip_scenario::{PlotName, Scenario};
+
+const QUICKSTART: &str = "../../scenarios/quickstart.json";
+
+/// A scenario that uses every part of the form.
+const FULL: &str = include_str!("good/full.json");
+
+fn full() -> Scenario {
+    Scenario::from_str(FULL, "full.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn refused(overrides: &[(&str, &str)]) -> String {
+    Scenario::load_with(QUICKSTART, overrides).unwrap_err().to_string()
+}
+
+#[test]
+fn the_example_means_what_the_contract_says() {
+    let scenario = Scenario::load(QUICKSTART).unwrap();
+    assert_eq!(scenario.title, "Sawtooth drive on three ruby balls");
+    assert_eq!(scenario.plots, [PlotName::Loop, PlotName::Trajectory]);
+    assert_eq!(scenario.plan.duration, 0.1);
+    assert_eq!(scenario.plan.every, Some(1e-5));
+    assert_eq!(scenario.plan.stepper, Stepper::Event { tolerance: 1e-8 });
+    assert_eq!((scenario.figures.waveform, scenario.figures.body), (Some(0), Some(1)));
+    let scene = &scenario.scene;
+    let timing = Timing { period: 1e-2, delay: 0.0, phase: 0.0, cycles: None };
+    let drive = Waveform::new(Shape::Sawtooth { stroke: 2e-7, flyback: 1e-5 }, timing).unwrap();
+    assert_eq!(scene.waveforms[0].part, drive);
+    assert_eq!(scene.bodies[0].part.x, Freedom::Follows(0));
+    assert_eq!((scene.bodies[1].part.x, scene.bodies[1].part.mass), (Freedom::Free, Some(0.01)));
+    let ball = &scene.contacts[0].part;
+    let pair = Pair::new(Material::new(400e9, 0.27).unwrap(), Material::new(210e9, 0.30).unwrap());
+    assert_eq!(ball.between, [Side::Body(0), Side::Body(1)]);
+    assert_eq!((ball.pair, &ball.profile), (pair, &Profile::paraboloid(5e-4).unwrap()));
+    assert_eq!((ball.friction, ball.count), (0.2, 3));
+    assert_eq!(ball.normal, Normal::Force(Varying::Constant(0.3)));
+    assert_eq!((ball.start, ball.engine), (ContactStart::Untouched, EngineChoice::Curve));
+    assert_eq!((scene.loads[0].on, scene.loads[0].x), (1, Varying::Constant(-0.02)));
+}
+
+#[test]
+fn every_part_of_the_form_arrives() {
+    let scenario = full();
+    let scene = &scenario.scene;
+    assert_eq!(scene.start, Start::Equilibrium);
+    assert_eq!(scene.gravity.acceleration, 9.81);
+    assert_eq!(scene.gravity.incline, std::f64::consts::FRAC_PI_2);
+    assert_eq!(scene.contacts.len(), 6);
+    assert_eq!(scene.contacts[1].part.engine, EngineChoice::Springs { count: 512, span: Some(2e-5) });
+    assert_eq!(scene.contacts[2].part.start, ContactStart::Force(-0.01));
+    assert_eq!(scene.contacts[3].part.start, ContactStart::Displacement(3e-9));
+    assert_eq!(
+        scene.contacts[5].part.profile,
+        Profile::foundation(&[0.0, 1e-8, 2e-8], &[1e-6, 2e-6, 1e-6]).unwrap()
+    );
+    assert_eq!(scene.springs[0].part.stiffness, 2e6);
+    assert_eq!(scene.actuators[0].part.stiffness, 2e7);
+    // Named waveforms come first, those written out in place after them under the path of their place.
+    let names: Vec<_> = scene.waveforms.iter().map(|waveform| waveform.name.as_str()).collect();
+    assert_eq!(names[..7], ["saw", "tri", "sin", "har", "cyc", "tab", "csv"]);
+    assert_eq!(names[7..], ["contacts.flat.normal.force.follows", "loads[1].x.follows"]);
+    assert_eq!(scene.waveforms[5].part, scene.waveforms[6].part, "the file holds the same points");
+    // Three cycles of 2 kHz after a delay of 1 ms.
+    assert_eq!(scenario.plan.duration, 1e-3 + 3.0 * (1.0 / 2e3));
+    assert_eq!(scenario.channels.as_deref(), Some(&["slider.x_m".to_owned()][..]));
+    assert_eq!((scenario.figures.waveform, scenario.figures.body), (Some(2), Some(1)));
+}
+
+#[test]
+fn a_resolved_scenario_means_the_same_to_the_last_bit() {
+    for scenario in [Scenario::load(QUICKSTART).unwrap(), full()] {
+        let text = scenario.resolved();
+        // No folder: nothing is read from files any more.
+        let again = Scenario::from_str(&text, "resolved", "/nowhere")
+            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_eq!(again.scene, scenario.scene);
+        assert_eq!(again.plan, scenario.plan);
+        assert_eq!(again.figures, scenario.figures);
+        assert_eq!(again.channels, scenario.channels);
+        assert_eq!(again.plots, scenario.plots);
+        assert_eq!(again.title, scenario.title);
+        assert_eq!(again.resolved(), text);
+        assert!(!text.contains(" um\"") && !text.contains("\"file\":"), "{text}");
+    }
+}
+
+#[test]
+fn the_error_of_the_contract_comes_out() {
+    let text = "{\n  \"stickslip\": 1,\n  \"materials\": { \"a\": { \"youngs_modulus\": 1e9, \"poisson_ratio\": 0.3 } },\n  \
+                \"bodies\": {\n    \"slider\": { \"mass\": 1, \"x\": \"free\" }\n  },\n  \"contacts\": {\n    \"ball\": {\n      \
+                \"between\": [\"ground\", \"slider\"],\n      \"materials\": [\"a\", \"a\"],\n      \"profile\": {\n        \
+                \"paraboloid\": { \"radius\": 1 }\n      },\n      \"friction\": -0.2,\n      \
+                \"normal\": { \"force\": 1 }\n    }\n  },\n  \"run\": { \"duration\": 1 }\n}\n";
+    let expected = "\
+scenarios/mine.json:14:19  contacts.ball.friction: expected a number between 0 and 1000, got -0.2
+   14 |       \"friction\": -0.2,
+                          ^^^^
+   help: the Coulomb coefficient of the pair; typical 0.05 to 0.6";
+    let error = Scenario::from_str(text, "scenarios/mine.json", "").unwrap_err();
+    assert_eq!(error.to_string(), expected);
+    assert_eq!((error.path.as_str(), error.file.as_str()), ("contacts.ball.friction", "scenarios/mine.json"));
+}
+
+#[test]
+fn overrides_change_add_and_are_checked_like_the_file() {
+    let with = |overrides: &[(&str, &str)]| {
+        Scenario::load_with(QUICKSTART, overrides).unwrap_or_else(|error| panic!("{error}"))
+    };
+    assert_eq!(with(&[("run.duration", "20 ms")]).plan.duration, 0.02);
+    assert_eq!(with(&[("contacts.ball.friction", "0.3")]).scene.contacts[0].part.friction, 0.3);
+    assert_eq!(with(&[("loads[0].x", "1e-3")]).scene.loads[0].x, Varying::Constant(1e-3));
+    assert_eq!(with(&[("run.limits.steps", "1e6")]).plan.limits.steps, 1_000_000);
+    assert_eq!(with(&[("gravity.incline", "90 deg")]).scene.gravity.acceleration, 9.80665);
+    assert_eq!(
+        with(&[("run.stepper", r#"{"verlet": {"step": "1 us"}}"#)]).plan.stepper,
+        Stepper::Verlet { step: 1e-6 }
+    );
+    assert_eq!(with(&[("bodies.slider.x", "fixed")]).scene.bodies[1].part.x, Freedom::Fixed);
+    let resolved = with(&[("run.duration", "20 ms")]).resolved();
+    assert!(resolved.contains("\"duration\": 0.02"), "{resolved}");
+}
+
+#[test]
+fn a_bad_override_is_blamed_itself() {
+    assert_eq!(
+        refused(&[("run.duration", "-5 ms")]),
+        "\
+--set run.duration=-5 ms  run.duration: expected a time above 0 s, got -5 ms
+      | run.duration=-5 ms
+                     ^^^^^"
+    );
+    assert_eq!(
+        refused(&[("contacts.bal.friction", "0.3")]),
+        "\
+--set contacts.bal.friction=0.3  contacts.bal: there is nothing under this path
+      | contacts.bal.friction=0.3
+        ^^^^^^^^^^^^^^^^^^^^^
+   help: did you mean \"ball\"?"
+    );
+    assert_eq!(
+        refused(&[("contacts.ball.fricton", "0.3")]),
+        "\
+--set contacts.ball.fricton=0.3  contacts.ball.fricton: unknown key
+      | contacts.ball.fricton=0.3
+        ^^^^^^^^^^^^^^^^^^^^^
+   help: did you mean \"friction\"?"
+    );
+    assert_eq!(
+        refused(&[("loads[3].x", "0.3")]),
+        "\
+--set loads[3].x=0.3  loads: the list has 1 entries, counted from 0
+      | loads[3].x=0.3
+        ^^^^^^^^^^"
+    );
+    assert!(refused(&[("run.duration", "{\"a\":")]).contains("not JSON"));
+    assert!(refused(&[("", "1")]).contains("expected a key path"));
+    assert!(refused(&[("contacts.ball.friction.x", "1")]).contains("this value has no keys"));
+    assert!(refused(&[("stickslip", "2")]).contains("expected 1, got 2"));
+    assert!(refused(&[("run.stepper.verlet.step", "1 us")]).contains("got event, verlet"));
+    assert!(refused(&[("wavforms.drive.sawtooth.stroke", "1 um")]).contains("did you mean \"waveforms\"?"));
+}
+
+#[test]
+fn a_later_check_points_into_the_file() {
+    let scenario = Scenario::load(QUICKSTART).unwrap();
+    let error =
+        scenario.locate("contacts.ball.engine.springs.span", "too short", Some("a longer one".to_owned()));
+    let expected = "\
+../../scenarios/quickstart.json:15:5  contacts.ball.engine.springs.span: too short
+   15 |     \"ball\": {
+            ^^^^^^
+   help: a longer one";
+    assert_eq!(error.to_string(), expected);
+    let error = scenario.locate("output.every", "too fine", None);
+    assert!(error.to_string().starts_with("../../scenarios/quickstart.json:23:24  output.every: too fine\n"));
+    assert!(scenario.locate("", "odd", None).to_string().contains(":1:1  odd"));
+}
+
+#[test]
+fn files_are_found_below_the_folder_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let inner = folder.path().join("inner");
+    fs::create_dir(&inner).unwrap();
+    fs::write(folder.path().join("outside.csv"), "t,x\n0,0\n1,1\n").unwrap();
+    fs::write(inner.join("good.csv"), "t,x\n0,0\n1,1\n").unwrap();
+    fs::write(inner.join("word.csv"), "t,x\n0,0\n1,far\n").unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(folder.path().join("outside.csv"), inner.join("link.csv")).unwrap();
+    let load = |file: &str, base: &Path| {
+        let text = format!(
+            r#"{{ "stickslip": 1, "run": {{ "duration": 1 }},
+               "waveforms": {{ "w": {{ "table": {{ "file": "{file}", "time": "t", "value": "x" }} }} }} }}"#
+        );
+        Scenario::from_str(&text, "t.json", base).map(|_| ()).map_err(|error| error.message.clone())
+    };
+    assert_eq!(load("good.csv", &inner), Ok(()));
+    assert_eq!(load("../inner/good.csv", &inner), Ok(()), "below is below, however it is written");
+    assert_eq!(load("inner/good.csv", folder.path()), Ok(()));
+    assert!(load("../outside.csv", &inner).unwrap_err().contains("outside the scenario's folder"));
+    #[cfg(unix)]
+    assert!(load("link.csv", &inner).unwrap_err().contains("outside the scenario's folder"));
+    assert!(load("/etc/passwd", &inner).unwrap_err().contains("outside the scenario's folder"));
+    assert!(load("none.csv", &inner).unwrap_err().contains("cannot read"));
+    assert!(load(".", &inner).unwrap_err().contains("is not a file"));
+    assert_eq!(load("word.csv", &inner).unwrap_err(), "\"word.csv\", line 3: expected a number, got \"far\"");
+}
+
+#[test]
+fn files_that_are_no_scenarios_are_refused_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.json");
+    assert!(Scenario::load(&path).unwrap_err().to_string().contains("cannot be read"));
+    fs::write(&path, b"{ \"stickslip\": 1,\n \"title\": \"\xff\" }").unwrap();
+    assert!(Scenario::load(&path).unwrap_err().to_string().contains("line 2 is not UTF-8"));
+    fs::write(&path, vec![b' '; (4 << 20) + 1]).unwrap();
+    assert!(Scenario::load(&path).unwrap_err().to_string().contains("at most 4194304 bytes"));
+    fs::write(&path, "[".repeat(4 << 20)).unwrap();
+    assert!(Scenario::load(&path).unwrap_err().to_string().contains("nested more than 64 deep"));
+    // A byte order mark is the habit of some editors; Windows ends lines with two characters.
+    let text = fs::read_to_string(QUICKSTART).unwrap().replace('\n', "\r\n");
+    fs::write(&path, format!("\u{feff}{text}")).unwrap();
+    assert!(Scenario::load(&path).is_ok());
+    fs::write(&path, format!("\u{feff}{}", text.replace("\"slider\", \"x\"", "\"slyder\", \"x\""))).unwrap();
+    let error = Scenario::load(&path).unwrap_err();
+    assert_eq!(error.excerpt.as_ref().map(|e| (e.line, e.column)), Some((21, 22)));
+    assert!(!error.to_string().contains('\r'));
+}
+
+#[test]
+fn markers_count_characters_not_bytes() {
+    let text = "{ \"stickslip\": 1, \"title\": \"µµµ\", \"run\": { \"duration\": \"5 µm\" } }";
+    let error = Scenario::from_str(text, "t.json", "").unwrap_err();
+    let excerpt = error.excerpt.clone().unwrap();
+    assert_eq!(excerpt.column, text.chars().position(|c| c == '5').unwrap());
+    assert_eq!(excerpt.marker.len(), "\"5 µm\"".chars().count());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever is done to a file, the answer is a scenario or an error with a place in it.
+    #[test]
+    fn a_mutated_file_never_panics(
+        which in 0..2_usize,
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0..6_u8, 0..24_usize, any::<char>()), 1..6),
+    ) {
+        const PIECES: [&str; 24] = [
+            "{", "}", "[", "]", ",", ":", "\"", "\\", "null", "true", "-1", "0", "1e999", "1e-400", "\"5 N\"", "\"-3 um\"",
+            "\"free\"", "{\"follows\": \"drive\"}", "{}", "[]", "\\ud800", "\u{feff}", "\n", "//",
+        ];
+        let source = if which == 0 { fs::read_to_string(QUICKSTART).unwrap() } else { FULL.to_owned() };
+        let mut text: Vec<char> = source.chars().collect();
+        for (place, kind, piece, c) in edits {
+            let at = place.index(text.len());
+            let end = (at + 1 + piece).min(text.len());
+            match kind {
+                0 => { text.remove(at); }
+                1 => text.insert(at, c),
+                2 => { text.splice(at..at, PIECES[piece].chars()); }
+                3 => { text.drain(at..end); }
+                4 => { let copy: Vec<char> = text[at..end].to_vec(); text.splice(at..at, copy); }
+                _ => { text.splice(at..end, PIECES[piece].chars()); }
+            }
+            if text.is_empty() { text.push(' '); }
+        }
+        let text: String = text.into_iter().collect();
+        match Scenario::from_str(&text, "mutated.json", "tests/good") {
+            Ok(scenario) => {
+                let resolved = scenario.resolved();
+                let again = Scenario::from_str(&resolved, "again.json", "/nowhere");
+                prop_assert!(again.is_ok(), "{}", again.unwrap_err());
+                prop_assert_eq!(again.unwrap().scene, scenario.scene);
+            }
+            Err(error) => {
+                let excerpt = error.excerpt.clone().unwrap();
+                prop_assert!(excerpt.line >= 1 && excerpt.line <= text.matches('\n').count() + 1);
+                prop_assert!(excerpt.marker.start < excerpt.marker.end);
+                prop_assert!(excerpt.marker.start <= excerpt.text.chars().count());
+                prop_assert!(error.to_string().lines().count() <= 4, "{}", error);
+            }
+        }
+    }
+
+    /// A scenario with every value replaced by every other kind of value.
+    #[test]
+    fn an_override_of_anything_never_panics(path in path(), value in value()) {
+        let _ = Scenario::from_str_with(FULL, "full.json", "tests/good", &[(&path, &value)]);
+    }
+}
+
+fn path() -> impl Strategy<Value = String> {
+    let step = prop::sample::select(vec![
+        "contacts",
+        "ball",
+        "sphere",
+        "friction",
+        "normal",
+        "force",
+        "bodies",
+        "slider",
+        "x",
+        "follows",
+        "run",
+        "stepper",
+        "event",
+        "loads[0]",
+        "loads[1]",
+        "waveforms",
+        "saw",
+        "sawtooth",
+        "period",
+        "tab",
+        "table",
+        "points[0]",
+        "points",
+        "output",
+        "figures",
+        "waveform",
+        "gravity",
+        "materials",
+        "start",
+    ]);
+    prop::collection::vec(step, 1..5).prop_map(|steps| steps.join("."))
+}
+
+fn value() -> impl Strategy<Value = String> {
+    let value = prop::sample::select(vec![
+        "0",
+        "-1",
+        "1e300",
+        "1e-300",
+        "5 um",
+        "5 N",
+        "free",
+        "fixed",
+        "saw",
+        "{}",
+        "[]",
+        "[1, 2]",
+        "true",
+        "null",
+        "",
+        "{\"follows\": \"saw\"}",
+        "{\"follows\": {\"sine\": {\"amplitude\": 1, \"period\": 1}}}",
+        "{\"sine\": {}}",
+        "\"",
+        "{\"sphere\": {\"radius\": 1e-300}}",
+        "{\"force\": 1e300}",
+        "{\"a\": {\"a\": 1, \"a\": 2}}",
+    ]);
+    value.prop_map(str::to_owned)
+}

@@ -1,0 +1,83 @@
+//! The program under test and what it leaves behind.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A call of the program.
+pub(crate) fn stickslip() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_stickslip"))
+}
+
+/// Path of an example.
+pub(crate) fn scenario(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(format!("{name}.json"))
+}
+
+/// Runs a scenario file with overrides into a folder.
+pub(crate) fn run(file: &Path, out: &Path, set: &[&str]) -> Output {
+    let mut command = stickslip();
+    command.arg("run").arg(file).arg("--out").arg(out);
+    for assignment in set {
+        command.args(["--set", assignment]);
+    }
+    command.output().unwrap()
+}
+
+/// Runs an example, which must end well; returns its folder.
+pub(crate) fn run_example(name: &str, out: &Path, set: &[&str]) -> PathBuf {
+    let output = run(&scenario(name), out, set);
+    assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+    out.join(name)
+}
+
+pub(crate) fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+pub(crate) fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+pub(crate) fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// The summary in a folder of results.
+pub(crate) fn summary(folder: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+/// A number in a summary by JSON pointer.
+pub(crate) fn number(summary: &Value, pointer: &str) -> f64 {
+    summary.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer} in {summary}"))
+}
+
+/// Names in a folder, sorted; hidden ones, too.
+pub(crate) fn listing(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// A table as text.
+pub(crate) struct Table {
+    pub(crate) head: Vec<String>,
+    pub(crate) rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub(crate) fn read(path: &Path) -> Self {
+        let mut reader = csv::Reader::from_path(path).unwrap();
+        let words = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
+        let head = words(reader.headers().unwrap());
+        let rows = reader.records().map(|record| words(&record.unwrap())).collect();
+        Self { head, rows }
+    }
+
+    pub(crate) fn column(&self, name: &str) -> Vec<&str> {
+        let place = self.head.iter().position(|head| head == name).unwrap();
+        self.rows.iter().map(|row| row[place].as_str()).collect()
+    }
+}
