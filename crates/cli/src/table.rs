@@ -1,6 +1,5 @@
 //! Tables as CSV: `trace.csv` and `events.csv`.
 
-use std::fmt::Write as _;
 use std::io::{self, BufWriter};
 use stickslip_drive::{Channel, state_name};
 use tempfile::NamedTempFile;
@@ -29,8 +28,7 @@ impl Columns {
 pub(crate) struct Table {
     writer: csv::Writer<BufWriter<NamedTempFile>>,
     columns: Columns,
-    /// One field's text, kept for its room.
-    text: String,
+    digits: zmij::Buffer,
 }
 
 impl Table {
@@ -40,7 +38,7 @@ impl Table {
         let mut names = columns.chosen.iter().map(|(_, channel)| channel.name.as_str());
         let time = names.next();
         writer.write_record(time.into_iter().chain(extra.iter().copied()).chain(names))?;
-        Ok(Self { writer, columns, text: String::new() })
+        Ok(Self { writer, columns, digits: zmij::Buffer::new() })
     }
 
     /// Writes a row: the chosen of all channels' `values`, with the texts after the time.
@@ -50,10 +48,9 @@ impl Table {
             if channel.is_state {
                 self.writer.write_field(state_name(value))?;
             } else {
-                self.text.clear();
-                // The shortest digits that read back to the same bits. Writing to a string cannot fail.
-                let _ = write!(self.text, "{value:?}");
-                self.writer.write_field(&self.text)?;
+                // The shortest digits that read back to the same bits; ten times the speed of the standard library's,
+                // which took most of a run's time.
+                self.writer.write_field(self.digits.format(value))?;
             }
             if i == 0 {
                 extra.iter().try_for_each(|text| self.writer.write_field(text))?;
