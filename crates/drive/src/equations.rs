@@ -6,6 +6,9 @@ use crate::{Model, Piece, Sample};
 use stickslip_contact::{Branch, Memory};
 use stickslip_stepper::System;
 
+/// How far beyond a piece, in its lengths, a step that may cross corners still counts as on it.
+const CORNER_SLACK: f64 = 1e-9;
+
 /// Right-hand side of a drive: shared borrows only, so that no evaluation leaves a trace.
 #[derive(Clone, Copy)]
 pub(crate) struct Equations<'a> {
@@ -23,8 +26,12 @@ impl Equations<'_> {
     #[inline(always)]
     pub(crate) fn sample(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
-        if self.crossing && !(piece.start..=piece.end).contains(&t) {
-            return waveform.sample(&waveform.piece_at(t), t);
+        if self.crossing {
+            // A step aligned with a corner may miss it by rounding; that is still the same piece.
+            let slack = CORNER_SLACK * (piece.end - piece.start);
+            if t < piece.start - slack || t > piece.end + slack {
+                return waveform.sample(&waveform.piece_at(t), t);
+            }
         }
         waveform.sample(piece, t)
     }

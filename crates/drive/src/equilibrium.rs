@@ -17,9 +17,10 @@ const ITERATIONS: u32 = 200;
 impl Model {
     /// The state at t = 0 of a plan's run.
     ///
-    /// Fails where an equilibrium is asked for and there is none, and where the plan's stepper cannot follow the
-    /// model's waveforms.
+    /// Fails where a number of the plan is out of its range, where an equilibrium is asked for and there is none, and
+    /// where the plan's stepper cannot follow the model's waveforms.
     pub fn start(&self, plan: &Plan) -> Result<State, SceneError> {
+        plan.check()?;
         let fixed =
             matches!(plan.stepper, Stepper::Verlet { .. } | Stepper::Rk4 { .. } | Stepper::Dopri5 { .. });
         if fixed && !self.free.is_empty() && self.waveforms.iter().any(crate::Waveform::has_jumps) {

@@ -35,6 +35,7 @@ impl Guard {
     /// The guards of a contact in a mode.
     pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {
         match (mode, contact.is_constant()) {
+            _ if contact.inert => &[],
             (Mode::Open, true) => &[],
             (Mode::Open, false) => &[Self::Gap],
             (Mode::Grow, _) => &[Self::Lower, Self::Upper, Self::Contact],
@@ -57,6 +58,7 @@ impl Guard {
             (Self::Drag, Mode::Whole { sense }) => sense * at.du,
             (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
             (Self::Piece, Mode::Slip(branch)) => branch.margin(at.d, at.u),
+            (Self::Side, Mode::Slip(_)) if at.dd > 0.0 => at.d,
             (Self::Side, Mode::Slip(branch)) => at.d - branch.front(at.d, at.u),
             (Self::Piece | Self::Side, _) => f64::INFINITY,
             (Self::Lower, _) => slope * at.dd - at.du,
@@ -74,6 +76,12 @@ impl Guard {
             Self::Side | Self::Contact | Self::Gap => contact.natural.0 / contact.law.stick_slope().max(1e-9),
         };
         (DEADBAND * unit, (NEARNESS * tolerance).max(2.0 * DEADBAND) * unit)
+    }
+
+    /// Whether the guard is not yet on watch. A path that crosses the old curve leaves it at a grazing angle: the side
+    /// counts again only after it has been left, or the two senses would take turns on the curve for ever.
+    pub(crate) fn rests(self, start: f64, near: f64) -> bool {
+        self == Self::Side && start <= near
     }
 
     /// What it means that this guard fell: the event and the course after it.

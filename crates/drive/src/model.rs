@@ -1,6 +1,7 @@
 //! The constants of a drive, checked and assembled.
 
 mod build;
+mod check;
 mod scale;
 
 use crate::{Sample, Waveform};
@@ -68,6 +69,8 @@ pub(crate) struct Contact {
     pub(crate) count: f64,
     /// Displacement reached before the start, m.
     pub(crate) start: f64,
+    /// Whether the contact can never carry a tangential force: no friction, or never pressed.
+    pub(crate) inert: bool,
     /// Place among the growing contacts.
     pub(crate) slot: Option<usize>,
     /// Natural displacement u_c, m, and angular frequency, rad/s.
@@ -185,12 +188,6 @@ impl Model {
     /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.
     pub fn contact_frequency(&self, index: usize) -> Option<f64> {
         self.contacts.get(index).map(|c| c.natural.1)
-    }
-
-    /// Whether the integrals of work need an error control of their own: where contacts grow, and where nothing else
-    /// is integrated.
-    pub(crate) fn steers_by_work(&self) -> bool {
-        self.growing > 0 || self.free.is_empty()
     }
 
     /// Natural scale of work, J: μF_N u_c of the smallest contact.

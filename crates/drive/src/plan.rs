@@ -1,5 +1,7 @@
 //! How a scene is run: how long, by which stepper, what is written down.
 
+use crate::SceneError;
+
 /// How a scene is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
@@ -11,6 +13,26 @@ pub struct Plan {
     pub limits: Limits,
     /// Interval of the rows of the trace, s; none: only the first and the last row.
     pub every: Option<f64>,
+}
+
+impl Plan {
+    /// Fails for a number out of its range, named by its key path in a scenario file.
+    pub(crate) fn check(&self) -> Result<(), SceneError> {
+        let above_zero = |path: &str, value: f64| {
+            if value > 0.0 && value.is_finite() {
+                return Ok(());
+            }
+            Err(SceneError::new(path, format!("expected a finite number above 0, got {value}")))
+        };
+        above_zero("run.duration", self.duration)?;
+        self.every.map_or(Ok(()), |every| above_zero("output.every", every))?;
+        match self.stepper {
+            Stepper::Event { tolerance } => above_zero("run.stepper.event.tolerance", tolerance),
+            Stepper::Dopri5 { tolerance } => above_zero("run.stepper.dopri5.tolerance", tolerance),
+            Stepper::Verlet { step } => above_zero("run.stepper.verlet.step", step),
+            Stepper::Rk4 { step } => above_zero("run.stepper.rk4.step", step),
+        }
+    }
 }
 
 /// Time stepping. Tolerances are relative to natural scales (u_c, μF_N and the velocities they make).

@@ -79,6 +79,7 @@ impl Mode {
     /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
     pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
         match (memory, course) {
+            _ if contact.inert => Self::Open,
             (_, Course::Open) => Self::Open,
             (Memory::Row { .. }, course) => Self::Whole { sense: course.sense() },
             (Memory::Curve(_), Course::Grow) => Self::Grow,

@@ -1,6 +1,6 @@
 //! From a scene to a model: all checks of meaning that concern the physics.
 
-use super::{Body, Contact, Free, Link, Load, Model, Place, Press, Stroke, scale};
+use super::{Body, Contact, Free, Link, Load, Model, Place, Press, Stroke, check, scale};
 use crate::scene::{self, ContactStart, EngineChoice, Freedom, Named, Normal, Scene, Side, Start, Varying};
 use crate::{SceneError, Waveform};
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use stickslip_contact::{Engine, FirstLoading, Interface, NormalGiven, Springs, T
 impl Model {
     /// Checks a scene and assembles its constants. Errors name the key path of what is wrong.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        check::check(scene)?;
         let waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();
         let (bodies, mut free) = bodies(scene)?;
         let start = |place: Place| match place {
@@ -22,7 +23,7 @@ impl Model {
         for named in &scene.contacts {
             let (mut contact, deep) = contact(named, &bodies, &waveforms)?;
             contact.offset = start(contact.first) - start(contact.second) - contact.start;
-            if !contact.is_constant() && contact.engine == Engine::Curve {
+            if !contact.is_constant() && !contact.inert && contact.engine == Engine::Curve {
                 contact.slot = Some(growing);
                 growing += 1;
             }
@@ -131,6 +132,7 @@ fn contact(
         press,
         count: f64::from(part.count.max(1)),
         start,
+        inert: part.friction == 0.0 || deepest <= 0.0,
         slot: None,
         natural: (0.0, 0.0),
     };

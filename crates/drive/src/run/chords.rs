@@ -47,6 +47,20 @@ impl<'a> Chords<'a> {
         equations(self.model, self.layout, self.state)
     }
 
+    /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
+    /// that ends at a corner sees one side of it only. Tells whether any changed.
+    pub(super) fn enter(&mut self, end: f64) -> bool {
+        let middle = 0.5 * (self.state.t + end);
+        let mut changed = false;
+        for (piece, waveform) in self.state.pieces.iter_mut().zip(&self.model.waveforms) {
+            if !(piece.start..piece.end).contains(&middle) {
+                *piece = waveform.piece_at(middle);
+                changed = true;
+            }
+        }
+        changed
+    }
+
     /// Writes the first or the last row.
     pub(super) fn write_now(&mut self) {
         self.grid.write_now(&equations(self.model, self.layout, self.state), self.state, self.record);
@@ -98,7 +112,8 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Events as they show after the step.
+    /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
+    /// whether somebody watched.
     fn notice(&mut self, motions: &[Motion]) {
         for (c, motion) in motions.iter().enumerate() {
             let contact = &self.model.contacts[c];
@@ -115,7 +130,6 @@ impl<'a> Chords<'a> {
                 _ if before * sense < 0.0 => EventKind::Reversal,
                 _ => continue,
             };
-            self.state.counts.events += 1;
             let event = Event { t: self.state.t, source: Source::Contact(c), kind };
             let eq = equations(self.model, self.layout, self.state);
             record::fill(&eq, self.state, self.state.t, &|i| self.state.y[i], &mut self.row);

@@ -45,6 +45,8 @@ pub(super) struct Run<'a> {
     /// Waveforms that turned a corner at the end of the step.
     turned: Vec<(usize, EventKind)>,
     row: Vec<f64>,
+    /// Evaluations made for rows only.
+    for_output: u64,
 }
 
 /// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
@@ -68,16 +70,17 @@ impl<'a> Run<'a> {
             tolerance,
             layout,
             solver: Dop853::new(layout.dimension(), layout.total()),
-            // Where work is integrated along curved paths, its integrals steer the steps as well.
-            scale: vec![0.0; if model.steers_by_work() { layout.total() } else { layout.dimension() }],
+            // The integrals of work steer the steps as well: energy books close at the tolerance.
+            scale: vec![0.0; layout.total()],
             watch: Watch::new(model, plan.limits),
-            longest: model.waveforms.iter().map(Waveform::resolution).fold(plan.duration, f64::min),
+            longest: model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min),
             jumpy: model.waveforms.iter().any(Waveform::has_jumps),
             motions: Vec::with_capacity(model.contacts.len()),
             segments: Vec::with_capacity(model.contacts.len() + MOST_PIECES as usize),
             fired: Vec::with_capacity(model.contacts.len()),
             turned: Vec::with_capacity(model.waveforms.len()),
             row: Vec::new(),
+            for_output: 0,
         }
     }
 
@@ -92,7 +95,7 @@ impl<'a> Run<'a> {
             outcome = self.step(state, &mut control, &mut grid, record);
         }
         state.control = Some(control);
-        state.counts.evaluations += self.solver.evaluations();
+        state.counts.evaluations += self.solver.evaluations() - self.for_output;
         grid.write_now(&equations(self.model, self.layout, state), state, record);
         outcome
     }
@@ -109,7 +112,9 @@ impl<'a> Run<'a> {
         self.set_scale(state);
         let eq = equations(self.model, self.layout, state);
         self.solver.start(&eq, state.t, &state.y);
-        let longest = self.longest.min(self.end);
+        let natural = self.model.contacts.iter().map(|c| std::f64::consts::TAU / c.natural.1);
+        let longest = natural.fold(self.longest, f64::min);
+        let longest = if longest.is_finite() { longest } else { self.end };
         state.step = if self.layout.dimension() == 0 {
             longest
         } else {
@@ -180,13 +185,16 @@ impl<'a> Run<'a> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         let t = self.solver.end_time();
+        self.trace_segments(state, t);
         let eq = equations(self.model, self.layout, state);
+        let asked = self.solver.evaluations();
         while let Some(due) = grid.due(t) {
             self.solver.dense(&eq);
             let solver = &self.solver;
             grid.write(&eq, state, due, &|i| solver.value(i, due), record);
         }
-        self.trace_segments(state, t);
+        // What output asks for is no part of the run.
+        self.for_output += self.solver.evaluations() - asked;
         let end = self.solver.end();
         if let Some(i) = (0..2 * self.layout.free).find(|i| !end[*i].is_finite()) {
             let body = self.model.free[i % self.layout.free].body;
@@ -210,12 +218,12 @@ impl<'a> Run<'a> {
                     (branch.margin(motion.d, motion.u), mode.sense() * self.acceleration(eq, contact, false));
                 // left = speed t + pull t²/2; a slowing edge may never get there.
                 let reaches = speed * speed + 2.0 * pull * left;
-                if speed > 0.0 && reaches > 0.0 {
+                if speed > 0.0 && reaches > 0.0 && left > 0.0 {
                     first = first.min(2.0 * left / (speed + reaches.sqrt()));
                 }
             }
         }
-        OVERSTEP * first.max(0.0) + f64::MIN_POSITIVE
+        OVERSTEP * first + 16.0 * f64::EPSILON * state.t
     }
 
     /// Tells the solver that the laws, and perhaps the forces of growing contacts, have changed.
@@ -239,7 +247,7 @@ impl<'a> Run<'a> {
             if let Some(slot) = contact.slot {
                 let deepest = contact.natural.0 / contact.law.stick_slope().max(f64::MIN_POSITIVE);
                 let limit = contact.law.friction() * contact.law.normal_force(deepest);
-                self.scale[layout.force(slot)] = self.tolerance * limit.max(f64::MIN_POSITIVE);
+                self.scale[layout.force(slot)] = self.tolerance * if limit > 0.0 { limit } else { 1.0 };
             }
         }
         let work = self.tolerance * self.model.work_scale();

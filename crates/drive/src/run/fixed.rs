@@ -44,6 +44,9 @@ pub(super) fn run(
         let aim = from + k * step;
         // A remainder below round-off belongs to this step.
         let end = if aim > plan.duration - 1e-9 * step { plan.duration } else { aim };
+        if chords.enter(end) {
+            stepping.restart();
+        }
         stepping.step(&chords.equations(), t, &mut y, end - t);
         outcome = chords.accept(end, &y);
     }
@@ -57,6 +60,13 @@ impl Stepping {
         match self {
             Self::Verlet(verlet) => verlet.step(system, t, y, h),
             Self::Rk4(rk4) => rk4.step(system, t, y, h),
+        }
+    }
+
+    /// After a corner the slopes kept from the step before belong to its other side.
+    fn restart(&mut self) {
+        if let Self::Verlet(verlet) = self {
+            verlet.restart();
         }
     }
 

@@ -29,8 +29,11 @@ impl Run<'_> {
             let stop = eq.motion(contact, self.solver.end_time(), |i| end[i]);
             for &guard in Guard::of(contact, &state.modes[c]) {
                 let value = |at: &Motion| guard.value(contact, &state.modes[c], at);
-                let (dead, _) = guard.bands(contact, self.tolerance);
+                let (dead, near) = guard.bands(contact, self.tolerance);
                 let (g0, g1) = (value(&start), value(&stop));
+                if guard.rests(g0, near) {
+                    continue;
+                }
                 let low = if g1 < -dead && g1 < g0 {
                     Some((self.solver.end_time(), g1))
                 } else {
@@ -55,10 +58,10 @@ impl Run<'_> {
                 if (c, guard) == (first.contact, first.guard) {
                     continue;
                 }
-                let (dead, _) = guard.bands(contact, self.tolerance);
+                let (dead, near) = guard.bands(contact, self.tolerance);
                 let g1 = self.guard_at(eq, state, (c, guard), first.t);
-                if g1 < -dead {
-                    let g0 = self.guard_at(eq, state, (c, guard), self.solver.time());
+                let g0 = self.guard_at(eq, state, (c, guard), self.solver.time());
+                if g1 < -dead && !guard.rests(g0, near) {
                     let t = self.fall(eq, state, (c, guard), (g0, first.t, g1));
                     if g1 < g0 && t < first.t {
                         first = Fall { t, contact: c, guard };
@@ -166,7 +169,7 @@ impl Run<'_> {
             let fallen = Guard::of(contact, &state.modes[c]).iter().find(|guard| {
                 let (_, near) = guard.bands(contact, self.tolerance);
                 let value = |at| guard.value(contact, &state.modes[c], at);
-                value(&stop) < near && value(&stop) < value(&start)
+                value(&stop) < near && value(&stop) < value(&start) && !guard.rests(value(&start), near)
             });
             self.fired.extend(fallen.map(|guard| (c, *guard)));
         }

@@ -78,13 +78,15 @@ impl Run<'_> {
             let (_, near) = Guard::Piece.bands(contact, self.tolerance);
             let left = Guard::Piece.value(contact, &state.modes[c], &motion);
             // Where rounding of time stops short of the end of the piece, the end is reached by decree.
-            let slack = if guard == Guard::Piece { near + left.max(0.0) } else { near };
+            let slack = if guard == Guard::Piece { near + left.max(0.0) } else { 0.0 };
             self.decree(state, c, course, slack);
             if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
                 kind = EventKind::GrossSlip;
             }
             self.note(state, Source::Contact(c), kind, record);
-            self.watch.event(self.model, state, c)?;
+            if kind != EventKind::LoopClosed {
+                self.watch.event(self.model, state, c)?;
+            }
         }
         if corner {
             for c in 0..self.model.contacts.len() {

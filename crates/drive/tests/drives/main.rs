@@ -1,0 +1,19 @@
+//! Drives as a whole: runs against references, closed forms and independent methods.
+//!
+//! One binary, linked once. `parts` builds scenes and runs them; every other module is a subject.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and shows what it measured"
+)]
+
+mod parts;
+
+mod abuse;
+mod benchmark_drive;
+mod closed_forms;
+mod energy_books;
+mod invariance;
+mod lottery;
+mod random_drives;

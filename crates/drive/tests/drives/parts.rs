@@ -1,0 +1,139 @@
+//! Parts of scenes, plans, and runs that must succeed.
+
+use stickslip_contact::{Material, Pair, Profile};
+use stickslip_drive::scene::{
+    Body, Contact, ContactStart, EngineChoice, Freedom, Load, Named, Normal, Scene, Side, Spring, Varying,
+};
+use stickslip_drive::{
+    Event, Limits, Model, Plan, Record, RunError, Shape, State, Stepper, Timing, Trace, Waveform, run,
+};
+
+pub(crate) fn named<T>(name: &str, part: T) -> Named<T> {
+    Named { name: name.to_owned(), part }
+}
+
+pub(crate) fn wave(name: &str, shape: Shape, period: f64) -> Named<Waveform> {
+    named(name, Waveform::new(shape, Timing::every(period)).unwrap())
+}
+
+pub(crate) fn sine(amplitude: f64) -> Shape {
+    Shape::Sine { amplitude, phase: 0.0, offset: 0.0 }
+}
+
+pub(crate) fn follower(waveform: usize) -> Body {
+    Body { mass: None, x: Freedom::Follows(waveform), start_x: 0.0, start_vx: 0.0 }
+}
+
+pub(crate) fn free(mass: f64) -> Body {
+    Body { mass: Some(mass), x: Freedom::Free, start_x: 0.0, start_vx: 0.0 }
+}
+
+/// Steel on steel: E = 210 GPa, ν = 0.3.
+pub(crate) fn steel() -> Pair {
+    let steel = Material::new(210e9, 0.3).unwrap();
+    Pair::new(steel, steel)
+}
+
+/// One contact under a constant normal force (N).
+pub(crate) fn contact(between: [Side; 2], profile: Profile, friction: f64, force: f64) -> Contact {
+    Contact {
+        between,
+        pair: steel(),
+        profile,
+        friction,
+        normal: Normal::Force(Varying::Constant(force)),
+        start: ContactStart::Untouched,
+        engine: EngineChoice::Curve,
+        count: 1,
+    }
+}
+
+pub(crate) fn damper(between: [Side; 2], damping: f64) -> Spring {
+    Spring { between, stiffness: 0.0, damping, preload: 0.0 }
+}
+
+/// A constant force (N) on a body.
+pub(crate) fn push(on: usize, force: f64) -> Load {
+    Load { on, x: Varying::Constant(force) }
+}
+
+/// A foot that follows `shape` carries a free slider on one contact: bodies 0 and 1, contact 0.
+pub(crate) fn foot_and_slider(drive: Named<Waveform>, mass: f64, contact: Contact) -> Scene {
+    Scene {
+        waveforms: vec![drive],
+        bodies: vec![named("foot", follower(0)), named("slider", free(mass))],
+        contacts: vec![named("ball", contact)],
+        ..Scene::default()
+    }
+}
+
+pub(crate) const FOOT_SLIDER: [Side; 2] = [Side::Body(0), Side::Body(1)];
+
+/// P1, the benchmark drive of `tests/data/drive_p1.json`.
+pub(crate) fn p1() -> Scene {
+    let sawtooth = wave("drive", Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 }, 1e-3);
+    foot_and_slider(sawtooth, 0.02, contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0))
+}
+
+/// A plan with guards tight enough that a test cannot hang.
+pub(crate) fn plan(stepper: Stepper, duration: f64) -> Plan {
+    let limits = Limits { steps: 20_000_000, events: 1_000_000, wall: Some(120.0) };
+    Plan { duration, stepper, limits, every: None }
+}
+
+pub(crate) fn event(tolerance: f64, duration: f64) -> Plan {
+    let limits = Limits { steps: 1_000_000, events: 100_000, wall: Some(120.0) };
+    Plan { limits, ..plan(Stepper::Event { tolerance }, duration) }
+}
+
+/// A record that keeps nothing.
+pub(crate) struct Nothing;
+
+impl Record for Nothing {
+    fn row(&mut self, _: &[f64]) {}
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+    fn wants_events(&self) -> bool {
+        false
+    }
+}
+
+/// Runs a scene from its start to the end of the plan.
+pub(crate) fn try_end(scene: &Scene, plan: &Plan) -> Result<(Model, State), RunError> {
+    let model = Model::new(scene).unwrap();
+    let mut state = model.start(plan).unwrap();
+    run(&model, plan, &mut state, &mut Nothing).map(|()| (model, state))
+}
+
+pub(crate) fn end(scene: &Scene, plan: &Plan) -> (Model, State) {
+    try_end(scene, plan).unwrap()
+}
+
+/// Runs a scene and keeps rows every `every` s, and events.
+pub(crate) fn trace(scene: &Scene, plan: &Plan, every: f64) -> (Model, State, Trace) {
+    let model = Model::new(scene).unwrap();
+    let plan = Plan { every: Some(every), ..*plan };
+    let mut state = model.start(&plan).unwrap();
+    let mut trace = Trace::new(&model);
+    run(&model, &plan, &mut state, &mut trace).unwrap();
+    (model, state, trace)
+}
+
+/// Place of a channel in a row.
+pub(crate) fn channel(model: &Model, name: &str) -> usize {
+    model.channels().iter().position(|c| c.name == name).unwrap()
+}
+
+/// Values of a channel.
+pub(crate) fn column(model: &Model, trace: &Trace, name: &str) -> Vec<f64> {
+    trace.column(channel(model, name)).collect()
+}
+
+/// Order p of errors that fall like hᵖ: slope of the straight line through the logarithms.
+pub(crate) fn fitted_order(points: &[(f64, f64)]) -> f64 {
+    let logs: Vec<(f64, f64)> = points.iter().map(|(h, e)| (h.ln(), e.ln())).collect();
+    let n = logs.len() as f64;
+    let (x, y) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
+    let (xy, xx) =
+        logs.iter().fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - x) * (p.1 - y), xx + (p.0 - x).powi(2)));
+    xy / xx
+}
