@@ -134,6 +134,12 @@ impl Curve {
         Some(cut::anchor(&self.knots, h))
     }
 
+    /// How far an apex lies above the curve at its own height, m; none while open and beyond the end of the curve.
+    pub fn beside(&self, at: Apex) -> Option<f64> {
+        let inside = self.knots.len() > 1 && at.d <= self.apex.d;
+        inside.then(|| at.u - cut::anchor(&self.knots, at.d))
+    }
+
     /// Stretch u - p(h) of the springs at height h, m; zero outside the contact.
     pub fn stretch(&self, h: f64) -> f64 {
         self.anchor(h).map_or(0.0, |p| self.apex.u - p)

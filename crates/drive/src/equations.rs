@@ -27,11 +27,19 @@ impl Equations<'_> {
     pub(crate) fn sample(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
         if self.crossing {
-            // A step aligned with a corner may miss it by rounding; that is still the same piece.
-            let slack = CORNER_SLACK * (piece.end - piece.start);
-            if t < piece.start - slack || t > piece.end + slack {
-                return waveform.sample(&waveform.piece_at(t), t);
-            }
+            return self.across(w, t);
+        }
+        waveform.sample(piece, t)
+    }
+
+    /// The same for a step that may cross corners.
+    #[inline(never)]
+    fn across(&self, w: usize, t: f64) -> Sample {
+        let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
+        // A step aligned with a corner may miss it by rounding; that is still the same piece.
+        let slack = CORNER_SLACK * (piece.end - piece.start);
+        if t < piece.start - slack || t > piece.end + slack {
+            return waveform.sample(&waveform.piece_at(t), t);
         }
         waveform.sample(piece, t)
     }
@@ -67,7 +75,7 @@ impl Equations<'_> {
     }
 
     /// F_x of one contact, N, under its decreed law.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn force(&self, c: usize, motion: &Motion, y: impl Fn(usize) -> f64) -> f64 {
         let contact = &self.model.contacts[c];
         match &self.modes[c] {
@@ -79,10 +87,16 @@ impl Equations<'_> {
                 };
                 branch.force(&contact.law, motion.d, motion.u, area)
             }
-            Mode::Whole { .. } => self.memories[c].force(&contact.law, motion.apex()),
+            Mode::Whole { .. } => self.whole(c, motion),
             Mode::Grow => contact.slot.map_or(0.0, |slot| y(self.layout.force(slot))),
             Mode::Open => 0.0,
         }
+    }
+
+    /// Force by the whole law on the committed memory.
+    #[inline(never)]
+    fn whole(&self, c: usize, motion: &Motion) -> f64 {
+        self.memories[c].force(&self.model.contacts[c].law, motion.apex())
     }
 
     /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
@@ -103,9 +117,10 @@ impl Equations<'_> {
         }
     }
 
-    /// Slopes of the extra components of a growing contact: Ḟ = G\*m(d)u̇ and Ė = Fu̇ in full stick, friction
-    /// power where an edge drags.
-    fn grow(&self, c: usize, slot: usize, motion: &Motion, force: f64, dy: &mut [f64]) {
+    /// Slopes of the extra components of a growing contact: Ḟ = G\*m(d)u̇ and Ė = Fu̇ in full stick, friction power
+    /// where an edge drags. `extra` begins after the velocities.
+    #[inline(never)]
+    fn grow(&self, c: usize, slot: usize, motion: &Motion, force: f64, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
         let (mut rate, mut elastic, mut friction) = (0.0, 0.0, 0.0);
         match &self.modes[c] {
@@ -119,51 +134,41 @@ impl Equations<'_> {
             }
             Mode::Open | Mode::Whole { .. } => {}
         }
-        dy[self.layout.force(slot)] = rate;
-        dy[self.layout.elastic(slot)] = elastic;
-        dy[self.layout.friction(slot)] = friction;
+        let from = 2 * self.layout.free;
+        extra[self.layout.force(slot) - from] = rate;
+        extra[self.layout.elastic(slot) - from] = elastic;
+        extra[self.layout.friction(slot) - from] = friction;
     }
 
-    fn contacts(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+    #[inline(always)]
+    fn contacts(&self, sides: &Sides<'_>, y: &[f64], sum: &mut Sum<'_>, extra: &mut [f64]) {
         for (c, contact) in self.model.contacts.iter().enumerate() {
-            let first = self.place(contact.first, t, |i| y[i]);
-            let second = self.place(contact.second, t, |i| y[i]);
-            let motion = self.relative(contact, t, (first, second));
+            let (first, second) = (sides.of(contact.first), sides.of(contact.second));
+            let motion = self.relative(contact, sides.t, (first, second));
             let one = self.force(c, &motion, |i| y[i]);
             if let (Some(slot), true) = (contact.slot, self.layout.growing > 0) {
-                self.grow(c, slot, &motion, one, dy);
+                self.grow(c, slot, &motion, one, extra);
             }
             let force = contact.count * one;
-            self.apply(contact.first, first.1, -force, dy);
-            self.apply(contact.second, second.1, force, dy);
+            sum.apply(contact.first, first.1, -force);
+            sum.apply(contact.second, second.1, force);
         }
     }
 
-    fn links(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+    #[inline(never)]
+    fn links(&self, sides: &Sides<'_>, sum: &mut Sum<'_>) {
         for link in &self.model.links {
-            let (x1, v1) = self.place(link.first, t, |i| y[i]);
-            let (x2, v2) = self.place(link.second, t, |i| y[i]);
+            let ((x1, v1), (x2, v2)) = (sides.of(link.first), sides.of(link.second));
             let stroke = match link.stroke {
                 Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },
-                Stroke::Driven(w) => self.sample(w, t),
+                Stroke::Driven(w) => self.sample(w, sides.t),
             };
             let (stretch, rate) = (stroke.value - (x2 - x1), stroke.rate - (v2 - v1));
             let force = link.stiffness * stretch + link.damping * rate;
-            self.apply(link.first, v1, -force - link.preload, dy);
-            self.apply(link.second, v2, force + link.preload, dy);
-            dy[self.layout.input()] += force * stroke.rate;
-            dy[self.layout.damping()] += link.damping * rate * rate;
-        }
-    }
-
-    /// Adds a force on a place that moves with velocity v. What drives a follower supplies the opposite force: its
-    /// power is input.
-    #[inline]
-    fn apply(&self, place: Place, v: f64, force: f64, dy: &mut [f64]) {
-        match place {
-            Place::Held(_) => {}
-            Place::Free(i) => dy[self.layout.velocity(i)] += force,
-            Place::Driven(_) => dy[self.layout.input()] -= force * v,
+            sum.apply(link.first, v1, -force - link.preload);
+            sum.apply(link.second, v2, force + link.preload);
+            sum.input += force * stroke.rate;
+            sum.damping += link.damping * rate * rate;
         }
     }
 }
@@ -183,24 +188,73 @@ impl System for Equations<'_> {
 
     fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
         let layout = self.layout;
+        let (x, rest) = y.split_at(layout.free);
+        let v = &rest[..layout.free];
+        let sides = Sides { equations: self, t, x, v };
+        let (dx, rest) = dy.split_at_mut(layout.free);
+        let (dv, extra) = rest.split_at_mut(layout.free);
         let mut input = 0.0;
-        for (i, free) in self.model.free.iter().enumerate() {
-            let v = y[layout.velocity(i)];
-            dy[i] = v;
-            dy[layout.velocity(i)] = free.force;
+        for (((free, v), dx), dv) in self.model.free.iter().zip(v).zip(dx).zip(dv.iter_mut()) {
+            *dx = *v;
+            *dv = free.force;
             input += free.force * v;
         }
-        dy[layout.input()] = input;
-        dy[layout.damping()] = 0.0;
-        self.contacts(t, y, dy);
-        self.links(t, y, dy);
+        let mut sum = Sum { dv, input, damping: 0.0 };
+        self.contacts(&sides, y, &mut sum, extra);
+        if !self.model.links.is_empty() {
+            self.links(&sides, &mut sum);
+        }
         for load in &self.model.loads {
             let force = self.sample(load.waveform, t).value;
-            dy[layout.velocity(load.free)] += force;
-            dy[layout.input()] += force * y[layout.velocity(load.free)];
+            sum.dv[load.free] += force;
+            sum.input += force * v[load.free];
         }
-        for (i, free) in self.model.free.iter().enumerate() {
-            dy[layout.velocity(i)] *= free.mobility;
+        for (free, dv) in self.model.free.iter().zip(sum.dv.iter_mut()) {
+            *dv *= free.mobility;
+        }
+        let growing = layout.growing;
+        (extra[growing], extra[growing + 1]) = (sum.input, sum.damping);
+    }
+}
+
+/// Positions and velocities at one moment.
+struct Sides<'a> {
+    equations: &'a Equations<'a>,
+    t: f64,
+    x: &'a [f64],
+    v: &'a [f64],
+}
+
+impl Sides<'_> {
+    #[inline(always)]
+    fn of(&self, place: Place) -> (f64, f64) {
+        match place {
+            Place::Held(x) => (x, 0.0),
+            Place::Free(i) => (self.x[i], self.v[i]),
+            Place::Driven(w) => {
+                let sample = self.equations.sample(w, self.t);
+                (sample.value, sample.rate)
+            }
+        }
+    }
+}
+
+/// Forces on the free coordinates, and powers, as they add up.
+struct Sum<'a> {
+    dv: &'a mut [f64],
+    input: f64,
+    damping: f64,
+}
+
+impl Sum<'_> {
+    /// Adds a force on a place that moves with velocity v. What drives a follower supplies the opposite force: its
+    /// power is input.
+    #[inline(always)]
+    fn apply(&mut self, place: Place, v: f64, force: f64) {
+        match place {
+            Place::Held(_) => {}
+            Place::Free(i) => self.dv[i] += force,
+            Place::Driven(_) => self.input -= force * v,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The start of a run: given, or the static equilibrium under what acts at t = 0.
 
 use crate::equations::Equations;
-use crate::model::{Model, Place, Stroke};
+use crate::model::{Contact, Model, Place, Stroke};
 use crate::record;
 use crate::state::State;
 use crate::{Plan, SceneError, Stepper};
@@ -110,13 +110,17 @@ impl Model {
         Ok(())
     }
 
-    /// Largest residual in units of what the contacts can hold and what presses on each body.
+    /// Largest residual in units of what contacts and springs can hold and what presses on each body.
     fn size(&self, residual: &DVector<f64>) -> f64 {
-        let holds = |place: Place| {
-            let on = self.contacts.iter().filter(|c| c.first == place || c.second == place);
-            on.map(|c| c.count * c.law.friction() * c.law.normal_force(self.indentation(c, 0.0))).sum::<f64>()
+        let unit = |i: usize| {
+            let here = Place::Free(i);
+            let on = self.contacts.iter().filter(|c| c.first == here || c.second == here);
+            let limit = |d: f64, c: &Contact| c.count * c.law.friction() * c.law.normal_force(d);
+            let contacts: f64 = on.map(|c| limit(self.indentation(c, 0.0), c)).sum();
+            let at = self.links.iter().filter(|l| l.first == here || l.second == here);
+            let links: f64 = at.map(|l| l.stiffness * self.free[i].scale.0 + l.preload.abs()).sum();
+            (contacts + links + self.free[i].force.abs()).max(f64::MIN_POSITIVE)
         };
-        let unit = |i: usize| (holds(Place::Free(i)) + self.free[i].force.abs()).max(f64::MIN_POSITIVE);
         residual.iter().enumerate().map(|(i, r)| r.abs() / unit(i)).fold(0.0, f64::max)
     }
 

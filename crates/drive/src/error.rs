@@ -36,6 +36,14 @@ pub enum RunError {
         /// Step, s.
         step: f64,
     },
+    /// A fixed step too long for the stiffest mode of the scene.
+    #[error("the step of {step:e} s is unstable here: the stiffest mode allows less than {limit:e} s")]
+    Unstable {
+        /// Step, s.
+        step: f64,
+        /// Longest stable step, s.
+        limit: f64,
+    },
     /// A coordinate is no longer a number.
     #[error("at t = {t:e} s the motion of `{body}` is no longer finite")]
     NotFinite {
@@ -105,12 +113,17 @@ impl RunError {
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, or look for a mass or stiffness off by orders of magnitude"
             }
+            Self::Unstable { .. } => {
+                "take a step well below the limit, or the event stepper, which needs none"
+            }
             Self::NotFinite { .. } => {
                 "take a smaller step, or the event stepper: an explicit step must stay below 2/ω of the stiffest mode"
             }
             Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
             Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",
-            Self::Zeno { .. } => "add a little damping at this contact, or use a fixed step",
+            Self::Zeno { .. } => {
+                "put a spring with a little damping beside this contact, or use a fixed step"
+            }
             Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
             Self::OutOfTime { .. } => "raise run.limits.wall or shorten the run",
             Self::Interrupted { .. } => "run again to the end",

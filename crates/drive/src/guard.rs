@@ -3,7 +3,7 @@
 use crate::EventKind;
 use crate::model::{Contact, Motion};
 use crate::state::Mode;
-use stickslip_contact::Course;
+use stickslip_contact::{Course, Memory};
 
 /// A function that falls through zero where a mode ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub(crate) enum Guard {
     Drag,
     /// Length left of the piece of memory being cut.
     Piece,
-    /// d - h_c: the apex of a shrinking contact stays on its side of the old curve.
+    /// σ(u - p(d)): the apex of a shrinking contact stays on its side of the old curve.
     Side,
     /// κḋ - u̇ in full stick.
     Lower,
@@ -50,7 +50,7 @@ impl Guard {
 
     /// Its value.
     #[inline]
-    pub(crate) fn value(self, contact: &Contact, mode: &Mode, at: &Motion) -> f64 {
+    pub(crate) fn value(self, contact: &Contact, (memory, mode): (&Memory, &Mode), at: &Motion) -> f64 {
         let slope = contact.law.stick_slope();
         match (self, mode) {
             // A row needs its reversals only: its springs know by themselves when they stick.
@@ -58,8 +58,12 @@ impl Guard {
             (Self::Drag, Mode::Whole { sense }) => sense * at.du,
             (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
             (Self::Piece, Mode::Slip(branch)) => branch.margin(at.d, at.u),
-            (Self::Side, Mode::Slip(_)) if at.dd > 0.0 => at.d,
-            (Self::Side, Mode::Slip(branch)) => at.d - branch.front(at.d, at.u),
+            (Self::Side, Mode::Slip(branch)) => match memory {
+                Memory::Curve(curve) => {
+                    curve.beside(at.apex()).map_or(f64::INFINITY, |above| branch.sense() * above)
+                }
+                Memory::Row { .. } => f64::INFINITY,
+            },
             (Self::Piece | Self::Side, _) => f64::INFINITY,
             (Self::Lower, _) => slope * at.dd - at.du,
             (Self::Upper, _) => slope * at.dd + at.du,
@@ -72,16 +76,10 @@ impl Guard {
     pub(crate) fn bands(self, contact: &Contact, tolerance: f64) -> (f64, f64) {
         let unit = match self {
             Self::Drag | Self::Lower | Self::Upper => contact.natural_velocity(),
-            Self::Piece => contact.natural.0,
-            Self::Side | Self::Contact | Self::Gap => contact.natural.0 / contact.law.stick_slope().max(1e-9),
+            Self::Piece | Self::Side => contact.natural.0,
+            Self::Contact | Self::Gap => contact.natural.0 / contact.law.stick_slope().max(1e-9),
         };
         (DEADBAND * unit, (NEARNESS * tolerance).max(2.0 * DEADBAND) * unit)
-    }
-
-    /// Whether the guard is not yet on watch. A path that crosses the old curve leaves it at a grazing angle: the side
-    /// counts again only after it has been left, or the two senses would take turns on the curve for ever.
-    pub(crate) fn rests(self, start: f64, near: f64) -> bool {
-        self == Self::Side && start <= near
     }
 
     /// What it means that this guard fell: the event and the course after it.

@@ -132,6 +132,16 @@ impl Motion {
     }
 }
 
+impl Press {
+    /// The waveform that presses, if any.
+    pub(crate) fn waveform(self) -> Option<usize> {
+        match self {
+            Self::Constant { .. } => None,
+            Self::Force(w) | Self::Indentation(w) | Self::Radius(w) => Some(w),
+        }
+    }
+}
+
 impl Contact {
     /// Natural velocity u_c ω, m/s.
     pub(crate) fn natural_velocity(&self) -> f64 {
@@ -139,7 +149,7 @@ impl Contact {
     }
 
     /// Indentation d (m) and its rate (m/s) from a sample of the waveform that presses.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn pressed(&self, sample: Sample) -> (f64, f64) {
         match self.press {
             Press::Constant { d, .. } => (d, 0.0),
@@ -188,6 +198,12 @@ impl Model {
     /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.
     pub fn contact_frequency(&self, index: usize) -> Option<f64> {
         self.contacts.get(index).map(|c| c.natural.1)
+    }
+
+    /// Angular frequency of the stiffest free coordinate with all its contacts stuck, rad/s. Coupling between
+    /// coordinates can raise it by at most a factor √2 of a chain's.
+    pub(crate) fn highest_frequency(&self) -> f64 {
+        self.free.iter().map(|f| f.scale.1 / f.scale.0).fold(0.0, f64::max)
     }
 
     /// Natural scale of work, J: μF_N u_c of the smallest contact.

@@ -1,7 +1,7 @@
 //! All that the future of a run depends on.
 
 use crate::model::{Contact, Place};
-use crate::{Model, Piece};
+use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, Branch, Course, Memory, Move};
 use stickslip_stepper::StepControl;
 
@@ -130,6 +130,13 @@ impl Model {
         Layout { free: self.free.len(), growing: self.growing }
     }
 
+    /// The error of component `i` that is no longer finite; forces and work are laid at the first body's door.
+    pub(crate) fn not_finite(&self, t: f64, i: usize) -> RunError {
+        let free = if i < 2 * self.free.len() { i % self.free.len() } else { 0 };
+        let body = self.free.get(free).map(|f| self.bodies[f.body].name.clone());
+        RunError::NotFinite { t, body: body.unwrap_or_default() }
+    }
+
     /// The state at t = 0, before anything is in equilibrium or classified.
     pub(crate) fn rest(&self) -> State {
         let layout = self.layout();
@@ -171,6 +178,30 @@ impl State {
     /// Time, s.
     pub fn time(&self) -> f64 {
         self.t
+    }
+
+    /// Takes over a state of another stepper's run, which carried other extra components.
+    pub(crate) fn carry_over(&mut self, model: &Model, to: Layout) {
+        if self.y.len() == to.total() {
+            return;
+        }
+        let growing = if to.growing == 0 { model.growing } else { 0 };
+        let from = Layout { free: to.free, growing };
+        for (contact, friction) in model.contacts.iter().zip(&mut self.friction) {
+            if let Some(slot) = contact.slot.filter(|_| growing > 0) {
+                *friction += contact.count * self.y[from.friction(slot)];
+            }
+        }
+        let (input, damping) = (self.y[from.input()], self.y[from.damping()]);
+        self.y.truncate(2 * to.free);
+        self.y.resize(to.total(), 0.0);
+        (self.y[to.input()], self.y[to.damping()]) = (input, damping);
+        self.step = 0.0;
+    }
+
+    /// What a contact remembers and what is decreed for it.
+    pub(crate) fn law(&self, c: usize) -> (&Memory, &Mode) {
+        (&self.memories[c], &self.modes[c])
     }
 
     /// Work done so far.

@@ -110,6 +110,15 @@ impl Waveform {
     pub fn sample(&self, piece: &Piece, t: f64) -> Sample {
         match &piece.law {
             Law::Straight(straight) => straight.at(t),
+            _ => self.curved(piece, t),
+        }
+    }
+
+    /// The laws that are not straight, kept out of the way of those that are.
+    #[inline(never)]
+    fn curved(&self, piece: &Piece, t: f64) -> Sample {
+        match &piece.law {
+            Law::Straight(straight) => straight.at(t),
             Law::Cycloid(cycloid) => cycloid.at(t),
             Law::Sines => sines::at(&self.shape, &self.timing, t),
         }

@@ -118,6 +118,21 @@ impl Dop853 {
         }
     }
 
+    /// Ends the step tried at an earlier time `t` of it, in the state that the dense output has there.
+    ///
+    /// For an event: its state by the dense output is as good as one more attempt up to it, and free. Without dense
+    /// output nothing happens.
+    pub fn cut(&mut self, t: f64) {
+        if !self.dense_known {
+            return;
+        }
+        let mut end = std::mem::take(&mut self.end);
+        self.values(t, &mut end);
+        self.end = end;
+        self.end_time = t;
+        self.last_known = false;
+    }
+
     /// Moves to the end of the step tried. Slopes evaluated there become the first ones of the next step.
     pub fn accept(&mut self) {
         std::mem::swap(&mut self.begin, &mut self.end);

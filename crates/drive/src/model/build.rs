@@ -105,6 +105,8 @@ fn contact(
     }
     let engine = match part.engine {
         EngineChoice::Curve => Engine::Curve,
+        // Never pressed: there is nothing for a row to span.
+        EngineChoice::Springs { .. } if deepest <= 0.0 => Engine::Curve,
         EngineChoice::Springs { count, span } => {
             let span = span.unwrap_or_else(|| 2.0 * law.profile().radius(deepest));
             let springs = Springs::new(law.profile(), count, span)

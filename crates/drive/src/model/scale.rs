@@ -30,10 +30,13 @@ pub(super) fn assign(
         add(link.second, link.stiffness, 0.0);
     }
     let (stroke, slow) = slowest(waveforms);
+    // With high friction u_c lies far above anything that moves.
+    let widest = waveforms.iter().map(|w| w.range().1 - w.range().0).fold(0.0, f64::max);
+    let reach = if widest > 0.0 { widest } else { f64::INFINITY };
     let mut frequency = vec![slow; free.len()];
     for (i, f) in free.iter_mut().enumerate() {
         let (stiffness, length) = springs[i];
-        let length = if length.is_finite() { length } else { stroke };
+        let length = if length.is_finite() { length.min(reach) } else { stroke };
         if stiffness > 0.0 {
             frequency[i] = (stiffness / f.mass).sqrt();
         }

@@ -24,7 +24,7 @@ pub(super) struct Chords<'a> {
 }
 
 impl<'a> Chords<'a> {
-    /// Drops the extra components of growing contacts: chords do not carry them.
+    /// Chords do not carry the extra components of growing contacts.
     pub(super) fn new(
         model: &'a Model,
         plan: &Plan,
@@ -32,8 +32,7 @@ impl<'a> Chords<'a> {
         record: &'a mut dyn Record,
     ) -> Self {
         let layout = Layout { free: model.free.len(), growing: 0 };
-        state.y.truncate(2 * layout.free);
-        state.y.resize(layout.total(), 0.0);
+        state.carry_over(model, layout);
         for mode in &mut state.modes {
             *mode = Mode::Whole { sense: 0.0 };
         }
@@ -68,9 +67,8 @@ impl<'a> Chords<'a> {
 
     /// Accepts the step that ends at t in y: rows on the way, then the commit of all contacts.
     pub(super) fn accept(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
-        if let Some(i) = (0..2 * self.layout.free).find(|i| !y[*i].is_finite()) {
-            let body = self.model.free[i % self.layout.free].body;
-            return Err(RunError::NotFinite { t, body: self.model.bodies[body].name.clone() });
+        if let Some(i) = y.iter().position(|y| !y.is_finite()) {
+            return Err(self.model.not_finite(t, i));
         }
         self.rows(t, y);
         let eq = equations(self.model, self.layout, self.state);

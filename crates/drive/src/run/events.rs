@@ -19,7 +19,7 @@ use crate::record::Record;
 use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError, Waveform};
 use path::MOST_PIECES;
-use stickslip_contact::Segment;
+use stickslip_contact::{Engine, Segment};
 use stickslip_stepper::{Dop853, StepControl, StepLimits};
 
 /// Scratch of one run; all that its future depends on is in the [`State`].
@@ -52,6 +52,9 @@ pub(super) struct Run<'a> {
 /// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
 const OVERSTEP: f64 = 1.05;
 
+/// Steps of a row under a varying load in a period of the load, at least.
+const CHORDS_PER_PERIOD: f64 = 4096.0;
+
 /// How a step ends.
 #[derive(Clone, Copy, PartialEq)]
 enum Ending {
@@ -73,7 +76,7 @@ impl<'a> Run<'a> {
             // The integrals of work steer the steps as well: energy books close at the tolerance.
             scale: vec![0.0; layout.total()],
             watch: Watch::new(model, plan.limits),
-            longest: model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min),
+            longest: longest(model, plan),
             jumpy: model.waveforms.iter().any(Waveform::has_jumps),
             motions: Vec::with_capacity(model.contacts.len()),
             segments: Vec::with_capacity(model.contacts.len() + MOST_PIECES as usize),
@@ -85,6 +88,7 @@ impl<'a> Run<'a> {
     }
 
     pub(super) fn go(mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
+        state.carry_over(self.model, self.layout);
         let mut grid = Grid::new(self.every, state.t, self.end);
         let limits = StepLimits { longest: self.longest, ..StepLimits::default() };
         let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(8, limits));
@@ -135,6 +139,9 @@ impl<'a> Run<'a> {
         let eq = equations(self.model, self.layout, state);
         let target = aim(state.t, state.step.min(self.longest).min(self.expected(&eq, state)), corner);
         let h = target - state.t;
+        if h <= 0.0 {
+            return Err(RunError::StepTooSmall { t: state.t, step: state.step });
+        }
         let error = self.solver.attempt_until(&eq, target, &self.scale);
         let verdict = control.propose(error, h);
         if !verdict.accepted {
@@ -146,8 +153,7 @@ impl<'a> Run<'a> {
         self.fired.clear();
         if let Some(fall) = self.first_fall(&eq, state) {
             if fall.t < target {
-                self.solver.attempt_until(&eq, fall.t, &self.scale);
-                self.solver.end_slopes(&eq);
+                self.solver.cut(fall.t);
                 ending = Ending::Event;
                 // The next law has not earned a longer step yet.
                 wished = if h < state.step { state.step } else { h.min(verdict.next) };
@@ -196,9 +202,8 @@ impl<'a> Run<'a> {
         // What output asks for is no part of the run.
         self.for_output += self.solver.evaluations() - asked;
         let end = self.solver.end();
-        if let Some(i) = (0..2 * self.layout.free).find(|i| !end[*i].is_finite()) {
-            let body = self.model.free[i % self.layout.free].body;
-            return Err(RunError::NotFinite { t, body: self.model.bodies[body].name.clone() });
+        if let Some(i) = end.iter().position(|y| !y.is_finite()) {
+            return Err(self.model.not_finite(t, i));
         }
         state.y.copy_from_slice(end);
         state.t = t;
@@ -210,10 +215,11 @@ impl<'a> Run<'a> {
     /// About when the first piece of memory will be used up, s from now: a step much longer would only be thrown away.
     fn expected(&self, eq: &Equations<'_>, state: &State) -> f64 {
         let mut first = f64::INFINITY;
-        for (contact, mode) in self.model.contacts.iter().zip(&state.modes) {
+        for (c, contact) in self.model.contacts.iter().enumerate() {
+            let mode = &state.modes[c];
             if let Mode::Slip(branch) = mode {
                 let motion = eq.motion(contact, state.t, |i| state.y[i]);
-                let speed = Guard::Drag.value(contact, mode, &motion);
+                let speed = Guard::Drag.value(contact, state.law(c), &motion);
                 let (left, pull) =
                     (branch.margin(motion.d, motion.u), mode.sense() * self.acceleration(eq, contact, false));
                 // left = speed t + pull t²/2; a slowing edge may never get there.
@@ -265,6 +271,14 @@ fn equations<'s>(model: &'s Model, layout: Layout, state: &'s State) -> Equation
         layout,
         crossing: false,
     }
+}
+
+/// Longest step, s. A row under a varying load follows chords: it needs steps that leave the load no bend.
+fn longest(model: &Model, plan: &Plan) -> f64 {
+    let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
+    let rows = model.contacts.iter().filter(|c| c.engine != Engine::Curve && !c.is_constant());
+    let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
+    rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
 }
 
 /// End of the next step: the corner exactly, or so that no sliver is left before it.

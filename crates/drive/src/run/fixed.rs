@@ -12,6 +12,16 @@ pub(super) enum Method {
     Rk4,
 }
 
+impl Method {
+    /// Length of the stability interval on the imaginary axis: the largest ωh of an undamped oscillator.
+    fn reach(self) -> f64 {
+        match self {
+            Self::Verlet => 2.0,
+            Self::Rk4 => 8.0_f64.sqrt(),
+        }
+    }
+}
+
 /// The two methods behind one call.
 enum Stepping {
     Verlet(Verlet),
@@ -27,6 +37,10 @@ pub(super) fn run(
     state: &mut State,
     record: &mut dyn Record,
 ) -> Result<(), RunError> {
+    let limit = method.reach() / model.highest_frequency();
+    if step >= limit {
+        return Err(RunError::Unstable { step, limit });
+    }
     let from = state.t;
     let mut chords = Chords::new(model, plan, state, record);
     let (dimension, total) = (chords.layout.dimension(), chords.layout.total());

@@ -28,12 +28,9 @@ impl Run<'_> {
             let start = eq.motion(contact, self.solver.time(), |i| begin[i]);
             let stop = eq.motion(contact, self.solver.end_time(), |i| end[i]);
             for &guard in Guard::of(contact, &state.modes[c]) {
-                let value = |at: &Motion| guard.value(contact, &state.modes[c], at);
-                let (dead, near) = guard.bands(contact, self.tolerance);
+                let value = |at: &Motion| guard.value(contact, state.law(c), at);
+                let (dead, _) = guard.bands(contact, self.tolerance);
                 let (g0, g1) = (value(&start), value(&stop));
-                if guard.rests(g0, near) {
-                    continue;
-                }
                 let low = if g1 < -dead && g1 < g0 {
                     Some((self.solver.end_time(), g1))
                 } else {
@@ -58,10 +55,10 @@ impl Run<'_> {
                 if (c, guard) == (first.contact, first.guard) {
                     continue;
                 }
-                let (dead, near) = guard.bands(contact, self.tolerance);
+                let (dead, _) = guard.bands(contact, self.tolerance);
                 let g1 = self.guard_at(eq, state, (c, guard), first.t);
                 let g0 = self.guard_at(eq, state, (c, guard), self.solver.time());
-                if g1 < -dead && !guard.rests(g0, near) {
+                if g1 < -dead {
                     let t = self.fall(eq, state, (c, guard), (g0, first.t, g1));
                     if g1 < g0 && t < first.t {
                         first = Fall { t, contact: c, guard };
@@ -141,7 +138,7 @@ impl Run<'_> {
     fn guard_at(&self, eq: &Equations<'_>, state: &State, (c, guard): (usize, Guard), t: f64) -> f64 {
         let contact = &self.model.contacts[c];
         let motion = eq.motion(contact, t, |i| self.solver.value(i, t));
-        guard.value(contact, &state.modes[c], &motion)
+        guard.value(contact, state.law(c), &motion)
     }
 
     /// ü at one end of the step, m/s².
@@ -168,8 +165,8 @@ impl Run<'_> {
             let stop = eq.motion(contact, t1, |i| end[i]);
             let fallen = Guard::of(contact, &state.modes[c]).iter().find(|guard| {
                 let (_, near) = guard.bands(contact, self.tolerance);
-                let value = |at| guard.value(contact, &state.modes[c], at);
-                value(&stop) < near && value(&stop) < value(&start) && !guard.rests(value(&start), near)
+                let value = |at| guard.value(contact, state.law(c), at);
+                value(&stop) < near && value(&stop) < value(&start)
             });
             self.fired.extend(fallen.map(|guard| (c, *guard)));
         }

@@ -76,7 +76,7 @@ impl Run<'_> {
             let motion = self.motions[c];
             let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
             let (_, near) = Guard::Piece.bands(contact, self.tolerance);
-            let left = Guard::Piece.value(contact, &state.modes[c], &motion);
+            let left = Guard::Piece.value(contact, state.law(c), &motion);
             // Where rounding of time stops short of the end of the piece, the end is reached by decree.
             let slack = if guard == Guard::Piece { near + left.max(0.0) } else { 0.0 };
             self.decree(state, c, course, slack);
@@ -176,7 +176,7 @@ impl Run<'_> {
         state.modes[c] = Mode::of(contact, &state.memories[c], course, slack);
         state.grew[c] = false;
         match (was_gross, state.modes[c].is_gross()) {
-            (false, true) => state.stuck_step = state.step,
+            (false, true) if state.step > 0.0 => state.stuck_step = state.step,
             (true, false) => state.step = state.step.min(state.stuck_step),
             _ => {}
         }
