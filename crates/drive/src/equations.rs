@@ -144,15 +144,29 @@ impl Equations<'_> {
     fn contacts(&self, sides: &Sides<'_>, y: &[f64], sum: &mut Sum<'_>, extra: &mut [f64]) {
         for (c, contact) in self.model.contacts.iter().enumerate() {
             let (first, second) = (sides.of(contact.first), sides.of(contact.second));
-            let motion = self.relative(contact, sides.t, (first, second));
-            let one = self.force(c, &motion, |i| y[i]);
-            if let (Some(slot), true) = (contact.slot, self.layout.growing > 0) {
-                self.grow(c, slot, &motion, one, extra);
-            }
-            let force = contact.count * one;
+            let force = match (&self.modes[c], contact.press) {
+                // What nearly all evaluations of nearly all scenes are.
+                (Mode::Slip(branch), Press::Constant { d, area, .. }) => {
+                    branch.force(&contact.law, d, first.0 - second.0 - contact.offset, area)
+                }
+                _ => self.contact(c, sides.t, (first, second), y, extra),
+            };
+            let force = contact.count * force;
             sum.apply(contact.first, first.1, -force);
             sum.apply(contact.second, second.1, force);
         }
+    }
+
+    /// Any contact in any mode: F_x of one, and the slopes of its extra components.
+    #[inline(never)]
+    fn contact(&self, c: usize, t: f64, ends: ((f64, f64), (f64, f64)), y: &[f64], extra: &mut [f64]) -> f64 {
+        let contact = &self.model.contacts[c];
+        let motion = self.relative(contact, t, ends);
+        let force = self.force(c, &motion, |i| y[i]);
+        if let (Some(slot), true) = (contact.slot, self.layout.growing > 0) {
+            self.grow(c, slot, &motion, force, extra);
+        }
+        force
     }
 
     #[inline(never)]
