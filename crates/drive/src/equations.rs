@@ -1,7 +1,7 @@
 //! The equations of motion, evaluated on borrowed memory.
 
 use crate::model::{Contact, Motion, Place, Press, Stroke};
-use crate::state::{Layout, Mode};
+use crate::state::{Layout, Mode, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::{Branch, Memory};
 use stickslip_stepper::System;
@@ -19,6 +19,14 @@ pub(crate) struct Equations<'a> {
     pub(crate) layout: Layout,
     /// Whether a step may cross corners of waveforms, as fixed steps do.
     pub(crate) crossing: bool,
+}
+
+impl<'a> Equations<'a> {
+    /// The equations on a state as it stands.
+    pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
+        let State { pieces, memories, modes, .. } = state;
+        Self { model, pieces, memories, modes, layout, crossing }
+    }
 }
 
 impl Equations<'_> {

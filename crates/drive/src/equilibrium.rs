@@ -44,14 +44,7 @@ impl Model {
     }
 
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
-        Equations {
-            model: self,
-            pieces: &state.pieces,
-            memories: &state.memories,
-            modes: &state.modes,
-            layout: self.layout(),
-            crossing: false,
-        }
+        Equations::on(self, state, self.layout(), false)
     }
 
     /// Puts the loads on in proportion and follows the equilibrium.

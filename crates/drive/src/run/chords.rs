@@ -43,7 +43,7 @@ impl<'a> Chords<'a> {
     }
 
     pub(super) fn equations(&self) -> Equations<'_> {
-        equations(self.model, self.layout, self.state)
+        Equations::on(self.model, self.state, self.layout, true)
     }
 
     /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
@@ -62,7 +62,11 @@ impl<'a> Chords<'a> {
 
     /// Writes the first or the last row.
     pub(super) fn write_now(&mut self) {
-        self.grid.write_now(&equations(self.model, self.layout, self.state), self.state, self.record);
+        self.grid.write_now(
+            &Equations::on(self.model, self.state, self.layout, true),
+            self.state,
+            self.record,
+        );
     }
 
     /// Accepts the step that ends at t in y: rows on the way, then the commit of all contacts.
@@ -71,7 +75,7 @@ impl<'a> Chords<'a> {
             return Err(self.model.not_finite(t, i));
         }
         self.rows(t, y);
-        let eq = equations(self.model, self.layout, self.state);
+        let eq = Equations::on(self.model, self.state, self.layout, true);
         let motions: Vec<Motion> = self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])).collect();
         for (c, (contact, motion)) in self.model.contacts.iter().zip(&motions).enumerate() {
             let work = self.state.memories[c].commit(&contact.law, Segment::Straight(motion.apex()));
@@ -90,7 +94,7 @@ impl<'a> Chords<'a> {
 
     /// Rows inside the step: positions by the cubic through both ends, velocities and work in proportion.
     fn rows(&mut self, t: f64, y: &[f64]) {
-        let eq = equations(self.model, self.layout, self.state);
+        let eq = Equations::on(self.model, self.state, self.layout, true);
         let (t0, from, n) = (self.state.t, &self.state.y, self.layout.free);
         let h = t - t0;
         while let Some(due) = self.grid.due(t) {
@@ -129,20 +133,9 @@ impl<'a> Chords<'a> {
                 _ => continue,
             };
             let event = Event { t: self.state.t, source: Source::Contact(c), kind };
-            let eq = equations(self.model, self.layout, self.state);
+            let eq = Equations::on(self.model, self.state, self.layout, true);
             record::fill(&eq, self.state, self.state.t, &|i| self.state.y[i], &mut self.row);
             self.record.event(&event, &self.row);
         }
-    }
-}
-
-fn equations<'s>(model: &'s Model, layout: Layout, state: &'s State) -> Equations<'s> {
-    Equations {
-        model,
-        pieces: &state.pieces,
-        memories: &state.memories,
-        modes: &state.modes,
-        layout,
-        crossing: true,
     }
 }

@@ -42,6 +42,8 @@ pub(super) struct Run<'a> {
     segments: Vec<(usize, Segment)>,
     /// Guards that fell at the end of the step.
     fired: Vec<(usize, Guard)>,
+    /// Modes before the corner at the end of the step.
+    old: Vec<Mode>,
     /// Waveforms that turned a corner at the end of the step.
     turned: Vec<(usize, EventKind)>,
     row: Vec<f64>,
@@ -81,6 +83,7 @@ impl<'a> Run<'a> {
             motions: Vec::with_capacity(model.contacts.len()),
             segments: Vec::with_capacity(model.contacts.len() + MOST_PIECES as usize),
             fired: Vec::with_capacity(model.contacts.len()),
+            old: Vec::with_capacity(model.contacts.len()),
             turned: Vec::with_capacity(model.waveforms.len()),
             row: Vec::new(),
             for_output: 0,
@@ -263,14 +266,7 @@ impl<'a> Run<'a> {
 
 /// The equations on the state as it stands.
 fn equations<'s>(model: &'s Model, layout: Layout, state: &'s State) -> Equations<'s> {
-    Equations {
-        model,
-        pieces: &state.pieces,
-        memories: &state.memories,
-        modes: &state.modes,
-        layout,
-        crossing: false,
-    }
+    Equations::on(model, state, layout, false)
 }
 
 /// Longest step, s. A row under a varying load follows chords: it needs steps that leave the load no bend.

@@ -1,26 +1,38 @@
 //! Guards against endless work.
 
+use crate::model::Contact;
 use crate::record::Record;
 use crate::{Limits, Model, RunError, State};
 use std::time::Instant;
+use stickslip_contact::Engine;
 
 /// Events closer together than this part of a natural period count as accumulating …
 const ZENO_WINDOW: f64 = 1e-4;
 /// … and this many of them stop the run.
 const ZENO_COUNT: u32 = 200;
-/// Steps between two looks at the clock.
+/// Steps between two looks at the clock, in a scene without rows of springs …
 const STRIDE: u64 = 1024;
+/// … and springs that take as long as one such step.
+const SPRINGS_PER_STEP: usize = 1000;
 
 /// Watches limits, the clock, and events that accumulate.
 pub(super) struct Watch {
     limits: Limits,
     begun: Instant,
+    stride: u64,
     windows: Vec<(f64, u32)>,
 }
 
 impl Watch {
     pub(super) fn new(model: &Model, limits: Limits) -> Self {
-        Self { limits, begun: Instant::now(), windows: vec![(f64::NEG_INFINITY, 0); model.contacts.len()] }
+        let springs = |c: &Contact| match &c.engine {
+            Engine::Curve => 0,
+            Engine::Row(springs) => springs.count(),
+        };
+        let springs: usize = model.contacts.iter().map(springs).sum();
+        let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1);
+        let windows = vec![(f64::NEG_INFINITY, 0); model.contacts.len()];
+        Self { limits, begun: Instant::now(), stride, windows }
     }
 
     /// Called after every attempt.
@@ -29,7 +41,7 @@ impl Watch {
         if tried >= self.limits.steps {
             return Err(RunError::TooManySteps { t: state.t, limit: self.limits.steps });
         }
-        if !tried.is_multiple_of(STRIDE) {
+        if !tried.is_multiple_of(self.stride) {
             return Ok(());
         }
         if let Some(limit) = self.limits.wall.filter(|limit| self.begun.elapsed().as_secs_f64() > *limit) {

@@ -15,6 +15,7 @@ impl Run<'_> {
     /// has happened: the state after them is whole.
     pub(super) fn turn_corners(&mut self, state: &mut State, record: &mut dyn Record) {
         let before = if self.jumpy { self.stored(state) } else { 0.0 };
+        self.old.clone_from(&state.modes);
         let mut turned = std::mem::take(&mut self.turned);
         turned.clear();
         for (w, waveform) in self.model.waveforms.iter().enumerate() {
@@ -103,7 +104,8 @@ impl Run<'_> {
         if !moved_by_waveform(&self.model.contacts[c]) {
             return Ok(());
         }
-        let old = state.modes[c];
+        // As it was before a jump, which decrees for itself.
+        let old = self.old[c];
         state.grew[c] = false;
         self.decide(state, c);
         let kind = match (old, state.modes[c]) {
