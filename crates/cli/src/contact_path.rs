@@ -28,8 +28,7 @@ impl ContactPath {
         let Some((name, law)) = job.model.contacts().nth(c) else { return Self::default() };
         let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
         let jumps = job.scenario.scene.waveforms.iter().any(|w| Waveform::has_jumps(&w.part));
-        let turns_known =
-            matches!(job.scenario.plan.stepper, Stepper::Event { .. }) || job.model.degrees_of_freedom() == 0;
+        let turns_known = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
         let samples = Self { t: series.time().to_vec(), u: u.to_vec(), force: force.to_vec() };
         match job.start.memories().get(c) {
             Some(memory) if turns_known && !jumps && job.has_constant_load(c) => {

@@ -89,9 +89,9 @@ impl Job {
         })
     }
 
-    /// Name of the stepper and its tolerance or step with that word.
+    /// Name of the stepper that the run takes and its tolerance or step with that word.
     pub(crate) fn stepper(&self) -> (&'static str, &'static str, f64) {
-        match self.scenario.plan.stepper {
+        match self.model.effective(self.scenario.plan.stepper) {
             Stepper::Event { tolerance } => ("event", "tolerance", tolerance),
             Stepper::Verlet { step } => ("verlet", "step_s", step),
             Stepper::Rk4 { step } => ("rk4", "step_s", step),

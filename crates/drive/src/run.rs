@@ -12,15 +12,24 @@ use crate::{Model, Plan, RunError, State, Stepper};
 
 /// Moves `state` along `plan` to its end. What was computed before an error is in `state` and `record`.
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
-    match plan.stepper {
+    match model.effective(plan.stepper) {
         Stepper::Event { tolerance } => events::Run::new(model, plan, tolerance).go(state, record),
-        _ if model.free.is_empty() => {
-            // Nothing to integrate: the path of the contacts is prescribed, whatever the stepper.
-            events::Run::new(model, plan, WALK_TOLERANCE).go(state, record)
-        }
         Stepper::Verlet { step } => fixed::run(model, plan, fixed::Method::Verlet, step, state, record),
         Stepper::Rk4 { step } => fixed::run(model, plan, fixed::Method::Rk4, step, state, record),
         Stepper::Dopri5 { tolerance } => reference::run(model, plan, tolerance, state, record),
+    }
+}
+
+impl Model {
+    /// The stepper that a run really takes. Where nothing is free there is nothing to integrate: the contacts are
+    /// walked along their prescribed path from event to event, whatever was asked for.
+    pub fn effective(&self, asked: Stepper) -> Stepper {
+        match asked {
+            Stepper::Verlet { .. } | Stepper::Rk4 { .. } | Stepper::Dopri5 { .. } if self.free.is_empty() => {
+                Stepper::Event { tolerance: WALK_TOLERANCE }
+            }
+            asked => asked,
+        }
     }
 }
 
