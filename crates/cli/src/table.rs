@@ -48,8 +48,8 @@ impl Table {
             if channel.is_state {
                 self.writer.write_field(state_name(value))?;
             } else {
-                // The shortest digits that read back to the same bits; ten times the speed of the standard library's,
-                // which took most of a run's time.
+                // The shortest digits that read back to the same bits, several times faster than the standard library,
+                // whose printing took most of the time of a run with rows.
                 self.writer.write_field(self.digits.format(value))?;
             }
             if i == 0 {
