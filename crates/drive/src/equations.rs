@@ -154,7 +154,7 @@ impl Equations<'_> {
             let (first, second) = (sides.of(contact.first), sides.of(contact.second));
             let force = match (&self.modes[c], contact.press) {
                 // What nearly all evaluations of nearly all scenes are.
-                (Mode::Slip(branch), Press::Constant { d, area, .. }) => {
+                (Mode::Slip(branch), Press::Constant { d, area }) => {
                     branch.force(&contact.law, d, first.0 - second.0 - contact.offset, area)
                 }
                 _ => self.contact(c, sides.t, (first, second), y, extra),

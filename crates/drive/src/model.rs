@@ -80,8 +80,8 @@ pub(crate) struct Contact {
 /// What sets the indentation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Press {
-    /// Constant d (m) with M(d) (m²) and m(d) (m) at hand.
-    Constant { d: f64, area: f64, length: f64 },
+    /// Constant d (m) with M(d) (m²) at hand.
+    Constant { d: f64, area: f64 },
     /// A waveform of the normal force, N.
     Force(usize),
     /// A waveform of the indentation, m.
@@ -181,11 +181,6 @@ impl Model {
     /// Names and laws of the contacts, in the scene's order.
     pub fn contacts(&self) -> impl Iterator<Item = (&str, &Interface)> {
         self.contacts.iter().map(|c| (c.name.as_str(), &c.law))
-    }
-
-    /// Number of free coordinates.
-    pub fn degrees_of_freedom(&self) -> usize {
-        self.free.len()
     }
 
     /// Gross-slip displacement u_c (m) and normal force of one contact (N) of contact `index` at t = 0.

@@ -37,7 +37,7 @@ pub struct State {
 pub struct Counts {
     /// Accepted steps.
     pub steps: u64,
-    /// Attempts thrown away, by step control or to end at an event.
+    /// Attempts thrown away by step control.
     pub rejected: u64,
     /// Evaluations of the equations of motion.
     pub evaluations: u64,

@@ -7,7 +7,7 @@
 //! In reading order:
 //!
 //! * [`System`]: coupled components and quadratures.
-//! * [`Dop853`]: order 8(5,3) with dense output, one attempt at a time; may be redone up to an event.
+//! * [`Dop853`]: order 8(5,3) with dense output, one attempt at a time; an event may cut it short.
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`bracket`], [`hermite_dip`]: where inside a step a guard crosses zero.
 //! * [`Rk4`], [`Verlet`]: fixed steps.

@@ -34,6 +34,27 @@ fn order_8_on_a_nonlinear_system_with_time() {
 }
 
 #[test]
+fn a_step_cut_short_ends_on_the_dense_output_and_goes_on_from_there() {
+    let system = Oscillator { omega: 1.0 };
+    let mut stepper = Dop853::new(2, 4);
+    stepper.start(&system, 0.0, &[1.0, 0.0, 0.0, 0.0]);
+    stepper.attempt_until(&system, 0.4, &[1.0, 1.0]);
+    let whole = stepper.end().to_vec();
+    stepper.cut(0.25);
+    assert_eq!(stepper.end(), whole, "nothing happens without dense output");
+    stepper.dense(&system);
+    let there: Vec<f64> = (0..4).map(|i| stepper.value(i, 0.25)).collect();
+    stepper.cut(0.25);
+    assert_eq!((stepper.end(), stepper.end_time()), (&there[..], 0.25));
+    // Dense output of order 7 over a step of 0.4.
+    assert!(distance(stepper.end(), &system.exact(0.25)) < 1e-9);
+    stepper.accept();
+    assert_eq!((stepper.begin(), stepper.time()), (&there[..], 0.25));
+    stepper.attempt_until(&system, 0.4, &[1.0, 1.0]);
+    assert!(distance(stepper.end(), &system.exact(0.4)) < 1e-9);
+}
+
+#[test]
 fn order_8_in_each_component_and_in_quadratures() {
     let system = Oscillator { omega: 1.0 };
     for i in 0..4 {

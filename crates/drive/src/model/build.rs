@@ -179,11 +179,7 @@ fn press(
     }
     let range = (depth(low), depth(high), depth(first));
     let press = match (value, part.normal) {
-        (Varying::Constant(_), _) => Press::Constant {
-            d: range.0,
-            area: law.profile().area(range.0),
-            length: law.profile().length(range.0),
-        },
+        (Varying::Constant(_), _) => Press::Constant { d: range.0, area: law.profile().area(range.0) },
         (Varying::Follows(w), Normal::Force(_)) => Press::Force(w),
         (Varying::Follows(w), Normal::Indentation(_)) => Press::Indentation(w),
         (Varying::Follows(w), Normal::Radius(_)) => Press::Radius(w),

@@ -2,7 +2,7 @@
 //!
 //! Each contact follows the law decreed at its last event, which goes on smoothly beyond the event that will end
 //! it. A step is attempted on these laws; if a guard falls below zero inside it, the moment is found on the dense
-//! output and the step is redone to end there. Then memory is committed, all contacts together, and those whose
+//! output and the step ends there, in the state that the dense output has. Then memory is committed, all contacts together, and those whose
 //! guard fell get their next law by decree. Corners of waveforms end steps exactly.
 
 mod locate;
@@ -163,8 +163,6 @@ impl<'a> Run<'a> {
             }
             self.collect_fallen(&eq, state, fall);
         }
-        let rejected = u64::from(ending == Ending::Event);
-        state.counts.rejected += rejected;
         self.accept(state, grid, record)?;
         state.step = if ending == Ending::Smooth { wished } else { control.after_event(wished) };
         if ending == Ending::Corner {
