@@ -18,7 +18,9 @@ mod first_loading;
 mod interface;
 mod material;
 mod motion;
+mod pressure;
 mod profile;
+mod quadrature;
 mod row;
 
 pub use curve::{Branch, Course, Curve, Merged};

@@ -7,6 +7,7 @@ mod sphere;
 
 pub(crate) use foundation::Foundation;
 
+use crate::quadrature::GAUSS;
 use power::Power;
 use sphere::Sphere;
 use thiserror::Error;
@@ -253,13 +254,6 @@ impl Profile {
     /// Five nodes of Gauss and Legendre where m is smooth: for a width of 1/16 of the height they miss less than
     /// 1e-18 of it.
     pub(crate) fn moment(&self, [from, to]: [f64; 2], [low, high]: [f64; 2]) -> f64 {
-        const RULE: [(f64, f64); 5] = [
-            (-0.906_179_845_938_664, 0.118_463_442_528_094_54),
-            (-0.538_469_310_105_683_1, 0.239_314_335_249_683_24),
-            (0.0, 0.284_444_444_444_444_44),
-            (0.538_469_310_105_683_1, 0.239_314_335_249_683_24),
-            (0.906_179_845_938_664, 0.118_463_442_528_094_54),
-        ];
         let width = to - from;
         if let Law::Foundation(law) = &self.law {
             return law.moment([from, to], [low, (high - low) / width]);
@@ -267,7 +261,7 @@ impl Profile {
         let (middle, mean, half) = (0.5 * (from + to), 0.5 * (low + high), 0.5 * (high - low));
         let node =
             |(x, weight): &(f64, f64)| weight * (mean + half * x) * self.length(middle + 0.5 * width * x);
-        width * RULE.iter().map(node).sum::<f64>()
+        width * GAUSS.iter().map(node).sum::<f64>()
     }
 
     /// The springs of a foundation given spring by spring.
