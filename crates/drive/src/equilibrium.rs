@@ -17,8 +17,8 @@ const ITERATIONS: u32 = 200;
 impl Model {
     /// The state at t = 0 of a plan's run.
     ///
-    /// Fails where a number of the plan is out of its range, where an equilibrium is asked for and there is none, and
-    /// where the plan's stepper cannot follow the model's waveforms.
+    /// Fails where a number of the plan is out of its range, where an equilibrium is asked for and there is none, where the
+    /// plan's stepper cannot follow the model's waveforms, and where its fixed step is unstable.
     pub fn start(&self, plan: &Plan) -> Result<State, SceneError> {
         plan.check()?;
         let fixed =
@@ -30,6 +30,7 @@ impl Model {
             )
             .help("take the event stepper, or give the waveform a flyback above 0"));
         }
+        self.check_step(plan.stepper)?;
         let mut state = self.rest();
         if self.equilibrium {
             self.settle(&mut state)?;
@@ -41,6 +42,21 @@ impl Model {
         // The books' error at t = 0 is minus what is stored: that is where they start.
         state.origin = -row.last().copied().unwrap_or(0.0);
         Ok(state)
+    }
+
+    /// Refuses a fixed step with which the stiffest motion grows.
+    fn check_step(&self, stepper: Stepper) -> Result<(), SceneError> {
+        let (Stepper::Verlet { step } | Stepper::Rk4 { step }) = stepper else { return Ok(()) };
+        let name = if matches!(stepper, Stepper::Verlet { .. }) { "verlet" } else { "rk4" };
+        let limit = self.longest_step(stepper).unwrap_or(f64::INFINITY);
+        if step < limit {
+            return Ok(());
+        }
+        let message = format!(
+            "expected less than {limit:.3e} s, from where on the stiffest motion grows, got {step:e} s"
+        );
+        Err(SceneError::new(format!("run.stepper.{name}.step"), message)
+            .help("take a twentieth of that for accuracy, or the event stepper, which needs no step"))
     }
 
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {

@@ -5,8 +5,8 @@
 //! workspace (scratch) and a [`Record`] (output): [`Model::start`] makes the state, [`run`] moves it along a
 //! [`Plan`].
 //!
-//! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`]; [`State`]; the equations of motion; guards
-//! and events; the runs, event-aware, at fixed step and by the plain reference; what is written down.
+//! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its small motions, [`Linearised`]; [`State`]; the
+//! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down.
 //!
 //! Coordinates are displacements along the slide, in SI. Free normal motion and pitch are not modelled yet:
 //! they enter as further coordinates of [`scene::Body`] and a further [`scene::Normal`].
@@ -16,6 +16,7 @@ mod equilibrium;
 mod error;
 mod event;
 mod guard;
+mod linearised;
 mod model;
 mod plan;
 mod record;
@@ -26,6 +27,7 @@ mod waveform;
 
 pub use error::{RunError, SceneError};
 pub use event::{Event, EventKind, Source};
+pub use linearised::{Indentations, Linearised, NormalMode};
 pub use model::Model;
 pub use plan::{Limits, Plan, Stepper};
 pub use record::{Channel, Record, Trace, state_name};

@@ -195,12 +195,6 @@ impl Model {
         self.contacts.get(index).map(|c| c.natural.1)
     }
 
-    /// Angular frequency of the stiffest free coordinate with all its contacts stuck, rad/s. Coupling between
-    /// coordinates can raise it by at most a factor √2 of a chain's.
-    pub(crate) fn highest_frequency(&self) -> f64 {
-        self.free.iter().map(|f| f.scale.1 / f.scale.0).fold(0.0, f64::max)
-    }
-
     /// Natural scale of work, J: μF_N u_c of the smallest contact.
     pub(crate) fn work_scale(&self) -> f64 {
         let work = |c: &Contact| {

@@ -12,16 +12,6 @@ pub(super) enum Method {
     Rk4,
 }
 
-impl Method {
-    /// Length of the stability interval on the imaginary axis: the largest ωh of an undamped oscillator.
-    fn reach(self) -> f64 {
-        match self {
-            Self::Verlet => 2.0,
-            Self::Rk4 => 8.0_f64.sqrt(),
-        }
-    }
-}
-
 /// The two methods behind one call.
 enum Stepping {
     Verlet(Verlet),
@@ -37,7 +27,7 @@ pub(super) fn run(
     state: &mut State,
     record: &mut dyn Record,
 ) -> Result<(), RunError> {
-    let limit = method.reach() / model.highest_frequency();
+    let limit = model.longest_step(plan.stepper).unwrap_or(f64::INFINITY);
     if step >= limit {
         return Err(RunError::Unstable { step, limit });
     }

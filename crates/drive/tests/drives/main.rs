@@ -15,5 +15,6 @@ mod benchmark_drive;
 mod closed_forms;
 mod energy_books;
 mod invariance;
+mod linearised;
 mod lottery;
 mod random_drives;

@@ -1,0 +1,263 @@
+//! Small motions: the equations of motion linearised with all contacts stuck, M ẍ + C ẋ + K x = 0.
+
+use crate::model::Place;
+use crate::{Model, Sample, Stepper};
+use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};
+use std::f64::consts::SQRT_2;
+
+/// Sweeps of an eigenvalue iteration per row before it counts as failed; a handful is usual.
+const SWEEPS: usize = 100;
+/// Halvings that find a longest step to the last bit.
+const HALVINGS: u32 = 64;
+
+/// Indentations of a contact, m; negative: open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Indentations {
+    /// The smallest over all time.
+    pub least: f64,
+    /// At t = 0.
+    pub start: f64,
+    /// The largest over all time.
+    pub most: f64,
+}
+
+/// Mass, damping and stiffness matrix of the free coordinates with all contacts stuck. Where a contact slips its
+/// stiffness falls to 0, so these are the stiffest motions that the scene has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linearised {
+    coordinates: Vec<String>,
+    /// By contact: what a coordinate moves it, as (place among the coordinates, displacement per coordinate).
+    contacts: Vec<Row>,
+    mass: DVector<f64>,
+    damping: DMatrix<f64>,
+    stiffness: DMatrix<f64>,
+}
+
+/// A normal mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormalMode {
+    /// Angular frequency without damping, rad/s; 0 where nothing holds the motion.
+    pub frequency: f64,
+    /// φᵀCφ/(2ω φᵀMφ): share of critical damping, exact where damping does not couple the modes; 0 at frequency 0.
+    pub damping_ratio: f64,
+    /// Displacement of each coordinate; the largest is 1.
+    pub shape: Vec<f64>,
+    /// Displacement u of each contact in this shape.
+    pub contacts: Vec<f64>,
+}
+
+/// A displacement as a linear form of the coordinates.
+type Row = Vec<(usize, f64)>;
+
+impl Model {
+    /// Indentations of contact `index` over all time; a table's beyond the end of the run count, too.
+    pub fn indentations(&self, index: usize) -> Option<Indentations> {
+        let contact = self.contacts.get(index)?;
+        let start = self.indentation(contact, 0.0);
+        let Some(waveform) = contact.press.waveform() else {
+            return Some(Indentations { least: start, start, most: start });
+        };
+        let at = |value| contact.pressed(Sample { value, rate: 0.0, acceleration: 0.0 }).0;
+        let (low, high) = self.waveforms[waveform].range();
+        Some(Indentations { least: at(low), start, most: at(high) })
+    }
+
+    /// The motions about a state in which all contacts stick, each at the indentation (m) that `depth` picks.
+    pub fn linearised(&self, depth: impl Fn(&Indentations) -> f64) -> Linearised {
+        let n = self.free.len();
+        let name = |i: usize| format!("{}.x", self.bodies[self.free[i].body].name);
+        let mut linearised = Linearised {
+            coordinates: (0..n).map(name).collect(),
+            contacts: self.contacts.iter().map(|c| relative(c.first, c.second)).collect(),
+            mass: DVector::from_iterator(n, self.free.iter().map(|f| f.mass)),
+            damping: DMatrix::zeros(n, n),
+            stiffness: DMatrix::zeros(n, n),
+        };
+        for link in &self.links {
+            let row = relative(link.first, link.second);
+            add(&mut linearised.stiffness, &row, link.stiffness);
+            add(&mut linearised.damping, &row, link.damping);
+        }
+        for (c, contact) in self.contacts.iter().enumerate().filter(|(_, contact)| !contact.inert) {
+            let d = self.indentations(c).map_or(0.0, |d| depth(&d));
+            let stiffness = contact.count * contact.law.stick_stiffness(d);
+            add(&mut linearised.stiffness, &linearised.contacts[c], stiffness);
+        }
+        linearised
+    }
+
+    /// Angular frequency, rad/s, of contact `index` alone, all its members stuck at indentation d (m), between its two
+    /// bodies: ω² = k Σ 1/m over those that are free along it. None where neither is.
+    pub fn contact_resonance(&self, index: usize, d: f64) -> Option<f64> {
+        let contact = self.contacts.get(index)?;
+        let row = relative(contact.first, contact.second);
+        let mobility: f64 = row.iter().map(|(i, share)| share * share * self.free[*i].mobility).sum();
+        let stiffness = contact.count * contact.law.stick_stiffness(d);
+        (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
+    }
+
+    /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get; infinite where
+    /// nothing swings. None for steppers that choose their steps.
+    pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
+        let stiffest = || self.linearised(|d| d.most);
+        match stepper {
+            Stepper::Verlet { .. } => Some(stiffest().longest_verlet_step()),
+            Stepper::Rk4 { .. } => Some(stiffest().longest_rk4_step()),
+            Stepper::Event { .. } | Stepper::Dopri5 { .. } => None,
+        }
+    }
+}
+
+/// x(first) - x(second) in the free coordinates.
+fn relative(first: Place, second: Place) -> Row {
+    let ends = [(first, 1.0), (second, -1.0)];
+    let free = ends.into_iter().filter_map(|(place, sign)| match place {
+        Place::Free(i) => Some((i, sign)),
+        Place::Held(_) | Place::Driven(_) => None,
+    });
+    free.collect()
+}
+
+/// Adds what a spring or damper along a row does to the coordinates.
+fn add(matrix: &mut DMatrix<f64>, row: &Row, value: f64) {
+    for (i, a) in row {
+        for (j, b) in row {
+            matrix[(*i, *j)] += value * a * b;
+        }
+    }
+}
+
+impl Linearised {
+    /// Names of the free coordinates, such as `slider.x`.
+    pub fn coordinates(&self) -> &[String] {
+        &self.coordinates
+    }
+
+    /// Diagonal of the mass matrix M, kg.
+    pub fn mass(&self) -> &DVector<f64> {
+        &self.mass
+    }
+
+    /// Damping matrix C, N s/m.
+    pub fn damping(&self) -> &DMatrix<f64> {
+        &self.damping
+    }
+
+    /// Stiffness matrix K, N/m.
+    pub fn stiffness(&self) -> &DMatrix<f64> {
+        &self.stiffness
+    }
+
+    /// Normal modes by rising frequency; none where the numbers are beyond what a matrix can hold.
+    pub fn modes(&self) -> Vec<NormalMode> {
+        if self.mass.is_empty() {
+            return Vec::new();
+        }
+        let Some(eigen) = symmetric(self.by_mass(&self.stiffness)) else { return Vec::new() };
+        let rounding = self.mass.len() as f64 * f64::EPSILON * eigen.eigenvalues.amax();
+        let mode = |(k, value): (usize, &f64)| {
+            let frequency = if *value > rounding { value.sqrt() } else { 0.0 };
+            self.mode(frequency, &eigen.eigenvectors.column(k).into_owned())
+        };
+        let mut modes: Vec<NormalMode> = eigen.eigenvalues.iter().enumerate().map(mode).collect();
+        modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+        modes
+    }
+
+    /// The mode of an eigenvector of M^{-1/2} K M^{-1/2}, of length 1.
+    fn mode(&self, frequency: f64, vector: &DVector<f64>) -> NormalMode {
+        let damped = vector.dot(&(self.by_mass(&self.damping) * vector));
+        let displaced = vector.zip_map(&self.mass, |x, mass| x / mass.sqrt());
+        let largest = displaced.iter().fold(0.0, |most: f64, x| if x.abs() > most.abs() { *x } else { most });
+        let shape: Vec<f64> = displaced.iter().map(|x| x / largest).collect();
+        let moved = |row: &Row| row.iter().map(|(i, share)| share * shape[*i]).sum();
+        NormalMode {
+            frequency,
+            damping_ratio: if frequency > 0.0 { 0.5 * damped / frequency } else { 0.0 },
+            contacts: self.contacts.iter().map(moved).collect(),
+            shape,
+        }
+    }
+
+    /// M^{-1/2} A M^{-1/2}.
+    fn by_mass(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let root = self.mass.map(f64::sqrt);
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
+    }
+
+    fn highest_frequency(&self) -> f64 {
+        self.modes().last().map_or(0.0, |mode| mode.frequency)
+    }
+
+    /// Velocity Verlet with the predicted velocity in the damping, see `stickslip_stepper::Verlet`: a motion x ξⁿ obeys
+    /// [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0, which leaves the unit circle at ξ = -1, where an eigenvalue of
+    /// M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω, with one damped mode (hω)² + 8ζhω = 4.
+    fn longest_verlet_step(&self) -> f64 {
+        let (stiffness, damping) = (self.by_mass(&self.stiffness), self.by_mass(&self.damping));
+        let largest =
+            |h: f64| symmetric(&stiffness * (0.25 * h * h) + &damping * h).map(|e| e.eigenvalues.max());
+        let undamped = 2.0 / self.highest_frequency();
+        let rate = damping.amax();
+        if rate == 0.0 {
+            return undamped;
+        }
+        // A matrix without negative eigenvalues has one as large as its largest entry: no step beyond 1/rate is stable.
+        longest(undamped.min(1.0 / rate), |h| largest(h).is_some_and(|value| value <= 1.0))
+    }
+
+    /// Classical Runge–Kutta: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for every λ of λ²M + λC + K. Without damping
+    /// h = √8/ω.
+    fn longest_rk4_step(&self) -> f64 {
+        let frequency = self.highest_frequency();
+        if self.damping.amax() == 0.0 {
+            return 2.0 * SQRT_2 / frequency;
+        }
+        let rates = self.rates(if frequency > 0.0 { frequency } else { 1.0 });
+        rates.iter().filter(|rate| rate.norm() > 0.0).map(rk4_reach).fold(f64::INFINITY, f64::min)
+    }
+
+    /// All λ of λ²M + λC + K, 1/s, as those of a matrix of first order in x and v/`frequency`, which have like sizes.
+    fn rates(&self, frequency: f64) -> Vec<Complex<f64>> {
+        let n = self.mass.len();
+        let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+        matrix.view_mut((0, n), (n, n)).fill_diagonal(frequency);
+        matrix.view_mut((n, 0), (n, n)).copy_from(&(self.by_mass(&self.stiffness) / -frequency));
+        matrix.view_mut((n, n), (n, n)).copy_from(&-self.by_mass(&self.damping));
+        let schur = finite(matrix).and_then(|matrix| Schur::try_new(matrix, f64::EPSILON, 2 * n * SWEEPS));
+        schur.map_or_else(Vec::new, |schur| schur.complex_eigenvalues().iter().copied().collect())
+    }
+}
+
+/// The longest step with which Runge–Kutta of order 4 keeps x' = `rate` x from growing. In the left half-plane the region
+/// of stability is star-shaped, contains the half disc |z| < 2.6 and ends before |z| = 3.
+fn rk4_reach(rate: &Complex<f64>) -> f64 {
+    let growth = |h: f64| {
+        let z = rate * h;
+        (((z / 4.0 + 1.0) * z / 3.0 + 1.0) * z / 2.0 + 1.0) * z + 1.0
+    };
+    longest(3.0 / rate.norm(), |h| h * rate.norm() < 2.6 || growth(h).norm() <= 1.0)
+}
+
+/// The largest h up to `most` for which `stable` holds, where it holds from 0 up to that.
+fn longest(most: f64, stable: impl Fn(f64) -> bool) -> f64 {
+    let (mut good, mut bad) = (0.0, most);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (good + bad);
+        if stable(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    good
+}
+
+/// The matrix if all its entries are finite: the iterations of nalgebra do not end otherwise.
+fn finite(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    matrix.iter().all(|entry| entry.is_finite()).then_some(matrix)
+}
+
+fn symmetric(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
+    let sweeps = matrix.nrows() * SWEEPS;
+    SymmetricEigen::try_new(finite(matrix)?, f64::EPSILON, sweeps.max(1))
+}
