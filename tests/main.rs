@@ -1,7 +1,9 @@
 //! Behaviour of the whole program: what it writes, says and answers.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
+mod check;
 mod endings;
+mod new;
 mod program;
 mod refusals;
 mod reproducibility;

@@ -1,11 +1,27 @@
 //! The command line.
 
+use crate::new;
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
+/// Exit codes, as every command keeps them.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  2    bad input: a scenario, an override, an argument; nothing was written for it
+  3    a run stopped itself (its results so far are written), or results could not be written
+  130  interrupted; what was computed is written
+Of several files the largest counts.
+
+Start here:
+  stickslip new               writes drive.json, a drive that runs at once
+  stickslip check drive.json  is it right?
+  stickslip run drive.json    results/drive/: tables, summary, pictures";
+
 /// A simulator of stick-slip drives: piezo inertia drives, fretting rigs.
 #[derive(Debug, Parser)]
-#[command(version, about)]
+#[command(version, about, after_help = EXIT_CODES, max_term_width = 100)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -17,7 +33,75 @@ pub(crate) enum Command {
     ///
     /// Everything about a scenario is checked before its folder is made. Exit codes: 0 done, 2 bad input, 3 a run
     /// stopped itself, 130 interrupted; of several files the largest. What was computed is written in either case.
+    #[command(after_long_help = RUN_EXAMPLES)]
     Run(RunArguments),
+    /// Check scenarios: all that a run would refuse; runs and writes nothing
+    ///
+    /// Says "ok" of each good file on stdout, and of each bad one what is wrong, where and what would be right on stderr.
+    /// Exit codes: 0 all are good, 2 one is not.
+    #[command(after_long_help = CHECK_EXAMPLES)]
+    Check(CheckArguments),
+    /// Write a scenario that runs at once, from a template, with the schema by which editors complete it
+    ///
+    /// Writes NAME.json and, beside it, schema/scenario-1.json, which the scenario names as its "$schema": editors that
+    /// know JSON Schema complete and check the file from then on. Never overwrites a scenario. Exit codes: 0 done, 2 bad
+    /// input.
+    #[command(after_long_help = NEW_EXAMPLES)]
+    New(NewArguments),
+    /// Print the JSON Schema of the scenario file
+    #[command(after_long_help = "Example:\n  stickslip schema > scenario-1.json")]
+    Schema,
+}
+
+const RUN_EXAMPLES: &str = "\
+Examples:
+  stickslip run drive.json
+  stickslip run drive.json --out small --set waveforms.drive.sawtooth.stroke=\"70 nm\"
+  stickslip run scenarios/*.json --threads 4 --json > summaries.jsonl";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  stickslip check scenarios/*.json
+  stickslip check drive.json --set contacts.ball.friction=0.3
+  stickslip check drive.json --json    a line of JSON with line, column and message";
+
+const NEW_EXAMPLES: &str = "\
+Examples:
+  stickslip new                        drive.json
+  stickslip new --list                 what there is
+  stickslip new motor --template piezo
+  stickslip new motor --schema ../schema/scenario-1.json";
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArguments {
+    /// Scenario files
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Put a value into every scenario, such as run.duration="20 ms"
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Print one line of JSON per file, also of the bad ones, to stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NewArguments {
+    /// Name of the scenario: its file is NAME.json
+    #[arg(value_name = "NAME", default_value = "drive")]
+    pub(crate) name: PathBuf,
+    /// What to start from
+    #[arg(long, value_name = "TEMPLATE", default_value = "drive", value_parser = PossibleValuesParser::new(new::templates()))]
+    pub(crate) template: String,
+    /// What "$schema" shall say, a path or an address; no schema is then written
+    #[arg(long, value_name = "WHERE")]
+    pub(crate) schema: Option<String>,
+    /// List the templates; write nothing
+    #[arg(long)]
+    pub(crate) list: bool,
 }
 
 #[derive(Debug, Args)]

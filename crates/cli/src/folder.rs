@@ -25,13 +25,7 @@ impl Folder {
 
     /// An empty file beside the place of `name`.
     pub(crate) fn draft(&self, name: &str) -> io::Result<NamedTempFile> {
-        let prefix = format!(".{name}-");
-        let mut builder = Builder::new();
-        builder.prefix(&prefix);
-        // Results are for everybody whom the user's mask lets read; temporary files are for nobody else by default.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        builder.tempfile_in(&self.path)
+        draft(&self.path, name)
     }
 
     /// Takes a written draft as the file `name`; it appears with [`Self::publish`].
@@ -69,6 +63,17 @@ impl Folder {
         }
         Ok(())
     }
+}
+
+/// An empty file under a temporary name in a folder.
+pub(crate) fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
+    let prefix = format!(".{name}-");
+    let mut builder = Builder::new();
+    builder.prefix(&prefix);
+    // Results are for everybody whom the user's mask lets read; temporary files are for nobody else by default.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
 //!
-//! In reading order: [`arguments`]; [`batch`] (several files, messages in order) and its [`verdict`]; [`job`] (a
+//! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`schema`]; [`batch`] (several files, messages in order) and its [`verdict`]; [`job`] (a
 //! scenario that was found good, with everything a run needs); [`run`] (one job from start to files); [`record`] with
 //! [`table`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared
 //! for the analysis); [`summary`], [`figures`], [`report`] (what is told); [`folder`] (how files are written);
@@ -9,6 +9,7 @@
 mod arguments;
 mod batch;
 mod books;
+mod check;
 mod contact_path;
 mod figures;
 mod folder;
@@ -16,12 +17,14 @@ mod folder;
 mod frame;
 mod interrupt;
 mod job;
+mod new;
 mod periods;
 mod progress;
 mod real;
 mod record;
 mod report;
 mod run;
+mod schema;
 mod series;
 mod summary;
 mod table;
@@ -34,6 +37,9 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let verdict = match Arguments::parse().command {
         Command::Run(arguments) => batch::run(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::New(arguments) => new::new(&arguments),
+        Command::Schema => schema::print(),
     };
     ExitCode::from(verdict.code())
 }

@@ -1,0 +1,118 @@
+//! `stickslip check` and `stickslip schema`.
+
+use crate::program::{code, listing, run, scenario, stderr, stdout, stickslip};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Output;
+use tempfile::tempdir;
+
+fn check(folder: &Path, arguments: &[&str]) -> Output {
+    stickslip().arg("check").args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// The first example with one text replaced.
+fn broken(folder: &Path, from: &str, to: &str) {
+    let text = std::fs::read_to_string(scenario("quickstart")).unwrap();
+    assert_eq!(text.matches(from).count(), 1, "{from}");
+    std::fs::write(folder.join("mine.json"), text.replace(from, to)).unwrap();
+}
+
+#[test]
+fn every_example_is_good_and_nothing_is_written() {
+    let folder = tempdir().unwrap();
+    let examples = scenario("p1");
+    let names = listing(examples.parent().unwrap());
+    let names: Vec<&str> = names.iter().filter_map(|name| name.strip_suffix(".json")).collect();
+    let mut command = stickslip();
+    command.arg("check").args(names.iter().map(|name| scenario(name))).current_dir(folder.path());
+    let output = command.output().unwrap();
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    let said = stdout(&output);
+    assert_eq!(said.lines().count(), names.len());
+    assert!(
+        said.lines().zip(names).all(|(line, name)| line.ends_with(&format!("{name}.json: ok"))),
+        "{said}"
+    );
+    assert!(listing(folder.path()).is_empty());
+}
+
+#[test]
+fn what_a_run_refuses_is_refused_in_the_same_words() {
+    let faults = [
+        ("0.2,", "-0.2,"),
+        ("\"trajectory\"", "\"trajektory\""),
+        ("\"every\": \"10 us\"", "\"every\": \"1 ns\""),
+        ("{ \"every\": \"10 us\" }", "{ \"every\": \"10 us\", \"channels\": [\"slider.y_m\"] }"),
+        ("\"event\": { \"tolerance\": 1e-8 }", "\"verlet\": { \"step\": \"0.1 ms\" }"),
+        ("-0.02 N\" } ],\n  \"run\":    {", "-0.2 N\" } ],\n  \"run\":    { \"start\": \"equilibrium\","),
+    ];
+    for (from, to) in faults {
+        let folder = tempdir().unwrap();
+        broken(folder.path(), from, to);
+        let file = folder.path().join("mine.json");
+        let checked = check(folder.path(), &[file.to_str().unwrap()]);
+        let ran = run(&file, &folder.path().join("out"), &[]);
+        assert_eq!((code(&checked), code(&ran)), (2, 2), "{to}");
+        assert_eq!(stderr(&checked), stderr(&ran));
+        assert!(stderr(&checked).contains("mine.json:") && stdout(&checked).is_empty());
+        assert_eq!(listing(folder.path()), ["mine.json"], "{to}");
+    }
+}
+
+#[test]
+fn a_step_that_is_unstable_points_into_the_file() {
+    let folder = tempdir().unwrap();
+    broken(folder.path(), "\"event\": { \"tolerance\": 1e-8 }", "\"verlet\": { \"step\": \"0.1 ms\" }");
+    let said = stderr(&check(folder.path(), &["mine.json"]));
+    assert!(said.starts_with("mine.json:22:70  run.stepper.verlet.step: expected less than "), "{said}");
+    let limit: f64 = said.split(' ').skip_while(|word| *word != "than").nth(1).unwrap().parse().unwrap();
+    // 2/ω of the contact resonance of three ruby balls of 0.5 mm under 0.3 N each and a slider of 10 g, 4.151 kHz.
+    assert!((limit * std::f64::consts::PI * 4151.0 - 1.0).abs() < 3e-4, "{limit}");
+}
+
+#[test]
+fn good_and_bad_files_are_told_apart_and_the_worst_counts() {
+    let folder = tempdir().unwrap();
+    broken(folder.path(), "0.2,", "-0.2,");
+    let good = scenario("p1");
+    let good = good.to_str().unwrap();
+    let output = check(folder.path(), &["mine.json", good]);
+    assert_eq!(code(&output), 2);
+    assert_eq!(stdout(&output), format!("{good}: ok\n"));
+    assert!(
+        stderr(&output).starts_with("mine.json:18:19  contacts.ball.friction: expected"),
+        "{}",
+        stderr(&output)
+    );
+    let output = check(folder.path(), &["-q", good]);
+    assert_eq!((code(&output), stdout(&output), stderr(&output)), (0, String::new(), String::new()));
+}
+
+#[test]
+fn machines_get_a_line_of_json_per_file() {
+    let folder = tempdir().unwrap();
+    broken(folder.path(), "0.2,", "-0.2,");
+    let good = scenario("p1");
+    let output = check(folder.path(), &["--json", "mine.json", good.to_str().unwrap(), "nowhere.json"]);
+    assert_eq!((code(&output), stderr(&output)), (2, String::new()));
+    let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let error = &lines[0]["error"];
+    assert_eq!((&lines[0]["file"], &lines[0]["ok"]), (&"mine.json".into(), &false.into()));
+    assert_eq!((&error["line"], &error["column"], &error["width"]), (&18.into(), &19.into(), &4.into()));
+    assert_eq!(error["path"], "contacts.ball.friction");
+    assert_eq!(error["message"], "expected a number between 0 and 1000, got -0.2");
+    assert!(error["help"].as_str().unwrap().contains("typical 0.05 to 0.6"));
+    assert_eq!((&lines[1]["ok"], lines[1].get("error")), (&true.into(), None));
+    assert!(lines[2]["error"]["message"].as_str().unwrap().starts_with("cannot be read"));
+    let output =
+        check(folder.path(), &["--json", good.to_str().unwrap(), "--set", "contacts.ball.friction=-1"]);
+    let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(line["error"]["override"].as_str().unwrap().contains("contacts.ball.friction=-1"), "{line}");
+}
+
+#[test]
+fn the_schema_is_printed_as_it_lies_in_its_folder() {
+    let output = stickslip().arg("schema").output().unwrap();
+    let copy = scenario("p1").parent().unwrap().join("../schema/scenario-1.json");
+    assert_eq!((code(&output), stdout(&output)), (0, std::fs::read_to_string(copy).unwrap()));
+}

@@ -1,0 +1,92 @@
+//! `stickslip new`: what it writes runs at once.
+
+use crate::program::{code, listing, run, stderr, stdout, stickslip};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Output;
+use tempfile::tempdir;
+
+fn new(folder: &Path, arguments: &[&str]) -> Output {
+    stickslip().arg("new").args(arguments).current_dir(folder).output().unwrap()
+}
+
+#[test]
+fn every_template_runs_at_once_and_satisfies_the_schema_it_names() {
+    let folder = tempdir().unwrap();
+    let listed = stdout(&new(folder.path(), &["--list"]));
+    assert!(listing(folder.path()).is_empty());
+    let names: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(names, ["drive", "piezo", "fretting", "oblique", "vibration"]);
+    for name in names {
+        let output = new(folder.path(), &[name, "--template", name]);
+        assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+        assert!(stdout(&output).contains(&format!("stickslip run {name}.json")), "{}", stdout(&output));
+        let file = folder.path().join(format!("{name}.json"));
+        let scenario: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+        assert!(listed.contains(scenario["title"].as_str().unwrap()));
+        // As an editor does: the address is relative to the file.
+        let schema = folder.path().join(scenario["$schema"].as_str().unwrap());
+        let schema: Value = serde_json::from_slice(&std::fs::read(schema).unwrap()).unwrap();
+        assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&scenario), "{name}");
+        let output = run(&file, &folder.path().join("results"), &[]);
+        assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn the_name_is_drive_unless_another_is_given_and_may_have_a_folder_and_an_ending() {
+    let folder = tempdir().unwrap();
+    assert_eq!(code(&new(folder.path(), &[])), 0);
+    assert_eq!(listing(folder.path()), ["drive.json", "schema"]);
+    assert_eq!(listing(&folder.path().join("schema")), ["scenario-1.json"]);
+    assert_eq!(code(&new(folder.path(), &["rig/v1.2"])), 0);
+    assert_eq!(code(&new(folder.path(), &["rig/motor.json"])), 0);
+    assert_eq!(listing(&folder.path().join("rig")), ["motor.json", "schema", "v1.2.json"]);
+}
+
+#[test]
+fn a_scenario_is_never_overwritten() {
+    let folder = tempdir().unwrap();
+    std::fs::write(folder.path().join("drive.json"), "mine").unwrap();
+    let output = new(folder.path(), &[]);
+    assert_eq!((code(&output), stdout(&output)), (2, String::new()));
+    assert!(stderr(&output).starts_with("drive.json: is there already\n"), "{}", stderr(&output));
+    assert_eq!(listing(folder.path()), ["drive.json"]);
+    assert_eq!(std::fs::read_to_string(folder.path().join("drive.json")).unwrap(), "mine");
+}
+
+#[test]
+fn an_older_schema_is_renewed_and_a_stranger_is_left_alone() {
+    let folder = tempdir().unwrap();
+    let schema = folder.path().join("schema/scenario-1.json");
+    assert_eq!(code(&new(folder.path(), &["a"])), 0);
+    let now = std::fs::read_to_string(&schema).unwrap();
+    std::fs::write(&schema, now.replacen("Materials by name", "Stuff", 1)).unwrap();
+    assert_eq!(code(&new(folder.path(), &["b"])), 0);
+    assert_eq!(std::fs::read_to_string(&schema).unwrap(), now);
+    std::fs::write(&schema, "{}").unwrap();
+    let output = new(folder.path(), &["c"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("scenario-1.json: is there already and is no schema of stickslip"));
+    assert_eq!(std::fs::read_to_string(&schema).unwrap(), "{}");
+    assert_eq!(listing(folder.path()), ["a.json", "b.json", "schema"]);
+}
+
+#[test]
+fn the_schema_may_lie_elsewhere() {
+    let folder = tempdir().unwrap();
+    assert_eq!(code(&new(folder.path(), &["--schema", "https://example.org/a \"b\".json"])), 0);
+    assert_eq!(listing(folder.path()), ["drive.json"]);
+    let text = std::fs::read_to_string(folder.path().join("drive.json")).unwrap();
+    let scenario: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(scenario["$schema"], "https://example.org/a \"b\".json");
+}
+
+#[test]
+fn a_template_that_is_not_there_is_refused_with_those_that_are() {
+    let folder = tempdir().unwrap();
+    let output = new(folder.path(), &["--template", "peizo"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("piezo"), "{}", stderr(&output));
+    assert!(listing(folder.path()).is_empty());
+}
