@@ -3,6 +3,8 @@
 
 mod check;
 mod endings;
+mod info;
+mod info_tables;
 mod new;
 mod program;
 mod refusals;

@@ -16,7 +16,7 @@ Of several files the largest counts.
 
 Start here:
   stickslip new               writes drive.json, a drive that runs at once
-  stickslip check drive.json  is it right?
+  stickslip info drive.json   what the scene means, before it runs
   stickslip run drive.json    results/drive/: tables, summary, pictures";
 
 /// A simulator of stick-slip drives: piezo inertia drives, fretting rigs.
@@ -41,6 +41,11 @@ pub(crate) enum Command {
     /// Exit codes: 0 all are good, 2 one is not.
     #[command(after_long_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
+    /// Show what a scenario means before it runs: moduli, scales, modes, stable steps, expected work
+    ///
+    /// Nothing is run or written. Exit codes: 0 done, 2 bad input.
+    #[command(after_long_help = INFO_EXAMPLES)]
+    Info(InfoArguments),
     /// Write a scenario that runs at once, from a template, with the schema by which editors complete it
     ///
     /// Writes NAME.json and, beside it, schema/scenario-1.json, which the scenario names as its "$schema": editors that
@@ -65,12 +70,32 @@ Examples:
   stickslip check drive.json --set contacts.ball.friction=0.3
   stickslip check drive.json --json    a line of JSON with line, column and message";
 
+const INFO_EXAMPLES: &str = "\
+Examples:
+  stickslip info drive.json
+  stickslip info drive.json --set contacts.ball.normal.force=\"1 N\"
+  stickslip info drive.json --json     numbers in SI, the unit in each key";
+
 const NEW_EXAMPLES: &str = "\
 Examples:
   stickslip new                        drive.json
   stickslip new --list                 what there is
   stickslip new motor --template piezo
   stickslip new motor --schema ../schema/scenario-1.json";
+
+/// A scenario file and values to put into it.
+#[derive(Debug, Args)]
+pub(crate) struct InfoArguments {
+    /// Scenario file
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Put a value into the scenario, such as run.duration="20 ms"
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Print one line of JSON instead of tables
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {

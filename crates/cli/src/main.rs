@@ -1,6 +1,6 @@
 //! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
 //!
-//! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`schema`]; [`batch`] (several files, messages in order) and its [`verdict`]; [`job`] (a
+//! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several files, messages in order) and its [`verdict`]; [`job`] (a
 //! scenario that was found good, with everything a run needs); [`run`] (one job from start to files); [`record`] with
 //! [`table`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared
 //! for the analysis); [`summary`], [`figures`], [`report`] (what is told); [`folder`] (how files are written);
@@ -15,6 +15,7 @@ mod figures;
 mod folder;
 #[expect(dead_code, reason = "its readers come with the next changes")]
 mod frame;
+mod info;
 mod interrupt;
 mod job;
 mod new;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
     let verdict = match Arguments::parse().command {
         Command::Run(arguments) => batch::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        Command::Info(arguments) => info::info(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Schema => schema::print(),
     };

@@ -103,7 +103,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
 }
 
 /// Four digits with an SI prefix.
-fn quantity(value: Real, unit: &str) -> String {
+pub(crate) fn quantity(value: Real, unit: &str) -> String {
     let prefix = Prefix::of_magnitude(value.0);
     let shown = prefix.apply(value.0);
     let digits = match shown.abs() {

@@ -35,6 +35,11 @@ impl Series {
         }
     }
 
+    /// Number of columns.
+    pub(crate) fn width(&self) -> usize {
+        self.columns.len()
+    }
+
     /// Numbers kept so far.
     pub(crate) fn size(&self) -> u64 {
         self.columns.len() as u64 * self.time().len() as u64

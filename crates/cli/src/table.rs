@@ -22,6 +22,11 @@ impl Columns {
         let chosen = std::iter::once(0).chain(rest);
         Self { chosen: chosen.filter_map(|place| Some((place, channels.get(place)?.clone()))).collect() }
     }
+
+    /// Number of columns.
+    pub(crate) fn len(&self) -> usize {
+        self.chosen.len()
+    }
 }
 
 /// A table being written.

@@ -87,12 +87,13 @@ impl Model {
     }
 
     /// Angular frequency, rad/s, of contact `index` alone, all its members stuck at indentation d (m), between its two
-    /// bodies: ω² = k Σ 1/m over those that are free along it. None where neither is.
+    /// bodies: ω² = k Σ 1/m over those that are free along it; 0 without friction.
+    /// None where neither is free.
     pub fn contact_resonance(&self, index: usize, d: f64) -> Option<f64> {
         let contact = self.contacts.get(index)?;
         let row = relative(contact.first, contact.second);
         let mobility: f64 = row.iter().map(|(i, share)| share * share * self.free[*i].mobility).sum();
-        let stiffness = contact.count * contact.law.stick_stiffness(d);
+        let stiffness = if contact.inert { 0.0 } else { contact.count * contact.law.stick_stiffness(d) };
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
     }
 

@@ -7,7 +7,7 @@
 //! In reading order: `syntax` (strict JSON, limits, duplicate keys) and `place` (the index) under `document`;
 //! `overrides` (`--set`); `units` and `quantity`; `form` (what may stand where, with the docs that become the schema)
 //! and `refusal` (what serde says about it, in our words); `tables` (files named by the scenario); `meaning` (the
-//! conversion); `resolved` (canonical JSON); `schema`.
+//! conversion); `resolved` (canonical JSON); `pairing` (what contacts are made of); `schema`.
 
 mod document;
 mod error;
@@ -15,6 +15,7 @@ mod fault;
 mod form;
 mod meaning;
 mod overrides;
+mod pairing;
 mod path;
 mod place;
 mod quantity;

@@ -52,7 +52,7 @@ pub struct Scenario {
     pub channels: Option<Vec<String>>,
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
-    form: Form,
+    pub(crate) form: Form,
     document: Document,
 }
 

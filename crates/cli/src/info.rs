@@ -1,0 +1,77 @@
+//! `stickslip info`: what a scenario means, before it runs.
+
+mod columns;
+mod contacts;
+mod digits;
+mod events;
+mod motion;
+mod tables;
+mod usage;
+mod work;
+
+use crate::arguments::InfoArguments;
+use crate::job::Job;
+use crate::report::Report;
+use crate::summary::Parts;
+use crate::verdict::Verdict;
+use contacts::ContactInfo;
+use motion::{BodyInfo, ModeInfo, WaveformInfo};
+use serde::Serialize;
+use std::io::Write;
+use std::path::Path;
+use usage::Usage;
+use work::{Expected, Stepping};
+
+/// Derived numbers of a scenario, in SI.
+#[derive(Debug, Serialize)]
+struct Info {
+    scenario: String,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    title: String,
+    /// SHA-256 of the resolved scenario, as in the summary of a run.
+    scenario_sha256: String,
+    bodies: Parts<BodyInfo>,
+    waveforms: Parts<WaveformInfo>,
+    contacts: Parts<ContactInfo>,
+    /// Normal modes with all contacts stuck, by rising frequency.
+    modes: Vec<ModeInfo>,
+    stepping: Stepping,
+    expected: Expected,
+    usage: Usage,
+}
+
+/// Reads and builds a scenario and prints what it means.
+pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
+    let job = match Job::prepare(&arguments.file, &arguments.set, Path::new("")) {
+        Ok(job) => job,
+        Err(refusal) => {
+            let report = Report::refused(&refusal);
+            let _ = writeln!(std::io::stderr(), "{}", report.error);
+            return report.verdict;
+        }
+    };
+    let info = Info::of(&job);
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    let text = if arguments.json { serde_json::to_string(&info).unwrap_or_default() } else { info.text() };
+    // A closed pipe is no fault.
+    let _ = writeln!(std::io::stdout(), "{text}");
+    Verdict::Done
+}
+
+impl Info {
+    fn of(job: &Job) -> Self {
+        let modes = motion::modes(job);
+        Self {
+            scenario: job.name.clone(),
+            title: job.scenario.title.clone(),
+            scenario_sha256: job.hash.clone(),
+            bodies: motion::bodies(job),
+            waveforms: motion::waveforms(job),
+            contacts: contacts::of(job),
+            stepping: Stepping::of(job),
+            expected: Expected::of(job),
+            usage: Usage::of(job),
+            modes,
+        }
+    }
+}

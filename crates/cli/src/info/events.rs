@@ -1,0 +1,203 @@
+//! How many events a run may be expected to have: corners are counted, what contacts do is estimated.
+
+use crate::job::Job;
+use crate::real::Real;
+use serde::Serialize;
+use std::f64::consts::TAU;
+use stickslip_drive::scene::{Freedom, Normal, Scene, Side, Varying};
+use stickslip_drive::{NormalMode, Stepper, Waveform};
+
+/// Events of a contact in a period of ringing: two reversals, and about one loop closes.
+const PER_RINGING: f64 = 3.0;
+/// Events of a contact that a smooth waveform drives, or that is walked, in a period: two turns, and with each one the end
+/// of gross slip or a loop that closes.
+const PER_TURNS: f64 = 4.0;
+/// Of a free body under a waveform with corners: gross slip begins and ends once, the rest is ringing.
+const PER_FLYBACK: f64 = 2.0;
+/// Time constants after which a damped ringing is over (5 %).
+const DECAY: f64 = 3.0;
+/// Displacement of a contact in a mode, as a share of the mode's largest, below which the mode does not ring there.
+const MOVED: f64 = 0.05;
+/// A corner this near to the end of a period, in periods, belongs to it.
+const SAME: f64 = 1e-9;
+
+/// Events of the whole run.
+#[derive(Debug, Serialize)]
+pub(super) struct Events {
+    /// Corners of waveforms, counted.
+    pub(super) corners: Real,
+    /// Events of contacts, estimated: within a factor of two on the examples.
+    pub(super) contacts_estimate: Real,
+    /// All in a period of the waveform of `figures`, on the average.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) per_period: Option<PerPeriod>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct PerPeriod {
+    pub(super) waveform: String,
+    pub(super) estimate: Real,
+}
+
+impl Events {
+    pub(super) fn of(job: &Job) -> Self {
+        let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
+        let modes = job.model.linearised(|d| d.most).modes();
+        let contacts = (0..scene.contacts.len()).map(|c| of_contact(job, c, &modes)).sum();
+        // At fixed steps corners are crossed, not located.
+        let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
+        let corners = scene.waveforms.iter().map(|w| corners(&w.part, duration));
+        let corners = if located { corners.sum() } else { 0.0 };
+        let named = job.scenario.figures.waveform.and_then(|w| scene.waveforms.get(w));
+        let per_period = named.and_then(|named| {
+            let share = named.part.period()? / duration;
+            let estimate = Real((corners + contacts) * share);
+            (share <= 1.0).then(|| PerPeriod { waveform: named.name.clone(), estimate })
+        });
+        Self { corners: Real(corners), contacts_estimate: Real(contacts), per_period }
+    }
+
+    /// All events.
+    pub(super) fn total(&self) -> f64 {
+        self.corners.0 + self.contacts_estimate.0
+    }
+}
+
+/// Periods that a waveform runs through until `duration`, s.
+fn cycles(waveform: &Waveform, period: f64, duration: f64) -> f64 {
+    let timing = waveform.timing();
+    ((duration - timing.delay) / period).min(timing.cycles.unwrap_or(f64::INFINITY)).max(0.0)
+}
+
+/// Corners in a period, or until `end` for a waveform without period.
+fn corners_until(waveform: &Waveform, start: f64, end: f64) -> f64 {
+    let mut piece = waveform.piece_at(start);
+    let mut corners = 0.0;
+    while piece.end <= end {
+        corners += 1.0;
+        piece = waveform.after(&piece);
+    }
+    corners
+}
+
+fn corners_per_period(waveform: &Waveform, period: f64) -> f64 {
+    let start = waveform.timing().delay;
+    corners_until(waveform, start, start + (1.0 + SAME) * period)
+}
+
+/// Corners until `duration`, s.
+fn corners(waveform: &Waveform, duration: f64) -> f64 {
+    match waveform.period() {
+        Some(period) => cycles(waveform, period, duration) * corners_per_period(waveform, period),
+        None => corners_until(waveform, 0.0, duration),
+    }
+}
+
+/// Estimate for contact `c` over the whole run.
+fn of_contact(job: &Job, c: usize, modes: &[NormalMode]) -> f64 {
+    let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
+    let touches = job.model.indentations(c).is_some_and(|d| d.most > 0.0);
+    if !touches || scene.contacts.get(c).is_none_or(|contact| contact.part.friction == 0.0) {
+        return 0.0;
+    }
+    let moves = |mode: &&NormalMode| mode.frequency > 0.0 && mode.contacts[c].abs() > MOVED;
+    let ringing = modes.iter().rfind(moves);
+    // Events of a ringing that corners keep up for at most `time`, s.
+    let rings = |time: f64, corners: f64| {
+        ringing.map_or(0.0, |mode| {
+            let decay = DECAY / (mode.damping_ratio * mode.frequency);
+            PER_RINGING * mode.frequency / TAU * time.min(corners * decay)
+        })
+    };
+    let (mut turns, mut most) = (0.0, 0.0_f64);
+    for waveform in drivers(scene, c).into_iter().map(|w| &scene.waveforms[w].part) {
+        let (events, ringing) = match waveform.period() {
+            Some(period) => {
+                let (cycles, corners) =
+                    (cycles(waveform, period, duration), corners_per_period(waveform, period));
+                let kicked = ringing.is_some() && corners > 0.0;
+                let turns = if kicked { PER_FLYBACK } else { PER_TURNS };
+                (cycles * turns, if kicked { cycles * rings(period, corners) } else { 0.0 })
+            }
+            None => {
+                let corners = corners(waveform, duration);
+                (corners, rings(duration, corners))
+            }
+        };
+        turns += events;
+        // Several waveforms do not make a body ring faster.
+        most = most.max(ringing);
+    }
+    turns + most
+}
+
+/// The waveforms whose motion reaches contact `c`: those that its sides follow and that press it, and all that act on
+/// the free bodies that hang together with it.
+pub(super) fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
+    let Some(contact) = scene.contacts.get(c) else { return Vec::new() };
+    let edges = || {
+        let contacts = scene.contacts.iter().map(|part| part.part.between);
+        let springs = scene.springs.iter().map(|part| part.part.between);
+        contacts.chain(springs).chain(scene.actuators.iter().map(|part| part.part.between))
+    };
+    let is_free = |side: &Side| match side {
+        Side::Body(body) => scene.bodies.get(*body).is_some_and(|body| body.part.x == Freedom::Free),
+        Side::Ground => false,
+    };
+    let mut reached: Vec<Side> = contact.part.between.into_iter().filter(is_free).collect();
+    let mut next = 0;
+    while let Some(side) = reached.get(next).copied() {
+        next += 1;
+        for other in edges().filter(|edge| edge.contains(&side)).flatten().filter(is_free) {
+            if !reached.contains(&other) {
+                reached.push(other);
+            }
+        }
+    }
+    let hangs_on = |between: &[Side; 2]| between.iter().any(|side| reached.contains(side));
+    let mut sides: Vec<Side> = edges().filter(hangs_on).flatten().collect();
+    sides.extend(contact.part.between);
+    let followed = sides.into_iter().filter_map(|side| match side {
+        Side::Body(body) => match scene.bodies.get(body)?.part.x {
+            Freedom::Follows(waveform) => Some(waveform),
+            Freedom::Fixed | Freedom::Free => None,
+        },
+        Side::Ground => None,
+    });
+    let pressing =
+        scene.contacts.iter().enumerate().filter(|(i, part)| *i == c || hangs_on(&part.part.between));
+    let pressing = pressing.map(|(_, part)| match part.part.normal {
+        Normal::Force(value) | Normal::Indentation(value) | Normal::Radius(value) => value,
+    });
+    let strokes =
+        scene.actuators.iter().filter(|part| hangs_on(&part.part.between)).map(|part| part.part.stroke);
+    let loads = scene.loads.iter().filter(|load| reached.contains(&Side::Body(load.on))).map(|load| load.x);
+    let varying = pressing.chain(strokes).chain(loads).filter_map(|value| match value {
+        Varying::Follows(waveform) => Some(waveform),
+        Varying::Constant(_) => None,
+    });
+    let mut waveforms: Vec<usize> = followed.chain(varying).collect();
+    waveforms.sort_unstable();
+    waveforms.dedup();
+    waveforms
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_drive::{Shape, Timing};
+
+    #[test]
+    fn corners_are_counted_within_the_time_they_run() {
+        let saw = Shape::Sawtooth { stroke: 1.0, flyback: 0.1 };
+        let timing = Timing { delay: 0.5, cycles: Some(3.0), ..Timing::every(1.0) };
+        let waveform = Waveform::new(saw, timing).unwrap();
+        assert_eq!([0.4, 2.5, 99.0].map(|end| corners(&waveform, end)), [0.0, 4.0, 6.0]);
+        let table = Shape::Table { points: vec![(0.0, 0.0), (1.0, 1.0), (2.0, 0.0), (3.0, 5.0)] };
+        let waveform = Waveform::new(table, Timing::every(1.0)).unwrap();
+        assert_eq!(corners(&waveform, 2.5), 2.0);
+        let sine = Waveform::new(Shape::Sine { amplitude: 1.0, phase: 0.3, offset: 0.0 }, Timing::every(1.0))
+            .unwrap();
+        assert_eq!(corners(&sine, 10.0), 0.0);
+    }
+}

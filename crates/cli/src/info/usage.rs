@@ -1,0 +1,177 @@
+//! What a run computes of a scene, and what it skips and why.
+
+use super::contacts::name;
+use super::motion;
+use crate::job::Job;
+use serde::Serialize;
+use stickslip_drive::Stepper;
+use stickslip_drive::scene::{EngineChoice, Freedom, Normal, Side};
+
+/// What is computed and what is not.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Usage {
+    pub(super) used: Vec<Item>,
+    pub(super) skipped: Vec<Item>,
+}
+
+/// Something of these parts, and why it is computed or not.
+#[derive(Debug, Serialize)]
+pub(super) struct Item {
+    pub(super) what: &'static str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) of: Vec<String>,
+    pub(super) why: String,
+}
+
+impl Usage {
+    pub(super) fn of(job: &Job) -> Self {
+        let mut usage = Self::default();
+        usage.motion(job);
+        usage.contacts(job);
+        usage.couplings(job);
+        usage.unused(job);
+        usage.output(job);
+        usage
+    }
+
+    fn uses(&mut self, what: &'static str, of: &str, why: impl Into<String>) {
+        add(&mut self.used, what, of, why.into());
+    }
+
+    fn skips(&mut self, what: &'static str, of: &str, why: impl Into<String>) {
+        add(&mut self.skipped, what, of, why.into());
+    }
+
+    fn motion(&mut self, job: &Job) {
+        let free = job.scenario.scene.bodies.iter().filter(|body| body.part.x == Freedom::Free);
+        let names: Vec<String> = free.map(|body| format!("{}.x", body.name)).collect();
+        let (stepper, _, _) = job.stepper();
+        if names.is_empty() {
+            let asked = match job.scenario.plan.stepper {
+                Stepper::Event { .. } => "",
+                _ => ", whatever stepper is asked for",
+            };
+            self.skips(
+                "equations of motion",
+                "",
+                format!("nothing is free: contacts are walked along their path{asked}"),
+            );
+        } else {
+            names.iter().for_each(|name| self.uses("motion", name, format!("free, stepper {stepper}")));
+        }
+    }
+
+    fn contacts(&mut self, job: &Job) {
+        let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
+        for (c, contact) in job.scenario.scene.contacts.iter().enumerate() {
+            let name = &contact.name;
+            if job.model.indentations(c).is_some_and(|d| d.most <= 0.0) {
+                self.skips("contact", name, "never pressed: the bodies cannot touch");
+                continue;
+            }
+            if contact.part.friction == 0.0 {
+                self.skips("tangential force", name, "no friction");
+                continue;
+            }
+            match contact.part.engine {
+                EngineChoice::Curve => self.uses("memory", name, "the exact curve"),
+                EngineChoice::Springs { count, .. } => {
+                    self.uses("memory", name, format!("a row of {count} springs, asked at every evaluation"));
+                }
+            }
+            if job.has_constant_load(c) {
+                self.skips(
+                    "normal motion",
+                    name,
+                    "constant load: the indentation is found once, nothing grows",
+                );
+                continue;
+            }
+            let why = match contact.part.normal {
+                Normal::Indentation(_) => "follows a waveform",
+                Normal::Force(_) | Normal::Radius(_) => "solved from a waveform at every evaluation",
+            };
+            self.uses("indentation", name, why);
+            if contact.part.engine == EngineChoice::Curve && located {
+                self.uses(
+                    "tangential force",
+                    name,
+                    "a state of its own while the contact grows in full stick",
+                );
+            }
+        }
+    }
+
+    fn couplings(&mut self, job: &Job) {
+        let scene = &job.scenario.scene;
+        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.x == Freedom::Free));
+        let springs = scene.springs.iter().map(|part| ("spring", &part.name, part.part.between));
+        let actuators = scene.actuators.iter().map(|part| ("actuator", &part.name, part.part.between));
+        for (kind, part, between) in springs.chain(actuators) {
+            let [first, second] = between.map(|side| name(job, side));
+            if between.iter().any(is_free) {
+                self.uses(kind, part, format!("between {first} and {second}"));
+            } else {
+                self.skips(kind, part, format!("neither {first} nor {second} is free: it moves nothing"));
+            }
+        }
+        for (i, load) in scene.loads.iter().enumerate() {
+            let (place, body) = (format!("loads[{i}]"), Side::Body(load.on));
+            if is_free(&body) {
+                self.uses("load", &place, format!("on {}", name(job, body)));
+            } else {
+                self.skips("load", &place, format!("{} is not free: its guide carries it", name(job, body)));
+            }
+        }
+        if scene.gravity.acceleration != 0.0 {
+            let along = scene.gravity.acceleration * scene.gravity.incline.sin();
+            if along == 0.0 || !scene.bodies.iter().any(|body| body.part.x == Freedom::Free) {
+                self.skips("gravity", "", "nothing moves freely along it");
+            } else {
+                self.uses("gravity", "", format!("{along:.4} m/s² down the slide"));
+            }
+        }
+    }
+
+    fn unused(&mut self, job: &Job) {
+        let scene = &job.scenario.scene;
+        for material in job.scenario.unused_materials() {
+            self.skips("material", material, "no contact is made of it");
+        }
+        let followers = motion::followers(scene);
+        for (w, waveform) in scene.waveforms.iter().enumerate() {
+            if !followers.iter().any(|follower| follower.waveform == w) {
+                self.skips("waveform", &waveform.name, "nothing follows it; its corners still end steps");
+            }
+        }
+        for body in &scene.bodies {
+            if body.part.mass.is_some() && body.part.x != Freedom::Free {
+                self.skips("mass", &body.name, "the body is not free");
+            }
+        }
+    }
+
+    fn output(&mut self, job: &Job) {
+        let (written, all) = (job.columns.len(), job.model.channels().len());
+        if job.scenario.plan.every.is_none() {
+            self.skips("rows", "", "no output.every: the first and the last row only");
+        }
+        if written < all {
+            let why = format!("{} of {all} are not asked for in output.channels", all - written);
+            self.skips("channels", "", why);
+        }
+        if job.scenario.plots.is_empty() {
+            self.skips("pictures", "", "none asked for in plots");
+        }
+        job.scenario.plots.iter().for_each(|plot| self.uses("picture", plot.name(), "asked for in plots"));
+    }
+}
+
+/// Adds to what stands there for the same reason, if anything does.
+fn add(items: &mut Vec<Item>, what: &'static str, of: &str, why: String) {
+    let of = (!of.is_empty()).then(|| of.to_owned());
+    match items.iter_mut().find(|item| item.what == what && item.why == why) {
+        Some(item) => item.of.extend(of),
+        None => items.push(Item { what, of: of.into_iter().collect(), why }),
+    }
+}

@@ -1,0 +1,42 @@
+//! What contacts are made of, in the file's own words: a scene has moduli and a profile, but no names of them.
+
+use crate::Scenario;
+
+impl Scenario {
+    /// Names of the materials of contact `index`, first and second.
+    pub fn materials_of(&self, index: usize) -> Option<[&str; 2]> {
+        let (_, contact) = self.form.contacts.0.get(index)?;
+        Some(contact.materials.0.each_ref().map(String::as_str))
+    }
+
+    /// The word for the profile of contact `index`, such as `paraboloid`.
+    pub fn profile_of(&self, index: usize) -> Option<String> {
+        let (_, contact) = self.form.contacts.0.get(index)?;
+        let profile = serde_json::to_value(&contact.profile).ok()?;
+        profile.as_object()?.keys().next().cloned()
+    }
+
+    /// Materials of which no contact is made, in the order of the file.
+    pub fn unused_materials(&self) -> impl Iterator<Item = &str> {
+        let is_used =
+            |name: &str| self.form.contacts.iter().any(|(_, c)| c.materials.0.iter().any(|m| m == name));
+        self.form.materials.names().filter(move |name| !is_used(name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scenario;
+
+    #[test]
+    fn contacts_know_their_materials_and_profiles() {
+        let text = include_str!("../../../scenarios/quickstart.json");
+        let scenario =
+            Scenario::from_str(&text.replace("[\"ruby\", \"steel\"]", "[\"steel\", \"steel\"]"), "a", "");
+        let scenario = scenario.unwrap();
+        assert_eq!(scenario.materials_of(0), Some(["steel", "steel"]));
+        assert_eq!(scenario.profile_of(0).as_deref(), Some("paraboloid"));
+        assert_eq!(scenario.unused_materials().collect::<Vec<_>>(), ["ruby"]);
+        assert_eq!((scenario.materials_of(1), scenario.profile_of(1)), (None, None));
+    }
+}
