@@ -1,8 +1,6 @@
 //! The data model of a figure.
 
-use crate::{Label, Style, Theme};
-use std::borrow::Cow;
-use thiserror::Error;
+use crate::{Label, Panel, PlotError, Theme};
 
 /// A figure: what it shows, not yet how many pixels apart.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,118 +29,13 @@ pub enum Arrangement {
         /// One x axis for all, with numbers below the last panel only.
         share_x: bool,
     },
-}
-
-/// One pair of axes.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Panel<'a> {
-    /// Horizontal axis.
-    pub x: Axis,
-    /// Vertical axis.
-    pub y: Axis,
-    /// Series, the later over the earlier.
-    pub series: Vec<Series<'a>>,
-    /// Reference lines, below the series and always inside the range.
-    pub references: Vec<Reference>,
-    /// Width over height of the frame; fills its place by default.
-    pub aspect: Option<f64>,
-    /// Share of the figure, relative to the other panels' shares; 1 where not above 0.
-    pub share: f64,
-}
-
-/// An axis. Its range is that of the data and the reference lines.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Axis {
-    /// What it measures, without unit.
-    pub label: Label,
-    /// Unit of the numbers in the series, such as "m"; the prefix is chosen by range. Empty: dimensionless.
-    pub unit: String,
-    /// No margin between the data and the ends of the axis.
-    pub tight: bool,
-}
-
-/// One curve.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Series<'a> {
-    /// Name in the legend; none where empty.
-    pub label: Label,
-    /// Horizontal values, in the axis' unit.
-    pub xs: Cow<'a, [f64]>,
-    /// Vertical values, as many. Where either is not finite or beyond ±1e150, the curve has a gap.
-    pub ys: Cow<'a, [f64]>,
-    /// Colour, dashes and width.
-    pub style: Style,
-}
-
-/// A straight line across a panel.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Reference {
-    /// At a vertical value.
-    Horizontal {
-        /// Value, in the axis' unit.
-        y: f64,
-        /// Name in the legend; none where empty. Lines of one name share an entry.
-        label: Label,
+    /// Row by row.
+    Grid {
+        /// Panels in a row, at least 1.
+        columns: usize,
+        /// The same axes for all, with numbers left of the first column and below the last row only.
+        share: bool,
     },
-    /// At a horizontal value.
-    Vertical {
-        /// Value, in the axis' unit.
-        x: f64,
-        /// Name in the legend; none where empty. Lines of one name share an entry.
-        label: Label,
-    },
-}
-
-/// Why a figure cannot be drawn.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum PlotError {
-    /// A figure without panels.
-    #[error("the figure has no panels")]
-    NoPanels,
-    /// A size out of range.
-    #[error("expected a figure of {least} to {most} px each way, got {width} x {height}", least = Figure::LEAST, most = Figure::MOST)]
-    Size {
-        /// Width, px.
-        width: u32,
-        /// Height, px.
-        height: u32,
-    },
-    /// Coordinates of one series that do not pair up.
-    #[error("panel {panel}, series {series}: {xs} x values and {ys} y values")]
-    Lengths {
-        /// Place of the panel.
-        panel: usize,
-        /// Place of the series.
-        series: usize,
-        /// Number of x values.
-        xs: usize,
-        /// Number of y values.
-        ys: usize,
-    },
-    /// Titles, legends and labels leave no room for the data.
-    #[error(
-        "panel {panel} would be {width:.0} x {height:.0} px inside its labels; make the figure larger or the panels fewer"
-    )]
-    NoRoom {
-        /// Place of the panel.
-        panel: usize,
-        /// Width that would be left, px.
-        width: f64,
-        /// Height that would be left, px.
-        height: f64,
-    },
-    /// A key that a PNG text chunk cannot have.
-    #[error("expected a key of 1 to 79 printable Latin-1 characters, got {0:?}")]
-    Key(String),
-    /// The built-in font cannot be read.
-    #[error("the built-in font cannot be read")]
-    Font,
-    /// The backend refused.
-    #[error("drawing failed: {0}")]
-    Draw(String),
-    /// The encoder or decoder of PNG refused.
-    #[error("PNG: {0}")]
-    Png(String),
 }
 
 impl Figure<'_> {
@@ -153,17 +46,21 @@ impl Figure<'_> {
     /// Default size, px.
     pub const DEFAULT_SIZE: (u32, u32) = (1600, 1000);
 
-    /// Width of a panel's own legend at the most, as a share of the figure's.
-    pub(crate) fn legend_share(&self, place: usize) -> f64 {
-        // The place of a panel is wider than this by the numbers of its axis.
-        0.75 * if self.arrangement == Arrangement::Row { self.shares()[place] } else { 1.0 }
-    }
-
-    /// The panels' shares of the figure, summing to 1.
-    pub(crate) fn shares(&self) -> Vec<f64> {
+    /// The columns' shares of the width and the rows' shares of the height; either sum to 1.
+    pub(crate) fn shares(&self) -> (Vec<f64>, Vec<f64>) {
         let usable = |share: f64| if share > 0.0 && share.is_finite() { share.clamp(1e-3, 1e3) } else { 1.0 };
-        let sum: f64 = self.panels.iter().map(|panel| usable(panel.share)).sum();
-        self.panels.iter().map(|panel| usable(panel.share) / sum).collect()
+        let columns = self.arrangement.columns(self.panels.len());
+        let (mut wide, mut high) =
+            (vec![0.0_f64; columns], vec![0.0_f64; self.panels.len().div_ceil(columns)]);
+        for (i, share) in self.panels.iter().map(|panel| usable(panel.share)).enumerate() {
+            wide[i % columns] = wide[i % columns].max(share);
+            high[i / columns] = high[i / columns].max(share);
+        }
+        let whole = |shares: Vec<f64>| {
+            let sum: f64 = shares.iter().sum();
+            shares.into_iter().map(|share| share / sum).collect()
+        };
+        (whole(wide), whole(high))
     }
 
     /// Checks what the types do not.
@@ -175,15 +72,18 @@ impl Figure<'_> {
         if self.panels.is_empty() {
             return Err(PlotError::NoPanels);
         }
-        for (panel, content) in self.panels.iter().enumerate() {
-            for (series, curve) in content.series.iter().enumerate() {
-                let (xs, ys) = (curve.xs.len(), curve.ys.len());
-                if xs != ys {
-                    return Err(PlotError::Lengths { panel, series, xs, ys });
-                }
-            }
+        self.panels.iter().enumerate().try_for_each(|(place, panel)| panel.check(place))
+    }
+}
+
+impl Arrangement {
+    /// Panels side by side, of a number of panels.
+    pub(crate) fn columns(self, panels: usize) -> usize {
+        match self {
+            Self::Row => panels.max(1),
+            Self::Column { .. } => 1,
+            Self::Grid { columns, .. } => columns.clamp(1, panels.max(1)),
         }
-        Ok(())
     }
 }
 
@@ -197,29 +97,5 @@ impl Default for Figure<'_> {
             theme: Theme::light(),
             provenance: Vec::new(),
         }
-    }
-}
-
-impl Axis {
-    /// An axis with a margin at both ends.
-    pub fn new(label: Label, unit: &str) -> Self {
-        Self { label, unit: unit.to_owned(), tight: false }
-    }
-}
-
-impl<'a> Series<'a> {
-    /// A series in the style of its place in the panel.
-    pub fn new(
-        label: impl Into<Label>,
-        xs: impl Into<Cow<'a, [f64]>>,
-        ys: impl Into<Cow<'a, [f64]>>,
-    ) -> Self {
-        Self { label: label.into(), xs: xs.into(), ys: ys.into(), style: Style::default() }
-    }
-
-    /// The points, with a gap (none) where one cannot be drawn.
-    pub(crate) fn points(&self) -> impl Iterator<Item = Option<(f64, f64)>> + '_ {
-        let drawable = |v: f64| v.abs() <= crate::range::LARGEST;
-        self.xs.iter().zip(self.ys.iter()).map(move |(&x, &y)| (drawable(x) && drawable(y)).then_some((x, y)))
     }
 }

@@ -1,7 +1,8 @@
 //! Hysteresis loops: tangential force over displacement.
 
 use crate::Label;
-use crate::figure::{Arrangement, Axis, Figure, Panel, Reference, Series};
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Panel, Reference, Series};
 
 /// One loop, of a contact or of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]

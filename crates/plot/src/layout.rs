@@ -1,8 +1,10 @@
 //! Where everything goes: title, legends, panels.
 
-use crate::figure::{Figure, Panel, PlotError};
+use crate::PlotError;
+use crate::figure::Figure;
 use crate::label::Label;
 use crate::legend::{Entry, Legend, entries};
+use crate::panel::Panel;
 use crate::place::{self, Request};
 use crate::scale::Scale;
 use crate::thin::Point;
@@ -26,12 +28,16 @@ pub(crate) struct Placed<'f, 'a> {
     pub(crate) cell: Area,
     pub(crate) x: Scale,
     pub(crate) y: Scale,
+    /// Size of the numbers of the y axis, or of the lanes' names, px per em.
+    pub(crate) y_em: f64,
     /// Left edge of the numbers of the y axis; its label stands further left, px.
     pub(crate) numbers_left: f64,
-    /// Legend above the frame; its top left corner.
+    /// Lines of the heading above the frame; its top left corner.
+    pub(crate) heading: (Vec<Label>, Point),
+    /// Legend between heading and frame; its top left corner.
     pub(crate) legend: (Legend, Point),
-    /// Whether the x axis carries numbers and a label.
-    pub(crate) numbered: bool,
+    /// Whether the x and the y axis carry numbers and a label.
+    pub(crate) numbered: (bool, bool),
     /// Whether there is nothing to show.
     pub(crate) empty: bool,
 }
@@ -66,8 +72,9 @@ pub(crate) struct Sizes {
 
 /// Rows of a legend before entries are only counted.
 const LEGEND_ROWS: usize = 4;
-/// Lines of a title before it is cut.
+/// Lines of a title and of a panel's heading before they are cut.
 const TITLE_LINES: usize = 2;
+const HEADING_LINES: usize = 2;
 
 impl Sizes {
     fn of(figure: &Figure<'_>) -> Self {
@@ -105,12 +112,16 @@ impl<'f, 'a> Layout<'f, 'a> {
         }
         let height = f64::from(figure.size.1) - sizes.margin - top;
         let body = Area { left: sizes.margin, top, width, height };
+        let (wide, _) = figure.shares();
         let mut requests = Vec::new();
         for (i, (panel, list)) in figure.panels.iter().zip(&lists).enumerate() {
-            let legend = Legend::new(list, width * figure.legend_share(i), sizes.tick, LEGEND_ROWS)?;
-            requests.push(Request { panel, legend });
+            // The place of a panel is wider than this by the numbers of its axis.
+            let width = 0.75 * width * wide[i % wide.len()];
+            let legend = Legend::new(list, width, sizes.tick, LEGEND_ROWS)?;
+            let heading = panel.heading.wrapped(sizes.tick, width, HEADING_LINES)?;
+            requests.push(Request { panel, heading, legend });
         }
-        let panels = place::panels(requests, (figure.arrangement, figure.shares()), sizes, body)?;
+        let panels = place::panels(requests, figure, sizes, body)?;
         Ok(Self { title, legend: (legend, legend_at), panels, sizes })
     }
 }

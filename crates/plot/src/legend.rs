@@ -1,15 +1,27 @@
 //! Legends: beside the data, never over it.
 
-use crate::figure::{Panel, Reference};
-use crate::theme::Stroke;
+use crate::panel::{Panel, Reference};
+use crate::theme::{Colour, Stroke};
 use crate::{Label, PlotError, Theme};
 
 /// One line of a legend's list.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Entry {
     pub(crate) label: Label,
-    /// None for the note that entries were left out.
-    pub(crate) stroke: Option<Stroke>,
+    pub(crate) sample: Sample,
+}
+
+/// What stands before a name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Sample {
+    /// Nothing, before the note that entries were left out.
+    None,
+    /// A piece of a curve.
+    Line(Stroke),
+    /// A point.
+    Dot(Stroke),
+    /// A piece of an area.
+    Swatch(Colour),
 }
 
 /// Entries in rows.
@@ -19,43 +31,59 @@ pub(crate) struct Legend {
     pub(crate) rows: Vec<Vec<(f64, Entry)>>,
 }
 
-/// Length of the line sample, em.
-pub(crate) const SAMPLE: f64 = 2.3;
 /// Between sample and text, em.
-pub(crate) const SAMPLE_GAP: f64 = 0.4;
+const SAMPLE_GAP: f64 = 0.4;
 /// Height of a row, em.
 pub(crate) const ROW: f64 = 1.4;
 /// Between two entries, em.
 const ENTRY_GAP: f64 = 1.3;
 
-/// What a panel's legend has to name: labelled series in order, then labelled reference lines, each name and
-/// look once.
+/// What a panel's legend has to name: labelled series in order, then labelled areas and reference lines, each name
+/// and look once.
 pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
-    let series = panel.series.iter().enumerate();
-    let curves = series.map(|(place, s)| (s.label.clone(), theme.stroke(s.style, place)));
+    let curves = panel.series.iter().enumerate().map(|(place, series)| {
+        let stroke = theme.stroke(series.style, place);
+        (&series.label, if series.xs.len() == 1 { Sample::Dot(stroke) } else { Sample::Line(stroke) })
+    });
+    let swatch = |ink| Sample::Swatch(theme.colour(ink));
+    let classes = panel.mosaic.iter().flat_map(|mosaic| &mosaic.classes);
+    let classes = classes.map(|(label, ink)| (label, swatch(*ink)));
+    let bands = panel.bands.iter().map(|band| (&band.label, swatch(band.ink)));
     let lines = panel.references.iter().map(|reference| match reference {
         Reference::Horizontal { label, .. } | Reference::Vertical { label, .. } => {
-            (label.clone(), theme.reference())
+            (label, Sample::Line(theme.reference()))
         }
     });
     let mut entries: Vec<Entry> = Vec::new();
-    for (label, stroke) in curves.chain(lines).filter(|(label, _)| !label.is_empty()) {
-        let entry = Entry { label, stroke: Some(stroke) };
-        if !entries.contains(&entry) {
+    for (label, sample) in curves.chain(classes).chain(bands).chain(lines) {
+        let entry = Entry { label: label.clone(), sample };
+        if !label.is_empty() && !entries.contains(&entry) {
             entries.push(entry);
         }
     }
     entries
 }
 
+impl Sample {
+    /// Width, px.
+    pub(crate) fn width(self, em: f64) -> f64 {
+        em * match self {
+            Self::None => 0.0,
+            Self::Line(_) => 2.3,
+            Self::Dot(_) => 0.6,
+            Self::Swatch(_) => 1.3,
+        }
+    }
+}
+
 impl Entry {
-    /// Width of the line sample and its gap, px.
-    fn sample(&self, em: f64) -> f64 {
-        if self.stroke.is_some() { (SAMPLE + SAMPLE_GAP) * em } else { 0.0 }
+    /// Where the text begins, px from the left edge.
+    pub(crate) fn text_at(&self, em: f64) -> f64 {
+        if self.sample == Sample::None { 0.0 } else { self.sample.width(em) + SAMPLE_GAP * em }
     }
 
     fn width(&self, em: f64) -> Result<f64, PlotError> {
-        Ok(self.sample(em) + self.label.width(em)?)
+        Ok(self.text_at(em) + self.label.width(em)?)
     }
 }
 
@@ -71,7 +99,7 @@ impl Legend {
             let mut shorter = entries[..kept].to_vec();
             shorter.push(Entry {
                 label: Label::plain(&format!("… and {} more", entries.len() - kept)),
-                stroke: None,
+                sample: Sample::None,
             });
             let legend = Self::flow(&shorter, width, em)?;
             if legend.rows.len() <= most {
@@ -99,8 +127,8 @@ impl Legend {
         let mut rows: Vec<Vec<(f64, Entry)>> = Vec::new();
         let mut at = 0.0;
         for entry in entries {
-            let label = entry.label.cut(em, width - entry.sample(em))?;
-            let entry = Entry { label, stroke: entry.stroke };
+            let label = entry.label.cut(em, width - entry.text_at(em))?;
+            let entry = Entry { label, sample: entry.sample };
             let long = entry.width(em)?;
             match rows.last_mut() {
                 Some(row) if at + long <= width => row.push((at, entry)),
@@ -121,8 +149,9 @@ mod tests {
     use crate::Series;
 
     fn panel(names: usize) -> Panel<'static> {
-        let series =
-            (0..names).map(|i| Series::new(format!("series number {i}"), vec![0.0], vec![0.0])).collect();
+        let series = (0..names)
+            .map(|i| Series::new(format!("series number {i}"), vec![0.0; 2], vec![0.0; 2]))
+            .collect();
         Panel { series, ..Panel::default() }
     }
 
@@ -133,7 +162,7 @@ mod tests {
         assert_eq!(few.rows.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 1]);
         let many = Legend::new(&entries(&panel(50), &theme), 1000.0, 30.0, 3).unwrap();
         assert_eq!(many.rows.len(), 3);
-        let named = many.rows.iter().flatten().filter(|(_, entry)| entry.stroke.is_some()).count();
+        let named = many.rows.iter().flatten().filter(|(_, entry)| entry.sample != Sample::None).count();
         assert_eq!(many.rows[2].last().unwrap().1.label.text(), format!("… and {} more", 50 - named));
         assert!(named >= 5 && many.width(30.0).unwrap() <= 1000.0);
     }

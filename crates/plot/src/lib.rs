@@ -1,46 +1,66 @@
 //! Figures from plain series.
 //!
-//! A [`Figure`] is data: panels, axes, series, reference lines. [`draw_png`] and [`draw_svg`] turn it into bytes or
-//! text for the caller to write. Two builders arrange the figures of a drive from plain series: [`loop_figure`]
-//! (force over displacement) and [`trajectory_figure`] (motion over time).
+//! A [`Figure`] is data: panels, axes, series, areas, mosaics, lanes, reference lines. [`draw_png`] and [`draw_svg`]
+//! turn it into bytes or text for the caller to write. Builders arrange the figures of a drive from plain series.
 //!
 //! In reading order:
 //!
-//! * [`figure`] – the data model;
+//! * [`figure`], [`panel`] – the data model; [`error`] – what cannot be drawn;
 //! * [`theme`] – colours, line styles, sizes;
 //! * [`label`] – texts, plain or with subscripts;
-//! * [`hysteresis`], [`trajectory`] – the builders;
+//! * the builders: [`hysteresis`] (force over displacement), [`trajectory`] (motion over time), [`phase`] (velocity
+//!   over displacement), [`energy`] (the energy book), [`events`] (what happened when), [`state`] (springs over time),
+//!   [`memory`] (the curve a contact remembers by), [`compare`] (two runs and their difference);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `layout`, `place` – where everything goes;
-//! * `thin`, `dash` – what is drawn of a long series, and in what pieces;
-//! * `paint` – the figure in strokes and texts, on any backend of plotters;
+//! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
+//! * `paint`, `content` – the figure in strokes, areas and texts, which `canvas` hands to any backend of plotters;
 //! * `font`, `raster` – the backend for pictures: coverage-exact strokes and glyphs;
 //! * [`png`], [`svg`] – the two outputs.
 //!
 //! Same figure, same bytes: nothing is read but the figure, the font is built in.
 
+mod canvas;
+pub mod compare;
+mod content;
 mod dash;
+pub mod energy;
+pub mod error;
+pub mod events;
 pub mod figure;
 mod font;
 pub mod hysteresis;
 pub mod label;
 mod layout;
 mod legend;
+pub mod memory;
+mod mosaic;
 mod paint;
+pub mod panel;
+pub mod phase;
 mod place;
 pub mod png;
 mod range;
 mod raster;
 mod scale;
+pub mod state;
 pub mod svg;
 pub mod theme;
 mod thin;
 pub mod trajectory;
 
-pub use figure::{Arrangement, Axis, Figure, Panel, PlotError, Reference, Series};
+pub use compare::{ComparedChannel, compare_figure};
+pub use energy::{EnergyBook, energy_figure};
+pub use error::PlotError;
+pub use events::{EventTrack, events_figure};
+pub use figure::{Arrangement, Figure};
 pub use hysteresis::{HysteresisLoop, loop_figure};
 pub use label::Label;
+pub use memory::{MemoryMoment, memory_figure};
+pub use panel::{Axis, Band, Lane, Mark, Mosaic, Panel, Reference, Series};
+pub use phase::{PhasePath, phase_figure};
 pub use png::{draw_png, read_text};
+pub use state::{SpringCondition, SpringMap, state_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};
 pub use trajectory::{Track, Trajectory, trajectory_figure};

@@ -1,14 +1,19 @@
 //! Frames and scales of the panels: frames of one figure are aligned and share what the labels leave.
 
-use crate::figure::{Arrangement, Panel, PlotError};
+use crate::PlotError;
+use crate::figure::{Arrangement, Figure};
+use crate::label::Label;
 use crate::layout::{Area, Placed, Sizes};
 use crate::legend::Legend;
+use crate::panel::Panel;
 use crate::range::{Extent, extents};
 use crate::scale::{Along, Scale};
 
 /// A panel to be placed.
 pub(crate) struct Request<'f, 'a> {
     pub(crate) panel: &'f Panel<'a>,
+    /// Lines of its heading.
+    pub(crate) heading: Vec<Label>,
     pub(crate) legend: Legend,
 }
 
@@ -19,23 +24,28 @@ const LEAST_FRAME: f64 = 3.0;
 /// Heights of a line of tick labels and of an axis label, em.
 const TICK_LINE: f64 = 1.45;
 const LABEL_LINE: f64 = 1.4;
-/// Between two panels, em of the tick labels.
+/// Height of a line of a heading, em of the tick labels.
+pub(crate) const HEADING_LINE: f64 = 1.35;
+/// Between two panels, and between a lane and its note, em of the tick labels.
 const GAP: f64 = 0.8;
+pub(crate) const NOTE_GAP: f64 = 0.5;
+/// Names of lanes wider than this share of the figure are set smaller,
+const LANE_NAMES: f64 = 0.4;
+/// but for that not smaller than this share of the tick labels.
+const LEAST_LANE_NAME: f64 = 0.5;
+/// Least height of a lane, em of its name.
+const LANE: f64 = 1.2;
 
-/// Places panels in a row or a column of the body.
+/// Places panels in rows and columns of the body.
 pub(crate) fn panels<'f, 'a>(
     requests: Vec<Request<'f, 'a>>,
-    (arrangement, shares): (Arrangement, Vec<f64>),
+    figure: &Figure<'_>,
     sizes: Sizes,
     body: Area,
 ) -> Result<Vec<Placed<'f, 'a>>, PlotError> {
-    let mut placer = Placer {
-        placed: with_scales(requests, arrangement),
-        row: arrangement == Arrangement::Row,
-        shares,
-        sizes,
-        body,
-    };
+    let (wide, high) = figure.shares();
+    let placed = with_scales(requests, figure.arrangement, sizes);
+    let mut placer = Placer { placed, wide, high, sizes, body };
     placer.set_heights()?;
     placer.set_widths()?;
     placer.set_legends()?;
@@ -49,24 +59,39 @@ pub(crate) fn panels<'f, 'a>(
     Ok(placed)
 }
 
-fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement) -> Vec<Placed<'f, 'a>> {
-    let share_x = arrangement == Arrangement::Column { share_x: true };
+fn with_scales<'f, 'a>(
+    requests: Vec<Request<'f, 'a>>,
+    arrangement: Arrangement,
+    sizes: Sizes,
+) -> Vec<Placed<'f, 'a>> {
+    let (share_x, share_y) = match arrangement {
+        Arrangement::Row => (false, false),
+        Arrangement::Column { share_x } => (share_x, false),
+        Arrangement::Grid { share, .. } => (share, share),
+    };
+    let columns = arrangement.columns(requests.len());
+    let last_row = requests.len().saturating_sub(columns);
     let extents: Vec<(Extent, Extent)> = requests.iter().map(|request| extents(request.panel)).collect();
-    let shared = extents.iter().fold(Extent::default(), |union, (x, _)| union.union(*x));
-    let last = requests.len().saturating_sub(1);
+    let none = (Extent::default(), Extent::default());
+    let all = extents.iter().fold(none, |all, (x, y)| (all.0.union(*x), all.1.union(*y)));
     let margin = |tight: bool| if tight { 0.0 } else { MARGIN };
-    let place = |(i, (Request { panel, legend }, (x, y))): (usize, (Request<'f, 'a>, (Extent, Extent)))| {
-        let x = if share_x { shared } else { x };
+    let place = |(i, (request, (x, y))): (usize, (Request<'f, 'a>, (Extent, Extent)))| {
+        let (panel, x, y) = (request.panel, if share_x { all.0 } else { x }, if share_y { all.1 } else { y });
         Placed {
             panel,
             frame: Area::default(),
             cell: Area::default(),
             x: Scale::new(&panel.x, x.range(margin(panel.x.tight))),
-            y: Scale::new(&panel.y, y.range(margin(panel.y.tight))),
+            y: match panel.lanes.len() {
+                0 => Scale::new(&panel.y, y.range(margin(panel.y.tight))),
+                _ => Scale::of_lanes(panel.lanes.iter().map(|lane| lane.label.as_str())),
+            },
+            y_em: sizes.tick,
             numbers_left: 0.0,
-            legend: (legend, (0.0, 0.0)),
-            numbered: !share_x || i == last,
-            empty: panel.series.iter().all(|series| series.points().flatten().next().is_none()),
+            heading: (request.heading, (0.0, 0.0)),
+            legend: (request.legend, (0.0, 0.0)),
+            numbered: (!share_x || i >= last_row, !share_y || i % columns == 0),
+            empty: panel.is_empty(),
         }
     };
     requests.into_iter().zip(extents).enumerate().map(place).collect()
@@ -75,9 +100,10 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
 /// The panels on their way to their places.
 struct Placer<'f, 'a> {
     placed: Vec<Placed<'f, 'a>>,
-    /// Side by side; else one above the other.
-    row: bool,
-    shares: Vec<f64>,
+    /// The columns' shares of the width, as many as columns.
+    wide: Vec<f64>,
+    /// The rows' shares of the height, as many as rows.
+    high: Vec<f64>,
     sizes: Sizes,
     body: Area,
 }
@@ -85,100 +111,91 @@ struct Placer<'f, 'a> {
 impl Placer<'_, '_> {
     /// Tops and heights of frames and cells, ticks of the y axes.
     fn set_heights(&mut self) -> Result<(), PlotError> {
-        let (sizes, body, gap) = (self.sizes, self.body, self.gap());
-        let mut above: Vec<f64> = self.placed.iter().map(|place| above(place, sizes)).collect();
-        let mut below: Vec<f64> = self.placed.iter().map(|place| below(place, sizes)).collect();
-        if self.row {
-            level(&mut above);
-            level(&mut below);
-        }
-        let gaps = gap * (self.placed.len() as f64 - 1.0);
-        let free = body.height - above.iter().sum::<f64>() - below.iter().sum::<f64>() - gaps;
+        let (sizes, body, columns) = (self.sizes, self.body, self.wide.len());
+        let row = |i: usize| i / columns;
+        let above = most(self.high.len(), row, self.placed.iter().map(|place| above(place, sizes)));
+        let below = most(self.high.len(), row, self.placed.iter().map(|place| below(place, sizes)));
+        let gap = GAP * sizes.tick;
+        let taken = gap * (self.high.len() as f64 - 1.0) + sum(&above) + sum(&below);
         let mut top = body.top;
-        for (i, place) in self.placed.iter_mut().enumerate() {
-            let height = if self.row { body.height - above[i] - below[i] } else { free * self.shares[i] };
-            (place.frame.top, place.frame.height) = ((top + above[i]).round(), height.floor());
-            (place.cell.top, place.cell.height) = (top, above[i] + height + below[i]);
-            if !self.row {
-                top += place.cell.height + gap;
+        for (row, places) in self.placed.chunks_mut(columns).enumerate() {
+            let height = (body.height - taken) * self.high[row];
+            for place in places {
+                (place.frame.top, place.frame.height) = ((top + above[row]).round(), height.floor());
+                (place.cell.top, place.cell.height) = (top, above[row] + height + below[row]);
+                set_y_ticks(place, sizes, body.width)?;
             }
-            place.y.set_ticks(Along::Height(place.frame.height), sizes.tick)?;
+            top += above[row] + height + below[row] + gap;
         }
         Ok(())
     }
 
     /// Left edges and widths of frames and cells, ticks of the x axes.
     fn set_widths(&mut self) -> Result<(), PlotError> {
-        let sizes = self.sizes;
-        let numbers = self.numbers()?;
-        let label = |place: &Placed<'_, '_>| {
-            if place.y.label.is_empty() && place.y.unit.is_empty() { 0.0 } else { LABEL_LINE }
-        };
-        let mut left: Vec<f64> =
-            self.placed.iter().zip(&numbers).map(|(p, n)| n + label(p) * sizes.label).collect();
-        let mut right = vec![0.2 * sizes.tick; left.len()];
+        let (sizes, columns) = (self.sizes, self.wide.len());
+        let column = |i: usize| i % columns;
+        let numbers = self.placed.iter().map(|place| numbers(place, sizes)).collect::<Result<Vec<_>, _>>()?;
+        let numbers = most(columns, column, numbers.into_iter());
+        let labels = most(columns, column, self.placed.iter().map(|place| label_width(place, sizes)));
+        let mut left: Vec<f64> = numbers.iter().zip(labels).map(|(numbers, label)| numbers + label).collect();
+        let notes = self.placed.iter().map(|place| notes(place, sizes)).collect::<Result<Vec<_>, _>>()?;
+        let mut right = most(columns, column, notes.into_iter());
         // Numbers that stand out beyond the ends of an axis need room, which narrows the frames and moves the
         // ticks: the second round settles it but for a fraction of a digit.
         for _ in 0..3 {
-            if !self.row {
-                level(&mut left);
-                level(&mut right);
-            }
             self.assign_widths(&left, &right);
             for (i, place) in self.placed.iter_mut().enumerate() {
                 fit_aspect(place, sizes)?;
                 place.x.set_ticks(Along::Width(place.frame.width), sizes.tick)?;
                 let beyond = place.x.overhang(place.frame.width, sizes.tick)?;
-                left[i] = left[i].max(beyond.0);
-                right[i] = right[i].max(beyond.1);
+                left[column(i)] = left[column(i)].max(beyond.0);
+                right[column(i)] = right[column(i)].max(beyond.1);
             }
         }
-        for (place, numbers) in self.placed.iter_mut().zip(numbers) {
-            place.numbers_left = place.frame.left - numbers;
+        for (i, place) in self.placed.iter_mut().enumerate() {
+            place.numbers_left = place.frame.left - numbers[column(i)];
         }
         Ok(())
     }
 
     fn assign_widths(&mut self, left: &[f64], right: &[f64]) {
-        let (body, gap) = (self.body, self.gap());
-        let gaps = gap * (self.placed.len() as f64 - 1.0);
-        let free = body.width - left.iter().sum::<f64>() - right.iter().sum::<f64>() - gaps;
+        let (body, gap, columns) = (self.body, GAP * self.sizes.tick, self.wide.len());
+        let free = body.width - sum(left) - sum(right) - gap * (columns as f64 - 1.0);
         let mut start = body.left;
-        for (i, place) in self.placed.iter_mut().enumerate() {
-            let width = if self.row { free * self.shares[i] } else { body.width - left[i] - right[i] };
-            (place.frame.left, place.frame.width) = ((start + left[i]).round(), width.floor());
-            (place.cell.left, place.cell.width) = (start, left[i] + width + right[i]);
-            if self.row {
-                start += place.cell.width + gap;
+        for column in 0..columns {
+            let width = free * self.wide[column];
+            for place in self.placed.iter_mut().skip(column).step_by(columns) {
+                (place.frame.left, place.frame.width) = ((start + left[column]).round(), width.floor());
+                (place.cell.left, place.cell.width) = (start, left[column] + width + right[column]);
             }
+            start += left[column] + width + right[column] + gap;
         }
     }
 
-    /// Legends above their frames, moved left where they are wider than that.
+    /// Headings and legends above their frames, legends moved left where they are wider than that.
     fn set_legends(&mut self) -> Result<(), PlotError> {
         for place in &mut self.placed {
             let (frame, cell) = (place.frame, place.cell);
             let end = cell.left + cell.width - place.legend.0.width(self.sizes.tick)?;
             let left = frame.left.min(end).max(self.body.left);
-            place.legend.1 = (left, frame.top - above(place, self.sizes));
+            let top = frame.top - above(place, self.sizes);
+            place.heading.1 = (frame.left, top);
+            place.legend.1 = (left, top + heading_height(place, self.sizes));
         }
         Ok(())
     }
+}
 
-    /// Width of the numbers and ticks left of each frame, px; one for all in a column, to align the labels.
-    fn numbers(&self) -> Result<Vec<f64>, PlotError> {
-        let (tick, mark) = (self.sizes.tick, self.sizes.mark);
-        let width = |place: &Placed<'_, '_>| Ok(mark + 0.4 * tick + place.y.label_width(tick)?);
-        let mut widths = self.placed.iter().map(width).collect::<Result<Vec<f64>, PlotError>>()?;
-        if !self.row {
-            level(&mut widths);
-        }
-        Ok(widths)
+/// Ticks of the y axis; for lanes the size of their names, which must fit in height and leave room in width.
+fn set_y_ticks(place: &mut Placed<'_, '_>, sizes: Sizes, width: f64) -> Result<(), PlotError> {
+    if place.panel.lanes.is_empty() {
+        return place.y.set_ticks(Along::Height(place.frame.height), sizes.tick);
     }
-
-    fn gap(&self) -> f64 {
-        GAP * self.sizes.tick
-    }
+    let lane = place.frame.height / place.panel.lanes.len() as f64;
+    let long = place.y.label_width(1.0)?.max(f64::MIN_POSITIVE);
+    let narrow = (LANE_NAMES * width / long).max(LEAST_LANE_NAME * sizes.tick);
+    place.y_em = sizes.tick.min(narrow).min(lane / LANE).max(0.0);
+    Ok(())
 }
 
 /// Shrinks the frame to its aspect, centred in its place.
@@ -192,12 +209,34 @@ fn fit_aspect(place: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), PlotError>
     frame.left += ((frame.width - width) / 2.0).round();
     frame.top += ((frame.height - height) / 2.0).round();
     (frame.width, frame.height) = (width, height);
-    place.y.set_ticks(Along::Height(height), sizes.tick)
+    set_y_ticks(place, sizes, place.cell.width)
+}
+
+/// Width of the numbers and ticks left of a frame, px.
+fn numbers(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
+    if !place.numbered.1 {
+        return Ok(sizes.mark);
+    }
+    Ok(sizes.mark + 0.4 * sizes.tick + place.y.label_width(place.y_em)?)
+}
+
+/// Width of the upright label, px.
+fn label_width(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
+    let bare = place.y.label.is_empty() && place.y.unit.is_empty();
+    if bare || !place.numbered.1 { 0.0 } else { LABEL_LINE * sizes.label }
+}
+
+/// Width of the notes right of a frame, px; a little where there are none.
+fn notes(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
+    place.panel.lanes.iter().try_fold(0.2 * sizes.tick, |most: f64, lane| {
+        let width = Label::plain(&lane.note).width(place.y_em)?;
+        Ok(most.max(if width > 0.0 { width + NOTE_GAP * sizes.tick } else { 0.0 }))
+    })
 }
 
 /// Height of what stands below a frame, px.
 fn below(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
-    if !place.numbered {
+    if !place.numbered.0 {
         // The ticks, or half a number of the y axis.
         return 0.4 * sizes.tick;
     }
@@ -205,14 +244,24 @@ fn below(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     sizes.mark + TICK_LINE * sizes.tick + if bare { 0.0 } else { LABEL_LINE * sizes.label }
 }
 
-/// Height of what stands above a frame, px: its own legend with a gap, or half a number of the y axis.
+/// Height of what stands above a frame, px: heading, legend and a gap, which half a number of the y axis may fill.
 fn above(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
-    let height = place.legend.0.height(sizes.tick);
-    if height > 0.0 { height + 0.4 * sizes.tick } else { 0.4 * sizes.tick }
+    heading_height(place, sizes) + place.legend.0.height(sizes.tick) + 0.4 * sizes.tick
 }
 
-/// Raises every value to the largest.
-fn level(values: &mut [f64]) {
-    let most = values.iter().copied().fold(0.0, f64::max);
-    values.fill(most);
+fn heading_height(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
+    place.heading.0.len() as f64 * HEADING_LINE * sizes.tick
+}
+
+/// The largest value of every group, 0 at the least.
+fn most(groups: usize, group: impl Fn(usize) -> usize, values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut most = vec![0.0_f64; groups];
+    for (i, value) in values.enumerate() {
+        most[group(i)] = most[group(i)].max(value);
+    }
+    most
+}
+
+fn sum(values: &[f64]) -> f64 {
+    values.iter().sum()
 }

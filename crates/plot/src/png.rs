@@ -1,71 +1,122 @@
 //! Figures as PNG, with what they come from in text chunks.
 
-use crate::figure::{Figure, PlotError};
 use crate::layout::Layout;
-use crate::paint::paint;
+use crate::mosaic::Image;
+use crate::paint::{mosaics, paint};
 use crate::raster::Raster;
-use std::io::Cursor;
+use crate::{Figure, PlotError};
+use png::text_metadata::{ITXtChunk, TEXtChunk, ZTXtChunk};
+use std::io::{Cursor, Write};
 
 /// Centimetres in print for the width of a figure, whatever its pixels.
 const PRINT_WIDTH_CM: f64 = 16.0;
+/// Texts longer than this, bytes, are compressed.
+const LONG_TEXT: usize = 1024;
+/// Most that a text may unpack to, bytes: a stranger's picture does not fill the memory.
+const MOST_TEXT: usize = 64 << 20;
 
 /// Draws a figure and encodes it. The title (unless the provenance has one) and the provenance become text chunks:
-/// `tEXt` where Latin-1 suffices, else `iTXt`. The same figure gives the same bytes.
+/// `tEXt` where Latin-1 suffices, else `iTXt`; beyond a kilobyte both are compressed (`zTXt`, `iTXt`). The same figure gives the same bytes.
 ///
 /// # Errors
 /// A figure that cannot be drawn, see [`PlotError`]; a provenance key that PNG does not allow.
 pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
     let layout = Layout::new(figure)?;
     let (width, height) = figure.size;
-    let mut raster = Raster::new(figure.size).ok_or(PlotError::Size { width, height })?;
+    let ground = figure.theme.background;
+    let mut raster = Raster::new(figure.size, ground).ok_or(PlotError::Size { width, height })?;
+    for (frame, image) in mosaics(&layout, &figure.theme, 1) {
+        raster.paste(&image, (frame.left as usize, frame.top as usize));
+    }
     paint(&mut raster, figure, &layout)?;
     encode(&raster.rgb(), figure)
 }
 
-/// The text chunks of a PNG, in order.
+/// The text chunks of a PNG, compressed or not: first what is Latin-1 as it stands, then what is compressed, then
+/// what is Unicode, each kind in its order.
 ///
 /// # Errors
-/// Bytes that are no PNG.
+/// Bytes that are no PNG; a text beyond 64 MiB.
 pub fn read_text(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
-    let failed = |e: png::DecodingError| PlotError::Png(e.to_string());
-    let reader = png::Decoder::new(Cursor::new(bytes)).read_info().map_err(failed)?;
+    let reader = png::Decoder::new(Cursor::new(bytes)).read_info()?;
     let info = reader.info();
-    let latin =
-        info.uncompressed_latin1_text.iter().map(|chunk| Ok((chunk.keyword.clone(), chunk.text.clone())));
-    let wide =
-        info.utf8_text.iter().map(|chunk| Ok((chunk.keyword.clone(), chunk.get_text().map_err(failed)?)));
-    latin.chain(wide).collect()
+    let mut texts: Vec<(String, String)> = Vec::new();
+    for chunk in &info.uncompressed_latin1_text {
+        texts.push((chunk.keyword.clone(), chunk.text.clone()));
+    }
+    for mut chunk in info.compressed_latin1_text.iter().cloned() {
+        chunk.decompress_text_with_limit(MOST_TEXT)?;
+        texts.push((chunk.keyword.clone(), chunk.get_text()?));
+    }
+    for mut chunk in info.utf8_text.iter().cloned() {
+        chunk.decompress_text_with_limit(MOST_TEXT)?;
+        texts.push((chunk.keyword.clone(), chunk.get_text()?));
+    }
+    Ok(texts)
 }
 
 fn encode(rgb: &[u8], figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
-    let failed = |e: png::EncodingError| PlotError::Png(e.to_string());
     let (width, height) = figure.size;
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.set_adaptive_filter(png::AdaptiveFilterType::Adaptive);
+    let mut encoder = encoder(&mut bytes, width, height);
     let per_metre = (f64::from(width) / (PRINT_WIDTH_CM / 100.0)).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions {
         xppu: per_metre,
         yppu: per_metre,
         unit: png::Unit::Meter,
     }));
+    let mut writer = encoder.write_header()?;
     for (key, text) in texts(figure) {
         check_key(&key)?;
         // NUL ends a chunk's text early.
-        let text = text.replace('\0', " ");
-        if text.chars().all(|c| u32::from(c) < 256) {
-            encoder.add_text_chunk(key, text).map_err(failed)?;
-        } else {
-            encoder.add_itxt_chunk(key, text).map_err(failed)?;
+        write_text(&mut writer, &key, &text.replace('\0', " "))?;
+    }
+    writer.write_image_data(rgb)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// An image as a PNG of its own.
+pub(crate) fn encoded(image: &Image) -> Result<Vec<u8>, PlotError> {
+    let size = |side: usize| u32::try_from(side).map_err(|e| PlotError::Png(e.to_string()));
+    let mut bytes = Vec::new();
+    let encoder = encoder(&mut bytes, size(image.width)?, size(image.height)?);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&image.rgb)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+fn encoder(bytes: &mut Vec<u8>, width: u32, height: u32) -> png::Encoder<'static, &mut Vec<u8>> {
+    let mut encoder = png::Encoder::new(bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_adaptive_filter(png::AdaptiveFilterType::Adaptive);
+    encoder
+}
+
+fn write_text<W: Write>(
+    writer: &mut png::Writer<W>,
+    key: &str,
+    text: &str,
+) -> Result<(), png::EncodingError> {
+    let is_latin = text.chars().all(|c| u32::from(c) < 256);
+    match (is_latin, text.len() > LONG_TEXT) {
+        (true, false) => writer.write_text_chunk(&TEXtChunk::new(key, text)),
+        (true, true) => {
+            let mut chunk = ZTXtChunk::new(key, text);
+            chunk.compress_text()?;
+            writer.write_text_chunk(&chunk)
+        }
+        (false, is_long) => {
+            let mut chunk = ITXtChunk::new(key, text);
+            if is_long {
+                chunk.compress_text()?;
+            }
+            writer.write_text_chunk(&chunk)
         }
     }
-    let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(rgb).map_err(failed)?;
-    writer.finish().map_err(failed)?;
-    Ok(bytes)
 }
 
 /// The figure's title and provenance.

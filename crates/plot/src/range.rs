@@ -1,6 +1,6 @@
 //! The range of values an axis has to show.
 
-use crate::figure::{Panel, Reference};
+use crate::panel::{Panel, Reference, is_drawable};
 
 /// Largest magnitude that is drawn: differences and squares of such values are still finite.
 pub(crate) const LARGEST: f64 = 1e150;
@@ -48,10 +48,26 @@ pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
         x.include(point.0);
         y.include(point.1);
     }
+    for (place, low, high) in panel.bands.iter().flat_map(|band| band.columns().flatten()) {
+        x.include(place);
+        y.include(low);
+        y.include(high);
+    }
+    if let Some(mosaic) = &panel.mosaic {
+        mosaic.column_edges().into_iter().for_each(|edge| x.include(edge));
+        mosaic.row_edges().into_iter().for_each(|edge| y.include(edge));
+    }
+    for mark in panel.lanes.iter().flat_map(|lane| &lane.marks) {
+        [mark.from, mark.to].into_iter().filter(|&end| is_drawable(end)).for_each(|end| x.include(end));
+    }
+    for (extent, axis) in [(&mut x, &panel.x), (&mut y, &panel.y)] {
+        let ends = axis.covers.map_or(Vec::new(), |(from, to)| vec![from, to]);
+        ends.into_iter().filter(|&end| is_drawable(end)).for_each(|end| extent.include(end));
+    }
     for reference in &panel.references {
         match *reference {
-            Reference::Horizontal { y: value, .. } if value.abs() <= LARGEST => y.include(value),
-            Reference::Vertical { x: value, .. } if value.abs() <= LARGEST => x.include(value),
+            Reference::Horizontal { y: value, .. } if is_drawable(value) => y.include(value),
+            Reference::Vertical { x: value, .. } if is_drawable(value) => x.include(value),
             _ => {}
         }
     }

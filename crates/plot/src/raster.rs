@@ -3,8 +3,10 @@
 //! Plotters' own bitmap smooths lines of 1 px only, leaves a curve hollow where it runs over itself, and sets
 //! glyphs without their left bearing.
 
+use crate::canvas::{BASELINE, FONT_SIZE, UNITS};
 use crate::font;
-use crate::paint::{BASELINE, FONT_SIZE, UNITS};
+use crate::mosaic::Image;
+use crate::theme::Colour;
 use plotters_backend::text_anchor::HPos;
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
@@ -12,7 +14,8 @@ use plotters_backend::{
 };
 use thiserror::Error;
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform,
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Stroke,
+    Transform,
 };
 
 /// A picture in the making.
@@ -37,14 +40,28 @@ type Drawn = Result<(), DrawingErrorKind<RasterError>>;
 const PIECE: usize = 1000;
 
 impl Raster {
-    /// A transparent picture; none for a size of zero or beyond memory.
-    pub(crate) fn new((width, height): (u32, u32)) -> Option<Self> {
-        Pixmap::new(width, height).map(|pixmap| Self { pixmap })
+    /// A picture of one colour; none for a size of zero or beyond memory.
+    pub(crate) fn new((width, height): (u32, u32), Colour(r, g, b): Colour) -> Option<Self> {
+        let mut pixmap = Pixmap::new(width, height)?;
+        pixmap.fill(Color::from_rgba8(r, g, b, 255));
+        Some(Self { pixmap })
     }
 
     /// Red, green, blue of every pixel, row by row.
     pub(crate) fn rgb(&self) -> Vec<u8> {
         self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
+    }
+
+    /// Puts an opaque image in place of what is there; what reaches beyond the picture is left out.
+    pub(crate) fn paste(&mut self, image: &Image, (left, top): (usize, usize)) {
+        let width = self.pixmap.width() as usize;
+        let opaque = |c: &[u8]| PremultipliedColorU8::from_rgba(c[0], c[1], c[2], 255);
+        let rows = self.pixmap.pixels_mut().chunks_exact_mut(width).skip(top);
+        for (pixels, row) in rows.zip(image.rgb.chunks_exact(3 * image.width.max(1))) {
+            for (pixel, colour) in pixels.iter_mut().skip(left).zip(row.chunks_exact(3)) {
+                *pixel = opaque(colour).unwrap_or(*pixel);
+            }
+        }
     }
 
     fn fill_path(&mut self, path: &Path, colour: BackendColor, transform: Transform) {
@@ -85,11 +102,8 @@ impl DrawingBackend for Raster {
         if !fill {
             return self.draw_path([from, (to.0, from.1), to, (from.0, to.1), from], style);
         }
-        let ((left, top), (right, bottom)) = (pixels(from), pixels(to));
-        if let Some(rect) = Rect::from_ltrb(left, top, right, bottom) {
-            self.pixmap.fill_rect(rect, &paint(style.color()), Transform::identity(), None);
-        }
-        Ok(())
+        // Not tiny-skia's rectangle, which may not be thinner than a pixel.
+        self.fill_polygon([from, (to.0, from.1), to, (from.0, to.1)], style)
     }
 
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(

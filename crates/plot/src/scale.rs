@@ -1,6 +1,6 @@
 //! What an axis shows: prefix, offset, ticks.
 
-use crate::figure::Axis;
+use crate::panel::Axis;
 use crate::{Label, PlotError};
 use stickslip_analysis::prefix::{Prefix, takes_prefix};
 
@@ -55,6 +55,14 @@ impl Scale {
         let unit = unit_text(&label, &less, &multiple.unit);
         let shown = Some((multiple.apply(low), multiple.apply(high)));
         Self { offset, low, high, shown, ticks: Vec::new(), label, unit }
+    }
+
+    /// The scale of lanes from the top down, named instead of numbered; lane i of n lies between 1 - i/n and
+    /// 1 - (i + 1)/n.
+    pub(crate) fn of_lanes<'n>(names: impl ExactSizeIterator<Item = &'n str>) -> Self {
+        let count = names.len() as f64;
+        let tick = |(i, name): (usize, &str)| (1.0 - (i as f64 + 0.5) / count, name.to_owned());
+        Self { ticks: names.enumerate().map(tick).collect(), ..Self::new(&Axis::default(), None) }
     }
 
     /// Gives the axis as many ticks as fit at a size of `em` px.

@@ -1,13 +1,22 @@
 //! Figures as SVG.
 
-use crate::figure::{Figure, PlotError};
-use crate::layout::Layout;
-use crate::paint::{UNITS, paint};
-use crate::png::texts;
+use crate::canvas::UNITS;
+use crate::layout::{Area, Layout};
+use crate::mosaic::Image;
+use crate::paint::{mosaics, paint};
+use crate::png::{encoded, texts};
+use crate::theme::Colour;
+use crate::{Figure, PlotError};
+use data_encoding::BASE64;
 use plotters::backend::SVGBackend;
+use std::fmt::Write as _;
+
+/// Pixels of an embedded picture per pixel of the figure.
+const DENSITY: usize = 2;
 
 /// Draws a figure as an SVG document; title and provenance become its `<title>` and `<desc>`. Texts stay texts, in
-/// `DejaVu` Sans or what the viewer has instead.
+/// `DejaVu` Sans or what the viewer has instead. Mosaics are embedded pictures of twice the figure's pixels: as
+/// rectangles they would swell the file and show seams.
 ///
 /// # Errors
 /// A figure that cannot be drawn, see [`PlotError`].
@@ -23,12 +32,29 @@ pub fn draw_svg(figure: &Figure<'_>) -> Result<String, PlotError> {
     let body = drawing.split_once('>').map(|(_, body)| body);
     let body = body.ok_or_else(|| PlotError::Draw("plotters wrote no SVG".to_owned()))?;
     let (wide, high) = (width * UNITS, height * UNITS);
+    let Colour(r, g, b) = figure.theme.background;
+    let mut ground = format!("<rect width=\"{wide}\" height=\"{high}\" fill=\"#{r:02X}{g:02X}{b:02X}\"/>\n");
+    for (frame, image) in mosaics(&layout, &figure.theme, DENSITY) {
+        ground += &embedded(frame, &image)?;
+    }
     Ok(format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" \
-         stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n<desc>{}</desc>{body}",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" \
+         stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n<desc>{}</desc>\n{ground}{body}",
         escaped(&figure.title.text()),
         texts(figure).iter().map(|(key, text)| escaped(&format!("{key}: {text}\n"))).collect::<String>(),
     ))
+}
+
+/// An image over a frame; `xlink:href` is what older viewers know.
+fn embedded(frame: Area, image: &Image) -> Result<String, PlotError> {
+    let Area { left, top, width, height } = frame;
+    let [x, y, w, h] = [left, top, width, height].map(|way| (way * f64::from(UNITS)).round());
+    let mut tag =
+        format!("<image x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" preserveAspectRatio=\"none\" ");
+    let data = BASE64.encode(&encoded(image)?);
+    writeln!(tag, "xlink:href=\"data:image/png;base64,{data}\"/>")
+        .map_err(|e| PlotError::Draw(e.to_string()))?;
+    Ok(tag)
 }
 
 /// Text between tags; characters that XML does not allow become blanks.

@@ -9,6 +9,12 @@ pub struct Colour(pub u8, pub u8, pub u8);
 pub enum Ink {
     /// The colour at this place of the theme's palette, counted round; its line style comes with it.
     Palette(usize),
+    /// The palette's colour at this place washed out, for what came before or stands behind; drawn solid.
+    Pale(usize),
+    /// One of the theme's shades at this place, counted round, for areas.
+    Shade(usize),
+    /// The theme's ink for texts.
+    Foreground,
     /// The theme's muted ink, for what stands behind.
     Muted,
     /// A colour of one's own.
@@ -56,6 +62,9 @@ pub struct Theme {
     pub grid: Colour,
     /// Colours of the curves, told apart by the colour-blind too.
     pub palette: Vec<Colour>,
+    /// Colours of areas side by side, from next to nothing to what stands out; told apart by the colour-blind and,
+    /// by their lightness, in a grey print.
+    pub shades: [Colour; 4],
     /// Size of the title, px per em.
     pub title: f64,
     /// Size of axis labels, px per em.
@@ -79,6 +88,27 @@ const OKABE_ITO: [Colour; 6] = [
     Colour(0x56, 0xB4, 0xE9),
 ];
 
+/// The same hues for a dark background, where the blue would drown and the yellow serves.
+const DARK: [Colour; 6] = [
+    Colour(0x56, 0xB4, 0xE9),
+    Colour(0xE6, 0x9F, 0x00),
+    Colour(0x1F, 0xC1, 0x95),
+    Colour(0xE0, 0x9A, 0xC4),
+    Colour(0xF0, 0xE4, 0x42),
+    Colour(0xF0, 0x7B, 0x3F),
+];
+
+/// How far a pale ink has gone towards the background.
+const PALE: f64 = 0.68;
+
+impl Colour {
+    /// The colour a share of the way to another.
+    fn towards(self, other: Self, share: f64) -> Self {
+        let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
+        Self(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
+    }
+}
+
 impl Theme {
     /// Dark on white, for paper.
     pub fn light() -> Self {
@@ -88,6 +118,12 @@ impl Theme {
             muted: Colour(0x77, 0x77, 0x77),
             grid: Colour(0xE4, 0xE4, 0xE4),
             palette: OKABE_ITO.to_vec(),
+            shades: [
+                Colour(0xF7, 0xF7, 0xF7),
+                Colour(0xC6, 0xCD, 0xD6),
+                Colour(0xE6, 0x82, 0x0A),
+                Colour(0x1B, 0x4B, 0x8C),
+            ],
             title: 36.0,
             label: 32.0,
             tick: 30.0,
@@ -95,17 +131,49 @@ impl Theme {
         }
     }
 
+    /// Light on near-black, for screens and slides.
+    pub fn dark() -> Self {
+        Self {
+            background: Colour(0x14, 0x17, 0x1C),
+            foreground: Colour(0xE8, 0xE8, 0xE8),
+            muted: Colour(0x96, 0x9B, 0xA3),
+            grid: Colour(0x2E, 0x33, 0x3B),
+            palette: DARK.to_vec(),
+            shades: [
+                Colour(0x1C, 0x20, 0x27),
+                Colour(0x48, 0x50, 0x5C),
+                Colour(0xF5, 0xB0, 0x41),
+                Colour(0x3D, 0x8F, 0xD9),
+            ],
+            ..Self::light()
+        }
+    }
+
+    /// The colour of an ink.
+    pub(crate) fn colour(&self, ink: Ink) -> Colour {
+        let palette = |place: usize| match self.palette.len() {
+            0 => self.foreground,
+            count => self.palette[place % count],
+        };
+        match ink {
+            Ink::Palette(place) => palette(place),
+            Ink::Pale(place) => palette(place).towards(self.background, PALE),
+            Ink::Shade(place) => self.shades[place % self.shades.len()],
+            Ink::Foreground => self.foreground,
+            Ink::Muted => self.muted,
+            Ink::Colour(colour) => colour,
+        }
+    }
+
     /// Colour, dashes and width (px before scaling) of the curve at a place of its panel.
     pub(crate) fn stroke(&self, style: Style, place: usize) -> Stroke {
         let ink = style.ink.unwrap_or(Ink::Palette(place));
-        let (colour, dash) = match ink {
-            Ink::Palette(place) if self.palette.is_empty() => (self.foreground, DASHES[place % DASHES.len()]),
-            Ink::Palette(place) => (self.palette[place % self.palette.len()], DASHES[place % DASHES.len()]),
-            Ink::Muted => (self.muted, Dash::Solid),
-            Ink::Colour(colour) => (colour, Dash::Solid),
+        let dash = match ink {
+            Ink::Palette(place) => DASHES[place % DASHES.len()],
+            _ => Dash::Solid,
         };
         let width = if style.width.is_finite() { style.width.clamp(0.1, 10.0) } else { 1.0 };
-        Stroke { colour, dash: style.dash.unwrap_or(dash), width: self.line * width }
+        Stroke { colour: self.colour(ink), dash: style.dash.unwrap_or(dash), width: self.line * width }
     }
 
     /// The stroke of reference lines.

@@ -1,7 +1,8 @@
 //! Trajectories: the motion of a drive over time.
 
 use crate::Label;
-use crate::figure::{Arrangement, Axis, Figure, Panel, Reference, Series};
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Panel, Reference, Series};
 use crate::theme::{Ink, Style};
 
 /// A named position or displacement over the trajectory's time.

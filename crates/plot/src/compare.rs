@@ -1,0 +1,65 @@
+//! Two runs over each other.
+
+use crate::Label;
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Panel, Reference, Series};
+use crate::theme::{Dash, Ink, Style};
+
+/// A channel of two runs; every curve is a pair of times (s) and values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComparedChannel<'a> {
+    /// Name of the channel.
+    pub name: &'a str,
+    /// Unit of its values.
+    pub unit: &'a str,
+    /// The first run.
+    pub a: (&'a [f64], &'a [f64]),
+    /// The second run.
+    pub b: (&'a [f64], &'a [f64]),
+    /// The second less the first, where both are known.
+    pub difference: (&'a [f64], &'a [f64]),
+}
+
+/// Two panels per channel: both runs, the second dashed over the first, and below them their difference.
+pub fn compare_figure<'a>(title: &str, names: (&str, &str), channels: &[ComparedChannel<'a>]) -> Figure<'a> {
+    let mut panels: Vec<Panel<'a>> = channels.iter().flat_map(|channel| pair(names, channel)).collect();
+    if panels.is_empty() {
+        panels.push(Panel { absence: Label::plain("no channels to compare"), ..Panel::default() });
+    }
+    let height = 260 + 480 * channels.len() as u32;
+    Figure {
+        title: Label::plain(title),
+        panels,
+        arrangement: Arrangement::Column { share_x: true },
+        size: (Figure::DEFAULT_SIZE.0, height.clamp(800, Figure::MOST)),
+        ..Figure::default()
+    }
+}
+
+fn pair<'a>((a, b): (&str, &str), channel: &ComparedChannel<'a>) -> [Panel<'a>; 2] {
+    let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
+    let curve = |name: &str, (xs, ys): (&'a [f64], &'a [f64]), ink, dash| Series {
+        style: Style { ink: Some(ink), dash: Some(dash), width: 1.0 },
+        ..Series::new(name, xs, ys)
+    };
+    let both = Panel {
+        x: time.clone(),
+        y: Axis::new(Label::plain(channel.name), channel.unit),
+        series: vec![
+            curve(a, channel.a, Ink::Palette(0), Dash::Solid),
+            curve(b, channel.b, Ink::Palette(1), Dash::Dashed),
+        ],
+        share: 1.6,
+        ..Panel::default()
+    };
+    let difference = Panel {
+        x: time,
+        y: Axis::new(Label::plain("difference"), channel.unit),
+        series: vec![curve("", channel.difference, Ink::Foreground, Dash::Solid)],
+        references: vec![Reference::Horizontal { y: 0.0, label: Label::default() }],
+        absence: Label::plain("no common times"),
+        share: 1.0,
+        ..Panel::default()
+    };
+    [both, difference]
+}

@@ -1,0 +1,108 @@
+//! What a panel shows inside its frame.
+
+use crate::PlotError;
+use crate::canvas::Anchor;
+use crate::label::Label;
+use crate::layout::{Area, Placed};
+use crate::paint::{DOT, Painter};
+use crate::panel::{Band, Lane, Reference, Series, is_drawable};
+use crate::theme::{Dash, Stroke};
+use crate::thin::{Point, length, thinned, without_repeats, without_retraced};
+use plotters_backend::DrawingBackend;
+
+/// A curve longer than this many times the frame's sides fills areas, where dashes only cost time.
+const FILLS: f64 = 40.0;
+/// Least width of a mark in a lane, px of a figure 1600 px wide.
+const MARK: f64 = 2.4;
+/// Free above and below the marks, as a share of the lane.
+const LANE_GAP: f64 = 0.12;
+
+impl<B: DrawingBackend> Painter<'_, B> {
+    /// Everything over the mosaic, in the order in which [`crate::Panel`] names it.
+    pub(crate) fn content(&mut self, place: &Placed<'_, '_>) -> Result<(), PlotError> {
+        let panel = place.panel;
+        if place.empty {
+            let frame = place.frame;
+            let at = (frame.left + frame.width / 2.0, frame.top + frame.height / 2.0);
+            let words =
+                if panel.absence.is_empty() { Label::plain("no data") } else { panel.absence.clone() };
+            return self.canvas.text(&words, self.sizes.label, at, Anchor::Centre);
+        }
+        panel.bands.iter().try_for_each(|band| self.band(place, band))?;
+        panel.references.iter().try_for_each(|reference| self.reference(place, reference))?;
+        panel.series.iter().enumerate().try_for_each(|(i, series)| self.series(place, series, i))?;
+        panel.lanes.iter().enumerate().try_for_each(|(i, lane)| self.lane(place, lane, i))
+    }
+
+    fn band(&mut self, place: &Placed<'_, '_>, band: &Band<'_>) -> Result<(), PlotError> {
+        let low = thinned(band.columns().map(|column| column.map(|(x, low, _)| place.pixel((x, low)))));
+        let high = thinned(band.columns().map(|column| column.map(|(x, _, high)| place.pixel((x, high)))));
+        let colour = self.theme.colour(band.ink);
+        // Both edges have their gaps at the same places.
+        for (low, mut edge) in low.iter().zip(high) {
+            edge.extend(low.iter().rev());
+            self.canvas.polygon(&edge, colour)?;
+        }
+        Ok(())
+    }
+
+    fn reference(&mut self, place: &Placed<'_, '_>, reference: &Reference) -> Result<(), PlotError> {
+        let (frame, stroke) = (place.frame, self.theme.reference());
+        match *reference {
+            Reference::Horizontal { y, .. } if is_drawable(y) => {
+                let y = frame.top + frame.height * (1.0 - place.y.place(y));
+                self.canvas.line(&[(frame.left, y), (frame.left + frame.width, y)], stroke)
+            }
+            Reference::Vertical { x, .. } if is_drawable(x) => {
+                let x = frame.left + frame.width * place.x.place(x);
+                self.canvas.line(&[(x, frame.top), (x, frame.top + frame.height)], stroke)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn series(&mut self, place: &Placed<'_, '_>, series: &Series<'_>, i: usize) -> Result<(), PlotError> {
+        let mut stroke = self.theme.stroke(series.style, i);
+        let lines = thinned(series.points().map(|point| point.map(|point| place.pixel(point))));
+        if length(&lines) > FILLS * (place.frame.width + place.frame.height) {
+            stroke.dash = Dash::Solid;
+        }
+        let lines =
+            if stroke.dash == Dash::Solid { without_repeats(lines) } else { without_retraced(&lines) };
+        for line in &lines {
+            match line[..] {
+                [only] => self.canvas.disc(only, DOT * stroke.width, stroke.colour)?,
+                _ => self.canvas.line(line, stroke)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn lane(&mut self, place: &Placed<'_, '_>, lane: &Lane, i: usize) -> Result<(), PlotError> {
+        let frame = place.frame;
+        let height = frame.height / place.panel.lanes.len() as f64;
+        let bottom = frame.top + height * (i as f64 + 1.0);
+        if i + 1 < place.panel.lanes.len() {
+            let grid = Stroke { colour: self.theme.grid, dash: Dash::Solid, width: 1.5 };
+            self.canvas.line(&[(frame.left, bottom), (frame.left + frame.width, bottom)], grid)?;
+        }
+        let (base, full) = (bottom - LANE_GAP * height, (1.0 - 2.0 * LANE_GAP) * height);
+        let colour = self.theme.colour(lane.ink);
+        for mark in lane.marks.iter().filter(|mark| is_drawable(mark.from) && is_drawable(mark.to)) {
+            let ends = [mark.from, mark.to].map(|end| frame.left + frame.width * place.x.place(end));
+            let width = (ends[1] - ends[0]).max(MARK * self.sizes.scale);
+            let tall = full * mark.height.clamp(0.0, 1.0);
+            let left = (ends[0] + ends[1] - width) / 2.0;
+            self.canvas.fill(Area { left, top: base - tall, width, height: tall }, colour)?;
+        }
+        Ok(())
+    }
+}
+
+impl Placed<'_, '_> {
+    /// The place of a point in the picture.
+    fn pixel(&self, (x, y): Point) -> Point {
+        let frame = self.frame;
+        (frame.left + frame.width * self.x.place(x), frame.top + frame.height * (1.0 - self.y.place(y)))
+    }
+}

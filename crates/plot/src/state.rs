@@ -1,0 +1,66 @@
+//! States of springs over time: where a contact sticks, slips and is open.
+
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Mosaic, Panel};
+use crate::{Ink, Label};
+
+/// State of a spring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum SpringCondition {
+    /// Out of contact.
+    Open,
+    /// Held by friction.
+    Stick,
+    /// Slipping, dragged towards larger displacements.
+    SlipForward,
+    /// Slipping, dragged towards smaller displacements.
+    SlipBackward,
+}
+
+/// The springs of a contact over time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpringMap<'a> {
+    /// Name of the contact.
+    pub name: &'a str,
+    /// Moments, s, ascending.
+    pub time: &'a [f64],
+    /// Places of the springs, m, ascending.
+    pub x: &'a [f64],
+    /// States, moment by moment: as many as moments times springs.
+    pub conditions: &'a [SpringCondition],
+}
+
+/// One panel per contact: time to the right, the row of springs upwards, states in colours of their own. A state is
+/// shown from half way since the moment before to half way to the moment after.
+pub fn state_figure<'a>(title: &str, maps: &[SpringMap<'a>]) -> Figure<'a> {
+    let mut panels: Vec<Panel<'a>> = maps.iter().map(|map| panel(map, maps.len() > 1)).collect();
+    if panels.is_empty() {
+        panels.push(Panel { absence: Label::plain("no springs recorded"), ..Panel::default() });
+    }
+    let height = 340 + 560 * panels.len().clamp(1, 2) as u32 + 360 * panels.len().saturating_sub(2) as u32;
+    Figure {
+        title: Label::plain(title),
+        size: (Figure::DEFAULT_SIZE.0, height.min(Figure::MOST)),
+        panels,
+        arrangement: Arrangement::Column { share_x: true },
+        ..Figure::default()
+    }
+}
+
+fn panel<'a>(map: &SpringMap<'a>, is_named: bool) -> Panel<'a> {
+    let classes = ["open", "stick", "slip +", "slip −"].into_iter().enumerate();
+    let mosaic = Mosaic {
+        xs: map.time.into(),
+        ys: map.x.into(),
+        cells: map.conditions.iter().map(|condition| *condition as u8).collect::<Vec<u8>>().into(),
+        classes: classes.map(|(shade, name)| (Label::plain(name), Ink::Shade(shade))).collect(),
+    };
+    Panel {
+        heading: if is_named { Label::plain(map.name) } else { Label::default() },
+        x: Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") },
+        y: Axis { tight: true, ..Axis::new(Label::plain("spring at x"), "m") },
+        mosaic: Some(mosaic),
+        absence: Label::plain("no springs recorded"),
+        ..Panel::default()
+    }
+}
