@@ -20,20 +20,20 @@ pub struct ComparedChannel<'a> {
     pub difference: (&'a [f64], &'a [f64]),
 }
 
-/// Two panels per channel: both runs, the second dashed over the first, and below them their difference.
+/// Two panels per channel: both runs (A, and B dashed over it) and below them the difference B − A.
 pub fn compare_figure<'a>(title: &str, names: (&str, &str), channels: &[ComparedChannel<'a>]) -> Figure<'a> {
-    let mut panels: Vec<Panel<'a>> = channels.iter().flat_map(|channel| pair(names, channel)).collect();
-    if panels.is_empty() {
-        panels.push(Panel { absence: Label::plain("no channels to compare"), ..Panel::default() });
+    if channels.is_empty() {
+        return Figure::without_data(title, "no channels to compare");
     }
-    let height = 260 + 480 * channels.len() as u32;
+    let panels: Vec<Panel<'a>> = channels.iter().flat_map(|channel| pair(names, channel)).collect();
     Figure {
         title: Label::plain(title),
         panels,
         arrangement: Arrangement::Column { share_x: true },
-        size: (Figure::DEFAULT_SIZE.0, height.clamp(800, Figure::MOST)),
+        size: Figure::size_for(240, 540, channels.len()),
         ..Figure::default()
     }
+    .with_room_for_legends()
 }
 
 fn pair<'a>((a, b): (&str, &str), channel: &ComparedChannel<'a>) -> [Panel<'a>; 2] {
@@ -43,18 +43,20 @@ fn pair<'a>((a, b): (&str, &str), channel: &ComparedChannel<'a>) -> [Panel<'a>; 
         ..Series::new(name, xs, ys)
     };
     let both = Panel {
+        heading: Label::plain(channel.name),
         x: time.clone(),
-        y: Axis::new(Label::plain(channel.name), channel.unit),
+        y: Axis::new(Label::default(), channel.unit),
         series: vec![
-            curve(a, channel.a, Ink::Palette(0), Dash::Solid),
-            curve(b, channel.b, Ink::Palette(1), Dash::Dashed),
+            curve(&format!("A: {a}"), channel.a, Ink::Palette(0), Dash::Solid),
+            curve(&format!("B: {b}"), channel.b, Ink::Palette(1), Dash::Dashed),
         ],
         share: 1.6,
         ..Panel::default()
     };
     let difference = Panel {
+        heading: Label::plain(&format!("{}, B − A", channel.name)),
         x: time,
-        y: Axis::new(Label::plain("difference"), channel.unit),
+        y: Axis::new(Label::default(), channel.unit),
         series: vec![curve("", channel.difference, Ink::Foreground, Dash::Solid)],
         references: vec![Reference::Horizontal { y: 0.0, label: Label::default() }],
         absence: Label::plain("no common times"),

@@ -5,7 +5,7 @@ use crate::canvas::Anchor;
 use crate::label::Label;
 use crate::layout::{Area, Placed};
 use crate::paint::{DOT, Painter};
-use crate::panel::{Band, Lane, Reference, Series, is_drawable};
+use crate::panel::{Band, Lane, Mark, Reference, Series, is_drawable};
 use crate::theme::{Dash, Stroke};
 use crate::thin::{Point, length, thinned, without_repeats, without_retraced};
 use plotters_backend::DrawingBackend;
@@ -88,12 +88,23 @@ impl<B: DrawingBackend> Painter<'_, B> {
         }
         let (base, full) = (bottom - LANE_GAP * height, (1.0 - 2.0 * LANE_GAP) * height);
         let colour = self.theme.colour(lane.ink);
-        for mark in lane.marks.iter().filter(|mark| is_drawable(mark.from) && is_drawable(mark.to)) {
-            let ends = [mark.from, mark.to].map(|end| frame.left + frame.width * place.x.place(end));
-            let width = (ends[1] - ends[0]).max(MARK * self.sizes.scale);
-            let tall = full * mark.height.clamp(0.0, 1.0);
-            let left = (ends[0] + ends[1] - width) / 2.0;
-            self.canvas.fill(Area { left, top: base - tall, width, height: tall }, colour)?;
+        let marks = lane.marks.iter().filter(|mark| is_drawable(mark.from) && is_drawable(mark.to));
+        let marks: Vec<Mark> = marks.copied().collect();
+        let pixel = |x: f64| frame.left + frame.width * place.x.place(x);
+        let top = |mark: &Mark| base - full * mark.height.clamp(0.0, 1.0);
+        // Marks that touch are one area: side by side they would show seams.
+        for run in marks.chunk_by(|a, b| a.to == b.from) {
+            let (left, right) = (pixel(run[0].from), pixel(run[run.len() - 1].to));
+            let width = MARK * self.sizes.scale;
+            if right - left < width {
+                let (left, top) = ((left + right - width) / 2.0, run.iter().map(top).fold(base, f64::min));
+                self.canvas.fill(Area { left, top, width, height: base - top }, colour)?;
+                continue;
+            }
+            let steps = run.iter().flat_map(|mark| [mark.from, mark.to].map(|end| (pixel(end), top(mark))));
+            let outline: Vec<Point> =
+                std::iter::once((left, base)).chain(steps).chain([(right, base)]).collect();
+            self.canvas.polygon(&outline, colour)?;
         }
         Ok(())
     }

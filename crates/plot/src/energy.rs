@@ -31,27 +31,30 @@ pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
     let axis = |label: &str| Axis::new(Label::plain(label), "J");
     let lost: Vec<f64> =
         book.friction.iter().zip(book.damping).map(|(friction, damping)| friction + damping).collect();
-    let line = |name: &str, values: Vec<f64>, ink, dash| Series {
-        style: Style { ink: Some(ink), dash: Some(dash), width: 1.0 },
+    let line = |name: &str, values: Vec<f64>, ink, width| Series {
+        style: Style { ink: Some(ink), dash: Some(Dash::Solid), width },
         ..Series::new(name, book.time, values)
     };
+    let mut stores = vec![
+        line("elastic", since_start(book.elastic), Ink::Palette(0), 1.0),
+        line("kinetic", since_start(book.kinetic), Ink::Palette(1), 1.0),
+    ];
+    // The larger behind the smaller.
+    stores.sort_by(|a, b| f64::total_cmp(&largest(&b.ys), &largest(&a.ys)));
     let zero = Reference::Horizontal { y: 0.0, label: Label::default() };
     let panels = vec![
         Panel {
             x: time.clone(),
             y: axis("energy"),
             bands: areas(book, &lost),
-            series: vec![line("input", book.input.to_vec(), Ink::Foreground, Dash::Solid)],
+            series: vec![line("input", book.input.to_vec(), Ink::Foreground, 0.6)],
             share: 2.2,
             ..Panel::default()
         },
         Panel {
             x: time.clone(),
             y: axis("stored"),
-            series: vec![
-                line("elastic", since_start(book.elastic), Ink::Palette(0), Dash::Solid),
-                line("kinetic", since_start(book.kinetic), Ink::Palette(1), Dash::Solid),
-            ],
+            series: stores,
             references: vec![zero.clone()],
             share: 1.2,
             ..Panel::default()
@@ -59,7 +62,7 @@ pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
         Panel {
             x: time,
             y: axis("error"),
-            series: vec![line("", book.error.to_vec(), Ink::Foreground, Dash::Solid)],
+            series: vec![line("", book.error.to_vec(), Ink::Foreground, 0.6)],
             references: vec![zero],
             share: 0.7,
             ..Panel::default()
@@ -69,7 +72,7 @@ pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
         title: Label::plain(title),
         panels,
         arrangement: Arrangement::Column { share_x: true },
-        size: (Figure::DEFAULT_SIZE.0, 1300),
+        size: Figure::size_for(1300, 0, 0),
         ..Figure::default()
     }
 }
@@ -86,12 +89,18 @@ fn areas<'a>(book: &EnergyBook<'a>, lost: &[f64]) -> Vec<Band<'a>> {
     let stored = since_start(book.kinetic).into_iter().zip(since_start(book.elastic)).map(|(k, e)| k + e);
     let all = stored.zip(lost).map(|(stored, lost)| stored + lost).collect();
     let zeros = vec![0.0; book.friction.len()];
-    let mut bands = vec![band("stored since the start", lost.to_vec(), all, Ink::Shade(1))];
+    let mut bands = vec![band("friction", zeros, book.friction.to_vec(), Ink::Shade(1))];
     if book.damping.iter().any(|damping| *damping != 0.0) {
         bands.push(band("damping", book.friction.to_vec(), lost.to_vec(), Ink::Shade(3)));
     }
-    bands.push(band("friction", zeros, book.friction.to_vec(), Ink::Shade(2)));
+    // Over the others: what was stored at the start and is used up reaches down into them.
+    bands.push(band("stored since the start", lost.to_vec(), all, Ink::Shade(2)));
     bands
+}
+
+/// Largest finite magnitude.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().map(|value| value.abs()).filter(|value| value.is_finite()).fold(0.0, f64::max)
 }
 
 fn since_start(values: &[f64]) -> Vec<f64> {

@@ -1,7 +1,8 @@
 //! Events over time.
 
 use crate::figure::Figure;
-use crate::panel::{Axis, Lane, Mark, Panel, is_drawable};
+use crate::panel::{Axis, Lane, Mark, Panel};
+use crate::scale::quantity;
 use crate::{Ink, Label};
 
 /// The events of one kind from one source.
@@ -15,49 +16,129 @@ pub struct EventTrack<'a> {
     pub times: Vec<f64>,
 }
 
-/// Moments closer than this share of the span are drawn as one mark.
-const BIN: f64 = 1.0 / 400.0;
-/// Height of a mark that stands for a single event where others stand for many.
-const SINGLE: f64 = 0.3;
+/// Bins of the span in which events are counted.
+const BINS: usize = 400;
+/// A lane with more events than this in a bin shows their density; marks would run into each other.
+const MOST_MARKS: usize = 4;
+/// Least height of a bin that is not empty, as a share of the fullest.
+const LEAST: f64 = 0.12;
 
 /// One lane per track, in their order, over a span of time (s); right of it the number of its events. Where events
-/// lie closer than their marks, a mark is the taller the more it stands for.
+/// lie closer than can be told apart, the lane shows how many there are per time, full height for the rate that
+/// stands beside the number.
 pub fn events_figure<'a>(title: &str, span: (f64, f64), tracks: &[EventTrack<'a>]) -> Figure<'a> {
     let mut sources: Vec<&str> = tracks.iter().map(|track| track.source).collect();
     sources.dedup();
-    let lane = |track: &EventTrack<'a>| Lane {
-        label: format!("{}: {}", track.source, track.kind),
-        note: track.times.len().to_string(),
-        marks: marks(&track.times, span),
-        ink: Ink::Palette(sources.iter().position(|source| *source == track.source).unwrap_or(0)),
+    let lane = |track: &EventTrack<'a>| {
+        let ink = Ink::Palette(sources.iter().position(|source| *source == track.source).unwrap_or(0));
+        lane(track, span, ink)
     };
+    if tracks.is_empty() {
+        return Figure::without_data(title, "no events");
+    }
     let panel = Panel {
         x: Axis { tight: true, covers: Some(span), ..Axis::new(Label::plain("time t"), "s") },
         lanes: tracks.iter().map(lane).collect(),
-        absence: Label::plain("no events"),
         ..Panel::default()
     };
     Figure {
         title: Label::plain(title),
-        size: (Figure::DEFAULT_SIZE.0, (240 + 70 * tracks.len() as u32).clamp(500, Figure::MOST)),
+        size: Figure::size_for(200, 75, tracks.len().max(3)),
         panels: vec![panel],
         ..Figure::default()
     }
 }
 
-/// Marks of moments inside a span, one for all that share a bin.
-fn marks(times: &[f64], (from, to): (f64, f64)) -> Vec<Mark> {
-    let mut times: Vec<f64> =
-        times.iter().copied().filter(|t| is_drawable(*t) && (from..=to).contains(t)).collect();
+fn lane(track: &EventTrack<'_>, (from, to): (f64, f64), ink: Ink) -> Lane {
+    let label = format!("{}: {}", track.source, track.kind);
+    let mut times: Vec<f64> = track.times.iter().copied().filter(|t| (from..=to).contains(t)).collect();
     times.sort_by(f64::total_cmp);
-    let width = BIN * (to - from);
-    let bin = |t: f64| ((t - from) / width).floor();
-    let bins: Vec<&[f64]> = times.chunk_by(|a, b| bin(*a) == bin(*b)).collect();
-    let most = bins.iter().map(|bin| bin.len()).max().unwrap_or(1);
-    let mark = |bin: &&[f64]| {
-        let share = (bin.len() - 1) as f64 / (most.max(2) - 1) as f64;
-        let height = if most == 1 { 1.0 } else { SINGLE + (1.0 - SINGLE) * share };
-        Mark { from: bin[0], to: bin[bin.len() - 1], height }
+    let width = (to - from) / BINS as f64;
+    let is_sparse = counts(&times, from, width).iter().all(|count| *count <= MOST_MARKS);
+    if is_sparse || width <= 0.0 {
+        let note = grouped(times.len());
+        times.dedup();
+        let marks = times.iter().map(|&t| Mark { from: t, to: t, height: 1.0 }).collect();
+        return Lane { label, note, marks, ink };
+    }
+    let density = density(&times, from, width);
+    let most = density.iter().copied().fold(0.0, f64::max);
+    let edge = |bin: usize| from + bin as f64 * width;
+    let mark =
+        |(bin, share): (usize, f64)| Mark { from: edge(bin), to: edge(bin + 1), height: share.max(LEAST) };
+    let marks = density.iter().map(|density| density / most).enumerate().filter(|(_, share)| *share > 0.0);
+    let note = format!("{}, ≤ {}", grouped(times.len()), quantity(most / width, "Hz", 2));
+    Lane { label, note, marks: marks.map(mark).collect(), ink }
+}
+
+/// Number of events in every bin.
+fn counts(times: &[f64], from: f64, width: f64) -> [usize; BINS] {
+    let mut counts = [0; BINS];
+    times.iter().for_each(|t| counts[(((t - from) / width) as usize).min(BINS - 1)] += 1);
+    counts
+}
+
+/// The same, with every event shared by the two bins whose middles it lies between: counted whole, a regular train
+/// of events would beat against the bins and show bursts that are not there.
+fn density(times: &[f64], from: f64, width: f64) -> [f64; BINS] {
+    let mut density = [0.0; BINS];
+    for t in times {
+        let at = ((t - from) / width - 0.5).clamp(0.0, (BINS - 1) as f64);
+        let bin = at as usize;
+        density[bin] += 1.0 - at.fract();
+        density[(bin + 1).min(BINS - 1)] += at.fract();
+    }
+    density
+}
+
+/// A number with thin spaces between its thousands.
+fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let group = |(i, digit): (usize, char)| {
+        let is_start = i > 0 && (digits.len() - i).is_multiple_of(3) && digits.len() > 4;
+        is_start.then_some('\u{2009}').into_iter().chain([digit])
     };
-    bins.iter().map(mark).collect()
+    digits.chars().enumerate().flat_map(group).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_regular_train_has_no_bursts() {
+        // 19.2 events in a bin: counted whole, 19 and 20 would beat.
+        let times: Vec<f64> = (0..7680).map(|i| (f64::from(i) + 0.5) / 7680.0).collect();
+        let density = density(&times, 0.0, 1.0 / BINS as f64);
+        assert!(density.iter().all(|count| (count - 19.2).abs() < 0.1), "{density:?}");
+        assert!((density.iter().sum::<f64>() - 7680.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn every_event_is_seen_alone_or_in_a_density() {
+        let lane_of = |times: Vec<f64>| {
+            lane(&EventTrack { source: "ball", kind: "touch", times }, (0.0, 2.0), Ink::Palette(0))
+        };
+        let sparse = lane_of(vec![1.5, 0.25, f64::NAN, 7.0, 0.0, 2.0]);
+        assert_eq!(sparse.marks.iter().map(|mark| mark.from).collect::<Vec<_>>(), [0.0, 0.25, 1.5, 2.0]);
+        assert_eq!((sparse.note.as_str(), sparse.label.as_str()), ("4", "ball: touch"));
+        // A hundred thousand in one bin and one alone, which is not lost beside them.
+        let mut times = vec![0.5; 100_000];
+        times.push(1.7);
+        let dense = lane_of(times);
+        assert!(dense.marks.len() <= 4 && dense.note.starts_with("100\u{2009}001, ≤ "), "{dense:?}");
+        let alone = dense.marks.iter().find(|mark| mark.from <= 1.7 && mark.to >= 1.7).unwrap();
+        assert!(alone.height >= LEAST);
+        // At one and the same moment there is nothing to count by.
+        let still = EventTrack { source: "", kind: "", times: vec![1.0; 9] };
+        assert_eq!(lane(&still, (1.0, 1.0), Ink::Foreground).marks.len(), 1);
+    }
+
+    #[test]
+    fn thousands_are_grouped() {
+        assert_eq!(
+            [0, 999, 1234, 56_789, 1_234_567].map(grouped),
+            ["0", "999", "1234", "56 789", "1 234 567"].map(|text| text.replace(' ', "\u{2009}"))
+        );
+    }
 }

@@ -46,6 +46,23 @@ impl Figure<'_> {
     /// Default size, px.
     pub const DEFAULT_SIZE: (u32, u32) = (1600, 1000);
 
+    /// The default width, and a height for a heading and a number of things below each other, px.
+    pub(crate) fn size_for(head: u32, each: u32, count: usize) -> (u32, u32) {
+        let most = u32::try_from(count).unwrap_or(u32::MAX).saturating_mul(each).saturating_add(head);
+        (Self::DEFAULT_SIZE.0, most.min(Self::MOST))
+    }
+
+    /// A figure that says that there is nothing to show.
+    pub(crate) fn without_data(title: &str, words: &str) -> Self {
+        let panel = Panel { absence: Label::plain(words), ..Panel::default() };
+        Self {
+            title: Label::plain(title),
+            panels: vec![panel],
+            size: Self::size_for(400, 0, 0),
+            ..Self::default()
+        }
+    }
+
     /// The columns' shares of the width and the rows' shares of the height; either sum to 1.
     pub(crate) fn shares(&self) -> (Vec<f64>, Vec<f64>) {
         let usable = |share: f64| if share > 0.0 && share.is_finite() { share.clamp(1e-3, 1e3) } else { 1.0 };

@@ -22,6 +22,9 @@ pub struct HysteresisLoop<'a> {
 /// Force over displacement: in units on the left; on the right, for the loops that have them, divided by `u_c` and
 /// `μF_N`, with the limits ±1. The left panel shows the limit `μF_N` where all loops have the same.
 pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> {
+    if loops.is_empty() {
+        return Figure::without_data(title, "no contacts");
+    }
     let plain = Panel {
         x: Axis::new(Label::plain("displacement u"), "m"),
         y: Axis::new(Label::markup("tangential force F_x"), "N"),
@@ -43,6 +46,7 @@ pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> 
         });
     }
     Figure { title: Label::plain(title), panels, arrangement: Arrangement::Row, ..Figure::default() }
+        .with_room_for_legends()
 }
 
 /// The limit force of all loops; none where they differ or one has none.

@@ -116,7 +116,7 @@ impl Label {
             return Ok(Self::default());
         }
         let mut kept = Self::default();
-        for (c, subscript) in self.runs.iter().flat_map(|run| run.text.chars().map(|c| (c, run.subscript))) {
+        for (c, subscript) in self.characters() {
             let mut one = Self::default();
             one.push(c, subscript);
             room -= one.width(em)?;
@@ -132,13 +132,14 @@ impl Label {
         Ok(kept.followed_by(ELLIPSIS))
     }
 
-    /// The label in lines no wider than `most`, broken between words; the last of `lines` is cut.
+    /// The label in lines no wider than `most`, broken between words, and inside those that are wider; the last of
+    /// `lines` is cut.
     pub(crate) fn wrapped(&self, em: f64, most: f64, lines: usize) -> Result<Vec<Self>, PlotError> {
         let mut done: Vec<Self> = Vec::new();
         let mut line = Self::default();
-        for word in self.words() {
+        for (word, gap) in self.pieces(em, most)? {
             let longer =
-                if line.is_empty() { word.clone() } else { line.clone().followed_by(" ").joined(&word) };
+                if line.is_empty() { word.clone() } else { line.clone().followed_by(gap).joined(&word) };
             if line.is_empty() || longer.width(em)? <= most || done.len() + 1 >= lines {
                 line = longer;
             } else {
@@ -151,18 +152,42 @@ impl Label {
         done.iter().map(|line| line.cut(em, most)).collect()
     }
 
+    /// Words, in pieces where they are wider than `most`, each with what stands between it and the one before.
+    fn pieces(&self, em: f64, most: f64) -> Result<Vec<(Self, &'static str)>, PlotError> {
+        let mut pieces = Vec::new();
+        for word in self.words() {
+            let mut gap = " ";
+            let mut piece = Self::default();
+            for (c, subscript) in word.characters() {
+                let mut longer = piece.clone();
+                longer.push(c, subscript);
+                if !piece.is_empty() && longer.width(em)? > most {
+                    pieces.push((std::mem::take(&mut piece), std::mem::take(&mut gap)));
+                    piece.push(c, subscript);
+                } else {
+                    piece = longer;
+                }
+            }
+            pieces.push((piece, gap));
+        }
+        Ok(pieces)
+    }
+
     fn words(&self) -> Vec<Self> {
         let mut words = vec![Self::default()];
-        for run in &self.runs {
-            for c in run.text.chars() {
-                match words.last_mut() {
-                    Some(word) if c != ' ' || run.subscript => word.push(c, run.subscript),
-                    _ => words.push(Self::default()),
-                }
+        for (c, subscript) in self.characters() {
+            match words.last_mut() {
+                Some(word) if c != ' ' || subscript => word.push(c, subscript),
+                _ => words.push(Self::default()),
             }
         }
         words.retain(|word| !word.is_empty());
         words
+    }
+
+    /// Every character, and whether it is a subscript.
+    fn characters(&self) -> impl Iterator<Item = (char, bool)> + '_ {
+        self.runs.iter().flat_map(|run| run.text.chars().map(|c| (c, run.subscript)))
     }
 
     fn push(&mut self, c: char, subscript: bool) {
@@ -244,6 +269,10 @@ mod tests {
         let most = Label::plain("one two three").width(30.0).unwrap() + 1.0;
         let lines = label.wrapped(30.0, most, 3).unwrap();
         assert_eq!(lines.iter().map(Label::text).collect::<Vec<_>>(), ["one two three", "four five six"]);
+        // A word wider than the line goes on in the next.
+        let word = Label::plain("abcdefghijklmnopqrstuvwxyz").wrapped(30.0, 100.0, 9).unwrap();
+        assert!(word.len() > 2 && word.iter().all(|line| line.width(30.0).unwrap() <= 100.0), "{word:?}");
+        assert_eq!(word.iter().map(Label::text).collect::<String>(), "abcdefghijklmnopqrstuvwxyz");
         let lines = label.wrapped(30.0, most, 1).unwrap();
         assert!(lines.len() == 1 && lines[0].text().ends_with(ELLIPSIS));
     }

@@ -3,7 +3,8 @@
 use crate::PlotError;
 use crate::figure::Figure;
 use crate::label::Label;
-use crate::legend::{Entry, Legend, entries};
+use crate::lanes::Names;
+use crate::legend::{Entry, Legend, ROW, entries};
 use crate::panel::Panel;
 use crate::place::{self, Request};
 use crate::scale::Scale;
@@ -28,8 +29,8 @@ pub(crate) struct Placed<'f, 'a> {
     pub(crate) cell: Area,
     pub(crate) x: Scale,
     pub(crate) y: Scale,
-    /// Size of the numbers of the y axis, or of the lanes' names, px per em.
-    pub(crate) y_em: f64,
+    /// Names of the lanes, in place of the y axis.
+    pub(crate) names: Names,
     /// Left edge of the numbers of the y axis; its label stands further left, px.
     pub(crate) numbers_left: f64,
     /// Lines of the heading above the frame; its top left corner.
@@ -70,7 +71,9 @@ pub(crate) struct Sizes {
     pub(crate) margin: f64,
 }
 
-/// Rows of a legend before entries are only counted.
+/// Share of the figure's height that a legend may take before entries are only counted, and the rows that it may
+/// have in any case.
+const LEGEND_SHARE: f64 = 0.4;
 const LEGEND_ROWS: usize = 4;
 /// Lines of a title and of a panel's heading before they are cut.
 const TITLE_LINES: usize = 2;
@@ -102,9 +105,8 @@ impl<'f, 'a> Layout<'f, 'a> {
             title.push((line, top + 0.9 * sizes.title));
             top += 1.35 * sizes.title;
         }
-        let mut lists: Vec<_> = figure.panels.iter().map(|panel| entries(panel, &figure.theme)).collect();
-        let common = common(&mut lists);
-        let legend = Legend::new(&common, width, sizes.tick, LEGEND_ROWS)?;
+        let most = (LEGEND_SHARE * f64::from(figure.size.1) / (ROW * sizes.tick)) as usize;
+        let (legend, legends) = legends(figure, sizes, most.max(LEGEND_ROWS))?;
         let left = sizes.margin + (width - legend.width(sizes.tick)?) / 2.0;
         let legend_at = (left, top);
         if !legend.rows.is_empty() {
@@ -112,18 +114,46 @@ impl<'f, 'a> Layout<'f, 'a> {
         }
         let height = f64::from(figure.size.1) - sizes.margin - top;
         let body = Area { left: sizes.margin, top, width, height };
-        let (wide, _) = figure.shares();
         let mut requests = Vec::new();
-        for (i, (panel, list)) in figure.panels.iter().zip(&lists).enumerate() {
-            // The place of a panel is wider than this by the numbers of its axis.
-            let width = 0.75 * width * wide[i % wide.len()];
-            let legend = Legend::new(list, width, sizes.tick, LEGEND_ROWS)?;
-            let heading = panel.heading.wrapped(sizes.tick, width, HEADING_LINES)?;
+        for (i, (panel, legend)) in figure.panels.iter().zip(legends).enumerate() {
+            let heading = panel.heading.wrapped(sizes.tick, width_above(figure, sizes, i), HEADING_LINES)?;
             requests.push(Request { panel, heading, legend });
         }
         let panels = place::panels(requests, figure, sizes, body)?;
         Ok(Self { title, legend: (legend, legend_at), panels, sizes })
     }
+}
+
+impl Figure<'_> {
+    /// Taller by what the legends need beyond a row each, so that many names do not press the panels.
+    pub(crate) fn with_room_for_legends(mut self) -> Self {
+        let sizes = Sizes::of(&self);
+        let Ok((common, own)) = legends(&self, sizes, usize::MAX) else { return self };
+        let columns = self.arrangement.columns(self.panels.len());
+        let rows =
+            own.chunks(columns).map(|row| row.iter().map(|legend| legend.rows.len()).max().unwrap_or(0));
+        let more = |rows: usize| rows.saturating_sub(1);
+        let more = more(common.rows.len()) + rows.map(more).sum::<usize>();
+        let height = f64::from(self.size.1) + more as f64 * ROW * sizes.tick;
+        self.size.1 = (height.ceil() as u32).min(Self::MOST);
+        self
+    }
+}
+
+/// One legend for all panels and the panels' own, in rows of the width there is.
+fn legends(figure: &Figure<'_>, sizes: Sizes, most: usize) -> Result<(Legend, Vec<Legend>), PlotError> {
+    let mut lists: Vec<_> = figure.panels.iter().map(|panel| entries(panel, &figure.theme)).collect();
+    let width = f64::from(figure.size.0) - 2.0 * sizes.margin;
+    let common = Legend::new(&common(&mut lists), width, sizes.tick, most)?;
+    let own = lists.iter().enumerate();
+    let own = own.map(|(i, list)| Legend::new(list, width_above(figure, sizes, i), sizes.tick, most));
+    Ok((common, own.collect::<Result<_, _>>()?))
+}
+
+/// Width for heading and legend of a panel, px: its share of the figure, less the numbers of its axis.
+fn width_above(figure: &Figure<'_>, sizes: Sizes, panel: usize) -> f64 {
+    let (wide, _) = figure.shares();
+    0.75 * (f64::from(figure.size.0) - 2.0 * sizes.margin) * wide[panel % wide.len()]
 }
 
 /// The longest list, where it names everything that the other panels name: one legend then serves all, and the

@@ -123,24 +123,45 @@ impl Legend {
         self.rows.len() as f64 * ROW * em
     }
 
+    /// Entries one after the other; in columns, where that takes a row more at the most.
     fn flow(entries: &[Entry], width: f64, em: f64) -> Result<Self, PlotError> {
-        let mut rows: Vec<Vec<(f64, Entry)>> = Vec::new();
-        let mut at = 0.0;
+        let mut widths = Vec::new();
+        let mut cut = Vec::new();
         for entry in entries {
             let label = entry.label.cut(em, width - entry.text_at(em))?;
-            let entry = Entry { label, sample: entry.sample };
-            let long = entry.width(em)?;
-            match rows.last_mut() {
-                Some(row) if at + long <= width => row.push((at, entry)),
-                _ => {
-                    at = 0.0;
-                    rows.push(vec![(0.0, entry)]);
-                }
-            }
-            at += long + ENTRY_GAP * em;
+            cut.push(Entry { label, sample: entry.sample });
+            widths.push(cut[cut.len() - 1].width(em)?);
+        }
+        let gap = ENTRY_GAP * em;
+        let ragged = rows(&widths, width, gap);
+        let widest = widths.iter().copied().fold(0.0, f64::max);
+        let aligned = rows(&vec![widest; widths.len()], width, gap);
+        let lefts = if row_count(&aligned) <= row_count(&ragged) + 1 { aligned } else { ragged };
+        let mut rows: Vec<Vec<(f64, Entry)>> = vec![Vec::new(); row_count(&lefts)];
+        for ((row, left), entry) in lefts.into_iter().zip(cut) {
+            rows[row].push((left, entry));
         }
         Ok(Self { rows })
     }
+}
+
+/// Row and left edge of entries of some widths.
+fn rows(widths: &[f64], most: f64, gap: f64) -> Vec<(usize, f64)> {
+    let (mut row, mut at) = (0, 0.0);
+    let mut places = Vec::new();
+    for width in widths {
+        if at > 0.0 && at + width > most {
+            (row, at) = (row + 1, 0.0);
+        }
+        places.push((row, at));
+        at += width + gap;
+    }
+    places
+}
+
+/// Number of rows.
+fn row_count(places: &[(usize, f64)]) -> usize {
+    places.last().map_or(0, |(row, _)| row + 1)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@
 //!   over displacement), [`energy`] (the energy book), [`events`] (what happened when), [`state`] (springs over time),
 //!   [`memory`] (the curve a contact remembers by), [`compare`] (two runs and their difference);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
-//! * `legend`, `layout`, `place` – where everything goes;
+//! * `legend`, `lanes`, `layout`, `place` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
 //! * `paint`, `content` – the figure in strokes, areas and texts, which `canvas` hands to any backend of plotters;
 //! * `font`, `raster` – the backend for pictures: coverage-exact strokes and glyphs;
@@ -31,6 +31,7 @@ pub mod figure;
 mod font;
 pub mod hysteresis;
 pub mod label;
+mod lanes;
 mod layout;
 mod legend;
 pub mod memory;

@@ -2,7 +2,8 @@
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
-use crate::panel::{Axis, Band, Panel, Series};
+use crate::panel::{Axis, Band, Panel, Series, is_drawable};
+use crate::scale::quantity;
 use crate::theme::{Dash, Ink, Style};
 
 /// The memory curve of a contact at a moment: at which displacement the springs of every height are anchored.
@@ -24,47 +25,70 @@ pub struct MemoryMoment<'a> {
     pub p: &'a [f64],
 }
 
-/// One panel per moment: p upwards over h, inside the wedge that the apex (d, u) opens to the left.
+/// Panels share their axes where their union is no more than this many times the largest of them.
+const NEAR: f64 = 2.0;
+
+/// One panel per moment: p upwards over h, inside the wedge that the apex (d, u) opens to the left. All panels have
+/// the same scales; where the moments lie too far apart in p for one axis, every panel has its own part of it.
 pub fn memory_figure<'a>(title: &str, moments: &[MemoryMoment<'a>]) -> Figure<'a> {
     let first = moments.first().map(|moment| moment.contact);
     let is_named = moments.iter().any(|moment| Some(moment.contact) != first);
+    if moments.is_empty() {
+        return Figure::without_data(title, "no memory recorded");
+    }
     let mut panels: Vec<Panel<'a>> = moments.iter().map(|moment| panel(moment, is_named)).collect();
-    if panels.is_empty() {
-        panels.push(Panel { absence: Label::plain("no memory recorded"), ..Panel::default() });
+    let ranges: Vec<(f64, f64)> = moments.iter().map(reach).collect();
+    let (low, high) =
+        ranges.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |all, r| (all.0.min(r.0), all.1.max(r.1)));
+    let span = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
+    let share = high - low <= NEAR * span;
+    let deepest = moments.iter().map(|moment| moment.d).fold(0.0, f64::max);
+    for (panel, (low, high)) in panels.iter_mut().zip(ranges) {
+        let middle = low / 2.0 + high / 2.0;
+        panel.x.covers = Some((0.0, deepest));
+        panel.y.covers = Some((middle - span / 2.0, middle + span / 2.0)).filter(|_| !share);
     }
     let columns = columns(panels.len());
     let rows = panels.len().div_ceil(columns);
     Figure {
         title: Label::plain(title),
-        size: (Figure::DEFAULT_SIZE.0, (300 + 440 * rows as u32).clamp(1000, Figure::MOST)),
+        size: Figure::size_for(240, if rows == 1 { 760 } else { 420 }, rows),
         panels,
-        arrangement: Arrangement::Grid { columns, share: true },
+        arrangement: Arrangement::Grid { columns, share },
         ..Figure::default()
     }
 }
 
 fn columns(panels: usize) -> usize {
     match panels {
-        0 | 1 => 1,
+        1 => 1,
         2 | 4 => 2,
         _ => 3,
     }
 }
 
+/// Lowest and highest p of curve and wedge.
+fn reach(moment: &MemoryMoment<'_>) -> (f64, f64) {
+    let wedge = moment.slope * moment.d.max(0.0);
+    let ends = [moment.u - wedge, moment.u + wedge].into_iter();
+    let values = ends.chain(moment.p.iter().copied()).filter(|p| is_drawable(*p));
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+}
+
 fn panel<'a>(moment: &MemoryMoment<'a>, is_named: bool) -> Panel<'a> {
     let MemoryMoment { d, u, slope, .. } = *moment;
-    let time = format!("t = {} s", moment.time);
+    let time = format!("t = {}", quantity(moment.time, "s", 6));
     let wedge = Band {
-        label: Label::markup("|p − u| ≤ κ(d − h)"),
+        label: Label::markup("wedge |p − u| ≤ κ(d − h)"),
         xs: vec![0.0, d].into(),
         low: vec![u - slope * d, u].into(),
         high: vec![u + slope * d, u].into(),
         ink: Ink::Shade(1),
     };
-    let style = |dash| Style { ink: Some(Ink::Palette(0)), dash: Some(dash), width: 1.0 };
-    let curve = Series { style: style(Dash::Solid), ..Series::new("memory p(h)", moment.h, moment.p) };
-    let apex = Style { ink: Some(Ink::Palette(1)), dash: None, width: 1.5 };
-    let apex = Series { style: apex, ..Series::new("apex (d, u)", vec![d], vec![u]) };
+    let style = |ink, width| Style { ink: Some(ink), dash: Some(Dash::Solid), width };
+    let curve =
+        Series { style: style(Ink::Palette(0), 1.2), ..Series::new("memory p(h)", moment.h, moment.p) };
+    let apex = Series { style: style(Ink::Palette(1), 1.6), ..Series::new("apex (d, u)", vec![d], vec![u]) };
     Panel {
         heading: Label::plain(&if is_named { format!("{}, {time}", moment.contact) } else { time }),
         x: Axis::new(Label::plain("height h"), "m"),

@@ -125,3 +125,84 @@ impl Code {
         self.0.partition_point(|&limit| limit < light) as u8
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Axis, Ink, Label};
+    use proptest::prelude::*;
+
+    fn mosaic(columns: usize, rows: usize, cells: Vec<u8>) -> Mosaic<'static> {
+        let places = |count: usize| (0..count).map(|i| i as f64).collect::<Vec<f64>>().into();
+        let classes = (0..4).map(|i| (Label::default(), Ink::Shade(i))).collect();
+        Mosaic { xs: places(columns), ys: places(rows), cells: cells.into(), classes }
+    }
+
+    /// Through a frame that just holds it.
+    fn image(mosaic: &Mosaic<'_>, size: (usize, usize)) -> Image {
+        let scale = |edges: Vec<f64>| {
+            let ends = edges.first().copied().zip(edges.last().copied());
+            Scale::new(&Axis::default(), ends.map(|(a, b)| if a < b { (a, b) } else { (a - 1.0, b + 1.0) }))
+        };
+        mosaic.image((&scale(mosaic.column_edges()), &scale(mosaic.row_edges())), size, &Theme::light())
+    }
+
+    fn pixels(image: &Image, shade: usize) -> usize {
+        let Colour(r, g, b) = Theme::light().shades[shade];
+        image.rgb.chunks_exact(3).filter(|pixel| **pixel == [r, g, b]).count()
+    }
+
+    #[test]
+    fn cells_of_whole_pixels_are_counted_in_pixels() {
+        // Five moments over four spans: the inner columns are 30 px wide, the outer ones 15. Three rows of 20 px.
+        let cells = [[0, 1, 2], [1, 1, 2], [3, 3, 3], [0, 0, 2], [2, 0, 1]].concat();
+        let image = image(&mosaic(5, 3, cells), (120, 60));
+        let counted = [0, 1, 2, 3].map(|shade| pixels(&image, shade));
+        assert_eq!(counted, [15 + 30 + 30 + 15, 15 + 60 + 15, 15 + 30 + 30 + 15, 90].map(|width| 20 * width));
+        // The first row lies at the bottom.
+        let Colour(r, g, b) = Theme::light().shades[2];
+        assert_eq!(image.rgb[..3], [r, g, b]);
+    }
+
+    #[test]
+    fn a_train_finer_than_pixels_shows_neither_beats_nor_gaps() {
+        // Stick and slip by turns, 7.3 times in every pixel: the same mixture everywhere, and nothing of the legend.
+        let columns = 7300;
+        let cells = (0..columns).map(|i| 1 + u8::from(i % 2 == 0)).collect();
+        let image = image(&mosaic(columns, 1, cells), (1000, 1));
+        for channel in 0..3 {
+            let values = image.rgb.chunks_exact(3).map(|pixel| pixel[channel]);
+            let (low, high) = values.fold((255, 0), |(low, high), v| (v.min(low), v.max(high)));
+            assert!(high - low <= 20, "{low} to {high}");
+        }
+        assert_eq!(pixels(&image, 1) + pixels(&image, 2), 0);
+    }
+
+    #[test]
+    fn one_moment_fills_the_frame() {
+        let image = image(&mosaic(1, 2, vec![3, 1]), (50, 40));
+        assert_eq!([pixels(&image, 3), pixels(&image, 1)], [1000, 1000]);
+    }
+
+    proptest! {
+        /// The light of the picture is that of the cells by their areas, whatever the grid of pixels.
+        #[test]
+        fn light_is_kept(
+            (columns, rows, cells) in (2..60_usize, 2..20_usize)
+                .prop_flat_map(|(c, r)| (Just(c), Just(r), proptest::collection::vec(0..4_u8, c * r))),
+            size in (5..90_usize, 5..40_usize),
+        ) {
+            let mosaic = mosaic(columns, rows, cells.clone());
+            let drawn = image(&mosaic, size);
+            let shades = Theme::light().shades.map(light);
+            for channel in 0..3 {
+                let sum: f64 = drawn.rgb.chunks_exact(3).map(|pixel| linear(f64::from(pixel[channel]) / 255.0)).sum();
+                let area = |column: usize| if column == 0 || column == columns - 1 { 0.5 } else { 1.0 };
+                let lit = cells.iter().enumerate().map(|(i, &class)| area(i / rows) * shades[usize::from(class)][channel]);
+                let expected = lit.sum::<f64>() / (rows * (columns - 1)) as f64;
+                // A step of the code is 0.009 of full light at the most, half of it is lost in rounding.
+                prop_assert!((sum / (size.0 * size.1) as f64 - expected).abs() < 0.0045);
+            }
+        }
+    }
+}

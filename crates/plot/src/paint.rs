@@ -4,6 +4,7 @@ use crate::PlotError;
 use crate::canvas::{Anchor, Canvas};
 use crate::figure::Figure;
 use crate::label::Label;
+use crate::lanes::LINE;
 use crate::layout::{Area, Layout, Placed, Sizes};
 use crate::legend::{Legend, ROW, Sample};
 use crate::mosaic::Image;
@@ -125,13 +126,17 @@ impl<B: DrawingBackend> Painter<'_, B> {
 
     /// Names and notes of lanes.
     fn names(&mut self, place: &Placed<'_, '_>) -> Result<(), PlotError> {
-        let (sizes, frame, em) = (self.sizes, place.frame, place.y_em);
-        let right = frame.left + frame.width + NOTE_GAP * sizes.tick;
-        for ((at, name), lane) in place.y.ticks.iter().zip(&place.panel.lanes) {
-            let baseline = frame.top + (1.0 - at) * frame.height + 0.36 * em;
-            let end = frame.left - sizes.mark - 0.3 * sizes.tick;
-            self.canvas.text(&Label::plain(name), em, (end, baseline), Anchor::Right)?;
-            self.canvas.text(&Label::plain(&lane.note), em, (right, baseline), Anchor::Left)?;
+        let (sizes, frame, em) = (self.sizes, place.frame, place.names.em);
+        let (end, start) =
+            (frame.left - sizes.mark - 0.3 * sizes.tick, frame.left + frame.width + NOTE_GAP * sizes.tick);
+        let height = frame.height / place.panel.lanes.len() as f64;
+        for (i, (lines, lane)) in place.names.lines.iter().zip(&place.panel.lanes).enumerate() {
+            let baseline = frame.top + (i as f64 + 0.5) * height + 0.36 * em;
+            for (k, line) in lines.iter().enumerate() {
+                let below = (k as f64 - (lines.len() - 1) as f64 / 2.0) * LINE * em;
+                self.canvas.text(line, em, (end, baseline + below), Anchor::Right)?;
+            }
+            self.canvas.text(&Label::plain(&lane.note), em, (start, baseline), Anchor::Left)?;
         }
         Ok(())
     }

@@ -1,9 +1,10 @@
 //! Phase pictures: velocity over displacement.
 
 use crate::Label;
-use crate::figure::Figure;
+use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
+use std::ops::Range;
 
 /// The path of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,49 +17,91 @@ pub struct PhasePath<'a> {
     pub velocity: &'a [f64],
 }
 
-/// Cycles from which on the earlier ones are drawn pale.
+/// Bodies whose displacements and velocities differ by less than this factor share a panel.
+const COMPARABLE: f64 = 4.0;
+/// Cycles from which on the earlier ones may be pale.
 const MANY: usize = 3;
 /// A cycle counts when the velocity has been in the lower and in the upper share of its range.
 const SWING: f64 = 0.25;
 
-/// Velocity over displacement, one curve per body. Where a body goes round more than a few times, all but its last
-/// cycle is pale and lies behind.
+const NOTHING: &str = "nothing moves";
+
+/// Velocity over displacement, one curve per body; bodies of different reach have panels of their own. Where a body
+/// goes round and round in one place, all but its last cycle is pale and lies behind.
 pub fn phase_figure<'a>(title: &str, paths: &[PhasePath<'a>]) -> Figure<'a> {
-    let last: Vec<usize> = paths.iter().map(|path| last_cycle(path.velocity).unwrap_or(0)).collect();
+    let mut groups: Vec<Vec<(usize, &PhasePath<'a>)>> = Vec::new();
+    for (place, path) in paths.iter().enumerate() {
+        match groups.iter_mut().find(|group| group.iter().all(|(_, other)| is_comparable(path, other))) {
+            Some(group) => group.push((place, path)),
+            None => groups.push(vec![(place, path)]),
+        }
+    }
+    if groups.is_empty() {
+        return Figure::without_data(title, NOTHING);
+    }
+    let panels: Vec<Panel<'a>> = groups.iter().map(|group| panel(group)).collect();
+    let each = if panels.len() == 1 { 760 } else { 440 };
+    Figure {
+        title: Label::plain(title),
+        size: Figure::size_for(240, each, panels.len()),
+        panels,
+        arrangement: Arrangement::Column { share_x: false },
+        ..Figure::default()
+    }
+    .with_room_for_legends()
+}
+
+fn panel<'a>(group: &[(usize, &PhasePath<'a>)]) -> Panel<'a> {
+    let last: Vec<usize> = group.iter().map(|(_, path)| last_cycle(path)).collect();
     let mut series = Vec::new();
-    for (place, (path, &from)) in paths.iter().zip(&last).enumerate().filter(|(_, (_, from))| **from > 0) {
-        let to = (from + 1).min(path.velocity.len());
-        series.push(curve("earlier cycles", path, 0..to, Ink::Pale(place)));
+    for ((place, path), &from) in group.iter().zip(&last).filter(|(_, from)| **from > 0) {
+        series.push(curve("", path, 0..from + 1, Ink::Pale(*place)));
     }
-    for (place, (path, &from)) in paths.iter().zip(&last).enumerate() {
-        series.push(curve(path.name, path, from..path.velocity.len(), Ink::Palette(place)));
+    for ((place, path), &from) in group.iter().zip(&last) {
+        series.push(curve(path.name, path, from..path.velocity.len(), Ink::Palette(*place)));
     }
-    let panel = Panel {
+    if let Some(((place, path), _)) = group.iter().zip(&last).find(|(_, from)| **from > 0) {
+        // No points: a name at the end of the legend for what is drawn first.
+        series.push(curve("earlier cycles", path, 0..0, Ink::Pale(*place)));
+    }
+    Panel {
         x: Axis::new(Label::plain("displacement x"), "m"),
         y: Axis::new(Label::plain("velocity v"), "m/s"),
         series,
-        absence: Label::plain("nothing moves"),
+        absence: Label::plain(NOTHING),
         ..Panel::default()
-    };
-    Figure { title: Label::plain(title), panels: vec![panel], ..Figure::default() }
+    }
 }
 
-fn curve<'a>(name: &str, path: &PhasePath<'a>, part: std::ops::Range<usize>, ink: Ink) -> Series<'a> {
+fn curve<'a>(name: &str, path: &PhasePath<'a>, part: Range<usize>, ink: Ink) -> Series<'a> {
     let slice = |values: &'a [f64]| values.get(part.clone()).unwrap_or(values);
     let style = Style { ink: Some(ink), dash: Some(Dash::Solid), width: 1.0 };
     Series { style, ..Series::new(name, slice(path.displacement), slice(path.velocity)) }
 }
 
-/// Where the last full cycle begins: the last but one place at which the velocity, after it was low, becomes high.
-/// None where there are only a few cycles.
-fn last_cycle(velocity: &[f64]) -> Option<usize> {
-    let finite = velocity.iter().copied().filter(|v| v.is_finite());
-    let (low, high) =
-        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+fn is_comparable(a: &PhasePath<'_>, b: &PhasePath<'_>) -> bool {
+    let ratio = |a: &[f64], b: &[f64]| {
+        let (a, b) = (range(a), range(b));
+        let (a, b) = (a.1 - a.0, b.1 - b.0);
+        a == b || a.max(b) < COMPARABLE * a.min(b)
+    };
+    ratio(a.displacement, b.displacement) && ratio(a.velocity, b.velocity)
+}
+
+/// Smallest and largest finite value.
+fn range(values: &[f64]) -> (f64, f64) {
+    let finite = values.iter().copied().filter(|v| v.is_finite());
+    finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// Where the last full cycle begins, if most of what came before lies under it; else 0. Cycles are counted where the
+/// velocity, after it was low, becomes high.
+fn last_cycle(path: &PhasePath<'_>) -> usize {
+    let (low, high) = range(path.velocity);
     let (fall, rise) = (low + SWING * (high - low), high - SWING * (high - low));
     let mut starts = Vec::new();
     let mut was_low = false;
-    for (i, &v) in velocity.iter().enumerate() {
+    for (i, &v) in path.velocity.iter().enumerate() {
         if v < fall {
             was_low = true;
         } else if v > rise && was_low {
@@ -66,5 +109,29 @@ fn last_cycle(velocity: &[f64]) -> Option<usize> {
             starts.push(i);
         }
     }
-    (starts.len() > MANY).then(|| starts[starts.len() - 2])
+    let [_, .., start, _] = starts[..] else { return 0 };
+    let Some((before, last)) = path.displacement.split_at_checked(start) else { return 0 };
+    let (left, right) = range(last);
+    let under = before.iter().filter(|x| (left..=right).contains(*x)).count();
+    if starts.len() > MANY && 2 * under > before.len() { start } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_cycle_of_a_round_trip_is_found_and_a_journey_has_none() {
+        // Ten rounds of 100 points: high velocity is reached 17 points (60 degrees) after zero, rising.
+        let angle = |i: usize| std::f64::consts::TAU * i as f64 / 100.0;
+        let (x, v): (Vec<f64>, Vec<f64>) = (0..1000).map(|i| (-angle(i).cos(), angle(i).sin())).unzip();
+        let start = last_cycle(&PhasePath { name: "", displacement: &x, velocity: &v });
+        assert!(start == 800 + 9 || start == 800 + 8, "{start}");
+        let journey: Vec<f64> = x.iter().enumerate().map(|(i, x)| x + 0.1 * i as f64).collect();
+        assert_eq!(last_cycle(&PhasePath { name: "", displacement: &journey, velocity: &v }), 0);
+        let few = PhasePath { name: "", displacement: &x[..250], velocity: &v[..250] };
+        assert_eq!(last_cycle(&few), 0);
+        let gaps = [f64::NAN; 5];
+        assert_eq!(last_cycle(&PhasePath { name: "", displacement: &gaps, velocity: &gaps }), 0);
+    }
 }

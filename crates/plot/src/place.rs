@@ -3,6 +3,7 @@
 use crate::PlotError;
 use crate::figure::{Arrangement, Figure};
 use crate::label::Label;
+use crate::lanes::Names;
 use crate::layout::{Area, Placed, Sizes};
 use crate::legend::Legend;
 use crate::panel::Panel;
@@ -29,12 +30,8 @@ pub(crate) const HEADING_LINE: f64 = 1.35;
 /// Between two panels, and between a lane and its note, em of the tick labels.
 const GAP: f64 = 0.8;
 pub(crate) const NOTE_GAP: f64 = 0.5;
-/// Names of lanes wider than this share of the figure are set smaller,
-const LANE_NAMES: f64 = 0.4;
-/// but for that not smaller than this share of the tick labels.
-const LEAST_LANE_NAME: f64 = 0.5;
-/// Least height of a lane, em of its name.
-const LANE: f64 = 1.2;
+/// Most that the names of lanes take of the figure's width.
+const LANE_NAMES: f64 = 0.3;
 
 /// Places panels in rows and columns of the body.
 pub(crate) fn panels<'f, 'a>(
@@ -44,7 +41,7 @@ pub(crate) fn panels<'f, 'a>(
     body: Area,
 ) -> Result<Vec<Placed<'f, 'a>>, PlotError> {
     let (wide, high) = figure.shares();
-    let placed = with_scales(requests, figure.arrangement, sizes);
+    let placed = with_scales(requests, figure.arrangement);
     let mut placer = Placer { placed, wide, high, sizes, body };
     placer.set_heights()?;
     placer.set_widths()?;
@@ -59,11 +56,7 @@ pub(crate) fn panels<'f, 'a>(
     Ok(placed)
 }
 
-fn with_scales<'f, 'a>(
-    requests: Vec<Request<'f, 'a>>,
-    arrangement: Arrangement,
-    sizes: Sizes,
-) -> Vec<Placed<'f, 'a>> {
+fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement) -> Vec<Placed<'f, 'a>> {
     let (share_x, share_y) = match arrangement {
         Arrangement::Row => (false, false),
         Arrangement::Column { share_x } => (share_x, false),
@@ -82,11 +75,8 @@ fn with_scales<'f, 'a>(
             frame: Area::default(),
             cell: Area::default(),
             x: Scale::new(&panel.x, x.range(margin(panel.x.tight))),
-            y: match panel.lanes.len() {
-                0 => Scale::new(&panel.y, y.range(margin(panel.y.tight))),
-                _ => Scale::of_lanes(panel.lanes.iter().map(|lane| lane.label.as_str())),
-            },
-            y_em: sizes.tick,
+            y: Scale::new(&panel.y, y.range(margin(panel.y.tight))),
+            names: Names::default(),
             numbers_left: 0.0,
             heading: (request.heading, (0.0, 0.0)),
             legend: (request.legend, (0.0, 0.0)),
@@ -186,15 +176,13 @@ impl Placer<'_, '_> {
     }
 }
 
-/// Ticks of the y axis; for lanes the size of their names, which must fit in height and leave room in width.
+/// Ticks of the y axis, or names of the lanes.
 fn set_y_ticks(place: &mut Placed<'_, '_>, sizes: Sizes, width: f64) -> Result<(), PlotError> {
     if place.panel.lanes.is_empty() {
         return place.y.set_ticks(Along::Height(place.frame.height), sizes.tick);
     }
-    let lane = place.frame.height / place.panel.lanes.len() as f64;
-    let long = place.y.label_width(1.0)?.max(f64::MIN_POSITIVE);
-    let narrow = (LANE_NAMES * width / long).max(LEAST_LANE_NAME * sizes.tick);
-    place.y_em = sizes.tick.min(narrow).min(lane / LANE).max(0.0);
+    let lane = (LANE_NAMES * width, place.frame.height / place.panel.lanes.len() as f64);
+    place.names = Names::new(&place.panel.lanes, lane, sizes.tick)?;
     Ok(())
 }
 
@@ -217,7 +205,8 @@ fn numbers(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     if !place.numbered.1 {
         return Ok(sizes.mark);
     }
-    Ok(sizes.mark + 0.4 * sizes.tick + place.y.label_width(place.y_em)?)
+    let width = place.y.label_width(sizes.tick)?.max(place.names.width()?);
+    Ok(sizes.mark + 0.4 * sizes.tick + width)
 }
 
 /// Width of the upright label, px.
@@ -229,7 +218,7 @@ fn label_width(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
 /// Width of the notes right of a frame, px; a little where there are none.
 fn notes(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     place.panel.lanes.iter().try_fold(0.2 * sizes.tick, |most: f64, lane| {
-        let width = Label::plain(&lane.note).width(place.y_em)?;
+        let width = Label::plain(&lane.note).width(place.names.em)?;
         Ok(most.max(if width > 0.0 { width + NOTE_GAP * sizes.tick } else { 0.0 }))
     })
 }

@@ -92,6 +92,8 @@ fn encoder(bytes: &mut Vec<u8>, width: u32, height: u32) -> png::Encoder<'static
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    // Half the bytes of the crate's default, which is the fastest.
+    encoder.set_compression(png::Compression::Default);
     encoder.set_adaptive_filter(png::AdaptiveFilterType::Adaptive);
     encoder
 }
@@ -111,9 +113,7 @@ fn write_text<W: Write>(
         }
         (false, is_long) => {
             let mut chunk = ITXtChunk::new(key, text);
-            if is_long {
-                chunk.compress_text()?;
-            }
+            chunk.compressed = is_long;
             writer.write_text_chunk(&chunk)
         }
     }

@@ -57,14 +57,6 @@ impl Scale {
         Self { offset, low, high, shown, ticks: Vec::new(), label, unit }
     }
 
-    /// The scale of lanes from the top down, named instead of numbered; lane i of n lies between 1 - i/n and
-    /// 1 - (i + 1)/n.
-    pub(crate) fn of_lanes<'n>(names: impl ExactSizeIterator<Item = &'n str>) -> Self {
-        let count = names.len() as f64;
-        let tick = |(i, name): (usize, &str)| (1.0 - (i as f64 + 0.5) / count, name.to_owned());
-        Self { ticks: names.enumerate().map(tick).collect(), ..Self::new(&Axis::default(), None) }
-    }
-
     /// Gives the axis as many ticks as fit at a size of `em` px.
     pub(crate) fn set_ticks(&mut self, along: Along, em: f64) -> Result<(), PlotError> {
         self.ticks = self.shown.map_or(Ok(Vec::new()), |shown| ticks(shown, along, em))?;
@@ -134,6 +126,20 @@ fn offset_text(offset: f64, span: f64, unit: &str) -> String {
     let grain = span.log10().ceil() as i32;
     let decimals = usize::try_from(multiple.exponent - grain).unwrap_or(0).min(17);
     let text = format!("{:.decimals$}", multiple.apply(offset));
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if multiple.unit.is_empty() { text.to_owned() } else { format!("{text} {}", multiple.unit) }
+}
+
+/// A value in its own prefix to a number of significant digits, such as "12.5 ms".
+pub(crate) fn quantity(value: f64, unit: &str, digits: usize) -> String {
+    if !value.is_finite() {
+        return format!("{value} {unit}");
+    }
+    let multiple = Multiple::of(value.abs(), unit);
+    let shown = multiple.apply(value);
+    let whole = if shown == 0.0 { 1 } else { shown.abs().log10().floor() as i32 + 1 };
+    let decimals = usize::try_from(digits as i32 - whole).unwrap_or(0).min(17);
+    let text = number(shown, decimals);
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if multiple.unit.is_empty() { text.to_owned() } else { format!("{text} {}", multiple.unit) }
 }

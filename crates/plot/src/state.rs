@@ -30,24 +30,24 @@ pub struct SpringMap<'a> {
     pub conditions: &'a [SpringCondition],
 }
 
+const NOTHING: &str = "no springs recorded";
+
 /// One panel per contact: time to the right, the row of springs upwards, states in colours of their own. A state is
 /// shown from half way since the moment before to half way to the moment after.
 pub fn state_figure<'a>(title: &str, maps: &[SpringMap<'a>]) -> Figure<'a> {
-    let mut panels: Vec<Panel<'a>> = maps.iter().map(|map| panel(map, maps.len() > 1)).collect();
-    if panels.is_empty() {
-        panels.push(Panel { absence: Label::plain("no springs recorded"), ..Panel::default() });
+    if maps.is_empty() {
+        return Figure::without_data(title, NOTHING);
     }
-    let height = 340 + 560 * panels.len().clamp(1, 2) as u32 + 360 * panels.len().saturating_sub(2) as u32;
     Figure {
         title: Label::plain(title),
-        size: (Figure::DEFAULT_SIZE.0, height.min(Figure::MOST)),
-        panels,
+        size: Figure::size_for(340, if maps.len() < 3 { 560 } else { 420 }, maps.len()),
+        panels: maps.iter().map(panel).collect(),
         arrangement: Arrangement::Column { share_x: true },
         ..Figure::default()
     }
 }
 
-fn panel<'a>(map: &SpringMap<'a>, is_named: bool) -> Panel<'a> {
+fn panel<'a>(map: &SpringMap<'a>) -> Panel<'a> {
     let classes = ["open", "stick", "slip +", "slip −"].into_iter().enumerate();
     let mosaic = Mosaic {
         xs: map.time.into(),
@@ -56,11 +56,11 @@ fn panel<'a>(map: &SpringMap<'a>, is_named: bool) -> Panel<'a> {
         classes: classes.map(|(shade, name)| (Label::plain(name), Ink::Shade(shade))).collect(),
     };
     Panel {
-        heading: if is_named { Label::plain(map.name) } else { Label::default() },
+        heading: Label::plain(map.name),
         x: Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") },
-        y: Axis { tight: true, ..Axis::new(Label::plain("spring at x"), "m") },
+        y: Axis { tight: true, ..Axis::new(Label::plain("position x"), "m") },
         mosaic: Some(mosaic),
-        absence: Label::plain("no springs recorded"),
+        absence: Label::plain(NOTHING),
         ..Panel::default()
     }
 }

@@ -11,11 +11,11 @@ use data_encoding::BASE64;
 use plotters::backend::SVGBackend;
 use std::fmt::Write as _;
 
-/// Pixels of an embedded picture per pixel of the figure.
-const DENSITY: usize = 2;
+/// Least width of the figure, px, as which embedded pictures are drawn: 500 to the inch at 16 cm.
+const EMBEDDED_WIDTH: u32 = 3200;
 
 /// Draws a figure as an SVG document; title and provenance become its `<title>` and `<desc>`. Texts stay texts, in
-/// `DejaVu` Sans or what the viewer has instead. Mosaics are embedded pictures of twice the figure's pixels: as
+/// `DejaVu` Sans or what the viewer has instead. Mosaics are embedded pictures, fine enough for print: as
 /// rectangles they would swell the file and show seams.
 ///
 /// # Errors
@@ -34,7 +34,7 @@ pub fn draw_svg(figure: &Figure<'_>) -> Result<String, PlotError> {
     let (wide, high) = (width * UNITS, height * UNITS);
     let Colour(r, g, b) = figure.theme.background;
     let mut ground = format!("<rect width=\"{wide}\" height=\"{high}\" fill=\"#{r:02X}{g:02X}{b:02X}\"/>\n");
-    for (frame, image) in mosaics(&layout, &figure.theme, DENSITY) {
+    for (frame, image) in mosaics(&layout, &figure.theme, EMBEDDED_WIDTH.div_ceil(width) as usize) {
         ground += &embedded(frame, &image)?;
     }
     Ok(format!(

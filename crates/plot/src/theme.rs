@@ -88,14 +88,14 @@ const OKABE_ITO: [Colour; 6] = [
     Colour(0x56, 0xB4, 0xE9),
 ];
 
-/// The same hues for a dark background, where the blue would drown and the yellow serves.
+/// The same hues for a dark background: the blue would drown there, and the yellow serves.
 const DARK: [Colour; 6] = [
-    Colour(0x56, 0xB4, 0xE9),
-    Colour(0xE6, 0x9F, 0x00),
-    Colour(0x1F, 0xC1, 0x95),
-    Colour(0xE0, 0x9A, 0xC4),
+    Colour(0x48, 0xA8, 0xF0),
+    Colour(0xF5, 0x79, 0x3A),
+    Colour(0x00, 0x96, 0x6C),
+    Colour(0xFF, 0xB3, 0xE0),
     Colour(0xF0, 0xE4, 0x42),
-    Colour(0xF0, 0x7B, 0x3F),
+    Colour(0x80, 0x80, 0xFF),
 ];
 
 /// How far a pale ink has gone towards the background.
@@ -194,4 +194,81 @@ pub(crate) struct Stroke {
     pub(crate) colour: Colour,
     pub(crate) dash: Dash,
     pub(crate) width: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Matrix = [[f64; 3]; 3];
+
+    /// How linear RGB looks without one kind of cones: Machado, Oliveira, Fernandes, IEEE Trans. Vis. Comput. Graph. 15
+    /// (2009) 1291, severity 1; the first is plain sight.
+    const SIGHTS: [Matrix; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+    ];
+
+    fn linear(Colour(r, g, b): Colour) -> [f64; 3] {
+        [r, g, b].map(|v| {
+            let v = f64::from(v) / 255.0;
+            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+        })
+    }
+
+    /// CIELAB (D65) of a colour as somebody sees it.
+    fn lab(colour: Colour, sight: &Matrix) -> [f64; 3] {
+        let light = linear(colour);
+        let seen = sight.map(|row| row.iter().zip(light).map(|(m, v)| m * v).sum::<f64>().clamp(0.0, 1.0));
+        let sum = |row: [f64; 3]| row.iter().zip(seen).map(|(m, v)| m * v).sum::<f64>();
+        let xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]].map(sum);
+        let f = |t: f64| if t > 216.0 / 24389.0 { t.cbrt() } else { (24389.0 / 27.0 * t + 16.0) / 116.0 };
+        let [x, y, z] = [f(xyz[0] / 0.95047), f(xyz[1]), f(xyz[2] / 1.08883)];
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    #[test]
+    fn colours_are_told_apart_by_everyone() {
+        // A difference of 2.3 is just noticeable.
+        for theme in [Theme::light(), Theme::dark()] {
+            for colours in [theme.palette.as_slice(), &theme.shades] {
+                for sight in &SIGHTS {
+                    for (i, &a) in colours.iter().enumerate() {
+                        for &b in &colours[..i] {
+                            let (p, q) = (lab(a, sight), lab(b, sight));
+                            let far = p.iter().zip(q).map(|(p, q)| (p - q).powi(2)).sum::<f64>().sqrt();
+                            assert!(far > 15.0, "{a:?} {b:?} {far}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn shades_are_told_apart_in_grey() {
+        for theme in [Theme::light(), Theme::dark()] {
+            let mut lightness = theme.shades.map(|shade| lab(shade, &SIGHTS[0])[0]);
+            lightness.sort_by(f64::total_cmp);
+            assert!(lightness.windows(2).all(|pair| pair[1] - pair[0] > 15.0), "{lightness:?}");
+        }
+    }
+
+    #[test]
+    fn texts_and_curves_stand_out() {
+        // Contrast ratios of WCAG 2.1: 7 for texts, 3 for graphics; the palette of the light theme is published with
+        // colours a little below.
+        let luminance =
+            |colour| linear(colour).iter().zip([0.2126, 0.7152, 0.0722]).map(|(v, m)| v * m).sum::<f64>();
+        for (theme, least) in [(Theme::light(), 2.1), (Theme::dark(), 4.5)] {
+            let contrast = |colour| {
+                let (a, b) = (luminance(colour) + 0.05, luminance(theme.background) + 0.05);
+                a.max(b) / a.min(b)
+            };
+            assert!(contrast(theme.foreground) > 7.0 && contrast(theme.muted) > 3.0);
+            assert!(theme.palette.iter().all(|colour| contrast(*colour) > least));
+        }
+    }
 }

@@ -43,6 +43,7 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
         x: time.clone(),
         y: Axis::new(Label::plain("position x"), "m"),
         series: feet.chain(sliders).collect(),
+        absence: Label::plain("nothing moves"),
         share: 1.6,
         ..Panel::default()
     }];
@@ -60,5 +61,5 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
         });
     }
     let arrangement = Arrangement::Column { share_x: true };
-    Figure { title: Label::plain(title), panels, arrangement, ..Figure::default() }
+    Figure { title: Label::plain(title), panels, arrangement, ..Figure::default() }.with_room_for_legends()
 }

@@ -1,44 +1,14 @@
-//! Whole figures: closed-form loops, a staircase, and what a user may throw at them. Every picture is written to
-//! the build's folder for temporary files, to be looked at.
+//! Whole figures: closed-form loops, a staircase, and what a user may throw at them.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
+mod drawn;
+
+use drawn::{assert_clear_border, decode, draw};
 use proptest::prelude::*;
-use std::path::Path;
 use stickslip_plot::{
-    Arrangement, Axis, Dash, Figure, HysteresisLoop, Ink, Label, Panel, PlotError, Reference, Series, Theme,
+    Arrangement, Axis, Band, Figure, HysteresisLoop, Ink, Label, Mosaic, Panel, PlotError, Reference, Series,
     Track, Trajectory, draw_png, draw_svg, loop_figure, read_text, trajectory_figure,
 };
-
-/// Draws both outputs, keeps them, checks what every figure must fulfil.
-fn draw(name: &str, figure: &Figure<'_>) -> Vec<u8> {
-    let bytes = draw_png(figure).unwrap();
-    let drawing = draw_svg(figure).unwrap();
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    std::fs::write(folder.join(format!("{name}.png")), &bytes).unwrap();
-    std::fs::write(folder.join(format!("{name}.svg")), &drawing).unwrap();
-    assert_eq!(bytes, draw_png(figure).unwrap(), "the same figure gives the same bytes");
-    let (width, height, pixels) = decode(&bytes);
-    assert_eq!((width, height), figure.size);
-    assert_clear_border(&pixels, width, height);
-    bytes
-}
-
-fn decode(bytes: &[u8]) -> (u32, u32, Vec<u8>) {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size()];
-    let info = reader.next_frame(&mut pixels).unwrap();
-    (info.width, info.height, pixels)
-}
-
-/// Nothing is cut: the outermost pixels all have the background's colour.
-fn assert_clear_border(pixels: &[u8], width: u32, height: u32) {
-    let (w, h) = (width as usize, height as usize);
-    let pixel = |x: usize, y: usize| &pixels[3 * (y * w + x)..3 * (y * w + x) + 3];
-    let corner = pixel(0, 0).to_vec();
-    let (mut rows, mut columns) =
-        ((0..w).flat_map(|x| [(x, 0), (x, h - 1)]), (0..h).flat_map(|y| [(0, y), (w - 1, y)]));
-    assert!(rows.all(|(x, y)| pixel(x, y) == corner) && columns.all(|(x, y)| pixel(x, y) == corner));
-}
 
 /// First loading to amplitude U and two cycles of the closed-form loop of a sphere (p = 3/2), u in m, F_x in N.
 fn sphere_loop(ratio: f64, u_c: f64, limit: f64) -> (Vec<f64>, Vec<f64>) {
@@ -112,6 +82,33 @@ fn loops_of_several_amplitudes() {
 }
 
 #[test]
+fn long_texts_are_packed_and_come_back_whole() {
+    let latin: String = (0..4000).map(|i| format!("größe {i}\n")).collect();
+    let wide: String = (0..6000).map(|i| format!("{{\"µ\": \"κ = μE*/G* № {i} 摩擦 🙂\"}}\r\n")).collect();
+    let panel = panel("", vec![0.0, 1.0], vec![0.0, 1.0]);
+    let entries = [
+        ("Short", "plain"),
+        ("Trace", latin.as_str()),
+        ("Scenario", wide.as_str()),
+        ("Sign", "μ"),
+        ("None", ""),
+    ];
+    let provenance: Vec<_> = entries.map(|(key, text)| (key.to_owned(), text.to_owned())).to_vec();
+    let figure = Figure { panels: vec![panel], provenance: provenance.clone(), ..Figure::default() };
+    let bytes = draw_png(&figure).unwrap();
+    let mut texts = read_text(&bytes).unwrap();
+    assert!(wide.len() > 200_000 && bytes.len() < 100_000, "{} bytes for {}", bytes.len(), wide.len());
+    for kind in ["tEXt", "zTXt", "iTXt"] {
+        assert!(bytes.windows(4).any(|window| window == kind.as_bytes()), "{kind}");
+    }
+    let mut expected = provenance;
+    texts.sort();
+    expected.sort();
+    assert_eq!(texts, expected);
+    assert!(draw_svg(&figure).unwrap().contains("№ 5999 摩擦 🙂"));
+}
+
+#[test]
 fn one_loop_without_limits() {
     let (u, force) = sphere_loop(0.9, 3e-6, 12.0);
     draw(
@@ -164,11 +161,11 @@ fn a_million_points() {
     let trajectory =
         Trajectory { time: &t, sliders: vec![Track { name: "slider", values: &x }], ..Trajectory::default() };
     let figure = trajectory_figure("One million points", &trajectory);
-    let (width, height, pixels) = decode(&draw("million", &figure));
+    let picture = decode(&draw("million", &figure));
     // The spike reaches the top of the frame, far above the rest: blue where nothing else is.
     let blue = |p: &[u8]| p[2] > 150 && p[0] < 100;
-    let upper = &pixels[..3 * (width * height / 3) as usize];
-    assert!(upper.chunks(3).filter(|p| blue(p)).count() > 100);
+    let upper = &picture.rgb[..picture.width * picture.height];
+    assert!(upper.chunks_exact(3).filter(|p| blue(p)).count() > 100);
 }
 
 #[test]
@@ -264,23 +261,6 @@ fn all_line_styles() {
 }
 
 #[test]
-fn a_dark_theme_is_a_struct_away() {
-    let (u, force) = sphere_loop(0.9, 40e-9, 0.06);
-    let one = HysteresisLoop { name: "", u: &u, force: &force, gross_slip: Some(40e-9), limit: Some(0.06) };
-    let mut figure = loop_figure("Dark", &[one]);
-    let light = Theme::light();
-    figure.theme = Theme {
-        background: stickslip_plot::Colour(0x12, 0x14, 0x18),
-        foreground: stickslip_plot::Colour(0xEE, 0xEE, 0xEE),
-        grid: stickslip_plot::Colour(0x33, 0x36, 0x3C),
-        ..light
-    };
-    figure.panels[0].series[0].style.ink = Some(Ink::Palette(5));
-    figure.panels[1].series[0].style.dash = Some(Dash::Dotted);
-    draw("dark", &figure);
-}
-
-#[test]
 fn what_cannot_be_drawn_is_refused() {
     let fine = || panel("fine", vec![0.0, 1.0], vec![0.0, 1.0]);
     let refused = |figure: &Figure<'_>| (draw_png(figure).unwrap_err(), draw_svg(figure).unwrap_err()).0;
@@ -289,6 +269,31 @@ fn what_cannot_be_drawn_is_refused() {
     assert_eq!(refused(&size), PlotError::Size { width: 100, height: 100_000 });
     let lengths = Figure { panels: vec![fine(), panel("", vec![1.0], vec![])], ..Figure::default() };
     assert_eq!(refused(&lengths), PlotError::Lengths { panel: 1, series: 0, xs: 1, ys: 0 });
+    let mosaic = |xs: Vec<f64>, cells: Vec<u8>| {
+        let classes = vec![("open".into(), Ink::Shade(0))];
+        let mosaic = Mosaic { xs: xs.into(), ys: vec![0.0, 1.0].into(), cells: cells.into(), classes };
+        refused(&Figure {
+            panels: vec![Panel { mosaic: Some(mosaic), ..Panel::default() }],
+            ..Figure::default()
+        })
+    };
+    for error in [
+        mosaic(vec![0.0, 1.0], vec![0; 3]),
+        mosaic(vec![0.0, 1.0], vec![1; 4]),
+        mosaic(vec![1.0, 0.0], vec![0; 4]),
+        mosaic(vec![0.0, f64::NAN], vec![0; 4]),
+    ] {
+        assert_eq!(error, PlotError::Mosaic { panel: 0 });
+    }
+    let edges = |low: Vec<f64>| {
+        let (xs, high) = (vec![0.0, 1.0].into(), vec![1.0, 1.0].into());
+        let band = Band { label: "".into(), xs, low: low.into(), high, ink: Ink::Muted };
+        refused(&Figure {
+            panels: vec![Panel { bands: vec![band], ..Panel::default() }],
+            ..Figure::default()
+        })
+    };
+    assert_eq!(edges(vec![0.0]), PlotError::Edges { panel: 0, band: 0, xs: 2, low: 1, high: 2 });
     let crowd = Figure { panels: vec![fine(); 20], ..Figure::default() };
     assert!(matches!(refused(&crowd), PlotError::NoRoom { .. }));
     let key = Figure {
@@ -324,8 +329,7 @@ proptest! {
         let figure = Figure { title: Label::markup(&title), panels, arrangement, size: (800, 600), ..Figure::default() };
         match draw_png(&figure) {
             Ok(bytes) => {
-                let (width, height, pixels) = decode(&bytes);
-                assert_clear_border(&pixels, width, height);
+                assert_clear_border(&decode(&bytes));
             }
             Err(error) => prop_assert!(matches!(error, PlotError::NoRoom { .. }), "{}", error),
         }
