@@ -5,6 +5,8 @@
 pub(crate) enum Verdict {
     /// Everything was done.
     Done,
+    /// A comparison found a difference.
+    Differs,
     /// Something in the input is wrong.
     BadInput,
     /// A run stopped itself, or its results could not be written.
@@ -18,6 +20,7 @@ impl Verdict {
     pub(crate) fn code(self) -> u8 {
         match self {
             Self::Done => 0,
+            Self::Differs => 1,
             Self::BadInput => 2,
             Self::Stopped => 3,
             // 128 + SIGINT, as shells have it.
