@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
 mod check;
+mod compare;
 mod endings;
+mod golden;
 mod info;
 mod info_tables;
 mod new;

@@ -4,16 +4,16 @@
 //! scenario that was found good, with everything a run needs); [`run`] (one job from start to files); [`record`] with
 //! [`table`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared
 //! for the analysis); [`summary`], [`figures`], [`report`] (what is told); [`folder`] (how files are written);
-//! [`progress`], [`interrupt`].
+//! [`progress`], [`interrupt`]. [`frame`] reads tables back; [`compare`] tells two runs apart.
 
 mod arguments;
 mod batch;
 mod books;
 mod check;
+mod compare;
 mod contact_path;
 mod figures;
 mod folder;
-#[expect(dead_code, reason = "its readers come with the next changes")]
 mod frame;
 mod info;
 mod interrupt;
@@ -42,6 +42,7 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::info(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Schema => schema::print(),
+        Command::Compare(arguments) => compare::run(&arguments),
     };
     ExitCode::from(verdict.code())
 }

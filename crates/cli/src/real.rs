@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 /// A number that stays visible in JSON where it is not finite: as the string "NaN", "inf" or "-inf", which JSON's own
 /// numbers cannot say and serialisers quietly turn into null.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Real(pub(crate) f64);
 
 impl Serialize for Real {

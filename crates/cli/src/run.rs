@@ -15,7 +15,7 @@ use stickslip_drive::{RunError, State};
 /// Name of the resolved scenario among the results.
 const SCENARIO: &str = "scenario.json";
 /// Name of the summary among the results.
-const SUMMARY: &str = "summary.json";
+pub(crate) const SUMMARY: &str = "summary.json";
 
 /// What came of a run.
 pub(crate) struct Outcome {

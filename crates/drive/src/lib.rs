@@ -28,7 +28,7 @@ mod waveform;
 pub use error::{RunError, SceneError};
 pub use event::{Event, EventKind, Source};
 pub use linearised::{Indentations, Linearised, NormalMode};
-pub use model::Model;
+pub use model::{Model, NaturalScale};
 pub use plan::{Limits, Plan, Stepper};
 pub use record::{Channel, Record, Trace, state_name};
 pub use run::run;

@@ -90,6 +90,17 @@ pub(crate) enum Press {
     Radius(usize),
 }
 
+/// Natural scales of a contact at the deepest indentation that its scene names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NaturalScale {
+    /// u_c, m.
+    pub displacement: f64,
+    /// μF_N, N.
+    pub force: f64,
+    /// u_c ω, m/s, ω the angular frequency of the stiffest body it touches; of the drive where none is free.
+    pub velocity: f64,
+}
+
 /// Spring, damper or actuator: force on the second body k(s-e) + c(ṡ-ė) + preload, e = x(second) - x(first).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Link {
@@ -148,6 +159,12 @@ impl Contact {
         self.natural.0 * self.natural.1
     }
 
+    /// μF_N at the deepest indentation, N.
+    fn natural_force(&self) -> f64 {
+        let deepest = self.natural.0 / self.law.stick_slope().max(f64::MIN_POSITIVE);
+        self.law.friction() * self.law.normal_force(deepest)
+    }
+
     /// Indentation d (m) and its rate (m/s) from a sample of the waveform that presses.
     #[inline(never)]
     pub(crate) fn pressed(&self, sample: Sample) -> (f64, f64) {
@@ -195,12 +212,18 @@ impl Model {
         self.contacts.get(index).map(|c| c.natural.1)
     }
 
+    /// Natural scales of contact `index`, one of its identical members: what the stepper's tolerance is relative to.
+    pub fn contact_natural(&self, index: usize) -> Option<NaturalScale> {
+        self.contacts.get(index).map(|c| NaturalScale {
+            displacement: c.natural.0,
+            force: c.natural_force(),
+            velocity: c.natural_velocity(),
+        })
+    }
+
     /// Natural scale of work, J: μF_N u_c of the smallest contact.
     pub(crate) fn work_scale(&self) -> f64 {
-        let work = |c: &Contact| {
-            let deepest = c.natural.0 / c.law.stick_slope().max(f64::MIN_POSITIVE);
-            c.law.friction() * c.law.normal_force(deepest) * c.natural.0
-        };
+        let work = |c: &Contact| c.natural_force() * c.natural.0;
         let smallest = self.contacts.iter().map(work).filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
         if smallest.is_finite() { smallest } else { 1.0 }
     }

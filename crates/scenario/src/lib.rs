@@ -30,6 +30,7 @@ mod units;
 
 pub use error::{Excerpt, Report, ScenarioError};
 pub use meaning::Figures;
+pub use quantity::quantity;
 pub use scenario::{PlotName, Scenario};
 pub use schema::schema;
 pub use suggest::help as suggestion;

@@ -108,6 +108,20 @@ pub(crate) fn parse(text: &str, kind: Option<Kind>) -> Result<(f64, Kind), Strin
     }
 }
 
+/// Reads a quantity in the SI unit `unit`, such as `m/s`: a number in it or, where a scenario knows units of its
+/// dimension, a number with one of them. An error is a message and, on a second line, its help.
+pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
+    if let Ok(value) = text.trim().parse::<f64>() {
+        return if value.is_finite() { Ok(value) } else { Err("expected a finite number".to_owned()) };
+    }
+    let Some(kind) = units::of_si(unit) else {
+        let wanted = if unit.is_empty() { "a number".to_owned() } else { format!("a number in {unit}") };
+        return Err(format!("expected {wanted}, got \"{}\"", shown(text)));
+    };
+    let read = parse(text, Some(kind)).map(|(si, _)| si);
+    read.map_err(|message| message.replace(HELP, "\n   help: "))
+}
+
 fn unit_help(unit: &str, kind: Option<Kind>) -> Option<String> {
     if unit.starts_with(',') {
         return Some("decimals stand after a point, not after a comma".to_owned());
@@ -322,6 +336,17 @@ mod tests {
         ] {
             assert!(parse(text, Some(Kind::Length)).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn a_quantity_in_a_given_unit_is_a_number_or_has_a_unit_of_its_dimension() {
+        assert_eq!(quantity("2e-6", "m"), Ok(2e-6));
+        assert_eq!(quantity("2 um", "m"), Ok(2e-6));
+        assert_eq!(quantity("3 mm/s", "m/s"), Ok(3e-3));
+        assert_eq!((quantity("1e-9", "J"), quantity("0.5", "")), (Ok(1e-9), Ok(0.5)));
+        assert_eq!(quantity("1 nJ", "J"), Err("expected a number in J, got \"1 nJ\"".to_owned()));
+        assert!(quantity("1 N", "m").unwrap_err().contains("\n   help: N is the unit of a force"));
+        assert!(quantity("inf", "m").is_err() && quantity("", "m").is_err());
     }
 
     #[test]

@@ -168,6 +168,12 @@ pub(crate) fn find(symbol: &str) -> Option<(Kind, Scale)> {
     UNITS.iter().find(|(known, ..)| *known == plain).map(|&(_, kind, scale)| (kind, scale))
 }
 
+/// The dimension that has this SI unit; none where no quantity of a scenario has it.
+pub(crate) fn of_si(symbol: &str) -> Option<Kind> {
+    let plain = normalise(symbol);
+    UNITS.iter().map(|(_, kind, _)| *kind).find(|kind| normalise(kind.si()) == plain)
+}
+
 /// Symbols of a dimension, or of all.
 pub(crate) fn symbols(kind: Option<Kind>) -> impl Iterator<Item = &'static str> {
     UNITS.iter().filter(move |(_, k, _)| kind.is_none_or(|kind| *k == kind)).map(|(symbol, ..)| *symbol)

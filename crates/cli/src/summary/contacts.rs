@@ -10,6 +10,7 @@ use crate::series::Series;
 use serde::Serialize;
 use stickslip_analysis::{Cycle, Regime, Thresholds};
 use stickslip_contact::{Interface, Profile};
+use stickslip_drive::NaturalScale;
 use stickslip_drive::scene::{Freedom, Side};
 
 /// Thresholds below this are those of a flat punch, which are 0.
@@ -23,6 +24,8 @@ pub(crate) struct ContactSummary {
     /// Displacement at which gross slip starts, at t = 0.
     #[serde(rename = "gross_slip_displacement_m")]
     gross_slip_displacement: Real,
+    /// What the stepper's tolerance is relative to.
+    scales: Scales,
     /// Loads at t = 0.
     one: Load,
     all: Load,
@@ -44,6 +47,20 @@ struct Load {
     /// μF_N.
     #[serde(rename = "limit_force_N")]
     limit: Real,
+}
+
+/// Natural scales at the deepest indentation that the scenario names.
+#[derive(Debug, Serialize)]
+struct Scales {
+    /// u_c.
+    #[serde(rename = "displacement_m")]
+    displacement: Real,
+    /// μF_N.
+    #[serde(rename = "force_N")]
+    force: Real,
+    /// u_c ω.
+    #[serde(rename = "velocity_m_s")]
+    velocity: Real,
 }
 
 /// A fretting cycle.
@@ -111,12 +128,23 @@ fn contact(
     ContactSummary {
         count,
         gross_slip_displacement: Real(gross_slip),
+        scales: scales(job, c),
         one: load(normal),
         all: load(f64::from(count) * normal),
         peak_tangential: peak("fx_N"),
         peak_normal: peak("fn_N"),
         friction: Real(outcome.kept.books.friction_of(c)),
         fretting: fretting(job, outcome, (c, name, law), notes),
+    }
+}
+
+fn scales(job: &Job, c: usize) -> Scales {
+    let natural = job.model.contact_natural(c);
+    let of = |quantity: fn(NaturalScale) -> f64| Real(natural.map_or(0.0, quantity));
+    Scales {
+        displacement: of(|natural| natural.displacement),
+        force: Real(f64::from(job.count(c)) * of(|natural| natural.force).0),
+        velocity: of(|natural| natural.velocity),
     }
 }
 

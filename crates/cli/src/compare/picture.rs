@@ -1,0 +1,128 @@
+//! The picture of a comparison: the channels that differ most, both runs and the difference.
+
+use super::channels::{ChannelDifference, CommonRows};
+use super::comparison::Comparison;
+use super::error::CompareError;
+use super::names::without_unit;
+use super::results::Results;
+use crate::folder::draft;
+use std::io::{self, Write};
+use std::path::Path;
+use stickslip_plot::{ComparedChannel, Figure, PlotError, compare_figure, draw_png, draw_svg};
+
+/// Channels shown at most.
+const SHOWN: usize = 3;
+
+/// Heights of the title and of the panels of a channel, in pixels.
+const HEAD: u32 = 260;
+const HEIGHT: u32 = 760;
+
+/// Form of a picture, by the end of its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    Png,
+    Svg,
+}
+
+/// A channel at the common times.
+struct Curve<'a> {
+    channel: &'a ChannelDifference,
+    a: &'a [f64],
+    b: &'a [f64],
+    time: Vec<f64>,
+    difference: Vec<f64>,
+}
+
+impl Form {
+    /// Of a file.
+    pub(crate) fn of(file: &Path) -> Result<Self, CompareError> {
+        let end = file.extension().map(|end| end.to_string_lossy().to_lowercase());
+        match end.as_deref() {
+            Some("png") => Ok(Self::Png),
+            Some("svg") => Ok(Self::Svg),
+            _ => Err(CompareError::NoPicture(file.to_owned())),
+        }
+    }
+
+    fn draw(self, figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
+        match self {
+            Self::Png => draw_png(figure),
+            Self::Svg => draw_svg(figure).map(String::into_bytes),
+        }
+    }
+}
+
+/// Draws into a file; returns the names of the channels that are shown.
+pub(crate) fn draw(
+    (a, b): (&Results, &Results),
+    comparison: &Comparison,
+    rows: &CommonRows,
+    file: &Path,
+) -> Result<Vec<String>, CompareError> {
+    let curves = curves((a, b), comparison, rows);
+    let channels: Vec<ComparedChannel<'_>> = curves
+        .iter()
+        .map(|curve| ComparedChannel {
+            name: without_unit(&curve.channel.name),
+            unit: curve.channel.unit,
+            a: (a.time(), curve.a),
+            b: (b.time(), curve.b),
+            difference: (&curve.time, &curve.difference),
+        })
+        .collect();
+    let names = (legend("A", a), legend("B", b));
+    let mut figure = compare_figure(&comparison.verdict(), (&names.0, &names.1), &channels);
+    // Names of channels are long, and stand upright beside their panels.
+    figure.size.1 = figure.size.1.max(HEAD + HEIGHT * channels.len() as u32);
+    figure.provenance = provenance(comparison);
+    let bytes = Form::of(file)?.draw(&figure)?;
+    write(file, &bytes).map_err(|source| CompareError::NotWritten { path: file.to_owned(), source })?;
+    Ok(curves.iter().map(|curve| curve.channel.name.clone()).collect())
+}
+
+/// The channels of numbers that differ most for what is allowed; where none does so too much, all have a chance.
+fn curves<'a>(
+    (a, b): (&'a Results, &'a Results),
+    comparison: &'a Comparison,
+    rows: &CommonRows,
+) -> Vec<Curve<'a>> {
+    let differs = comparison.channels.iter().any(|channel| channel.excess() > 1.0);
+    let wanted = |channel: &&ChannelDifference| !differs || channel.excess() > 1.0;
+    let mut channels: Vec<&ChannelDifference> = comparison.channels.iter().filter(wanted).collect();
+    channels.sort_by(|p, q| q.excess().total_cmp(&p.excess()));
+    let curve = |channel: &'a ChannelDifference| {
+        let (first, second) = (a.trace.numbers(&channel.name)?, b.trace.numbers(&channel.name)?);
+        let at = |(i, j): &(usize, usize)| Some((*a.time().get(*i)?, second.get(*j)? - first.get(*i)?));
+        let (time, difference) = rows.pairs.iter().filter_map(at).unzip();
+        Some(Curve { channel, a: first, b: second, time, difference })
+    };
+    channels.into_iter().filter_map(curve).take(SHOWN).collect()
+}
+
+/// Name of a run in the legend: the end of its path, where folders of results tell themselves apart.
+fn legend(letter: &str, results: &Results) -> String {
+    let parts: Vec<_> = results.folder.iter().map(|part| part.to_string_lossy()).collect();
+    format!("{letter}: {}", parts[parts.len().saturating_sub(2)..].join("/"))
+}
+
+/// Under a temporary name first, as all files are written.
+fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = draft(folder, &path.file_name().unwrap_or_default().to_string_lossy())?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// What the picture comes from, as its text chunks say.
+fn provenance(comparison: &Comparison) -> Vec<(String, String)> {
+    let (a, b) = (&comparison.a, &comparison.b);
+    let entries = [
+        ("Title", comparison.verdict()),
+        ("Software", format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"))),
+        ("Scenario SHA-256 of A", a.scenario_sha256.clone()),
+        ("Scenario SHA-256 of B", b.scenario_sha256.clone()),
+    ];
+    entries.map(|(key, text)| (key.to_owned(), text)).to_vec()
+}
