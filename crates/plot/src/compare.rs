@@ -30,7 +30,7 @@ pub fn compare_figure<'a>(title: &str, names: (&str, &str), channels: &[Compared
         title: Label::plain(title),
         panels,
         arrangement: Arrangement::Column { share_x: true },
-        size: Figure::size_for(240, 540, channels.len()),
+        size: Figure::size_for(240, 580, channels.len()),
         ..Figure::default()
     }
     .with_room_for_legends()
@@ -45,7 +45,7 @@ fn pair<'a>((a, b): (&str, &str), channel: &ComparedChannel<'a>) -> [Panel<'a>; 
     let both = Panel {
         heading: Label::plain(channel.name),
         x: time.clone(),
-        y: Axis::new(Label::default(), channel.unit),
+        y: Axis::new(Label::plain("value"), channel.unit),
         series: vec![
             curve(&format!("A: {a}"), channel.a, Ink::Palette(0), Dash::Solid),
             curve(&format!("B: {b}"), channel.b, Ink::Palette(1), Dash::Dashed),

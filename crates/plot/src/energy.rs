@@ -25,60 +25,38 @@ pub struct EnergyBook<'a> {
 }
 
 /// Above, the input as a line over the areas of what it became: friction, damping, and what is stored since the
-/// start. Below, the two stores by themselves, as changes since the start, and the error of the book.
+/// start. Below, each on its own scale, the two stores and the error of the book.
 pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
-    let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
-    let axis = |label: &str| Axis::new(Label::plain(label), "J");
-    let lost: Vec<f64> =
-        book.friction.iter().zip(book.damping).map(|(friction, damping)| friction + damping).collect();
-    let line = |name: &str, values: Vec<f64>, ink, width| Series {
-        style: Style { ink: Some(ink), dash: Some(Dash::Solid), width },
-        ..Series::new(name, book.time, values)
+    let panel = |label: &str, values: &'a [f64], ink, share| Panel {
+        x: Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") },
+        y: Axis::new(Label::plain(label), "J"),
+        series: vec![Series {
+            style: Style { ink: Some(ink), dash: Some(Dash::Solid), width: 0.7 },
+            ..Series::new("", book.time, values)
+        }],
+        share,
+        ..Panel::default()
     };
-    let mut stores = vec![
-        line("elastic", since_start(book.elastic), Ink::Palette(0), 1.0),
-        line("kinetic", since_start(book.kinetic), Ink::Palette(1), 1.0),
-    ];
-    // The larger behind the smaller.
-    stores.sort_by(|a, b| f64::total_cmp(&largest(&b.ys), &largest(&a.ys)));
-    let zero = Reference::Horizontal { y: 0.0, label: Label::default() };
-    let panels = vec![
-        Panel {
-            x: time.clone(),
-            y: axis("energy"),
-            bands: areas(book, &lost),
-            series: vec![line("input", book.input.to_vec(), Ink::Foreground, 0.6)],
-            share: 2.2,
-            ..Panel::default()
-        },
-        Panel {
-            x: time.clone(),
-            y: axis("stored"),
-            series: stores,
-            references: vec![zero.clone()],
-            share: 1.2,
-            ..Panel::default()
-        },
-        Panel {
-            x: time,
-            y: axis("error"),
-            series: vec![line("", book.error.to_vec(), Ink::Foreground, 0.6)],
-            references: vec![zero],
-            share: 0.7,
-            ..Panel::default()
-        },
-    ];
+    let mut balance = panel("energy", book.input, Ink::Foreground, 2.6);
+    balance.series[0].label = Label::plain("input");
+    balance.bands = areas(book);
+    let mut error = panel("error", book.error, Ink::Foreground, 0.7);
+    error.references = vec![Reference::Horizontal { y: 0.0, label: Label::default() }];
+    let kinetic = panel("kinetic", book.kinetic, Ink::Palette(1), 0.9);
+    let elastic = panel("elastic", book.elastic, Ink::Palette(0), 0.9);
     Figure {
         title: Label::plain(title),
-        panels,
+        panels: vec![balance, kinetic, elastic, error],
         arrangement: Arrangement::Column { share_x: true },
-        size: Figure::size_for(1300, 0, 0),
+        size: Figure::size_for(1500, 0, 0),
         ..Figure::default()
     }
 }
 
 /// Friction, damping and the stored energy, one on the other.
-fn areas<'a>(book: &EnergyBook<'a>, lost: &[f64]) -> Vec<Band<'a>> {
+fn areas<'a>(book: &EnergyBook<'a>) -> Vec<Band<'a>> {
+    let both = book.friction.iter().zip(book.damping);
+    let lost: Vec<f64> = both.map(|(friction, damping)| friction + damping).collect();
     let band = |name: &str, low: Vec<f64>, high: Vec<f64>, ink| Band {
         label: Label::plain(name),
         xs: book.time.into(),
@@ -87,20 +65,15 @@ fn areas<'a>(book: &EnergyBook<'a>, lost: &[f64]) -> Vec<Band<'a>> {
         ink,
     };
     let stored = since_start(book.kinetic).into_iter().zip(since_start(book.elastic)).map(|(k, e)| k + e);
-    let all = stored.zip(lost).map(|(stored, lost)| stored + lost).collect();
+    let all = stored.zip(&lost).map(|(stored, lost)| stored + lost).collect();
     let zeros = vec![0.0; book.friction.len()];
     let mut bands = vec![band("friction", zeros, book.friction.to_vec(), Ink::Shade(1))];
     if book.damping.iter().any(|damping| *damping != 0.0) {
-        bands.push(band("damping", book.friction.to_vec(), lost.to_vec(), Ink::Shade(3)));
+        bands.push(band("damping", book.friction.to_vec(), lost.clone(), Ink::Shade(3)));
     }
     // Over the others: what was stored at the start and is used up reaches down into them.
-    bands.push(band("stored since the start", lost.to_vec(), all, Ink::Shade(2)));
+    bands.push(band("stored since the start", lost, all, Ink::Shade(2)));
     bands
-}
-
-/// Largest finite magnitude.
-fn largest(values: &[f64]) -> f64 {
-    values.iter().map(|value| value.abs()).filter(|value| value.is_finite()).fold(0.0, f64::max)
 }
 
 fn since_start(values: &[f64]) -> Vec<f64> {

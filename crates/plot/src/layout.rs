@@ -76,7 +76,7 @@ pub(crate) struct Sizes {
 const LEGEND_SHARE: f64 = 0.4;
 const LEGEND_ROWS: usize = 4;
 /// Lines of a title and of a panel's heading before they are cut.
-const TITLE_LINES: usize = 2;
+const TITLE_LINES: usize = 3;
 const HEADING_LINES: usize = 2;
 
 impl Sizes {

@@ -123,7 +123,7 @@ impl Legend {
         self.rows.len() as f64 * ROW * em
     }
 
-    /// Entries one after the other; in columns, where that takes a row more at the most.
+    /// Entries one after the other; several rows in columns, where that takes one more at the most.
     fn flow(entries: &[Entry], width: f64, em: f64) -> Result<Self, PlotError> {
         let mut widths = Vec::new();
         let mut cut = Vec::new();
@@ -136,7 +136,8 @@ impl Legend {
         let ragged = rows(&widths, width, gap);
         let widest = widths.iter().copied().fold(0.0, f64::max);
         let aligned = rows(&vec![widest; widths.len()], width, gap);
-        let lefts = if row_count(&aligned) <= row_count(&ragged) + 1 { aligned } else { ragged };
+        let in_columns = row_count(&ragged) > 1 && row_count(&aligned) <= row_count(&ragged) + 1;
+        let lefts = if in_columns { aligned } else { ragged };
         let mut rows: Vec<Vec<(f64, Entry)>> = vec![Vec::new(); row_count(&lefts)];
         for ((row, left), entry) in lefts.into_iter().zip(cut) {
             rows[row].push((left, entry));

@@ -18,7 +18,7 @@ pub struct PhasePath<'a> {
 }
 
 /// Bodies whose displacements and velocities differ by less than this factor share a panel.
-const COMPARABLE: f64 = 4.0;
+const COMPARABLE: f64 = 8.0;
 /// Cycles from which on the earlier ones may be pale.
 const MANY: usize = 3;
 /// A cycle counts when the velocity has been in the lower and in the upper share of its range.
