@@ -8,6 +8,7 @@ mod golden;
 mod info;
 mod info_tables;
 mod new;
+mod insides;
 mod program;
 mod refusals;
 mod reproducibility;

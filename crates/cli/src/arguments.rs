@@ -33,6 +33,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Run scenarios; write trace.csv, events.csv, summary.json, scenario.json and pictures
     ///
+    /// Where a scenario asks for it, also springs.csv and memory.csv: what goes on inside its contacts.
+    ///
     /// Everything about a scenario is checked before its folder is made. Exit codes: 0 done, 2 bad input, 3 a run
     /// stopped itself, 130 interrupted; of several files the largest. What was computed is written in either case.
     #[command(after_long_help = RUN_EXAMPLES)]

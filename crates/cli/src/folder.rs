@@ -1,12 +1,13 @@
 //! The folder of a run: its files appear together, each whole.
 
+use crate::insides::{MEMORY, SPRINGS};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// Pictures a run may leave; those of an earlier run are removed, lest they be taken for this one's.
-const PICTURES: [&str; 2] = ["loop.png", "trajectory.png"];
+/// Files that not every run leaves; those of an earlier run are removed, lest they be taken for this one's.
+const OPTIONAL: [&str; 4] = [SPRINGS, MEMORY, "loop.png", "trajectory.png"];
 
 /// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
 /// the end: after a crash there is the old file or the whole new one.
@@ -50,9 +51,9 @@ impl Folder {
 
     /// Gives all files their names, in the order they were staged.
     pub(crate) fn publish(self) -> io::Result<()> {
-        for picture in PICTURES {
-            if !self.staged.iter().any(|(name, _)| *name == picture) {
-                match fs::remove_file(self.path.join(picture)) {
+        for optional in OPTIONAL {
+            if !self.staged.iter().any(|(name, _)| *name == optional) {
+                match fs::remove_file(self.path.join(optional)) {
                     Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
                     _ => {}
                 }
@@ -88,11 +89,13 @@ mod tests {
     }
 
     #[test]
-    fn files_appear_together_and_old_pictures_go() {
+    fn files_appear_together_and_old_ones_go() {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("a/b");
         let mut folder = Folder::make(&path).unwrap();
-        fs::write(path.join("loop.png"), "old").unwrap();
+        for old in ["loop.png", "springs.csv", "memory.csv"] {
+            fs::write(path.join(old), "old").unwrap();
+        }
         fs::write(path.join("mine.txt"), "kept").unwrap();
         folder.write("trace.csv", b"t\n").unwrap();
         assert!(!path.join("trace.csv").exists());

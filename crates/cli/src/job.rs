@@ -1,18 +1,18 @@
 //! A scenario that was found good, with everything its run needs.
 
+use crate::limits;
 use crate::table::Columns;
 use sha2::{Digest, Sha256};
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use stickslip_contact::Springs;
 use stickslip_drive::scene::Normal;
 use stickslip_drive::scene::Varying::Constant;
 use stickslip_drive::{Channel, Model, SceneError, State, Stepper};
 use stickslip_scenario::{Scenario, ScenarioError, suggestion};
 use thiserror::Error;
-
-/// Most numbers that the rows of a run may have together: what is kept of them takes up to 2 GB of memory, and the
-/// table some 5 GB of disk.
-pub(crate) const MOST_VALUES: u64 = 250_000_000;
 
 /// A checked scenario: no input can be wrong any more.
 pub(crate) struct Job {
@@ -25,6 +25,8 @@ pub(crate) struct Job {
     /// The state at t = 0.
     pub(crate) start: State,
     pub(crate) columns: Columns,
+    /// Springs to write down of each contact, where any are asked for.
+    pub(crate) grids: Vec<Option<Arc<Springs>>>,
     /// The scenario as it is run, in canonical JSON.
     pub(crate) resolved: String,
     /// SHA-256 of [`Self::resolved`], in hexadecimal digits.
@@ -63,11 +65,13 @@ impl Job {
         let start = model.start(&scenario.plan).map_err(locate)?;
         let channels = model.channels();
         let columns = columns(&scenario, &channels)?;
-        check_rows(&scenario, channels.len())?;
+        limits::check_rows(&scenario, channels.len())?;
+        limits::check_curves(&scenario)?;
+        let grids = limits::grids(&scenario, &model, &start)?;
         let resolved = scenario.resolved();
         let hash = hash(&resolved);
         let name = stem.to_string_lossy().into_owned();
-        Ok(Self { name, folder: out.join(stem), scenario, model, start, columns, resolved, hash })
+        Ok(Self { name, folder: out.join(stem), scenario, model, start, columns, grids, resolved, hash })
     }
 
     /// The scenario's title, or else its name.
@@ -103,10 +107,12 @@ impl Job {
 /// The columns asked for.
 fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, ScenarioError> {
     let Some(names) = &scenario.channels else { return Ok(Columns::all(channels)) };
-    let mut places = Vec::new();
+    let known: HashMap<&str, usize> =
+        channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
+    let (mut places, mut taken) = (Vec::new(), HashSet::new());
     for (i, name) in names.iter().enumerate() {
         let at = format!("output.channels[{i}]");
-        let Some(place) = channels.iter().position(|channel| channel.name == *name) else {
+        let Some(&place) = known.get(name.as_str()) else {
             let help = suggestion(name, channels.iter().map(|channel| channel.name.as_str()));
             return Err(scenario.locate(
                 &at,
@@ -114,26 +120,12 @@ fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, Scenari
                 help,
             ));
         };
-        if places.contains(&place) {
+        if !taken.insert(place) {
             return Err(scenario.locate(&at, "this channel is in the list already", None));
         }
         places.push(place);
     }
     Ok(Columns::chosen(channels, &places))
-}
-
-/// Refuses a run whose rows would fill the memory.
-fn check_rows(scenario: &Scenario, width: usize) -> Result<(), ScenarioError> {
-    let Some(every) = scenario.plan.every else { return Ok(()) };
-    let rows = scenario.plan.duration / every;
-    let most = MOST_VALUES as f64 / width as f64;
-    if rows <= most {
-        return Ok(());
-    }
-    let message =
-        format!("the run would have {rows:.3e} rows of {width} channels, expected at most {most:.3e}");
-    let help = format!("write a row every {:.1e} s or more seldom", scenario.plan.duration / most);
-    Err(scenario.locate("output.every", message, Some(help)))
 }
 
 fn hash(text: &str) -> String {

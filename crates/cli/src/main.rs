@@ -1,10 +1,11 @@
 //! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
 //!
-//! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several files, messages in order) and its [`verdict`]; [`job`] (a
-//! scenario that was found good, with everything a run needs); [`run`] (one job from start to files); [`record`] with
-//! [`table`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared
-//! for the analysis); [`summary`], [`figures`], [`report`] (what is told); [`folder`] (how files are written);
-//! [`progress`], [`interrupt`]. [`frame`] reads tables back; [`compare`] tells two runs apart.
+//! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several
+//! files, messages in order) and its [`verdict`]; [`job`] (a scenario that was found good, with everything a run needs)
+//! within its [`limits`]; [`run`] (one job from start to files); [`record`] with [`table`], [`insides`], [`sheet`],
+//! [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared for the
+//! analysis); [`summary`], [`figures`], [`report`] (what is told); [`folder`] (how files are written); [`progress`],
+//! [`interrupt`]. [`frame`] reads tables back; [`compare`] tells two runs apart.
 
 mod arguments;
 mod batch;
@@ -16,8 +17,10 @@ mod figures;
 mod folder;
 mod frame;
 mod info;
+mod insides;
 mod interrupt;
 mod job;
+mod limits;
 mod new;
 mod periods;
 mod progress;
@@ -27,6 +30,7 @@ mod report;
 mod run;
 mod schema;
 mod series;
+mod sheet;
 mod summary;
 mod table;
 mod verdict;

@@ -2,12 +2,15 @@
 
 use crate::books::Books;
 use crate::folder::Folder;
+use crate::insides::Insides;
 use crate::interrupt::Interrupt;
-use crate::job::{Job, MOST_VALUES};
+use crate::job::Job;
+use crate::limits::MOST_VALUES;
 use crate::progress::Bar;
 use crate::series::Series;
 use crate::table::Table;
 use std::io;
+use stickslip_contact::Memory;
 use stickslip_drive::{Event, Record};
 
 /// Names of the tables.
@@ -15,13 +18,14 @@ pub(crate) const TRACE: &str = "trace.csv";
 /// Names of the tables.
 pub(crate) const EVENTS: &str = "events.csv";
 
-/// Writes rows and events as they come.
+/// Writes rows, events and looks into the contacts as they come.
 pub(crate) struct Recorder<'a> {
     job: &'a Job,
     interrupt: &'a Interrupt,
     bar: &'a Bar,
     trace: Table,
     events: Table,
+    insides: Insides<'a>,
     kept: Kept,
     failure: Option<io::Error>,
 }
@@ -53,6 +57,7 @@ impl<'a> Recorder<'a> {
             bar,
             trace: Table::new(folder.draft(TRACE)?, job.columns.clone(), &[])?,
             events: Table::new(folder.draft(EVENTS)?, job.columns.clone(), &["source", "kind"])?,
+            insides: Insides::new(job, folder)?,
             kept: Kept { series: Series::new(&channels), books: Books::new(&channels), rows: 0, left_out: 0 },
             failure: None,
         })
@@ -65,6 +70,7 @@ impl<'a> Recorder<'a> {
         }
         folder.stage(TRACE, self.trace.finish()?)?;
         folder.stage(EVENTS, self.events.finish()?)?;
+        self.insides.finish(folder)?;
         Ok(self.kept)
     }
 
@@ -97,6 +103,15 @@ impl Record for Recorder<'_> {
         } else {
             self.kept.left_out += 1;
         }
+    }
+
+    fn next_look(&mut self) -> Option<f64> {
+        self.insides.next_look()
+    }
+
+    fn look(&mut self, _: f64, memories: &[Memory]) {
+        let written = self.insides.look(memories);
+        self.note(written);
     }
 
     fn goes_on(&mut self, t: f64) -> bool {

@@ -1,5 +1,6 @@
 //! What is kept of a run for the summary and the pictures.
 
+use std::collections::HashMap;
 use stickslip_drive::Channel;
 
 /// Quantities kept; the rest is in the tables only.
@@ -10,12 +11,13 @@ const KEPT: [&str; 7] = ["time_s", "x_m", "vx_m_s", "u_m", "d_m", "fx_N", "fn_N"
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Series {
     columns: Vec<Column>,
+    /// Places of the columns by name: a scene may have tens of thousands.
+    places: HashMap<String, usize>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 struct Column {
     place: usize,
-    name: String,
     values: Vec<f64>,
 }
 
@@ -24,8 +26,12 @@ impl Series {
     pub(crate) fn new(channels: &[Channel]) -> Self {
         let quantity = |name: &str| name.rsplit_once('.').map_or(name, |(_, quantity)| quantity).to_owned();
         let kept = channels.iter().enumerate().filter(|(_, c)| KEPT.contains(&quantity(&c.name).as_str()));
-        let columns = kept.map(|(place, c)| Column { place, name: c.name.clone(), values: Vec::new() });
-        Self { columns: columns.collect() }
+        let (mut columns, mut places) = (Vec::new(), HashMap::new());
+        for (place, channel) in kept {
+            places.insert(channel.name.clone(), columns.len());
+            columns.push(Column { place, values: Vec::new() });
+        }
+        Self { columns, places }
     }
 
     /// Appends a row of all channels.
@@ -52,8 +58,8 @@ impl Series {
 
     /// A column by part and quantity; empty where there is none.
     pub(crate) fn column(&self, part: &str, quantity: &str) -> &[f64] {
-        let is = |name: &str| name.rsplit_once('.') == Some((part, quantity));
-        self.columns.iter().find(|column| is(&column.name)).map_or(&[], |column| &column.values)
+        let place = self.places.get(&format!("{part}.{quantity}"));
+        place.and_then(|place| self.columns.get(*place)).map_or(&[], |column| &column.values)
     }
 }
 

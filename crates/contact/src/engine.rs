@@ -1,6 +1,8 @@
 //! Either engine behind one contract.
 
-use crate::{Apex, ContactError, Curve, Interface, Move, Outcome, Response, Row, Segment, Springs};
+use crate::{
+    Apex, ContactError, Curve, Interface, Move, Outcome, Response, Row, Segment, SpringState, Springs,
+};
 use std::sync::Arc;
 
 /// How the tangential problem of a contact is solved. Constant.
@@ -37,6 +39,17 @@ pub enum Memory {
     },
 }
 
+/// One spring of a contact as it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring {
+    /// Place, m.
+    pub x: f64,
+    /// Stretch u - p, m; 0 while it does not touch.
+    pub stretch: f64,
+    /// State after the last move that was not zero.
+    pub state: SpringState,
+}
+
 impl Memory {
     /// Where the contact stands.
     pub fn apex(&self) -> Apex {
@@ -69,6 +82,29 @@ impl Memory {
         match self {
             Self::Curve(curve) => curve.preview(law, to),
             Self::Row { row, springs } => row.preview(springs, law, Move::Chord(to)),
+        }
+    }
+
+    /// The springs of the contact, by ascending place: a row's own; of the curve those that would stand on `grid`.
+    pub fn springs<'a>(
+        &'a self,
+        law: &'a Interface,
+        grid: &'a Springs,
+    ) -> Box<dyn Iterator<Item = Spring> + 'a> {
+        match self {
+            Self::Curve(curve) => {
+                let places = grid.positions().iter().zip(grid.heights_in_place());
+                Box::new(places.map(|(&x, h)| Spring {
+                    x,
+                    stretch: curve.stretch(h),
+                    state: curve.spring_state(h),
+                }))
+            }
+            Self::Row { row, springs } => {
+                let places = springs.positions().iter();
+                let insides = row.stretches(springs, law).zip(row.states(springs, law));
+                Box::new(places.zip(insides).map(|(&x, (stretch, state))| Spring { x, stretch, state }))
+            }
         }
     }
 

@@ -24,7 +24,7 @@ mod quadrature;
 mod row;
 
 pub use curve::{Branch, Course, Curve, Merged};
-pub use engine::{Engine, Memory};
+pub use engine::{Engine, Memory, Spring};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};
 pub use material::{Material, MaterialError, Pair};

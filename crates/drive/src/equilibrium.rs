@@ -11,6 +11,8 @@ use stickslip_contact::{Apex, Move, Segment};
 /// Parts in which the loads are put on where several coordinates share them: the order in which contacts slip
 /// matters then.
 const PARTS: u32 = 64;
+/// Most free coordinates whose equilibrium is sought: the work grows with the cube of their number, seconds for these.
+const MOST: usize = 200;
 /// Most iterations of Newton's method for one part of the loads.
 const ITERATIONS: u32 = 200;
 
@@ -66,6 +68,10 @@ impl Model {
     /// Puts the loads on in proportion and follows the equilibrium.
     fn settle(&self, state: &mut State) -> Result<(), SceneError> {
         let n = self.free.len();
+        if n > MOST {
+            let message = format!("expected at most {MOST} free bodies for an equilibrium, got {n}");
+            return Err(SceneError::new("run.start", message).help("give the bodies where they start"));
+        }
         for i in 0..n {
             state.y[self.layout().velocity(i)] = 0.0;
         }

@@ -22,6 +22,7 @@ mod plan;
 mod record;
 mod run;
 pub mod scene;
+mod schedule;
 mod state;
 mod waveform;
 
@@ -33,5 +34,6 @@ pub use plan::{Limits, Plan, Stepper};
 pub use record::{Channel, Record, Trace, state_name};
 pub use run::run;
 pub use scene::Scene;
+pub use schedule::{Moments, Schedule};
 pub use state::{Counts, State};
 pub use waveform::{Harmonic, Piece, Sample, Shape, Timing, Waveform, WaveformError};

@@ -19,6 +19,8 @@ pub struct Model {
     /// Number of contacts whose force is a state while they grow.
     pub(crate) growing: usize,
     pub(crate) equilibrium: bool,
+    /// Largest indentation of each contact, m; not above 0 for one that is never pressed.
+    pub(crate) deepest: Vec<f64>,
 }
 
 /// Where a position comes from.
@@ -205,6 +207,12 @@ impl Model {
         let contact = self.contacts.get(index)?;
         let d = self.indentation(contact, 0.0);
         Some((contact.law.gross_slip_displacement(d), contact.law.normal_force(d)))
+    }
+
+    /// Largest width 2a of contact `index`, m; 0 for one that is never pressed.
+    pub fn contact_width(&self, index: usize) -> Option<f64> {
+        let (contact, deepest) = (self.contacts.get(index)?, self.deepest.get(index)?);
+        Some(2.0 * contact.law.profile().radius(*deepest))
     }
 
     /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.

@@ -1,11 +1,11 @@
-//! What is written down: rows on a regular grid, events, and their channels.
+//! What is written down: rows on a regular grid, events, and their channels; looks into the contacts.
 
 use crate::Model;
 use crate::equations::Equations;
 use crate::event::{Event, Source};
 use crate::model::{Contact, Link, Place, Stroke};
 use crate::state::{Mode, State};
-use stickslip_contact::{ContactState, Outcome};
+use stickslip_contact::{ContactState, Memory, Outcome};
 
 /// Receiver of a run's output. Whatever it does, the trajectory stays the same.
 pub trait Record {
@@ -14,6 +14,18 @@ pub trait Record {
 
     /// An event and the row of values after it.
     fn event(&mut self, event: &Event, values: &[f64]);
+
+    /// The next moment at which the record wants to look into the contacts, s; none for never again. Asked before the
+    /// run and after every look; moments ascend, and those before the run's beginning are passed over.
+    fn next_look(&mut self) -> Option<f64> {
+        None
+    }
+
+    /// The memories of the contacts at the moment asked for, s, in the scene's order: what they would be if a step ended
+    /// there. A moment to which a contact cannot be followed, because it outgrows its row or is not finite, is left out.
+    fn look(&mut self, t: f64, memories: &[Memory]) {
+        let _ = (t, memories);
+    }
 
     /// Asked now and then with the time reached, s; `false` interrupts the run.
     fn goes_on(&mut self, t: f64) -> bool {

@@ -29,7 +29,7 @@ mod tables;
 mod units;
 
 pub use error::{Excerpt, Report, ScenarioError};
-pub use meaning::Figures;
+pub use meaning::{Figures, MemoryOutput, SpringsOutput};
 pub use quantity::quantity;
 pub use scenario::{PlotName, Scenario};
 pub use schema::schema;

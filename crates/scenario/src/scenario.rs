@@ -4,7 +4,7 @@ use crate::document::Document;
 use crate::error::{Report, ScenarioError};
 use crate::fault::Fault;
 use crate::form::Form;
-use crate::meaning::{self, Figures};
+use crate::meaning::{self, Figures, MemoryOutput, SpringsOutput};
 use crate::path::{At, KeyPath};
 use crate::{overrides, refusal, resolved, suggest, syntax, tables};
 use schemars::JsonSchema;
@@ -25,6 +25,16 @@ pub enum PlotName {
     Loop,
     /// Positions over time.
     Trajectory,
+    /// Energies over time, and what their books miss.
+    Energy,
+    /// Velocity over displacement.
+    Phase,
+    /// Events over time.
+    Events,
+    /// What every spring does over time: open, stick, slip forward or backward; from `springs.csv`.
+    State,
+    /// The memory curve of each contact at some moments, in its wedge; from `memory.csv`.
+    Memory,
 }
 
 impl PlotName {
@@ -33,6 +43,11 @@ impl PlotName {
         match self {
             Self::Loop => "loop",
             Self::Trajectory => "trajectory",
+            Self::Energy => "energy",
+            Self::Phase => "phase",
+            Self::Events => "events",
+            Self::State => "state",
+            Self::Memory => "memory",
         }
     }
 }
@@ -50,6 +65,10 @@ pub struct Scenario {
     pub figures: Figures,
     /// Columns of the trace; none: all.
     pub channels: Option<Vec<String>>,
+    /// What every spring does over time, if asked for.
+    pub springs: Option<SpringsOutput>,
+    /// The memory curves, if asked for.
+    pub memory: Option<MemoryOutput>,
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
     pub(crate) form: Form,
@@ -113,18 +132,31 @@ impl Scenario {
             plan: meaning.plan,
             figures: meaning.figures,
             channels: meaning.channels,
+            springs: meaning.springs,
+            memory: meaning.memory,
             plots: meaning.plots,
             form,
             document,
         };
-        if inlined && scenario.resolved().len() > syntax::MAX_BYTES {
-            let message =
-                format!("with its tables the scenario would have more than {} bytes", syntax::MAX_BYTES);
-            return Err(scenario
-                .document
-                .report(At::ROOT.key("waveforms").fault(message).help("keep fewer points")));
-        }
+        scenario.check_size(inlined)?;
         Ok(scenario)
+    }
+
+    /// What a run leaves as its scenario must be one that can be run.
+    fn check_size(&self, inlined: bool) -> Result<(), ScenarioError> {
+        if self.resolved().len() <= syntax::MAX_BYTES {
+            return Ok(());
+        }
+        let (root, limit) = (At::ROOT, syntax::MAX_BYTES);
+        let fault = if inlined {
+            let message = format!("with its tables the scenario would have more than {limit} bytes");
+            root.key("waveforms").fault(message).help("keep fewer points")
+        } else {
+            let message = format!("written out in full the scenario would have more than {limit} bytes");
+            root.fault(message)
+                .help("keep fewer parts and points; long tables fit into a CSV file of their own")
+        };
+        Err(self.document.report(fault))
     }
 
     /// The scenario as canonical JSON: SI numbers, overrides applied, defaults written out, tables inlined. Read back, it

@@ -1,10 +1,22 @@
 //! "Did you mean": the nearest of the names that would have been right.
 
+use crate::document::shown;
+
+/// Most names that are listed.
+const LISTED: usize = 30;
+/// Longest words that are compared, characters: the work grows with the product of their lengths.
+const LONGEST: usize = 100;
+
 /// The nearest candidate, where one is near enough to be a slip of the pen.
 pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let short = |word: &str| word.chars().nth(LONGEST).is_none();
+    if !short(word) {
+        return None;
+    }
     let lower = word.to_lowercase();
     candidates
         .into_iter()
+        .filter(|candidate| short(candidate))
         .map(|candidate| (strsim::osa_distance(&lower, &candidate.to_lowercase()), candidate))
         .filter(|&(distance, candidate)| {
             let length = candidate.chars().count().max(word.chars().count());
@@ -19,9 +31,16 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
 pub fn help<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let all: Vec<&str> = candidates.into_iter().collect();
     match nearest(word, all.iter().copied()) {
-        Some(near) => Some(format!("did you mean \"{near}\"?")),
+        Some(near) => Some(format!("did you mean \"{}\"?", shown(near))),
         None if all.is_empty() => None,
-        None => Some(format!("known here: {}", all.join(", "))),
+        None => {
+            let listed: Vec<String> = all.iter().take(LISTED).map(|name| shown(name)).collect();
+            let more = match all.len() - listed.len() {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            Some(format!("known here: {}{more}", listed.join(", ")))
+        }
     }
 }
 
@@ -36,5 +55,25 @@ mod tests {
         assert_eq!(nearest("Profile", names), Some("profile"));
         assert_eq!(nearest("gravity", names), None);
         assert_eq!(help("zz", ["loop"]).unwrap(), "known here: loop");
+    }
+
+    #[test]
+    fn a_help_has_an_end_and_stays_on_its_line() {
+        let names: Vec<String> = (0..10_000).map(|i| format!("body {i}")).collect();
+        let all = help("slider", names.iter().map(String::as_str)).unwrap();
+        assert!(
+            all.starts_with("known here: body 0, body 1, ") && all.ends_with(", body 29 and 9970 more"),
+            "{all}"
+        );
+        assert_eq!(help("zz", ["a\u{1b}[2Jb"]).unwrap(), "known here: a\u{fffd}[2Jb");
+        assert_eq!(help("a\u{1b}b", ["a\u{1b}c"]).unwrap(), "did you mean \"a\u{fffd}c\"?");
+    }
+
+    /// Two names of a million letters would be compared for hours.
+    #[test]
+    fn endless_words_are_no_slips() {
+        let [long, longer] = [1_000_000, 1_000_001].map(|count| "a".repeat(count));
+        assert_eq!(nearest(&long, [longer.as_str(), "loop"]), None);
+        assert_eq!(nearest("lop", [longer.as_str(), "loop"]), Some("loop"));
     }
 }

@@ -10,18 +10,28 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+/// Most bytes read from the files of all tables together.
+const MAX_TOTAL: u64 = 16 * syntax::MAX_BYTES as u64;
+
+/// Where files are looked for, and how much of them may still be read.
+struct Files<'a> {
+    base: &'a Path,
+    left: u64,
+}
+
 /// Replaces the files of all tables by their points. Says whether there were any.
 pub(crate) fn inline(form: &mut Form, base: &Path) -> Result<bool, Fault> {
     let mut found = false;
+    let files = &mut Files { base, left: MAX_TOTAL };
     let root = At::ROOT;
     let at = root.key("waveforms");
     for (name, waveform) in &mut form.waveforms.0 {
-        found |= in_waveform(&at.key(name), waveform, base)?;
+        found |= in_waveform(&at.key(name), waveform, files)?;
     }
     let at = root.key("bodies");
     for (name, body) in &mut form.bodies.0 {
         if let FreedomForm::Follows(waveform) = &mut body.x {
-            found |= in_reference(&at.key(name).key("x"), waveform, base)?;
+            found |= in_reference(&at.key(name).key("x"), waveform, files)?;
         }
     }
     let at = root.key("contacts");
@@ -29,42 +39,42 @@ pub(crate) fn inline(form: &mut Form, base: &Path) -> Result<bool, Fault> {
         let at = at.key(name);
         let at = at.key("normal");
         found |= match &mut contact.normal {
-            NormalForm::Force(moving) => in_moving(&at.key("force"), moving, base)?,
-            NormalForm::Indentation(moving) => in_moving(&at.key("indentation"), moving, base)?,
-            NormalForm::Radius(moving) => in_moving(&at.key("radius"), moving, base)?,
+            NormalForm::Force(moving) => in_moving(&at.key("force"), moving, files)?,
+            NormalForm::Indentation(moving) => in_moving(&at.key("indentation"), moving, files)?,
+            NormalForm::Radius(moving) => in_moving(&at.key("radius"), moving, files)?,
             NormalForm::Coupled => false,
         };
     }
     let at = root.key("actuators");
     for (name, actuator) in &mut form.actuators.0 {
         if let Some(stroke) = &mut actuator.stroke {
-            found |= in_moving(&at.key(name).key("stroke"), stroke, base)?;
+            found |= in_moving(&at.key(name).key("stroke"), stroke, files)?;
         }
     }
     let at = root.key("loads");
     for (i, load) in form.loads.iter_mut().enumerate() {
         if let Some(x) = &mut load.x {
-            found |= in_moving(&at.index(i).key("x"), x, base)?;
+            found |= in_moving(&at.index(i).key("x"), x, files)?;
         }
     }
     Ok(found)
 }
 
-fn in_moving<D>(at: &At<'_>, moving: &mut Moving<D>, base: &Path) -> Result<bool, Fault> {
+fn in_moving<D>(at: &At<'_>, moving: &mut Moving<D>, files: &mut Files<'_>) -> Result<bool, Fault> {
     match moving {
         Moving::Constant(_) => Ok(false),
-        Moving::Follows(waveform) => in_reference(at, waveform, base),
+        Moving::Follows(waveform) => in_reference(at, waveform, files),
     }
 }
 
-fn in_reference(at: &At<'_>, waveform: &mut WaveformRef, base: &Path) -> Result<bool, Fault> {
+fn in_reference(at: &At<'_>, waveform: &mut WaveformRef, files: &mut Files<'_>) -> Result<bool, Fault> {
     match waveform {
         WaveformRef::Name(_) => Ok(false),
-        WaveformRef::Inline(waveform) => in_waveform(&at.key("follows"), waveform, base),
+        WaveformRef::Inline(waveform) => in_waveform(&at.key("follows"), waveform, files),
     }
 }
 
-fn in_waveform(at: &At<'_>, waveform: &mut WaveformForm, base: &Path) -> Result<bool, Fault> {
+fn in_waveform(at: &At<'_>, waveform: &mut WaveformForm, files: &mut Files<'_>) -> Result<bool, Fault> {
     let WaveformForm::Table(table) = waveform else { return Ok(false) };
     let at = at.key("table");
     let Some(file) = table.file.take() else {
@@ -78,14 +88,14 @@ fn in_waveform(at: &At<'_>, waveform: &mut WaveformForm, base: &Path) -> Result<
     if table.points.is_some() {
         return Err(at.key("file").fault("the points are given already").on_key().help("keep one of them"));
     }
-    table.points = Some(read(&at, &file, table, base)?);
+    table.points = Some(read(&at, &file, table, files)?);
     (table.time, table.value) = (None, None);
     Ok(true)
 }
 
-fn read(at: &At<'_>, file: &str, table: &TableForm, base: &Path) -> Result<Vec<Point>, Fault> {
+fn read(at: &At<'_>, file: &str, table: &TableForm, files: &mut Files<'_>) -> Result<Vec<Point>, Fault> {
     let file_at = at.key("file");
-    let path = inside(&file_at, file, base)?;
+    let path = inside(&file_at, file, files.base)?;
     let unreadable =
         |error: std::io::Error| file_at.fault(format!("cannot read \"{}\": {error}", shown(file)));
     let mut text = String::new();
@@ -95,6 +105,11 @@ fn read(at: &At<'_>, file: &str, table: &TableForm, base: &Path) -> Result<Vec<P
     if text.len() as u64 > limit {
         return Err(file_at.fault(format!("a table has at most {limit} bytes")).help("keep fewer points"));
     }
+    files.left = files.left.checked_sub(text.len() as u64).ok_or_else(|| {
+        let fault =
+            file_at.fault(format!("the files of all tables have more than {MAX_TOTAL} bytes together"));
+        fault.help("keep fewer points; a table that is used twice can be a waveform with a name")
+    })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());

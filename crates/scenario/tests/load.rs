@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{ContactStart, EngineChoice, Freedom, Normal, Side, Start, Varying};
-use stickslip_drive::{Shape, Stepper, Timing, Waveform};
+use stickslip_drive::{Moments, Shape, Stepper, Timing, Waveform};
 use stickslip_scenario::{PlotName, Scenario};
 
 const QUICKSTART: &str = "../../scenarios/quickstart.json";
@@ -73,6 +73,8 @@ fn every_part_of_the_form_arrives() {
     // Three cycles of 2 kHz after a delay of 1 ms.
     assert_eq!(scenario.plan.duration, 1e-3 + 3.0 * (1.0 / 2e3));
     assert_eq!(scenario.channels.as_deref(), Some(&["slider.x_m".to_owned()][..]));
+    let springs = scenario.springs.as_ref().unwrap();
+    assert_eq!((springs.count, &springs.moments), (33, &Moments::Every(1e-5)));
     assert_eq!((scenario.figures.waveform, scenario.figures.body), (Some(2), Some(1)));
 }
 
@@ -88,6 +90,7 @@ fn a_resolved_scenario_means_the_same_to_the_last_bit() {
         assert_eq!(again.figures, scenario.figures);
         assert_eq!(again.channels, scenario.channels);
         assert_eq!(again.plots, scenario.plots);
+        assert_eq!(again.springs, scenario.springs);
         assert_eq!(again.title, scenario.title);
         assert_eq!(again.resolved(), text);
         assert!(!text.contains(" um\"") && !text.contains("\"file\":"), "{text}");

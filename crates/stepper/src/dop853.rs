@@ -30,6 +30,8 @@ pub struct Dop853 {
     dimension: usize,
     time: f64,
     end_time: f64,
+    /// End of the step attempted, s: there the dense output ends, also of a step that is cut.
+    reach: f64,
     step: f64,
     begin: Vec<f64>,
     end: Vec<f64>,
@@ -54,6 +56,7 @@ impl Dop853 {
             dimension,
             time: 0.0,
             end_time: 0.0,
+            reach: 0.0,
             step: 0.0,
             begin: vec![0.0; total],
             end: vec![0.0; total],
@@ -223,7 +226,7 @@ impl Dop853 {
         }
         self.forget_step();
         self.step = h;
-        self.end_time = end;
+        (self.end_time, self.reach) = (end, end);
         self.recall::<0>();
         self.stage::<Stage2, S>(system, self.time + NODES[1] * h);
         self.stage::<Stage3, S>(system, self.time + NODES[2] * h);

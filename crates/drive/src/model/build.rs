@@ -35,7 +35,7 @@ impl Model {
         let loads = loads(scene, &bodies, &mut free);
         scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
         let equilibrium = scene.start == Start::Equilibrium;
-        Ok(Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium })
+        Ok(Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium, deepest })
     }
 }
 

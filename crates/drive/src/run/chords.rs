@@ -1,6 +1,6 @@
 //! Steps without located events: every accepted step is one chord of every contact.
 
-use super::output::Grid;
+use super::output::{Grid, Looks};
 use super::watch::Watch;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
@@ -10,12 +10,13 @@ use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError};
 use stickslip_contact::{ContactState, Segment};
 
-/// A run by chords: accepts steps, writes rows between them, notices events after the fact.
+/// A run by chords: accepts steps, writes what falls between them, notices events after the fact.
 pub(super) struct Chords<'a> {
     pub(super) model: &'a Model,
     pub(super) state: &'a mut State,
     pub(super) layout: Layout,
     grid: Grid,
+    looks: Looks,
     watch: Watch,
     record: &'a mut dyn Record,
     /// Sense of sliding and state of each contact after the last step.
@@ -37,9 +38,10 @@ impl<'a> Chords<'a> {
             *mode = Mode::Whole { sense: 0.0 };
         }
         let grid = Grid::new(plan.every, state.t, plan.duration);
+        let looks = Looks::begin(state, record);
         let watch = Watch::new(model, plan.limits);
         let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
-        Self { model, state, layout, grid, watch, record, standings, row: Vec::new() }
+        Self { model, state, layout, grid, looks, watch, record, standings, row: Vec::new() }
     }
 
     pub(super) fn equations(&self) -> Equations<'_> {
@@ -74,7 +76,7 @@ impl<'a> Chords<'a> {
         if let Some(i) = y.iter().position(|y| !y.is_finite()) {
             return Err(self.model.not_finite(t, i));
         }
-        self.rows(t, y);
+        self.write(t, y);
         let eq = Equations::on(self.model, self.state, self.layout, true);
         let motions: Vec<Motion> = self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])).collect();
         for (c, (contact, motion)) in self.model.contacts.iter().zip(&motions).enumerate() {
@@ -92,25 +94,21 @@ impl<'a> Chords<'a> {
         self.watch.step(self.state, self.record)
     }
 
-    /// Rows inside the step: positions by the cubic through both ends, velocities and work in proportion.
-    fn rows(&mut self, t: f64, y: &[f64]) {
+    /// Rows and looks inside the step.
+    fn write(&mut self, t: f64, y: &[f64]) {
         let eq = Equations::on(self.model, self.state, self.layout, true);
-        let (t0, from, n) = (self.state.t, &self.state.y, self.layout.free);
-        let h = t - t0;
+        let step = Step { from: (self.state.t, &self.state.y), to: (t, y), free: self.layout.free };
         while let Some(due) = self.grid.due(t) {
-            let s = if due < t { (due - t0) / h } else { 1.0 };
-            let between = |i: usize| {
-                let straight = from[i] + s * (y[i] - from[i]);
-                if s == 1.0 {
-                    y[i]
-                } else if i < n {
-                    let (v0, v1, mean) = (from[n + i], y[n + i], (y[i] - from[i]) / h);
-                    straight + h * s * (1.0 - s) * ((1.0 - s) * (v0 - mean) - s * (v1 - mean))
-                } else {
-                    straight
-                }
-            };
-            self.grid.write(&eq, self.state, due, &between, self.record);
+            self.grid.write(&eq, self.state, due, &|i| step.value(i, due), self.record);
+        }
+        while let Some(due) = self.looks.due(t) {
+            let memories = self.model.contacts.iter().zip(&self.state.memories).map(|(contact, memory)| {
+                let apex = eq.motion(contact, due, |i| step.value(i, due)).apex();
+                let mut memory = memory.clone();
+                memory.commit(&contact.law, Segment::Straight(apex)).map(|_| memory)
+            });
+            let memories: Result<Vec<_>, _> = memories.collect();
+            self.looks.show(memories.as_deref().ok(), self.record);
         }
     }
 
@@ -137,5 +135,30 @@ impl<'a> Chords<'a> {
             record::fill(&eq, self.state, self.state.t, &|i| self.state.y[i], &mut self.row);
             self.record.event(&event, &self.row);
         }
+    }
+}
+
+/// A step accepted, with its components at both ends.
+struct Step<'a> {
+    from: (f64, &'a [f64]),
+    to: (f64, &'a [f64]),
+    free: usize,
+}
+
+impl Step<'_> {
+    /// Component `i` at time t of the step: positions by the cubic through both ends, velocities and work in proportion.
+    fn value(&self, i: usize, t: f64) -> f64 {
+        let ((t0, from), (t1, to), n) = (self.from, self.to, self.free);
+        if t >= t1 {
+            return to[i];
+        }
+        let h = t1 - t0;
+        let s = (t - t0) / h;
+        let straight = from[i] + s * (to[i] - from[i]);
+        if i >= n {
+            return straight;
+        }
+        let (v0, v1, mean) = (from[n + i], to[n + i], (to[i] - from[i]) / h);
+        straight + h * s * (1.0 - s) * ((1.0 - s) * (v0 - mean) - s * (v1 - mean))
     }
 }

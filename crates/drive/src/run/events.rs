@@ -8,8 +8,9 @@
 mod locate;
 mod path;
 mod switch;
+mod write;
 
-use super::output::Grid;
+use super::output::{Grid, Looks};
 use super::watch::Watch;
 use crate::equations::Equations;
 use crate::event::EventKind;
@@ -47,7 +48,8 @@ pub(super) struct Run<'a> {
     /// Waveforms that turned a corner at the end of the step.
     turned: Vec<(usize, EventKind)>,
     row: Vec<f64>,
-    /// Evaluations made for rows only.
+    looks: Looks,
+    /// Evaluations made for rows and looks only.
     for_output: u64,
 }
 
@@ -86,6 +88,7 @@ impl<'a> Run<'a> {
             old: Vec::with_capacity(model.contacts.len()),
             turned: Vec::with_capacity(model.waveforms.len()),
             row: Vec::new(),
+            looks: Looks::NONE,
             for_output: 0,
         }
     }
@@ -97,6 +100,7 @@ impl<'a> Run<'a> {
         let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(8, limits));
         self.begin(state);
         grid.write_now(&equations(self.model, self.layout, state), state, record);
+        self.looks = Looks::begin(state, record);
         let mut outcome = Ok(());
         while state.t < self.end && outcome.is_ok() {
             outcome = self.step(state, &mut control, &mut grid, record);
@@ -184,7 +188,7 @@ impl<'a> Run<'a> {
         Err(RunError::StepTooSmall { t: state.t, step: next })
     }
 
-    /// Rows inside the step, then the commit of all contacts, then time moves on.
+    /// Rows and looks inside the step, then the commit of all contacts, then time moves on.
     fn accept(
         &mut self,
         state: &mut State,
@@ -193,15 +197,9 @@ impl<'a> Run<'a> {
     ) -> Result<(), RunError> {
         let t = self.solver.end_time();
         self.trace_segments(state, t);
-        let eq = equations(self.model, self.layout, state);
-        let asked = self.solver.evaluations();
-        while let Some(due) = grid.due(t) {
-            self.solver.dense(&eq);
-            let solver = &self.solver;
-            grid.write(&eq, state, due, &|i| solver.value(i, due), record);
+        if grid.due(t).is_some() || self.looks.due(t).is_some() {
+            self.write(state, t, grid, record);
         }
-        // What output asks for is no part of the run.
-        self.for_output += self.solver.evaluations() - asked;
         let end = self.solver.end();
         if let Some(i) = end.iter().position(|y| !y.is_finite()) {
             return Err(self.model.not_finite(t, i));

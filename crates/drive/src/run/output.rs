@@ -1,32 +1,33 @@
-//! The regular grid of rows.
+//! What a run hands to its record beside events: rows on a regular grid, looks into the contacts.
 
 use crate::equations::Equations;
 use crate::record::{self, Record};
 use crate::state::State;
+use crate::{Moments, Schedule};
+use stickslip_contact::Memory;
 
-/// Rows due at multiples of an interval. Times are k × interval, never summed up; the first and the last row are
-/// written by the run itself.
+/// Rows due at multiples of an interval. The first and the last row are written by the run itself.
 pub(super) struct Grid {
-    every: f64,
-    next: u64,
-    count: u64,
+    schedule: Schedule,
+    end: f64,
     row: Vec<f64>,
 }
 
-/// A grid point this near to the end of the run, in intervals, is the end.
-const SAME: f64 = 1e-9;
-
 impl Grid {
     pub(super) fn new(every: Option<f64>, from: f64, end: f64) -> Self {
-        let every = every.unwrap_or(f64::INFINITY);
-        let before = |t: f64| (t / every - SAME).ceil().max(1.0) as u64 - 1;
-        Self { every, next: (from / every + SAME).floor() as u64 + 1, count: before(end), row: Vec::new() }
+        let moments = every.map_or(Moments::At(Vec::new()), Moments::Every);
+        let mut schedule = Schedule::new(moments, from, end);
+        if schedule.due() <= from {
+            schedule.advance();
+        }
+        Self { schedule, end, row: Vec::new() }
     }
 
-    /// The next row's time, if it lies at `end` or before it.
-    pub(super) fn due(&self, end: f64) -> Option<f64> {
-        let t = self.every * self.next as f64;
-        (self.next <= self.count && t <= end).then_some(t)
+    /// The next row's time, if it lies at `t` or before it.
+    #[inline]
+    pub(super) fn due(&self, t: f64) -> Option<f64> {
+        let due = self.schedule.due();
+        (due <= t && due < self.end).then_some(due)
     }
 
     /// Writes the row at time t and moves on to the next.
@@ -40,12 +41,57 @@ impl Grid {
     ) {
         record::fill(equations, state, t, y, &mut self.row);
         record.row(&self.row);
-        self.next += 1;
+        self.schedule.advance();
     }
 
     /// Writes a row off the grid: the first and the last one.
     pub(super) fn write_now(&mut self, equations: &Equations<'_>, state: &State, record: &mut dyn Record) {
         record::fill(equations, state, state.t, &|i| state.y[i], &mut self.row);
         record.row(&self.row);
+    }
+}
+
+/// The looks into the contacts that a record asks for.
+pub(super) struct Looks {
+    /// The next moment, s; infinite where none is left.
+    due: f64,
+}
+
+impl Looks {
+    /// Before a run: nobody has asked yet.
+    pub(super) const NONE: Self = Self { due: f64::INFINITY };
+
+    /// Asks for the first moment after the run's beginning; a look at the beginning itself is taken at once.
+    pub(super) fn begin(state: &State, record: &mut dyn Record) -> Self {
+        let mut looks = Self { due: f64::NEG_INFINITY };
+        looks.ask(record);
+        while looks.due < state.t {
+            looks.ask(record);
+        }
+        if looks.due == state.t {
+            record.look(state.t, &state.memories);
+            looks.ask(record);
+        }
+        looks
+    }
+
+    /// The next moment, if it lies at `t` or before it.
+    #[inline]
+    pub(super) fn due(&self, t: f64) -> Option<f64> {
+        (self.due <= t).then_some(self.due)
+    }
+
+    /// Shows the memories at the moment that is due and asks for the next one.
+    pub(super) fn show(&mut self, memories: Option<&[Memory]>, record: &mut dyn Record) {
+        if let Some(memories) = memories {
+            record.look(self.due, memories);
+        }
+        self.ask(record);
+    }
+
+    /// Moments that do not ascend end the looks.
+    fn ask(&mut self, record: &mut dyn Record) {
+        let next = record.next_look().unwrap_or(f64::INFINITY);
+        self.due = if next > self.due { next } else { f64::INFINITY };
     }
 }

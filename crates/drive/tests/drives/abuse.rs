@@ -203,3 +203,27 @@ fn a_varying_contact_without_friction_or_without_force_does_nothing() {
         assert!((state.body(&model, 1).unwrap().0 / x - 1.0).abs() < 1e-12);
     }
 }
+
+#[test]
+fn an_equilibrium_of_too_many_bodies_is_not_sought() {
+    // A chain, each body resting on the one before: 200 take a second, 10 000 would take a day and a gigabyte.
+    let chain = |count: usize| {
+        let side = |i: usize| if i == 0 { Side::Ground } else { Side::Body(i - 1) };
+        let link = |i: usize| {
+            let between = [side(i), side(i + 1)];
+            contact(between, Profile::paraboloid(1e-3).unwrap(), 0.5, 1.0)
+        };
+        Scene {
+            bodies: (0..count).map(|i| named(&format!("body {i}"), free(0.01))).collect(),
+            contacts: (0..count).map(|i| named(&format!("contact {i}"), link(i))).collect(),
+            loads: vec![push(count - 1, 0.1)],
+            start: Start::Equilibrium,
+            ..Scene::default()
+        }
+    };
+    let start = |count: usize| Model::new(&chain(count)).unwrap().start(&event(1e-8, 1e-3));
+    assert!(start(200).is_ok());
+    let error = start(201).unwrap_err();
+    assert_eq!(error.path, "run.start");
+    assert_eq!(error.message, "expected at most 200 free bodies for an equilibrium, got 201");
+}

@@ -1,15 +1,15 @@
 //! What must not change a run: output, repetition, an interruption; and what must stop it in an orderly way.
 
 use crate::lottery::deal;
-use crate::parts::{Nothing, damper, event, named, p1, plan, push, try_end};
+use crate::parts::{Looker, Nothing, damper, event, named, p1, plan, push, try_end};
 use proptest::{prelude::*, test_runner::RngSeed};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
     ContactStart, EngineChoice, Freedom, Load, Normal, Scene, Side, Spring, Varying,
 };
 use stickslip_drive::{
-    Event, Limits, Model, Plan, Record, RunError, SceneError, Shape, State, Stepper, Timing, Trace, Waveform,
-    run,
+    Event, Limits, Model, Moments, Plan, Record, RunError, SceneError, Shape, State, Stepper, Timing, Trace,
+    Waveform, run,
 };
 
 const PERIOD: f64 = 1e-3;
@@ -74,6 +74,9 @@ fn output_leaves_no_trace_in_the_state() {
             let plan = Plan { every: Some(0.01 * period), ..plan };
             let written = final_state(&scene, &plan, |model| Box::new(Trace::new(model)));
             assert!(silent == written, "{stepper:?}: {:?} {:?}", silent.counts(), written.counts());
+            let moments = || Moments::Every(0.013 * period);
+            let seen = final_state(&scene, &plan, |_| Box::new(Looker::new(moments(), &plan)));
+            assert!(silent == seen, "{stepper:?}: {:?} {:?}", silent.counts(), seen.counts());
         }
     }
 }

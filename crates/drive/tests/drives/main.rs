@@ -16,5 +16,6 @@ mod closed_forms;
 mod energy_books;
 mod invariance;
 mod linearised;
+mod looks;
 mod lottery;
 mod random_drives;

@@ -1,11 +1,12 @@
 //! Parts of scenes, plans, and runs that must succeed.
 
-use stickslip_contact::{Material, Pair, Profile};
+use stickslip_contact::{Material, Memory, Pair, Profile};
 use stickslip_drive::scene::{
     Body, Contact, ContactStart, EngineChoice, Freedom, Load, Named, Normal, Scene, Side, Spring, Varying,
 };
 use stickslip_drive::{
-    Event, Limits, Model, Plan, Record, RunError, Shape, State, Stepper, Timing, Trace, Waveform, run,
+    Event, Limits, Model, Moments, Plan, Record, RunError, Schedule, Shape, State, Stepper, Timing, Trace,
+    Waveform, run,
 };
 
 pub(crate) fn named<T>(name: &str, part: T) -> Named<T> {
@@ -95,6 +96,46 @@ impl Record for Nothing {
     fn wants_events(&self) -> bool {
         false
     }
+}
+
+/// A record that looks into the contacts at moments of its own and keeps what it saw, with rows.
+pub(crate) struct Looker {
+    schedule: Schedule,
+    pub(crate) seen: Vec<(f64, Vec<Memory>)>,
+    pub(crate) rows: Vec<Vec<f64>>,
+}
+
+impl Looker {
+    pub(crate) fn new(moments: Moments, plan: &Plan) -> Self {
+        Self { schedule: Schedule::new(moments, 0.0, plan.duration), seen: Vec::new(), rows: Vec::new() }
+    }
+}
+
+impl Record for Looker {
+    fn row(&mut self, values: &[f64]) {
+        self.rows.push(values.to_vec());
+    }
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+    fn wants_events(&self) -> bool {
+        false
+    }
+    fn next_look(&mut self) -> Option<f64> {
+        let due = self.schedule.due();
+        self.schedule.advance();
+        Some(due)
+    }
+    fn look(&mut self, t: f64, memories: &[Memory]) {
+        self.seen.push((t, memories.to_vec()));
+    }
+}
+
+/// Runs a scene and looks into its contacts.
+pub(crate) fn look(scene: &Scene, plan: &Plan, moments: Moments) -> (Model, State, Looker) {
+    let model = Model::new(scene).unwrap();
+    let mut state = model.start(plan).unwrap();
+    let mut looker = Looker::new(moments, plan);
+    run(&model, plan, &mut state, &mut looker).unwrap();
+    (model, state, looker)
 }
 
 /// Runs a scene from its start to the end of the plan.

@@ -5,6 +5,7 @@ mod contact;
 mod coupling;
 mod lengths;
 mod material;
+mod output;
 mod plain;
 mod run;
 mod value;
@@ -15,8 +16,9 @@ pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, NormalForm, 
 pub(crate) use coupling::{ActuatorForm, DirectionForm, GravityForm, LoadForm, SpringForm};
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
+pub(crate) use output::{MemoryOutputForm, OutputForm};
 pub(crate) use plain::{Count, Reserved, Two};
-pub(crate) use run::{FiguresForm, LimitsForm, OutputForm, RunForm, RunStartForm, StepperForm};
+pub(crate) use run::{FiguresForm, LimitsForm, RunForm, RunStartForm, StepperForm};
 pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::{HarmonicsForm, Periodic, Point, TableForm, WaveformForm};
 

@@ -1,6 +1,6 @@
-//! How a scene is run and what is written down.
+//! How a scene is run.
 
-use super::{Count, Reserved};
+use super::Count;
 use crate::quantity::Time;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -127,26 +127,5 @@ pub(crate) struct FiguresForm {
 impl FiguresForm {
     pub(crate) fn is_empty(&self) -> bool {
         self.waveform.is_none() && self.body.is_none()
-    }
-}
-
-/// What is written down.
-#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct OutputForm {
-    /// Interval of the rows of the trace, s, above 0; by default only the first and the last row.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) every: Option<Time>,
-    /// Columns of the trace; all by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) channels: Option<Vec<String>>,
-    /// State of every spring. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) springs: Option<Reserved>,
-}
-
-impl OutputForm {
-    pub(crate) fn is_empty(&self) -> bool {
-        self.every.is_none() && self.channels.is_none()
     }
 }

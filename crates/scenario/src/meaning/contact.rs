@@ -10,6 +10,8 @@ use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal}
 
 /// Most identical contacts, and most springs of a row.
 const MAX_COUNT: u64 = 1_000_000;
+/// Most springs of all rows together: some 40 bytes each.
+pub(super) const MAX_SPRINGS: u64 = 10_000_000;
 
 impl Builder<'_> {
     /// All contacts, in the order of the file.
@@ -41,7 +43,7 @@ impl Builder<'_> {
         let normal = self.normal(&at.key("normal"), &form.normal, &form.profile)?;
         self.reach(&at.key("normal"), normal, &interface)?;
         let start = self.contact_start(&at.key("start"), &form.start, &interface, normal)?;
-        let engine = engine(&at.key("engine"), &form.engine)?;
+        let engine = self.engine(&at.key("engine"), &form.engine)?;
         let count = range::count_between(&at.key("count"), form.count.0, 1, MAX_COUNT)? as u32;
         Ok(Contact { between, pair, profile, friction, normal, start, engine, count })
     }
@@ -134,6 +136,19 @@ impl Builder<'_> {
             }
         }
     }
+
+    fn engine(&mut self, at: &At<'_>, form: &EngineForm) -> Result<EngineChoice, Fault> {
+        let EngineForm::Springs(springs) = form else { return Ok(EngineChoice::Curve) };
+        let at = at.key("springs");
+        let count = range::count_between(&at.key("count"), springs.count.0, 1, MAX_COUNT)?;
+        self.springs += count;
+        if self.springs > MAX_SPRINGS {
+            let message = format!("expected at most {MAX_SPRINGS} springs in all rows, got {}", self.springs);
+            return Err(at.key("count").fault(message));
+        }
+        let span = springs.span.map(|span| range::above_zero(&at.key("span"), span)).transpose()?;
+        Ok(EngineChoice::Springs { count: count as usize, span })
+    }
 }
 
 fn profile(at: &At<'_>, form: &ProfileForm) -> Result<Profile, Fault> {
@@ -195,12 +210,4 @@ fn foundation(at: &At<'_>, heights: &[crate::quantity::Length], length: &Lengths
         }
     };
     Profile::foundation(&levels, &lengths).map_err(|error| at.fault(error.to_string()))
-}
-
-fn engine(at: &At<'_>, form: &EngineForm) -> Result<EngineChoice, Fault> {
-    let EngineForm::Springs(springs) = form else { return Ok(EngineChoice::Curve) };
-    let at = at.key("springs");
-    let count = range::count_between(&at.key("count"), springs.count.0, 1, MAX_COUNT)? as usize;
-    let span = springs.span.map(|span| range::above_zero(&at.key("span"), span)).transpose()?;
-    Ok(EngineChoice::Springs { count, span })
 }

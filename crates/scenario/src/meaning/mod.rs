@@ -4,14 +4,16 @@ mod body;
 mod contact;
 mod coupling;
 mod names;
+mod output;
 mod range;
 mod run;
 mod waveform;
 
+pub use output::{MemoryOutput, SpringsOutput};
+
 use crate::PlotName;
 use crate::fault::Fault;
 use crate::form::Form;
-use crate::path::At;
 use crate::units::Kind;
 use stickslip_drive::{Plan, Scene};
 
@@ -31,6 +33,8 @@ pub(crate) struct Meaning {
     pub(crate) plan: Plan,
     pub(crate) figures: Figures,
     pub(crate) channels: Option<Vec<String>>,
+    pub(crate) springs: Option<SpringsOutput>,
+    pub(crate) memory: Option<MemoryOutput>,
     pub(crate) plots: Vec<PlotName>,
 }
 
@@ -42,6 +46,8 @@ struct Builder<'a> {
     courses: Vec<Course>,
     /// Terms of all sums of sines so far.
     terms: usize,
+    /// Springs of all rows so far.
+    springs: u64,
 }
 
 /// What is known of a waveform from its form alone.
@@ -54,7 +60,7 @@ struct Course {
 
 /// Gives a form its meaning; the files of its tables are already points.
 pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
-    let mut builder = Builder { form, scene: Scene::default(), courses: Vec::new(), terms: 0 };
+    let mut builder = Builder { form, scene: Scene::default(), courses: Vec::new(), terms: 0, springs: 0 };
     names::check(form)?;
     builder.waveforms()?;
     builder.materials()?;
@@ -67,15 +73,13 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     let figures = builder.figures()?;
     let plan = builder.plan(figures)?;
     builder.start()?;
-    let at = At::ROOT;
-    let at = at.key("output");
-    if form.output.springs.is_some() {
-        return Err(at.key("springs").not_yet());
-    }
+    let (springs, memory) = (builder.springs_output(plan)?, builder.memory_output(plan, figures)?);
     Ok(Meaning {
         plan,
         figures,
         channels: form.output.channels.clone(),
+        springs,
+        memory,
         plots: form.plots.clone(),
         scene: builder.scene,
     })

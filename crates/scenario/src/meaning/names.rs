@@ -23,6 +23,7 @@ pub(super) fn check(form: &Form) -> Result<(), Fault> {
     check_part(&root.key("contacts"), &form.contacts)?;
     check_part(&root.key("springs"), &form.springs)?;
     check_part(&root.key("actuators"), &form.actuators)?;
+    check_count(&root.key("loads"), form.loads.len())?;
     if form.bodies.find(GROUND).is_some() {
         let fault = root.key("bodies").key(GROUND).fault("the ground is always there, fixed");
         return Err(fault.on_key().help("choose another name for this body"));
@@ -30,12 +31,15 @@ pub(super) fn check(form: &Form) -> Result<(), Fault> {
     check_columns(form)
 }
 
-fn check_part<T>(at: &At<'_>, parts: &Parts<T>) -> Result<(), Fault> {
-    if parts.0.len() > MAX_PARTS {
-        return Err(at
-            .fault(format!("expected at most {MAX_PARTS} of them, got {}", parts.0.len()))
-            .on_key());
+fn check_count(at: &At<'_>, count: usize) -> Result<(), Fault> {
+    if count <= MAX_PARTS {
+        return Ok(());
     }
+    Err(at.fault(format!("expected at most {MAX_PARTS} of them, got {count}")).on_key())
+}
+
+fn check_part<T>(at: &At<'_>, parts: &Parts<T>) -> Result<(), Fault> {
+    check_count(at, parts.0.len())?;
     for name in parts.names() {
         // Names are steps of key paths and heads of columns.
         let good = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ' | '+');

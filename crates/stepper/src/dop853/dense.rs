@@ -79,10 +79,10 @@ impl Dop853 {
         self.polynomials.get(i).filter(|_| self.dense_known)
     }
 
-    /// Fraction of the step done at time `t`, exactly 0 and 1 at its ends.
+    /// Fraction of the step attempted that is done at time `t`, exactly 0 and 1 at its ends.
     #[inline]
     fn fraction(&self, t: f64) -> f64 {
-        if t == self.end_time { 1.0 } else { (t - self.time) / self.step }
+        if t == self.reach { 1.0 } else { (t - self.time) / self.step }
     }
 }
 

@@ -21,34 +21,49 @@ impl Run<'_> {
             let end = self.solver.end();
             let motion = eq.motion(contact, t, |i| end[i]);
             self.motions.push(motion);
-            match (state.modes[c], contact.slot) {
-                (Mode::Grow, Some(slot)) => self.trace_growth(&eq, state, (c, slot), &motion),
-                _ => self.segments.push((c, Segment::Straight(motion.apex()))),
+            if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+                self.solver.dense(&eq);
+                let mut segments = std::mem::take(&mut self.segments);
+                self.trace_growth(&eq, state, (c, slot), (t, &motion), |piece| segments.push((c, piece)));
+                self.segments = segments;
+            } else {
+                self.segments.push((c, Segment::Straight(motion.apex())));
             }
         }
     }
 
-    /// The path of a growing contact on the dense output, each piece bent by less than the tolerance allows.
-    fn trace_growth(&mut self, eq: &Equations<'_>, state: &State, (c, slot): (usize, usize), end: &Motion) {
-        self.solver.dense(eq);
+    /// The path of a growing contact on the dense output up to a time and a motion inside the step, each piece bent by
+    /// less than the tolerance allows.
+    pub(super) fn trace_growth(
+        &self,
+        eq: &Equations<'_>,
+        state: &State,
+        (c, slot): (usize, usize),
+        (end, to): (f64, &Motion),
+        mut push: impl FnMut(Segment),
+    ) {
         let contact = &self.model.contacts[c];
-        let (t0, h) = (state.t, self.solver.end_time() - state.t);
-        let solver = &self.solver;
-        let at = |share: f64| eq.motion(contact, t0 + share * h, |i| solver.value(i, t0 + share * h));
+        let (t0, h) = (state.t, end - state.t);
+        let at = |share: f64| eq.motion(contact, t0 + share * h, |i| self.solver.value(i, t0 + share * h));
         let (from, middle) = (state.memories[c].apex(), at(0.5));
-        let chord = from.u + (end.u - from.u) * (middle.d - from.d) / (end.d - from.d);
+        let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
         let bend = (middle.u - chord).abs() / (self.tolerance * contact.natural.0);
         let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
         let mut joins = state.grew[c];
         for k in 1..=pieces as u32 {
             let share = f64::from(k) / pieces;
-            let last = share >= 1.0;
-            let (to, t) = (if last { *end } else { at(share) }, t0 + share * h);
-            let value = |i: usize| if last { solver.end()[i] } else { solver.value(i, t) };
-            let (force, energy) = (value(self.layout.force(slot)), value(self.layout.elastic(slot)));
-            self.segments.push((c, Segment::Grown { to: to.apex(), force, energy, joins }));
+            let (to, t) = if share >= 1.0 { (*to, end) } else { (at(share), t0 + share * h) };
+            let force = self.component(self.layout.force(slot), t);
+            let energy = self.component(self.layout.elastic(slot), t);
+            push(Segment::Grown { to: to.apex(), force, energy, joins });
             joins = true;
         }
+    }
+
+    /// Component `i` at a time inside the step; before its end by the dense output.
+    #[inline]
+    pub(super) fn component(&self, i: usize, t: f64) -> f64 {
+        if t == self.solver.end_time() { self.solver.end()[i] } else { self.solver.value(i, t) }
     }
 
     /// All contacts move their memory to where the step ended.

@@ -1,0 +1,121 @@
+//! When output is due.
+
+/// Moments of a run, s.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Moments {
+    /// Multiples k × interval of this interval from k = 0 on, never summed up; above 0.
+    Every(f64),
+    /// These, ascending.
+    At(Vec<f64>),
+}
+
+/// A walk through the moments of a run, its beginning and its end included.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Schedule {
+    moments: Moments,
+    end: f64,
+    /// How near to the end a moment is the end, s.
+    near: f64,
+    /// Place of the next moment, a whole number.
+    next: f64,
+    due: f64,
+}
+
+/// A multiple this near to the beginning or the end of a run, in intervals, is the beginning or the end.
+const SAME: f64 = 1e-9;
+
+impl Moments {
+    /// Number of moments in a run of `duration` s from t = 0, as a number that cannot overflow.
+    pub fn count(&self, duration: f64) -> f64 {
+        match self {
+            Self::Every(interval) => (duration / interval + SAME).floor() + 1.0,
+            Self::At(times) => times.len() as f64,
+        }
+    }
+}
+
+impl Schedule {
+    /// The moments from one time to another, s, both included.
+    pub fn new(moments: Moments, from: f64, end: f64) -> Self {
+        let (next, near) = match &moments {
+            Moments::Every(interval) => ((from / interval - SAME).ceil().max(0.0), SAME * interval),
+            Moments::At(times) => (times.partition_point(|&t| t < from) as f64, 0.0),
+        };
+        let mut schedule = Self { moments, end, near, next, due: f64::INFINITY };
+        let first = schedule.time();
+        schedule.due = if (first - from).abs() <= near { from } else { first };
+        schedule
+    }
+
+    /// The next moment, s; infinite after the last one.
+    #[inline]
+    pub fn due(&self) -> f64 {
+        self.due
+    }
+
+    /// Moves on to the moment after the next one.
+    #[inline]
+    pub fn advance(&mut self) {
+        self.next += 1.0;
+        self.due = self.time();
+    }
+
+    /// The next moment, s; infinite beyond the end.
+    #[inline]
+    fn time(&self) -> f64 {
+        let t = match &self.moments {
+            Moments::Every(interval) => interval * self.next,
+            Moments::At(times) => times.get(self.next as usize).copied().unwrap_or(f64::INFINITY),
+        };
+        if t < self.end - self.near {
+            t
+        } else if t <= self.end + self.near {
+            self.end
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(moments: Moments, from: f64, end: f64) -> Vec<f64> {
+        let mut schedule = Schedule::new(moments, from, end);
+        let mut times = Vec::new();
+        while schedule.due() < f64::INFINITY {
+            times.push(schedule.due());
+            schedule.advance();
+        }
+        times
+    }
+
+    #[test]
+    fn multiples_are_products_and_the_ends_are_the_ends() {
+        // 3 × 0.1 is above 0.3 by one ulp, a sum of tenths would be, too.
+        assert_eq!(all(Moments::Every(0.1), 0.0, 0.3), [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(all(Moments::Every(0.1), 0.1 * 3.0, 0.5), [0.1 * 3.0, 0.4, 0.5]);
+        assert_eq!(all(Moments::Every(0.2), 0.3, 0.9), [0.4, 0.2 * 3.0, 0.8]);
+        assert_eq!(all(Moments::Every(2.0), 0.0, 1.0), [0.0]);
+    }
+
+    #[test]
+    fn a_list_is_cut_to_the_run() {
+        let list = || Moments::At(vec![0.0, 0.25, 0.5, 0.75]);
+        assert_eq!(all(list(), 0.0, 0.5), [0.0, 0.25, 0.5]);
+        assert_eq!(all(list(), 0.25, 0.7), [0.25, 0.5]);
+        assert!(all(Moments::At(Vec::new()), 0.0, 1.0).is_empty());
+    }
+
+    #[test]
+    fn moments_are_counted_as_they_come() {
+        for (moments, end) in [(0.1, 0.3), (0.3, 1.0), (2.0, 1.0), (1e-3, 0.1)]
+            .map(|(every, end)| (Moments::Every(every), end))
+            .into_iter()
+            .chain([(Moments::At(vec![0.1, 0.2]), 1.0)])
+        {
+            assert_eq!(moments.count(end), all(moments, 0.0, end).len() as f64);
+        }
+    }
+}

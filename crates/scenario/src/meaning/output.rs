@@ -1,0 +1,156 @@
+//! What is written of the insides of the contacts, and when.
+
+use super::contact::MAX_SPRINGS;
+use super::{Builder, Figures, range};
+use crate::PlotName;
+use crate::fault::Fault;
+use crate::form::MemoryOutputForm;
+use crate::path::At;
+use crate::quantity::Time;
+use stickslip_drive::scene::EngineChoice;
+use stickslip_drive::{Moments, Plan, Waveform};
+
+/// Most springs shown of one contact.
+const MAX_COUNT: u64 = 1_000_000;
+/// Moments of the springs in a run without rows.
+const STATES: f64 = 400.0;
+/// Moments of the memory where none are given.
+const CURVES: u32 = 6;
+
+/// What every spring does over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringsOutput {
+    /// Springs shown of a contact on the curve.
+    pub count: usize,
+    /// When.
+    pub moments: Moments,
+    /// Key path of what asks for it.
+    pub asked_by: String,
+}
+
+/// The memory curves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MemoryOutput {
+    /// When.
+    pub moments: Moments,
+    /// Key path of what asks for it.
+    pub asked_by: String,
+}
+
+impl Builder<'_> {
+    /// What is written of the springs: asked for by its key or by its plot.
+    pub(super) fn springs_output(&self, plan: Plan) -> Result<Option<SpringsOutput>, Fault> {
+        let root = At::ROOT;
+        let (output, plots) = (root.key("output"), root.key("plots"));
+        let at = output.key("springs");
+        let form = &self.form.output.springs;
+        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, PlotName::State)? else {
+            return Ok(None);
+        };
+        let form = form.clone().unwrap_or_default();
+        let every = match form.every {
+            Some(every) => interval(&at.key("every"), every, plan)?,
+            None => plan.every.unwrap_or(plan.duration / STATES),
+        };
+        let count = range::count_between(&at.key("count"), form.count.0, 1, MAX_COUNT)?;
+        let contacts = &self.scene.contacts;
+        let curves = contacts.iter().filter(|contact| contact.part.engine == EngineChoice::Curve).count();
+        let springs = self.springs + count * curves as u64;
+        if springs > MAX_SPRINGS {
+            let message = format!("expected at most {MAX_SPRINGS} springs in all contacts, got {springs}");
+            return Err(asked.fault(message).help("show fewer springs of each contact with \"count\""));
+        }
+        Ok(Some(SpringsOutput {
+            count: count as usize,
+            moments: Moments::Every(every),
+            asked_by: asked.path().to_string(),
+        }))
+    }
+
+    /// What is written of the memory curves: asked for by its key or by its plot.
+    pub(super) fn memory_output(&self, plan: Plan, figures: Figures) -> Result<Option<MemoryOutput>, Fault> {
+        let root = At::ROOT;
+        let (output, plots) = (root.key("output"), root.key("plots"));
+        let at = output.key("memory");
+        let form = &self.form.output.memory;
+        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, PlotName::Memory)? else {
+            return Ok(None);
+        };
+        let on_row = |engine: &EngineChoice| matches!(engine, EngineChoice::Springs { .. });
+        if let Some(row) = self.scene.contacts.iter().find(|contact| on_row(&contact.part.engine)) {
+            let message = format!("the contact \"{}\" is a row of springs: it has no memory curve", row.name);
+            let help = "output.springs shows a row; the engine \"curve\" has a memory curve";
+            return Err(asked.fault(message).help(help));
+        }
+        let moments = match form.clone().unwrap_or_default() {
+            MemoryOutputForm { every: Some(every), at: None } => {
+                Moments::Every(interval(&at.key("every"), every, plan)?)
+            }
+            MemoryOutputForm { every: None, at: Some(times) } => {
+                Moments::At(list(&at.key("at"), &times, plan)?)
+            }
+            MemoryOutputForm { every: None, at: None } => self.last_period(plan, figures),
+            MemoryOutputForm { every: Some(_), at: Some(_) } => {
+                let fault = at.key("at").fault("the interval of the moments is given already").on_key();
+                return Err(fault.help("keep one of them"));
+            }
+        };
+        Ok(Some(MemoryOutput { moments, asked_by: asked.path().to_string() }))
+    }
+
+    /// The key or else the plot that asks for a look into the contacts, of which there must be some.
+    fn asked<'a>(
+        &self,
+        key: Option<At<'a>>,
+        plots: &'a At<'a>,
+        plot: PlotName,
+    ) -> Result<Option<At<'a>>, Fault> {
+        let place = self.form.plots.iter().position(|name| *name == plot);
+        let asked = key.or(place.map(|place| plots.index(place)));
+        match asked {
+            Some(at) if self.scene.contacts.is_empty() => Err(at.fault("there is no contact to look into")),
+            asked => Ok(asked),
+        }
+    }
+
+    /// Moments evenly spread over the last period, the end included: of the waveform of the figures, or else of the
+    /// slowest. Without a period that fits, over the run.
+    fn last_period(&self, plan: Plan, figures: Figures) -> Moments {
+        let waveforms = &self.scene.waveforms;
+        let slowest = waveforms.iter().filter_map(|w| w.part.period()).reduce(f64::max);
+        let named = figures.waveform.and_then(|w| waveforms.get(w)).and_then(|w| Waveform::period(&w.part));
+        let span = named.or(slowest).filter(|period| *period < plan.duration).unwrap_or(plan.duration);
+        let share = |k: u32| f64::from(CURVES - k) / f64::from(CURVES);
+        Moments::At((1..=CURVES).map(|k| plan.duration - share(k) * span).collect())
+    }
+}
+
+/// An interval above 0 and not beyond the run.
+fn interval(at: &At<'_>, every: Time, plan: Plan) -> Result<f64, Fault> {
+    let every = range::above_zero(at, every)?;
+    if every <= plan.duration { Ok(every) } else { Err(beyond(at, plan)) }
+}
+
+/// Moments in ascending order, within the run.
+fn list(at: &At<'_>, times: &[Time], plan: Plan) -> Result<Vec<f64>, Fault> {
+    if times.is_empty() {
+        return Err(at.fault("expected at least one moment"));
+    }
+    let mut moments = Vec::with_capacity(times.len());
+    for (i, time) in times.iter().enumerate() {
+        let at = at.index(i);
+        let time = range::at_least_zero(&at, *time)?;
+        if time > plan.duration {
+            return Err(beyond(&at, plan));
+        }
+        if moments.last().is_some_and(|before| *before >= time) {
+            return Err(at.expected("a time after the moment before it"));
+        }
+        moments.push(time);
+    }
+    Ok(moments)
+}
+
+fn beyond(at: &At<'_>, plan: Plan) -> Fault {
+    at.expected(format_args!("a time up to the duration of the run, {} s", plan.duration))
+}
