@@ -1,12 +1,13 @@
 //! `stickslip compare`: two folders of results, channel by channel, event by event, figure by figure.
 //!
-//! In reading order: [`results`] (a folder read back); [`allowance`] with [`scales`] and [`names`] (what may differ by
-//! how much); [`channels`]; [`events`] with [`alignment`]; [`figures`]; [`comparison`] (all of it, and what it comes
-//! to); [`account`] (what people read); [`picture`]; [`error`].
+//! In reading order: [`arguments`]; [`results`] (a folder read back); [`allowance`] with [`scales`] and [`names`] (what
+//! may differ by how much); [`channels`]; [`events`] with [`alignment`]; [`figures`]; [`comparison`] (all of it, and what
+//! it comes to); [`account`] (what people read); [`picture`]; [`error`].
 
 mod account;
 mod alignment;
 mod allowance;
+mod arguments;
 mod channels;
 mod comparison;
 mod error;
@@ -17,13 +18,14 @@ mod picture;
 mod results;
 mod scales;
 
-use crate::arguments::CompareArguments;
 use crate::verdict::Verdict;
 use comparison::Comparison;
 use error::CompareError;
 use picture::Form;
 use results::Results;
 use std::io::Write;
+
+pub(crate) use arguments::{ABOUT, CompareArguments, EXAMPLES};
 
 /// Compares two folders and prints what was found.
 pub(crate) fn run(arguments: &CompareArguments) -> Verdict {

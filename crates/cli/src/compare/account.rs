@@ -4,10 +4,14 @@ use super::channels::ChannelDifference;
 use super::comparison::Comparison;
 use super::events::Lone;
 use super::figures::FigureDifference;
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 use serde_json::Value;
 
 /// Events and figures shown of each sort; `--json` has all.
 const SHOWN: usize = 5;
+
+/// A line under the heads, nothing else.
+const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
 /// A table of channels, then events, figures and the first difference.
 pub(crate) fn text(comparison: &Comparison) -> String {
@@ -38,20 +42,22 @@ fn heading(comparison: &Comparison) -> String {
 }
 
 fn channels(comparison: &Comparison) -> Vec<String> {
-    let width =
-        comparison.channels.iter().map(|c| c.name.chars().count()).max().unwrap_or(0).max("channel".len());
-    let row = |[name, worst, at, allowed, verdict]: [&str; 5]| {
-        format!("  {name:width$}  {worst:>14}  {at:>13}  {allowed:>14}  {verdict}").trim_end().to_owned()
-    };
-    let mut lines = vec![row(["channel", "worst", "at t", "allowed", ""])];
+    let mut table = Table::new();
+    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(["channel", "worst", "at t", "allowed", ""]);
     for channel in &comparison.channels {
         let at = channel.at.map(|at| format!("{} s", time(at.0))).unwrap_or_default();
         let verdict = if channel.is_same() { "ok" } else { "DIFFERS" };
         let allowed = channel.allowed.map(|allowed| amount(allowed.0, channel.unit)).unwrap_or_default();
-        lines.push(row([&channel.name, &worst(channel), &at, &allowed, verdict]));
+        table.add_row([&channel.name, &worst(channel), &at, &allowed, verdict]);
     }
-    lines.extend(comparison.channels_missing.iter().map(|name| row([name, "", "", "", "MISSING in B"])));
-    lines
+    for name in &comparison.channels_missing {
+        table.add_row([name, "", "", "", "MISSING in B"]);
+    }
+    for column in table.column_iter_mut().skip(1).take(3) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.lines().map(|line| format!(" {}", line.trim_end())).collect()
 }
 
 fn worst(channel: &ChannelDifference) -> String {

@@ -1,10 +1,10 @@
 //! What may differ by how much.
 
+use super::arguments::CompareArguments;
 use super::error::CompareError;
 use super::names::{owner, unit};
 use super::results::{Exactness, Results};
 use super::scales::Scales;
-use crate::arguments::CompareArguments;
 use stickslip_scenario::{quantity, suggestion};
 
 /// Relative tolerance between runs by the same stepper at the same tolerance or step. They do the same arithmetic, so

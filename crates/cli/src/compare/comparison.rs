@@ -2,12 +2,12 @@
 
 use super::account::time;
 use super::allowance::Allowance;
+use super::arguments::CompareArguments;
 use super::channels::{self, ChannelDifference, CommonRows};
 use super::error::CompareError;
 use super::events::{self, EventDifferences};
 use super::figures::{self, FigureDifferences};
 use super::results::Results;
-use crate::arguments::CompareArguments;
 use crate::real::Real;
 use serde::Serialize;
 
@@ -159,7 +159,9 @@ impl Comparison {
         }
         if self.a.end != self.b.end {
             let until = self.until.0;
-            notes.push(format!("compared until t = {until:?} s, where the shorter run ends; figures of the whole run are not compared"));
+            notes.push(format!(
+                "compared until t = {until:?} s, where the shorter run ends; figures of the whole run are not compared"
+            ));
         }
         let Rows { a, b, common } = self.rows;
         if a != common || b != common {

@@ -20,11 +20,6 @@ pub(crate) fn unit(name: &str) -> &'static str {
     UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| unit)
 }
 
-/// The name of a channel without its unit, for places that show the unit apart: `slider.vx` of `slider.vx_m_s`.
-pub(crate) fn without_unit(name: &str) -> &str {
-    UNITS.iter().find_map(|(end, _)| name.strip_suffix(end)).unwrap_or(name)
-}
-
 /// What a channel or figure belongs to: `slider` of `slider.x_m`, `ball` of `contacts.ball.friction_J`.
 pub(crate) fn owner(name: &str) -> &str {
     let mut parts = name.split('.');
@@ -45,7 +40,6 @@ mod tests {
         assert_eq!(read("slider.x_m"), ("slider", "m"));
         assert_eq!(read("slider.vpitch_rad_s"), ("slider", "rad/s"));
         assert_eq!(read("ball.state"), ("ball", ""));
-        assert_eq!((without_unit("slider.vx_m_s"), without_unit("ball.state")), ("slider.vx", "ball.state"));
         assert_eq!(read("contacts.ball.fretting.cycle_s[1]"), ("ball", "s"));
         assert_eq!(read("contacts.x_m"), ("contacts", "m"));
         assert_eq!(read("steps.lengths_m[12]"), ("steps", "m"));

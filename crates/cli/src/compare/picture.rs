@@ -3,7 +3,6 @@
 use super::channels::{ChannelDifference, CommonRows};
 use super::comparison::Comparison;
 use super::error::CompareError;
-use super::names::without_unit;
 use super::results::Results;
 use crate::folder::draft;
 use std::io::{self, Write};
@@ -12,10 +11,6 @@ use stickslip_plot::{ComparedChannel, Figure, PlotError, compare_figure, draw_pn
 
 /// Channels shown at most.
 const SHOWN: usize = 3;
-
-/// Heights of the title and of the panels of a channel, in pixels.
-const HEAD: u32 = 260;
-const HEIGHT: u32 = 760;
 
 /// Form of a picture, by the end of its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,17 +58,15 @@ pub(crate) fn draw(
     let channels: Vec<ComparedChannel<'_>> = curves
         .iter()
         .map(|curve| ComparedChannel {
-            name: without_unit(&curve.channel.name),
+            name: &curve.channel.name,
             unit: curve.channel.unit,
             a: (a.time(), curve.a),
             b: (b.time(), curve.b),
             difference: (&curve.time, &curve.difference),
         })
         .collect();
-    let names = (legend("A", a), legend("B", b));
+    let names = (legend(a), legend(b));
     let mut figure = compare_figure(&comparison.verdict(), (&names.0, &names.1), &channels);
-    // Names of channels are long, and stand upright beside their panels.
-    figure.size.1 = figure.size.1.max(HEAD + HEIGHT * channels.len() as u32);
     figure.provenance = provenance(comparison);
     let bytes = Form::of(file)?.draw(&figure)?;
     write(file, &bytes).map_err(|source| CompareError::NotWritten { path: file.to_owned(), source })?;
@@ -100,9 +93,9 @@ fn curves<'a>(
 }
 
 /// Name of a run in the legend: the end of its path, where folders of results tell themselves apart.
-fn legend(letter: &str, results: &Results) -> String {
+fn legend(results: &Results) -> String {
     let parts: Vec<_> = results.folder.iter().map(|part| part.to_string_lossy()).collect();
-    format!("{letter}: {}", parts[parts.len().saturating_sub(2)..].join("/"))
+    parts[parts.len().saturating_sub(2)..].join("/")
 }
 
 /// Under a temporary name first, as all files are written.
