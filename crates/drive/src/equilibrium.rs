@@ -34,7 +34,7 @@ impl Model {
         }
         self.check_step(plan.stepper)?;
         let mut state = self.rest();
-        if self.equilibrium {
+        if self.equilibrium && !self.free.is_empty() {
             self.settle(&mut state)?;
         }
         let varying = self.contacts.iter().filter(|c| !c.is_constant());
@@ -148,7 +148,7 @@ impl Model {
                 },
             );
         let name = &self.bodies[self.free[worst].body].name;
-        let message = format!("`{name}` has no static equilibrium along x: {force:e} N stay unbalanced");
+        let message = format!("`{name}` has no static equilibrium along x: {force:.3e} N stay unbalanced");
         SceneError::new("run.start", message).help("lower the load, press harder, or start from rest instead")
     }
 

@@ -4,7 +4,9 @@ use super::{Body, Contact, Free, Link, Load, Model, Place, Press, Stroke, check,
 use crate::scene::{self, ContactStart, EngineChoice, Freedom, Named, Normal, Scene, Side, Start, Varying};
 use crate::{SceneError, Waveform};
 use std::sync::Arc;
-use stickslip_contact::{Engine, FirstLoading, Interface, NormalGiven, Springs, TangentialGiven};
+use stickslip_contact::{
+    Engine, FirstLoading, Interface, NormalGiven, Springs, SpringsError, TangentialGiven,
+};
 
 impl Model {
     /// Checks a scene and assembles its constants. Errors name the key path of what is wrong.
@@ -109,9 +111,7 @@ fn contact(
         EngineChoice::Springs { .. } if deepest <= 0.0 => Engine::Curve,
         EngineChoice::Springs { count, span } => {
             let span = span.unwrap_or_else(|| 2.0 * law.profile().radius(deepest));
-            let springs = Springs::new(law.profile(), count, span)
-                .map_err(|e| SceneError::new(path("engine"), e.to_string()))?;
-            Engine::Row(Arc::new(springs))
+            Engine::Row(Arc::new(row(&path("engine.springs"), &law, (count, span), range.2)?))
         }
     };
     let start = match part.start {
@@ -139,6 +139,23 @@ fn contact(
         natural: (0.0, 0.0),
     };
     Ok((contact, deepest))
+}
+
+const WIDE: &str = "leave the span out: the row is then as wide as the contact ever is";
+
+/// A row of springs that is wide enough for the contact's first indentation.
+fn row(path: &str, law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Springs, SceneError> {
+    let springs = Springs::new(law.profile(), count, span).map_err(|error| {
+        let key = if matches!(error, SpringsError::Count(_)) { "count" } else { "span" };
+        SceneError::new(format!("{path}.{key}"), error.to_string()).help(WIDE)
+    })?;
+    if first <= springs.reach() {
+        return Ok(springs);
+    }
+    let width = 2.0 * law.profile().radius(first);
+    let message =
+        format!("expected at least the contact's width at the start, {width:.3e} m, got {span:e} m");
+    Err(SceneError::new(format!("{path}.span"), message).help(WIDE))
 }
 
 /// What presses a contact, and its smallest, largest and first indentation.

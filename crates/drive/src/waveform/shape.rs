@@ -1,5 +1,7 @@
 //! What a waveform looks like, as its user gives it.
 
+use std::f64::consts::TAU;
+
 /// Form of one period, or of the whole where there is none. SI units of whatever the waveform drives; angles in rad.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
@@ -148,32 +150,36 @@ pub(super) fn check(shape: &Shape, timing: &Timing) -> Result<(), WaveformError>
     if let Some(cycles) = timing.cycles {
         within("cycles", cycles, "a finite number above 0", cycles > 0.0)?;
     }
+    let curvature = (TAU / timing.period).powi(2);
     match shape {
         Shape::Sawtooth { stroke, flyback } | Shape::Cycloid { stroke, flyback } => {
-            finite("stroke", *stroke)?;
-            if *flyback >= 0.0 && timing.period - flyback > 0.0 {
-                Ok(())
-            } else {
-                Err(WaveformError::Flyback { period: timing.period, got: *flyback })
+            if !(*flyback >= 0.0 && timing.period - flyback > 0.0) {
+                return Err(WaveformError::Flyback { period: timing.period, got: *flyback });
             }
+            let rise = timing.period - flyback;
+            let shortest = if *flyback > 0.0 { flyback.min(rise) } else { rise };
+            let curved = matches!(shape, Shape::Cycloid { .. });
+            smooth("stroke", *stroke, stroke / shortest * if curved { TAU / shortest } else { 1.0 })
         }
-        Shape::Triangle { stroke } => finite("stroke", *stroke),
+        Shape::Triangle { stroke } => smooth("stroke", *stroke, 2.0 * stroke / timing.period),
         Shape::Sine { amplitude, phase, offset } => {
-            finite("amplitude", *amplitude)?;
+            smooth("amplitude", *amplitude, amplitude * curvature)?;
             finite("phase", *phase)?;
-            finite("offset", *offset)
+            smooth("offset", *offset, offset.abs() + amplitude.abs())
         }
-        Shape::Harmonics { terms } => check_terms(terms),
+        Shape::Harmonics { terms } => check_terms(terms, curvature),
         Shape::Table { .. } => Ok(()),
     }
 }
 
-fn check_terms(terms: &[Harmonic]) -> Result<(), WaveformError> {
+fn check_terms(terms: &[Harmonic], curvature: f64) -> Result<(), WaveformError> {
     if terms.is_empty() {
         return Err(WaveformError::Empty { key: "terms" });
     }
+    let mut sum = 0.0;
     for term in terms {
-        finite("amplitude", term.amplitude)?;
+        sum += term.amplitude.abs() * (term.order * term.order * curvature).max(1.0);
+        smooth("amplitude", term.amplitude, sum)?;
         finite("phase", term.phase)?;
         let whole = term.order >= 1.0 && term.order.fract() == 0.0;
         within("order", term.order, "a whole number of at least 1", whole)?;
@@ -195,6 +201,8 @@ fn check_table(points: &[(f64, f64)], timing: &Timing) -> Result<(), WaveformErr
     }
     for (i, pair) in points.windows(2).enumerate() {
         let (before, got) = (pair[0].0, pair[1].0);
+        let time = if got > before { got - before } else { 1.0 };
+        smooth("points", pair[1].1, (pair[1].1 - pair[0].1) / time)?;
         // Compared after the delay too: it may swallow a short interval.
         if got < before || got > before && timing.delay + got <= timing.delay + before {
             return Err(WaveformError::Times { place: i + 1, before, got });
@@ -208,6 +216,11 @@ fn check_table(points: &[(f64, f64)], timing: &Timing) -> Result<(), WaveformErr
 
 fn finite(key: &'static str, got: f64) -> Result<(), WaveformError> {
     within(key, got, "a finite number", true)
+}
+
+/// A value whose rate of change (or acceleration, or sum) is a number as well.
+fn smooth(key: &'static str, got: f64, steepest: f64) -> Result<(), WaveformError> {
+    within(key, got, "a value that changes at a finite rate", steepest.is_finite())
 }
 
 fn within(key: &'static str, got: f64, expected: &'static str, allowed: bool) -> Result<(), WaveformError> {

@@ -384,3 +384,24 @@ fn nonsense_is_refused_by_name() {
     );
     assert_eq!(refuse(table(&[(0.0, 0.0)]), Timing { phase: 1.0, ..every }).key(), "phase");
 }
+
+/// A stroke of 1e308 in a millisecond has a rate beyond all numbers; it was taken, and held NaN.
+#[test]
+fn values_that_change_beyond_all_numbers_are_refused() {
+    let steep = [
+        Shape::Sawtooth { stroke: 1e308, flyback: 1e-4 },
+        Shape::Sawtooth { stroke: 1e-6, flyback: 5e-324 },
+        Shape::Cycloid { stroke: 1e303, flyback: 1e-4 },
+        Shape::Triangle { stroke: 1e307 },
+        Shape::Sine { amplitude: 1e304, phase: 0.0, offset: 0.0 },
+        Shape::Sine { amplitude: 1e302, phase: 0.0, offset: f64::MAX },
+        Shape::Harmonics { terms: vec![Harmonic { amplitude: 1e300, order: 1e3, phase: 0.0 }] },
+        Shape::Table { points: vec![(0.0, -1e308), (1.0, 1e308)] },
+        Shape::Table { points: vec![(0.0, 0.0), (0.0, -1e308), (1e-3, 1.0)] },
+    ];
+    for shape in steep {
+        let text = format!("{shape:?}");
+        let error = Waveform::new(shape, Timing::every(0.01)).expect_err(&text);
+        assert!(error.to_string().contains("changes at a finite rate"), "{text}: {error}");
+    }
+}

@@ -5,7 +5,7 @@ use crate::parts::{
     FOOT_SLIDER, Nothing, contact, damper, event, foot_and_slider, free, named, p1, plan, push, sine, wave,
 };
 use stickslip_contact::Profile;
-use stickslip_drive::scene::{Actuator, ContactStart, Normal, Scene, Side, Spring, Start, Varying};
+use stickslip_drive::scene::{Actuator, ContactStart, Freedom, Normal, Scene, Side, Spring, Start, Varying};
 use stickslip_drive::{Limits, Model, Plan, RunError, Shape, Stepper, Trace, run};
 
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(1)];
@@ -186,6 +186,18 @@ fn a_normal_force_that_touches_zero_lets_go_and_grips_again() {
 }
 
 /// What no friction can hold has no say in the step, whether the normal force varies or not.
+/// An equilibrium of nothing was looked for in a matrix without rows, which panicked.
+#[test]
+fn where_nothing_is_free_the_equilibrium_is_the_start() {
+    let punch = contact(FOOT_SLIDER, Profile::flat(1e-5).unwrap(), 0.2, 1.0);
+    let mut scene = foot_and_slider(wave("drive", sine(1e-7), 1e-3), 0.01, punch);
+    scene.bodies[1].part.x = Freedom::Fixed;
+    let plan = event(1e-8, 1e-3);
+    let given = Model::new(&scene).unwrap().start(&plan).unwrap();
+    scene.start = Start::Equilibrium;
+    assert_eq!(Model::new(&scene).unwrap().start(&plan).unwrap(), given);
+}
+
 #[test]
 fn a_varying_contact_without_friction_or_without_force_does_nothing() {
     for (friction, force) in [(0.0, 1.0), (0.2, 0.0)] {
