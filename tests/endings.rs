@@ -54,7 +54,7 @@ fn an_interrupted_run_leaves_what_it_computed() {
     let mut command = stickslip();
     command.arg("run").args(["p1", "quickstart"].map(scenario)).arg("--out").arg(out.path());
     // Both would take hours.
-    command.args(["--set", "run.limits.steps=1e15", "--set", "output.every=1 s"]);
+    command.args(["--set", "run.limits.steps=1e15", "--set", "output={}"]);
     command.args(["--set", "waveforms.drive.sawtooth.cycles=1e9", "--set", "plots=[]"]);
     command.args(["--set", "run.stepper={\"verlet\":{\"step\":\"1 ns\"}}"]);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

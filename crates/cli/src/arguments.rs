@@ -153,7 +153,7 @@ pub(crate) struct RunArguments {
     /// Print the summaries to stdout, one line of JSON per scenario
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress, no result for people; errors only
+    /// No progress, no warnings, no result for people; errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

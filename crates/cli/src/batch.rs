@@ -49,12 +49,22 @@ fn prepare(arguments: &RunArguments) -> Vec<Result<Job, Refusal>> {
     let mut taken: HashMap<PathBuf, PathBuf> = HashMap::new();
     let prepare = |file: &PathBuf| {
         let job = Job::prepare(file, &arguments.set, &arguments.out)?;
+        if !arguments.quiet {
+            warn(&job);
+        }
         match taken.insert(job.folder.clone(), file.clone()) {
             None => Ok(job),
             Some(other) => Err(Refusal::SameFolder { file: file.clone(), folder: job.folder, other }),
         }
     };
     arguments.files.iter().map(prepare).collect()
+}
+
+/// Says what is odd about a scenario. Nobody listening is no reason to stop.
+fn warn(job: &Job) {
+    for warning in &job.scenario.warnings {
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+    }
 }
 
 /// Prints reports in the order of the files, whichever is ready first.

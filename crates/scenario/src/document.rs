@@ -1,10 +1,12 @@
 //! A scenario's text, its values and the place of each: what every report points into.
 
-use crate::error::{Excerpt, Report, ScenarioError};
+use crate::error::{Report, ScenarioError};
+use crate::excerpt::{Excerpt, visible};
 use crate::fault::{Fault, Mark};
 use crate::path::KeyPath;
 use crate::place::{Inner, Place, Span};
 use crate::syntax;
+use crate::tables::TableFile;
 use serde_json::Value;
 
 /// A text that values come from.
@@ -13,45 +15,79 @@ pub(crate) struct Source {
     /// The file as it was named; for an override the whole argument.
     pub(crate) name: String,
     pub(crate) text: String,
+    pub(crate) kind: SourceKind,
+}
+
+/// What a text is.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum SourceKind {
+    Scenario,
+    /// An argument of `--set`.
+    Override,
+    /// A table that the scenario names under a key.
+    Table(KeyPath),
 }
 
 /// A read scenario before anybody has asked what it means.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Document {
-    /// The file, then the overrides.
+    /// The scenario, then overrides and tables.
     pub(crate) sources: Vec<Source>,
     pub(crate) value: Value,
     pub(crate) root: Place,
+    /// Tables whose points stand in files of their own.
+    pub(crate) tables: Vec<TableFile>,
 }
 
 /// Most characters of a value that a message repeats.
 const SHOWN: usize = 60;
 
 impl Document {
+    /// A text that nobody has read yet.
+    pub(crate) fn new(file: &str, text: &str) -> Self {
+        let whole = Span { source: 0, start: 0, end: text.len() };
+        let mut document = Self {
+            sources: Vec::new(),
+            value: Value::Null,
+            root: Place { key: None, value: whole, inner: Inner::Leaf },
+            tables: Vec::new(),
+        };
+        document.add(file.to_owned(), text.to_owned(), SourceKind::Scenario);
+        document
+    }
+
     /// Reads a text as strict JSON and notes where everything stands.
     pub(crate) fn read(file: &str, text: &str) -> Result<Self, ScenarioError> {
-        let mut document = Self {
-            sources: vec![Source { name: file.to_owned(), text: text.to_owned() }],
-            value: Value::Null,
-            root: Place { key: None, value: Span { source: 0, start: 0, end: 0 }, inner: Inner::Leaf },
-        };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut document = Self::new(file, text);
         match syntax::read(text, &syntax::Origin { source: 0, offset: 0, path: KeyPath::default() }) {
             Ok((value, root)) => {
                 document.value = value;
                 document.root = root;
                 Ok(document)
             }
-            Err(fault) => Err(document.report(fault)),
+            Err(fault) => Err(document.report(fault).into()),
         }
+    }
+
+    /// Adds a text to point into.
+    pub(crate) fn add(&mut self, name: String, text: String, kind: SourceKind) -> &str {
+        self.sources.push(Source { name, text, kind });
+        self.sources.last().map_or("", |source| &source.text)
     }
 
     /// What stands in the text under a path, strings without their quotes; none where nothing does.
     pub(crate) fn written(&self, path: &KeyPath) -> Option<String> {
+        if let Some(cell) = self.cell(path) {
+            return Some(shown(self.slice(cell)));
+        }
         let (place, depth) = self.root.deepest(path);
         if depth < path.0.len() {
             return None;
         }
-        Some(match place.inner {
+        Some(match &place.inner {
+            Inner::Object(entries) if entries.is_empty() => "an empty object".to_owned(),
+            Inner::List(entries) if entries.is_empty() => "an empty list".to_owned(),
             Inner::Object(_) => "an object".to_owned(),
             Inner::List(_) => "a list".to_owned(),
             Inner::Leaf => {
@@ -68,21 +104,50 @@ impl Document {
     }
 
     /// A fault with its place in the file.
-    pub(crate) fn report(&self, fault: Fault) -> ScenarioError {
+    pub(crate) fn report(&self, fault: Fault) -> Report {
         let written = if fault.value { self.written(&fault.path) } else { None };
-        let span = fault.span.unwrap_or_else(|| self.locate(&fault.path, fault.mark));
-        let source = self.sources.get(span.source);
-        ScenarioError::new(Report {
-            file: source.map(|s| s.name.clone()).unwrap_or_default(),
-            is_override: span.source > 0,
-            excerpt: source.map(|s| excerpt(&s.text, span)),
+        let help = fault.help.about(&fault.path);
+        let span = fault
+            .span
+            .or_else(|| self.cell(&fault.path))
+            .unwrap_or_else(|| self.locate(&fault.path, fault.mark));
+        let mut report = Report {
+            file: String::new(),
+            is_override: false,
+            excerpt: None,
             path: fault.path.to_string(),
             message: match written {
                 Some(written) => format!("{}, got {written}", fault.message),
                 None => fault.message,
             },
-            help: fault.help,
-        })
+            help,
+        };
+        if let Some(source) = self.sources.get(span.source) {
+            report.file.clone_from(&source.name);
+            report.excerpt = Some(Excerpt::of(&source.text, span.start..span.end));
+            report.is_override = source.kind == SourceKind::Override;
+            if let SourceKind::Table(named) = &source.kind {
+                let place = format!("the table is named in {}", self.address(named));
+                report.help = Some(match report.help {
+                    Some(help) => format!("{help}; {place}"),
+                    None => place,
+                });
+            }
+        }
+        report
+    }
+
+    /// File, line and column of a value.
+    fn address(&self, path: &KeyPath) -> String {
+        let span = self.locate(path, Mark::Value);
+        let Some(source) = self.sources.get(span.source) else { return String::new() };
+        match &source.kind {
+            SourceKind::Override => format!("--set {}", source.name),
+            _ => {
+                let excerpt = Excerpt::of(&source.text, span.start..span.end);
+                format!("{}:{}:{}", source.name, excerpt.line, excerpt.column)
+            }
+        }
     }
 
     /// The place of the deepest part of a path that stands in the file. A value over several lines is pointed at by
@@ -96,41 +161,18 @@ impl Document {
             _ => place.value,
         }
     }
+
+    /// The place of a time or value of a table in a file of its own.
+    fn cell(&self, path: &KeyPath) -> Option<Span> {
+        self.tables.iter().find_map(|table| table.locate(path, &self.sources))
+    }
 }
 
 /// A value as a message repeats it: on one line and not without end.
 pub(crate) fn shown(text: &str) -> String {
-    let mut shown: String =
-        text.chars().take(SHOWN).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    let mut shown: String = text.chars().take(SHOWN).map(visible).collect();
     if text.chars().nth(SHOWN).is_some() {
         shown.push('…');
     }
     shown
-}
-
-/// Line, column and text around a span.
-fn excerpt(text: &str, span: Span) -> Excerpt {
-    let start = floor_boundary(text, span.start);
-    let end = floor_boundary(text, span.end.max(span.start)).max(start);
-    let line_start = text[..start].rfind('\n').map_or(0, |i| i + 1);
-    let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
-    let line = text[line_start..line_end].trim_end_matches('\r');
-    let column = text[line_start..start].chars().count();
-    // The marker stays on its line; past the end of the line it still shows one caret.
-    let width =
-        text[start..end.clamp(start, line_start + line.len().max(start - line_start))].chars().count();
-    Excerpt {
-        line: text[..start].matches('\n').count() + 1,
-        column: column + 1,
-        text: line.to_owned(),
-        marker: column..column + width.max(1),
-    }
-}
-
-fn floor_boundary(text: &str, index: usize) -> usize {
-    let mut index = index.min(text.len());
-    while !text.is_char_boundary(index) {
-        index -= 1;
-    }
-    index
 }

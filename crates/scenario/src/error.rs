@@ -1,18 +1,19 @@
 //! The report of what is wrong with a scenario, as plain values.
 
+use crate::excerpt::Excerpt;
 use std::fmt;
-use std::ops::{Deref, Range};
+use std::ops::Deref;
 
 /// What is wrong with a scenario, where, and what would be right. The values are in [`Report`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScenarioError(Box<Report>);
 
-/// The parts of a [`ScenarioError`].
+/// What there is to say about a place of a scenario: the parts of a [`ScenarioError`], or a warning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// The file as it was named, or the argument of `--set` that is to blame.
+    /// The file as it was named, the table that it names, or the argument of `--set` that is to blame.
     pub file: String,
-    /// Whether an argument of `--set` is to blame, not the file.
+    /// Whether an argument of `--set` is to blame, not a file.
     pub is_override: bool,
     /// Where in the file; none when the file as a whole is meant.
     pub excerpt: Option<Excerpt>,
@@ -24,28 +25,9 @@ pub struct Report {
     pub help: Option<String>,
 }
 
-/// The line to blame.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Excerpt {
-    /// Line, from 1.
-    pub line: usize,
-    /// Column of the marker in characters, from 1.
-    pub column: usize,
-    /// The whole line without its end.
-    pub text: String,
-    /// What the marker stands under: characters of [`Self::text`], from 0; never empty.
-    pub marker: Range<usize>,
-}
-
-impl ScenarioError {
-    pub(crate) fn new(report: Report) -> Self {
+impl From<Report> for ScenarioError {
+    fn from(report: Report) -> Self {
         Self(Box::new(report))
-    }
-
-    /// The path as a later check wrote it, also where it goes deeper than the file.
-    pub(crate) fn with_path(mut self, path: &str) -> Self {
-        path.clone_into(&mut self.0.path);
-        self
     }
 }
 
@@ -59,40 +41,13 @@ impl Deref for ScenarioError {
 
 impl std::error::Error for ScenarioError {}
 
-/// Most characters of a line that are shown.
-const WIDTH: usize = 100;
-/// Characters shown before the marker where the line is cut.
-const BEFORE: usize = 40;
-
-impl Excerpt {
-    /// The part of the line to show and where its marker stands.
-    fn window(&self) -> (String, Range<usize>) {
-        let length = self.text.chars().count();
-        if length <= WIDTH {
-            return (self.text.chars().map(printable).collect(), self.marker.clone());
-        }
-        let start = self.marker.start.saturating_sub(BEFORE).min(length - WIDTH);
-        let end = start + WIDTH;
-        let mut shown: String = self.text.chars().skip(start).take(WIDTH).map(printable).collect();
-        let mut shift = 0;
-        if start > 0 {
-            shown.insert(0, '…');
-            shift = 1;
-        }
-        if end < length {
-            shown.push('…');
-        }
-        let marker = self.marker.start - start + shift..self.marker.end.min(end) - start + shift;
-        (shown, marker)
+impl fmt::Display for ScenarioError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
     }
 }
 
-/// A tab or another control character would move the marker away from its word.
-fn printable(c: char) -> char {
-    if c.is_control() { ' ' } else { c }
-}
-
-impl fmt::Display for ScenarioError {
+impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.excerpt {
             _ if self.is_override => write!(f, "--set {}  ", self.file)?,
@@ -106,22 +61,13 @@ impl fmt::Display for ScenarioError {
         if let Some(excerpt) = &self.excerpt {
             let (shown, marker) = excerpt.window();
             let number = if self.is_override { String::new() } else { excerpt.line.to_string() };
-            let carets = "^".repeat(marker.len().max(1));
             // The marker is set off by the gutter: five digits, a blank, the bar and a blank.
-            write!(
-                f,
-                "\n{number:>5} | {shown}\n{:indent$}{carets}",
-                "",
-                indent = gutter(&number) + marker.start
-            )?;
+            let indent = number.len().max(5) + 3 + marker.start;
+            write!(f, "\n{number:>5} | {shown}\n{:indent$}{}", "", "^".repeat(marker.len()))?;
         }
         if let Some(help) = &self.help {
             write!(f, "\n   help: {help}")?;
         }
         Ok(())
     }
-}
-
-fn gutter(number: &str) -> usize {
-    number.len().max(5) + 3
 }

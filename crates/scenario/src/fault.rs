@@ -1,5 +1,6 @@
 //! What is wrong, by key path; the document turns it into a report with a place in the file.
 
+use crate::guide::Help;
 use crate::path::KeyPath;
 use crate::place::Span;
 
@@ -20,23 +21,34 @@ pub(crate) struct Fault {
     /// The place itself where it is known; otherwise it is looked up by path.
     pub(crate) span: Option<Span>,
     pub(crate) message: String,
-    pub(crate) help: Option<String>,
+    pub(crate) help: Help,
     /// Whether the report adds ", got …" from the file.
     pub(crate) value: bool,
 }
 
 impl Fault {
     pub(crate) fn new(path: KeyPath, message: impl Into<String>) -> Self {
-        Self { path, mark: Mark::Value, span: None, message: message.into(), help: None, value: false }
+        let message = message.into();
+        Self { path, mark: Mark::Value, span: None, message, help: Help::None, value: false }
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Help::Said(help.into());
         self
     }
 
     pub(crate) fn maybe_help(mut self, help: Option<String>) -> Self {
-        self.help = help.or(self.help);
+        if let Some(help) = help {
+            self.help = Help::Said(help);
+        }
+        self
+    }
+
+    /// Help from the schema, where there is no better one.
+    pub(crate) fn ask(mut self, help: Help) -> Self {
+        if self.help == Help::None {
+            self.help = help;
+        }
         self
     }
 

@@ -11,8 +11,11 @@
 
 mod document;
 mod error;
+mod excerpt;
 mod fault;
+mod folder;
 mod form;
+mod guide;
 mod meaning;
 mod overrides;
 mod pairing;
@@ -23,12 +26,15 @@ mod refusal;
 mod resolved;
 mod scenario;
 mod schema;
+mod shape;
 mod suggest;
 mod syntax;
 mod tables;
+mod text;
 mod units;
 
-pub use error::{Excerpt, Report, ScenarioError};
+pub use error::{Report, ScenarioError};
+pub use excerpt::Excerpt;
 pub use meaning::{Figures, MemoryOutput, SpringsOutput};
 pub use quantity::quantity;
 pub use scenario::{PlotName, Scenario};

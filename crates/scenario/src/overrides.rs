@@ -1,6 +1,6 @@
 //! `--set path=value`: values put into a read scenario before it is given its meaning.
 
-use crate::document::{Document, Source};
+use crate::document::{Document, SourceKind};
 use crate::error::ScenarioError;
 use crate::fault::Fault;
 use crate::path::{KeyPath, Step};
@@ -17,13 +17,13 @@ const NAMED: [&str; 6] = ["materials", "waveforms", "bodies", "contacts", "sprin
 pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Result<(), ScenarioError> {
     let source = document.sources.len();
     let argument = format!("{path}={text}");
-    document.sources.push(Source { name: argument.clone(), text: argument });
+    document.add(argument.clone(), argument, SourceKind::Override);
     let name = Span { source, start: 0, end: path.len() };
     let target = match KeyPath::parse(path) {
         Some(target) if !target.0.is_empty() => target,
         _ => {
             let fault = Fault::new(KeyPath::default(), "expected a key path before the = sign").at_span(name);
-            return Err(document.report(fault.help("such as contacts.ball.friction or loads[0].x")));
+            return Err(document.report(fault.help("such as contacts.ball.friction or loads[0].x")).into());
         }
     };
     let put = value(text, &syntax::Origin { source, offset: path.len() + 1, path: target.clone() }).and_then(
@@ -38,7 +38,7 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Result<(
             document.root.put(&target.0, place);
             Ok(())
         }
-        Err(fault) => Err(document.report(fault)),
+        Err(fault) => Err(document.report(fault).into()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::document::shown;
 use crate::fault::Fault;
+use crate::guide::Help;
 use std::fmt;
 
 /// One step from a value to one inside it.
@@ -104,12 +105,13 @@ impl<'a> At<'a> {
 
     /// The value here is not what was expected; the report adds what stands in the file.
     pub(crate) fn expected(&self, what: impl fmt::Display) -> Fault {
-        Fault::new(self.path(), format!("expected {what}")).with_value()
+        Fault::new(self.path(), format!("expected {what}")).with_value().ask(Help::Meaning)
     }
 
     /// A key that must be there is not.
     pub(crate) fn missing(&self, key: &str) -> Fault {
-        Fault::new(self.path(), format!("missing key \"{key}\"")).on_key()
+        let fault = Fault::new(self.path(), format!("missing key \"{key}\"")).on_key();
+        fault.ask(Help::Missing(key.to_owned()))
     }
 
     /// A key or value of the form that this version does not implement.

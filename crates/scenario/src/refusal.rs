@@ -1,35 +1,18 @@
 //! What serde says about a form that does not fit, in the words and with the place of a fault.
 
-use crate::document::Document;
+use crate::document::{Document, shown};
 use crate::fault::Fault;
+use crate::guide::{Guide, Help};
 use crate::path::{KeyPath, Step};
-use crate::quantity::HELP;
+use crate::quantity::{HELP, number_help};
 use crate::suggest;
+use serde_json::Value;
 use serde_path_to_error::Segment;
 
 /// Gives a refusal its place and its words.
 pub(crate) fn fault(document: &Document, error: &serde_path_to_error::Error<serde_json::Error>) -> Fault {
-    let path = path(document, error.path());
-    let message = error.inner().to_string();
-    if let Some((name, known)) = quoted(&message, "unknown field `") {
-        return unknown_key(document, path, name, &known);
-    }
-    if let Some((name, known)) = quoted(&message, "unknown variant `") {
-        return unknown_variant(document, path, name, &known);
-    }
-    if let Some(name) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
-        return Fault::new(path, format!("missing key \"{name}\"")).on_key();
-    }
-    for prefix in ["invalid type: ", "invalid value: ", "invalid length "] {
-        if let Some((came, wanted)) = message.strip_prefix(prefix).and_then(|m| m.rsplit_once(", expected "))
-        {
-            return unexpected(document, path, came, wanted);
-        }
-    }
-    let (text, help) = message.split_once(HELP).unwrap_or((&message, ""));
-    let help = (!help.is_empty()).then(|| help.to_owned());
-    let follow = follow_help(document, &path);
-    Fault::new(path, text).maybe_help(help).maybe_help(follow)
+    let refusal = Refusal { document, guide: Guide::get(), path: path(document, error.path()) };
+    refusal.fault(&error.inner().to_string())
 }
 
 /// The path as far as it stands in the file: serde also counts variants that are bare strings.
@@ -45,6 +28,190 @@ fn path(document: &Document, path: &serde_path_to_error::Path) -> KeyPath {
     path
 }
 
+/// A value that does not fit.
+struct Refusal<'a> {
+    document: &'a Document,
+    guide: &'static Guide,
+    path: KeyPath,
+}
+
+impl Refusal<'_> {
+    fn fault(self, message: &str) -> Fault {
+        if let Some((name, known)) = quoted(message, "unknown field `") {
+            return self.unknown_key(name, &known);
+        }
+        if let Some((name, _)) = quoted(message, "unknown variant `") {
+            return self.unknown_kind(name);
+        }
+        if let Some(name) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
+            let fault = Fault::new(self.path, format!("missing key \"{name}\"")).on_key();
+            return fault.ask(Help::Missing(name.to_owned()));
+        }
+        for prefix in ["invalid type: ", "invalid value: ", "invalid length "] {
+            let parts = message.strip_prefix(prefix).and_then(|m| m.rsplit_once(", expected "));
+            if let Some((came, wanted)) = parts {
+                return self.unexpected(came, wanted);
+            }
+        }
+        let (text, help) = message.split_once(HELP).unwrap_or((message, ""));
+        let help = (!help.is_empty()).then(|| help.to_owned());
+        let follow = self.follow_help();
+        let ask = if text.contains("names") { Help::Shape } else { Help::Meaning };
+        Fault::new(self.path, text).maybe_help(help).maybe_help(follow).ask(ask)
+    }
+
+    fn unknown_key(mut self, name: &str, known: &[&str]) -> Fault {
+        let step = Step::Key(name.to_owned());
+        let mut parent = self.path.clone();
+        parent.0.pop_if(|last| *last == step);
+        self.path = parent.clone();
+        self.path.0.push(step);
+        let (_, depth) = self.document.root.deepest(&self.path);
+        self.path.0.truncate(depth);
+        let known: Vec<&str> = known.iter().copied().filter(|key| self.guide.knows(&parent, key)).collect();
+        let help = suggest::slip(name, &known).or_else(|| self.elsewhere(&parent, name, &known));
+        Fault::new(self.path, "unknown key").on_key().maybe_help(help)
+    }
+
+    /// What is known here, and where the key would have been known.
+    fn elsewhere(&self, parent: &KeyPath, name: &str, known: &[&str]) -> Option<String> {
+        let here = suggest::help("", known.iter().copied());
+        match self.guide.homes(parent, name).as_slice() {
+            [] => here,
+            homes => {
+                let homes = format!("\"{name}\" is a key of {}", homes.join(", "));
+                Some(here.map(|here| format!("{homes}; {here}")).unwrap_or(homes))
+            }
+        }
+    }
+
+    fn unknown_kind(mut self, name: &str) -> Fault {
+        let kinds = self.guide.kinds(&self.path);
+        let known: Vec<&str> = kinds.iter().map(String::as_str).collect();
+        let help = suggest::slip(name, &known);
+        let follow = self.follow_help();
+        let step = Step::Key(name.to_owned());
+        let is_key = self.document.root.deepest(&self.path).0.step(&step).is_some();
+        if is_key {
+            self.path.0.push(step);
+        }
+        let message = format!("expected {}, got \"{}\"", one_of(&kinds), shown(name));
+        let ask = if is_key { Help::None } else { Help::Shape };
+        let fault = Fault::new(self.path, message).maybe_help(help).maybe_help(follow).ask(ask);
+        if is_key { fault.on_key() } else { fault }
+    }
+
+    fn unexpected(self, came: &str, wanted: &str) -> Fault {
+        if wanted.contains("map with a single key") || wanted == "fewer elements in map" {
+            return self.not_one_kind();
+        }
+        if let ("unit", Some(Step::Key(name))) = (wanted, self.path.0.last()) {
+            let message = format!("expected \"{}\" alone, without an object around it", shown(name));
+            return Fault::new(self.path, message).on_key();
+        }
+        if let ("newtype variant", Some(Value::String(kind))) = (wanted, self.value()) {
+            let message = format!("expected an object such as {{\"{0}\": …}}, got \"{0}\"", shown(kind));
+            let example = self.guide.example_of(&self.path, kind);
+            return Fault::new(self.path, message)
+                .maybe_help(example.map(|example| format!("write {example}")));
+        }
+        let kinds = self.guide.kinds(&self.path);
+        let (wanted, ask) = match wanted {
+            "f64" => ("a number", Help::Meaning),
+            "a string" => ("a string in double quotes", Help::Meaning),
+            "a whole number" => (wanted, Help::Meaning),
+            "a sequence" => ("a list", Help::Shape),
+            "an object of named parts" | "a pair [time, value]" => (wanted, Help::Shape),
+            other if other.starts_with("the name of a waveform") => (other, Help::None),
+            "string or map" => (&*one_of(&kinds), Help::Shape),
+            "a map" | "map" | "struct variant" => ("an object", Help::Shape),
+            "unit variant" => ("a bare name", Help::Shape),
+            other if other.starts_with("struct ") => ("an object", Help::Shape),
+            other => (other, Help::Meaning),
+        };
+        let count = came.chars().all(|c| c.is_ascii_digit());
+        let written = if count { Some(format!("{came} entries")) } else { self.came() };
+        let message = match written {
+            Some(written) => format!("expected {wanted}, got {written}"),
+            None => format!("expected {wanted}"),
+        };
+        let help = self.follow_help().or_else(|| self.number_in_quotes(wanted)).or_else(|| self.unnamed());
+        Fault::new(self.path, message).maybe_help(help).ask(ask)
+    }
+
+    /// No key where one says which kind of value it is, or several.
+    fn not_one_kind(mut self) -> Fault {
+        let kinds = self.guide.kinds(&self.path);
+        let given: Vec<String> = match self.value() {
+            Some(Value::Object(entries)) => entries.keys().cloned().collect(),
+            _ => Vec::new(),
+        };
+        let message = match given.as_slice() {
+            [] => format!("expected {}, got an empty object", one_of(&kinds)),
+            given => format!("expected one key that says which kind, got {}", shown(&given.join(", "))),
+        };
+        let (known, strange): (Vec<_>, Vec<_>) = given.into_iter().partition(|key| kinds.contains(key));
+        let (wrong, help) = match (known.as_slice(), strange.first()) {
+            ([], None) => return Fault::new(self.path, message).on_key().ask(Help::Shape),
+            ([], Some(_)) => {
+                let help = format!("the kind is a key of its own: {}", kinds.join(", "));
+                let example = kinds.first().and_then(|kind| self.guide.example_of(&self.path, kind));
+                let help = example.map(|example| format!("{help}; such as {example}"));
+                return Fault::new(self.path, message).on_key().maybe_help(help);
+            }
+            ([kind], Some(strange)) => {
+                (strange, format!("\"{}\" has no place beside \"{kind}\"", shown(strange)))
+            }
+            ([_, second, ..], _) => (second, "keep one of them".to_owned()),
+            ([only], None) => (only, "keep one of them".to_owned()),
+        };
+        self.path.0.push(Step::Key(wrong.clone()));
+        Fault::new(self.path, message).on_key().help(help)
+    }
+
+    /// A number in quotes where no unit is wanted, or one that is none.
+    fn number_in_quotes(&self, wanted: &str) -> Option<String> {
+        let text = self.value()?.as_str()?.trim();
+        if !matches!(wanted, "a number" | "a whole number") {
+            return None;
+        }
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Some("write the number without quotes".to_owned()),
+            _ => number_help(text).map(str::to_owned),
+        }
+    }
+
+    /// A key of a part where the part's name should stand.
+    fn unnamed(&self) -> Option<String> {
+        let [Step::Key(parts), Step::Key(name)] = self.path.0.as_slice() else { return None };
+        let inside = KeyPath(vec![Step::Key(parts.clone()), Step::Key("NAME".to_owned())]);
+        let named = self.guide.knows(&inside, name);
+        named.then(|| format!("each part has a name: \"{parts}\": {{\"NAME\": {{\"{name}\": …}}}}"))
+    }
+
+    /// What stands there, strings in quotes.
+    fn came(&self) -> Option<String> {
+        let written = self.document.written(&self.path)?;
+        // Overrides hold strings without quotes.
+        let is_string = self.value().is_some_and(Value::is_string);
+        Some(if is_string { format!("\"{written}\"") } else { written })
+    }
+
+    fn value(&self) -> Option<&Value> {
+        self.path.0.iter().try_fold(&self.document.value, |value, step| match step {
+            Step::Key(key) => value.get(key),
+            Step::Index(index) => value.get(index),
+        })
+    }
+
+    /// A bare string is always a quantity: whoever wrote the name of a waveform is told how to follow it.
+    fn follow_help(&self) -> Option<String> {
+        let text = self.value()?.as_str()?;
+        self.document.value.get("waveforms")?.get(text)?;
+        Some(format!("to follow the waveform write {{\"follows\": \"{text}\"}}"))
+    }
+}
+
 /// The name after a prefix, and the names listed as expected.
 fn quoted<'a>(message: &'a str, prefix: &str) -> Option<(&'a str, Vec<&'a str>)> {
     let rest = message.strip_prefix(prefix)?;
@@ -55,103 +222,10 @@ fn quoted<'a>(message: &'a str, prefix: &str) -> Option<(&'a str, Vec<&'a str>)>
     Some((name, known.split('`').skip(1).step_by(2).collect()))
 }
 
-fn unknown_key(document: &Document, mut path: KeyPath, name: &str, known: &[&str]) -> Fault {
-    if path.0.last() != Some(&Step::Key(name.to_owned())) {
-        path.0.push(Step::Key(name.to_owned()));
-    }
-    let (_, depth) = document.root.deepest(&path);
-    path.0.truncate(depth);
-    Fault::new(path, "unknown key").on_key().maybe_help(suggest::help(name, known.iter().copied()))
-}
-
-fn unknown_variant(document: &Document, mut path: KeyPath, name: &str, known: &[&str]) -> Fault {
-    let help = suggest::nearest(name, known.iter().copied()).map(|near| format!("did you mean \"{near}\"?"));
-    let follow = follow_help(document, &path);
-    let wanted = match known {
+fn one_of(kinds: &[String]) -> String {
+    match kinds {
+        [] => "another value".to_owned(),
         [one] => format!("\"{one}\""),
         all => format!("one of {}", all.join(", ")),
-    };
-    let step = Step::Key(name.to_owned());
-    let is_key = document.root.deepest(&path).0.step(&step).is_some();
-    if is_key {
-        path.0.push(step);
     }
-    let shown = crate::document::shown(name);
-    let fault =
-        Fault::new(path, format!("expected {wanted}, got \"{shown}\"")).maybe_help(help).maybe_help(follow);
-    if is_key { fault.on_key() } else { fault }
-}
-
-fn unexpected(document: &Document, path: KeyPath, came: &str, wanted: &str) -> Fault {
-    if wanted.contains("map with a single key") || wanted == "fewer elements in map" {
-        let names = keys(document, &path).join(", ");
-        let message = format!("expected one key that says which kind, got {names}");
-        return Fault::new(path, message).on_key().help("keep one of them");
-    }
-    if let ("unit", Some(Step::Key(name))) = (wanted, path.0.last()) {
-        let message =
-            format!("expected \"{}\" alone, without an object around it", crate::document::shown(name));
-        return Fault::new(path, message).on_key();
-    }
-    let variant = value(document, &path).and_then(serde_json::Value::as_str).unwrap_or("name");
-    let variant = format!("an object such as {{\"{}\": …}}", crate::document::shown(variant));
-    let wanted = match wanted {
-        "newtype variant" => &variant,
-        "f64" => "a number",
-        "a string" => "a string in double quotes",
-        "a sequence" => "a list",
-        "string or map" => "a name or an object with one key",
-        "a map" | "map" | "struct variant" => "an object",
-        "unit variant" => "a bare name",
-        other if other.starts_with("struct ") => "an object",
-        other => other,
-    };
-    let count = came.chars().all(|c| c.is_ascii_digit());
-    let fault = Fault::new(path.clone(), format!("expected {wanted}"));
-    let written = if count { Some(format!("{came} entries")) } else { came_as(document, &path) };
-    let help = follow_help(document, &path).or_else(|| quotes_help(document, &path, wanted));
-    match written {
-        Some(written) => Fault { message: format!("{}, got {written}", fault.message), ..fault },
-        None => fault,
-    }
-    .maybe_help(help)
-}
-
-/// A number in quotes where no unit is wanted.
-fn quotes_help(document: &Document, path: &KeyPath, wanted: &str) -> Option<String> {
-    let number = value(document, path)?.as_str()?.trim().parse::<f64>().ok()?;
-    let plain = matches!(wanted, "a number" | "a whole number") && number.is_finite();
-    plain.then(|| "write the number without quotes".to_owned())
-}
-
-/// What stands there, strings in quotes.
-fn came_as(document: &Document, path: &KeyPath) -> Option<String> {
-    let written = document.written(path)?;
-    let is_string = document.root.deepest(path).0.value;
-    let quotes = document.slice(is_string).starts_with('"') || value_is_string(document, path);
-    Some(if quotes { format!("\"{written}\"") } else { written })
-}
-
-/// Overrides hold strings without quotes.
-fn value_is_string(document: &Document, path: &KeyPath) -> bool {
-    value(document, path).is_some_and(serde_json::Value::is_string)
-}
-
-fn value<'a>(document: &'a Document, path: &KeyPath) -> Option<&'a serde_json::Value> {
-    path.0.iter().try_fold(&document.value, |value, step| match step {
-        Step::Key(key) => value.get(key),
-        Step::Index(index) => value.get(index),
-    })
-}
-
-fn keys<'a>(document: &'a Document, path: &KeyPath) -> Vec<&'a str> {
-    let entries = value(document, path).and_then(serde_json::Value::as_object);
-    entries.map(|entries| entries.keys().map(String::as_str).collect()).unwrap_or_default()
-}
-
-/// A bare string is always a quantity: whoever wrote the name of a waveform is told how to follow it.
-fn follow_help(document: &Document, path: &KeyPath) -> Option<String> {
-    let text = value(document, path)?.as_str()?;
-    document.value.get("waveforms")?.get(text)?;
-    Some(format!("to follow the waveform write {{\"follows\": \"{text}\"}}"))
 }

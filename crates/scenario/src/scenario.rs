@@ -6,16 +6,18 @@ use crate::fault::Fault;
 use crate::form::Form;
 use crate::meaning::{self, Figures, MemoryOutput, SpringsOutput};
 use crate::path::{At, KeyPath};
-use crate::{overrides, refusal, resolved, suggest, syntax, tables};
+use crate::place::Span;
+use crate::{document, overrides, refusal, resolved, shape, suggest, syntax, tables, text};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::Read;
+use serde_json::Value;
 use std::path::Path;
 use stickslip_drive::{Plan, Scene};
 
 /// Version of the form that this program reads.
 const VERSION: u64 = 1;
+/// Most warnings of one scenario.
+const MAX_WARNINGS: usize = 20;
 
 /// A picture a scenario asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
@@ -71,6 +73,8 @@ pub struct Scenario {
     pub memory: Option<MemoryOutput>,
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
+    /// What is allowed and probably not meant, with its place.
+    pub warnings: Vec<Report>,
     pub(crate) form: Form,
     document: Document,
 }
@@ -124,8 +128,12 @@ impl Scenario {
         check_version(&document).map_err(|fault| document.report(fault))?;
         let mut form: Form = serde_path_to_error::deserialize(&document.value)
             .map_err(|error| document.report(refusal::fault(&document, &error)))?;
-        let inlined = tables::inline(&mut form, base.as_ref()).map_err(|fault| document.report(fault))?;
+        shape::check(&document.value).map_err(|fault| document.report(fault))?;
+        let inlined = tables::inline(&mut form, base.as_ref(), &mut document)
+            .map_err(|fault| document.report(fault))?;
         let meaning = meaning::of(&form).map_err(|fault| document.report(fault))?;
+        let is_written = |path: &KeyPath| document.root.deepest(path).1 == path.0.len();
+        let odd = meaning::warnings::of(&form, &meaning, is_written);
         let scenario = Self {
             title: form.title.clone(),
             scene: meaning.scene,
@@ -135,6 +143,7 @@ impl Scenario {
             springs: meaning.springs,
             memory: meaning.memory,
             plots: meaning.plots,
+            warnings: warnings(&document, odd),
             form,
             document,
         };
@@ -156,7 +165,7 @@ impl Scenario {
             root.fault(message)
                 .help("keep fewer parts and points; long tables fit into a CSV file of their own")
         };
-        Err(self.document.report(fault))
+        Err(self.document.report(fault).into())
     }
 
     /// The scenario as canonical JSON: SI numbers, overrides applied, defaults written out, tables inlined. Read back, it
@@ -169,13 +178,28 @@ impl Scenario {
     /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.
     pub fn locate(&self, path: &str, message: impl Into<String>, help: Option<String>) -> ScenarioError {
         let steps = KeyPath::parse(path).unwrap_or_default();
-        self.document.report(Fault::new(steps, message).maybe_help(help)).with_path(path)
+        let report = self.document.report(Fault::new(steps, message).maybe_help(help));
+        ScenarioError::from(Report { path: path.to_owned(), ..report })
     }
+}
+
+/// Each warning looks up its line; a file full of oddities is told of the first.
+fn warnings(document: &Document, odd: Vec<Fault>) -> Vec<Report> {
+    let rest = odd.len().saturating_sub(MAX_WARNINGS);
+    let mut warnings: Vec<Report> =
+        odd.into_iter().take(MAX_WARNINGS).map(|fault| document.report(fault)).collect();
+    let place = |report: &Report| report.excerpt.as_ref().map(|excerpt| (excerpt.line, excerpt.column));
+    warnings.sort_by_key(|report| (report.is_override, place(report)));
+    if let (Some(last), 1..) = (warnings.last_mut(), rest) {
+        let more = format!("{rest} more warnings are not shown");
+        last.help = Some(last.help.take().map_or(more.clone(), |help| format!("{help}; {more}")));
+    }
+    warnings
 }
 
 fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
     let failed = |message: String, help: Option<&str>| {
-        ScenarioError::new(Report {
+        ScenarioError::from(Report {
             file: name.to_owned(),
             is_override: false,
             excerpt: None,
@@ -184,18 +208,16 @@ fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
             help: help.map(str::to_owned),
         })
     };
-    let unreadable = |error: std::io::Error| failed(format!("cannot be read: {error}"), None);
-    let mut bytes = Vec::new();
-    let limit = syntax::MAX_BYTES as u64;
-    File::open(path).map_err(unreadable)?.take(limit + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > limit {
+    let limit = syntax::MAX_BYTES;
+    let bytes = text::read(path, limit).map_err(|error| failed(format!("cannot be read: {error}"), None))?;
+    let bytes = bytes.ok_or_else(|| {
         let help = "long tables fit into a CSV file of their own";
-        return Err(failed(format!("a scenario has at most {limit} bytes, this file has more"), Some(help)));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
-        failed(format!("line {line} is not UTF-8 text"), Some("save the file as UTF-8"))
+        failed(format!("a scenario has at most {limit} bytes, this file has more"), Some(help))
+    })?;
+    text::decode(bytes).map_err(|garbled| {
+        let span = Span { source: 0, start: garbled.range.start, end: garbled.range.end };
+        let fault = Fault::new(KeyPath::default(), garbled.message).at_span(span).help(garbled.help);
+        Document::new(name, &garbled.text).report(fault).into()
     })
 }
 
@@ -208,15 +230,18 @@ fn check_version(document: &Document) -> Result<(), Fault> {
     let at = root.key("stickslip");
     match entries.get("stickslip") {
         Some(version) if version.as_f64() == Some(VERSION as f64) => Ok(()),
+        Some(Value::String(text)) => {
+            let message = format!("expected {VERSION}, got \"{}\"", document::shown(text));
+            Err(at.fault(message).help("the version of the form, a number without quotes"))
+        }
         Some(version) => {
-            let fault = at.expected(VERSION);
             let newer = version.as_f64().is_some_and(|v| v > VERSION as f64);
             let help =
                 if newer { "this file needs a newer program" } else { "the version of the form, a number" };
-            Err(fault.help(help))
+            Err(at.expected(VERSION).help(help))
         }
         None => {
-            let near = suggest::nearest("stickslip", entries.keys().map(String::as_str));
+            let near = entries.keys().find(|key| suggest::slip(key, &["stickslip"]).is_some());
             let help = match near {
                 Some(near) => format!("did you mean \"stickslip\" where \"{near}\" stands?"),
                 None => "a scenario starts with { \"stickslip\": 1, the version of its form".to_owned(),

@@ -1,24 +1,88 @@
 //! The JSON Schema of the scenario file, generated from the form's types.
 
+mod rule;
+
+pub(crate) use rule::{
+    above_zero, at_least_zero, duration_or_cycles, mass_where_free, names, never, no_ground, no_trace_column,
+    period_or_frequency, points_or_file, something_to_do, stroke_needed, x_needed,
+};
+
 use crate::form::Form;
 use crate::resolved;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::transform_subschemas;
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 /// The JSON Schema (draft 2020-12) of the scenario file, version 1; a copy lies in `schema/scenario-1.json`.
 pub fn schema() -> String {
+    resolved::print(&tree())
+}
+
+/// The schema as a value.
+pub(crate) fn tree() -> Value {
     let generator = SchemaSettings::draft2020_12().into_generator();
     let mut schema = generator.into_root_schema_for::<Form>();
-    without_null(&mut schema);
-    resolved::print(schema.as_value())
+    tidy(&mut schema);
+    schema.insert("defaultSnippets".to_owned(), json!([{ "label": "a drive", "body": snippet() }]));
+    schema.to_value()
+}
+
+/// What an editor offers for an empty file.
+fn snippet() -> Value {
+    json!({
+        "stickslip": 1,
+        "title": "A ball between a foot and a slider",
+        "materials": { "steel": { "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 } },
+        "waveforms": {
+            "drive": { "sawtooth": { "stroke": "200 nm", "period": "10 ms", "flyback": "10 us" } }
+        },
+        "bodies": {
+            "foot": { "x": { "follows": "drive" } },
+            "slider": { "mass": "10 g", "x": "free" }
+        },
+        "contacts": {
+            "ball": {
+                "between": ["foot", "slider"],
+                "materials": ["steel", "steel"],
+                "profile": { "paraboloid": { "radius": "0.5 mm" } },
+                "friction": 0.2,
+                "normal": { "force": "0.3 N" }
+            }
+        },
+        "run": { "duration": "100 ms" },
+        "output": { "every": "10 us" },
+        "plots": ["loop", "trajectory"]
+    })
+}
+
+/// Makes of what schemars writes what an editor needs.
+fn tidy(schema: &mut Schema) {
+    // schemars marks what serde never writes, and the width of numbers; to a reader of the schema that says nothing.
+    schema.remove("writeOnly");
+    schema.remove("format");
+    if let Some(Value::String(text)) = schema.get_mut("description") {
+        *text = text.replace('\n', " ");
+    }
+    without_null(schema);
+    if let Some(Value::Array(kinds)) = schema.remove("oneOf") {
+        let kinds = kinds.into_iter().map(of_one_key).filter(|kind| *kind != json!({ "not": {} }));
+        let kinds = words_together(kinds.collect());
+        match <[Value; 1]>::try_from(kinds) {
+            Ok([Value::Object(only)]) => fill(schema, only),
+            Ok([only]) => {
+                schema.insert("oneOf".to_owned(), json!([only]));
+            }
+            Err(kinds) => {
+                schema.insert("oneOf".to_owned(), Value::Array(kinds));
+            }
+        }
+    }
+    transform_subschemas(&mut tidy, schema);
 }
 
 /// A key that may be left out is an option in the form's types, and schemars lets options be null. The loader does not.
 fn without_null(schema: &mut Schema) {
-    // schemars marks what serde never writes; to a reader of the schema that says nothing.
-    schema.remove("writeOnly");
     if let Some(Value::Array(types)) = schema.get_mut("type") {
         types.retain(|kind| kind != "null");
         if let [only] = types.as_slice() {
@@ -35,13 +99,45 @@ fn without_null(schema: &mut Schema) {
         };
         if let Some(only) = only {
             schema.remove("anyOf");
-            for (key, value) in only {
-                // The key's own description says more than that of its type.
-                if schema.get(&key).is_none() {
-                    schema.insert(key, value);
-                }
-            }
+            fill(schema, only);
         }
     }
-    transform_subschemas(&mut without_null, schema);
+}
+
+/// Adds what is not there: a key's own description says more than that of its type.
+fn fill(schema: &mut Schema, more: Map<String, Value>) {
+    for (key, value) in more {
+        if schema.get(&key).is_none() {
+            schema.insert(key, value);
+        }
+    }
+}
+
+/// A kind such as `{"force": …}`: its only key is described and shown like the kind as a whole.
+fn of_one_key(mut kind: Value) -> Value {
+    let described: Vec<_> = ["description", "examples"].map(|key| kind.get(key).cloned()).into();
+    let Some(Value::Object(keys)) = kind.get_mut("properties") else { return kind };
+    let mut keys = keys.iter_mut();
+    let (Some((name, Value::Object(inner))), None) = (keys.next(), keys.next()) else { return kind };
+    if let Some(description) = &described[0] {
+        inner.insert("description".to_owned(), description.clone());
+    }
+    if let Some(Value::Array(examples)) = &described[1] {
+        let inside: Vec<_> = examples.iter().filter_map(|example| example.get(name)).collect();
+        inner.insert("examples".to_owned(), json!(inside));
+    }
+    kind
+}
+
+/// Words that are kinds of their own, each with its description, as one list: editors complete lists.
+fn words_together(kinds: Vec<Value>) -> Vec<Value> {
+    let (words, mut others): (Vec<_>, Vec<_>) =
+        kinds.into_iter().partition(|kind| kind.get("const").is_some_and(Value::is_string));
+    if !words.is_empty() {
+        let each = |key| words.iter().filter_map(|word| word.get(key)).collect::<Vec<_>>();
+        let list =
+            json!({ "type": "string", "enum": each("const"), "enumDescriptions": each("description") });
+        others.insert(0, list);
+    }
+    others
 }

@@ -6,6 +6,54 @@ use crate::document::shown;
 const LISTED: usize = 30;
 /// Longest words that are compared, characters: the work grows with the product of their lengths.
 const LONGEST: usize = 100;
+/// What people call a key, what it is called here, and why where that is no mere matter of names.
+const SYNONYMS: &[(&str, &str, &str)] = &[
+    ("mu", "friction", ""),
+    ("µ", "friction", ""),
+    ("coefficient_of_friction", "friction", ""),
+    ("e", "youngs_modulus", ""),
+    ("modulus", "youngs_modulus", ""),
+    ("elastic_modulus", "youngs_modulus", ""),
+    ("nu", "poisson_ratio", ""),
+    ("v", "poisson_ratio", ""),
+    ("m", "mass", ""),
+    ("k", "stiffness", ""),
+    ("c", "damping", ""),
+    ("g", "acceleration", ""),
+    ("angle", "incline", ""),
+    ("normal_force", "normal", "such as \"normal\": {\"force\": \"0.3 N\"}"),
+    ("force", "x", "the force along the slide"),
+    ("body", "on", ""),
+    ("bodies", "between", ""),
+    ("amplitude", "stroke", "it is the peak-to-peak value, twice the amplitude"),
+    ("stroke", "amplitude", "it is half the peak-to-peak value, half the stroke"),
+    ("diameter", "radius", "half the diameter"),
+    ("interval", "every", ""),
+    ("dt", "every", ""),
+    ("step", "tolerance", "this stepper finds its steps itself"),
+    ("tolerance", "step", "this stepper keeps its step"),
+    ("time", "duration", ""),
+    ("t_end", "duration", ""),
+    ("version", "stickslip", ""),
+    ("name", "title", ""),
+    ("hertz", "paraboloid", "Hertz's contact is that of a paraboloid"),
+    ("hertzian", "paraboloid", "Hertz's contact is that of a paraboloid"),
+    ("ball", "sphere", ""),
+    ("cylinder", "flat", "the flat face of a round punch"),
+    ("punch", "flat", ""),
+    ("sin", "sine", ""),
+    ("cos", "sine", "with \"phase\": \"90 deg\""),
+    ("cosine", "sine", "with \"phase\": \"90 deg\""),
+    ("saw", "sawtooth", ""),
+    ("ramp", "sawtooth", ""),
+    ("square", "table", "two points at one time are a jump"),
+    ("points", "table", ""),
+    ("file", "table", ""),
+    ("rk45", "dopri5", ""),
+    ("adaptive", "event", ""),
+    ("driven", "follows", ""),
+    ("prescribed", "follows", ""),
+];
 
 /// The nearest candidate, where one is near enough to be a slip of the pen.
 pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -44,6 +92,17 @@ pub fn help<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Op
     }
 }
 
+/// Help for a key that goes by another name here, or by nearly the same.
+pub(crate) fn slip(word: &str, known: &[&str]) -> Option<String> {
+    let lower = word.to_lowercase();
+    let synonym = SYNONYMS.iter().find(|(other, name, _)| *other == lower && known.contains(name));
+    match synonym {
+        Some((_, name, "")) => Some(format!("did you mean \"{name}\"?")),
+        Some((_, name, why)) => Some(format!("did you mean \"{name}\"? ({why})")),
+        None => nearest(word, known.iter().copied()).map(|near| format!("did you mean \"{}\"?", shown(near))),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,6 +114,9 @@ mod tests {
         assert_eq!(nearest("Profile", names), Some("profile"));
         assert_eq!(nearest("gravity", names), None);
         assert_eq!(help("zz", ["loop"]).unwrap(), "known here: loop");
+        assert_eq!(slip("mu", &names).unwrap(), "did you mean \"friction\"?");
+        assert_eq!(slip("fricton", &names).unwrap(), "did you mean \"friction\"?");
+        assert_eq!(slip("mu", &["mass"]), None);
     }
 
     #[test]

@@ -1,13 +1,17 @@
 //! Strict JSON: limits, syntax, duplicate keys and the places of all values.
 
+mod bracket;
+mod slip;
+
 use crate::fault::Fault;
 use crate::path::{KeyPath, Step};
 use crate::place::{Inner, Place, Span};
+use crate::quantity::out_of_reach;
 use jsonc_parser::ast;
 use jsonc_parser::common::{Range, Ranged};
-use jsonc_parser::errors::ParseErrorKind;
 use jsonc_parser::{CollectOptions, ParseOptions};
 use serde_json::Value;
+use slip::Slip;
 use std::collections::HashMap;
 
 /// Largest scenario taken, bytes.
@@ -33,6 +37,11 @@ impl Origin {
     fn fault(&self, range: Range, message: impl Into<String>) -> Fault {
         Fault::new(self.path.clone(), message).at_span(self.span(range))
     }
+
+    fn slipped(&self, slip: Slip) -> Fault {
+        let range = Range::new(slip.range.start, slip.range.end);
+        self.fault(range, format!("not JSON: {}", slip.message)).maybe_help(slip.help)
+    }
 }
 
 /// Reads a text: its value for the form, and the place of everything in it.
@@ -41,16 +50,13 @@ pub(crate) fn read(text: &str, origin: &Origin) -> Result<(Value, Place), Fault>
         let message = format!("a scenario has at most {MAX_BYTES} bytes, this one has {}", text.len());
         return Err(origin.fault(Range::new(0, 1), message));
     }
-    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let origin =
-        &Origin { offset: origin.offset + text.len() - body.len(), path: origin.path.clone(), ..*origin };
-    check_outline(body, origin)?;
-    let tree = parse(body, origin)?;
+    check_outline(text, origin)?;
+    let tree = parse(text, origin)?;
     let mut path = origin.path.clone();
     let place = walk(&tree, None, &mut path, origin)?;
     // The values are read a second time, by serde_json: it rounds numbers correctly, and it refuses whatever the
     // first reader let pass that is not JSON.
-    let value = serde_json::from_str(body).map_err(|error| second_opinion(body, &error, origin))?;
+    let value = serde_json::from_str(text).map_err(|error| second_opinion(text, &error, origin))?;
     Ok((value, place))
 }
 
@@ -59,11 +65,7 @@ fn check_outline(text: &str, origin: &Origin) -> Result<(), Fault> {
     let (mut depth, mut string, mut escaped) = (0_usize, None, false);
     for (i, byte) in text.bytes().enumerate() {
         match (byte, string) {
-            (b'\n', Some(start)) => {
-                let fault =
-                    origin.fault(Range::new(start, i), "not JSON: this string does not end on its line");
-                return Err(fault.help("a double quote is missing"));
-            }
+            (b'\n', Some(_)) => return Err(origin.slipped(slip::quote_missing(text, i))),
             (0..0x20, Some(_)) => {
                 let fault =
                     origin.fault(Range::new(i, i + 1), "not JSON: a control character inside a string");
@@ -107,52 +109,8 @@ fn parse<'a>(text: &'a str, origin: &Origin) -> Result<ast::Value<'a>, Fault> {
                 .fault(Range::new(0, 1), "there is nothing here: a scenario is a JSON object")
                 .help("start with { \"stickslip\": 1, \"title\": \"…\" }")
         }),
-        Err(error) => {
-            let (message, help) = wording(error.kind());
-            let fault = origin.fault(error.range(), format!("not JSON: {message}"));
-            Err(fault.maybe_help(help.map(str::to_owned)))
-        }
+        Err(error) => Err(origin.slipped(slip::of(text, &error))),
     }
-}
-
-fn wording(kind: &ParseErrorKind) -> (String, Option<&'static str>) {
-    let (message, help) = match kind {
-        ParseErrorKind::CommentsNotAllowed => ("comments are not allowed", "remarks fit into \"title\""),
-        ParseErrorKind::TrailingCommasNotAllowed => {
-            ("a comma before a closing bracket", "remove the comma, or the entry after it got lost")
-        }
-        ParseErrorKind::ExpectedComma => ("expected a comma", "entries are separated by commas"),
-        ParseErrorKind::ExpectedColonAfterObjectKey => {
-            ("expected a colon after the key", "write \"key\": value")
-        }
-        ParseErrorKind::ExpectedStringObjectProperty => {
-            ("keys stand in double quotes", "write \"key\": value")
-        }
-        ParseErrorKind::SingleQuotedStringsNotAllowed => {
-            ("strings stand in double quotes", "write \"text\" instead of 'text'")
-        }
-        ParseErrorKind::NonFiniteNumbersNotAllowed => {
-            ("NaN and infinities are not numbers of a scenario", "write a finite number")
-        }
-        ParseErrorKind::UnexpectedWord => {
-            ("a word without quotes", "strings and quantities with a unit stand in double quotes")
-        }
-        ParseErrorKind::UnexpectedToken => {
-            ("this is no JSON value", "numbers are finite decimals; strings stand in double quotes")
-        }
-        ParseErrorKind::MultipleRootJsonValues => {
-            ("something follows the end of the scenario", "one file holds one object")
-        }
-        ParseErrorKind::UnterminatedObject => ("this object is never closed", "a } is missing"),
-        ParseErrorKind::UnterminatedArray => ("this list is never closed", "a ] is missing"),
-        other => return (lower_first(&other.to_string()), None),
-    };
-    (message.to_owned(), Some(help))
-}
-
-fn lower_first(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map(|c| c.to_lowercase().chain(chars).collect()).unwrap_or_default()
 }
 
 /// Refusal by `serde_json`, whose place is a line and a column in bytes.
@@ -160,6 +118,9 @@ fn second_opinion(text: &str, error: &serde_json::Error, origin: &Origin) -> Fau
     let line_start: usize =
         text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
     let at = line_start + error.column().saturating_sub(1);
+    if let Some(slip) = slip::at_character(text, at) {
+        return origin.slipped(slip);
+    }
     let message = error.to_string();
     let message = message.split(" at line ").next().unwrap_or_default();
     origin.fault(Range::new(at, at + 1), format!("not JSON: {message}"))
@@ -186,8 +147,10 @@ fn walk(
             Inner::List(places)
         }
         ast::Value::NumberLit(number) => {
-            if !number.value.parse::<f64>().is_ok_and(f64::is_finite) {
-                return Err(fault(path, "the number is beyond the largest floating-point number, 1.8e308"));
+            // Whatever the parser takes for a number is one.
+            let value = number.value.parse().unwrap_or(f64::NAN);
+            if let Some(why) = out_of_reach(number.value, value) {
+                return Err(fault(path, why));
             }
             Inner::Leaf
         }

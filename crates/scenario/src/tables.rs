@@ -1,175 +1,219 @@
 //! Tables in files: read once, and from then on points of the scenario.
 
-use crate::document::shown;
+mod sheet;
+
+use crate::document::{Document, Source, SourceKind, shown};
 use crate::fault::Fault;
+use crate::folder::{self, Denied};
 use crate::form::{Form, FreedomForm, Moving, NormalForm, Point, TableForm, WaveformForm, WaveformRef};
-use crate::path::At;
+use crate::path::{At, KeyPath, Step};
+use crate::place::Span;
 use crate::quantity::{AnyQuantity, Time};
-use crate::{suggest, syntax};
-use std::fs::File;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use crate::{suggest, syntax, text};
+use std::io;
+use std::ops::Range;
+use std::path::Path;
 
-/// Most bytes read from the files of all tables together.
-const MAX_TOTAL: u64 = 16 * syntax::MAX_BYTES as u64;
+/// Most bytes of one file, and of all together: each is kept to point into.
+const MAX_BYTES: (usize, usize) = (syntax::MAX_BYTES, 16 * syntax::MAX_BYTES);
 
-/// Where files are looked for, and how much of them may still be read.
-struct Files<'a> {
-    base: &'a Path,
-    left: u64,
+/// Where the points of a table in a file come from.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct TableFile {
+    /// Path of the table.
+    path: KeyPath,
+    /// The file's place in the list of sources.
+    source: usize,
+    /// Columns of time and value.
+    columns: [usize; 2],
+}
+
+impl TableFile {
+    /// The place of the time or value at a path such as `waveforms.w.table.points[3][0]`, if it is in this table.
+    pub(crate) fn locate(&self, path: &KeyPath, sources: &[Source]) -> Option<Span> {
+        let [Step::Key(points), Step::Index(row), rest @ ..] = path.0.strip_prefix(self.path.0.as_slice())?
+        else {
+            return None;
+        };
+        let column = match rest.first() {
+            Some(Step::Index(column)) => *self.columns.get(*column)?,
+            _ => self.columns[0],
+        };
+        let text = &sources.get(self.source)?.text;
+        let Range { start, end } = sheet::cell(text, *row, column)?;
+        (points == "points").then_some(Span { source: self.source, start, end })
+    }
 }
 
 /// Replaces the files of all tables by their points. Says whether there were any.
-pub(crate) fn inline(form: &mut Form, base: &Path) -> Result<bool, Fault> {
-    let mut found = false;
-    let files = &mut Files { base, left: MAX_TOTAL };
+pub(crate) fn inline(form: &mut Form, base: &Path, document: &mut Document) -> Result<bool, Fault> {
+    let mut shelf = Shelf { base, document, bytes: 0 };
     let root = At::ROOT;
     let at = root.key("waveforms");
     for (name, waveform) in &mut form.waveforms.0 {
-        found |= in_waveform(&at.key(name), waveform, files)?;
+        shelf.in_waveform(&at.key(name), waveform)?;
     }
     let at = root.key("bodies");
     for (name, body) in &mut form.bodies.0 {
         if let FreedomForm::Follows(waveform) = &mut body.x {
-            found |= in_reference(&at.key(name).key("x"), waveform, files)?;
+            shelf.in_reference(&at.key(name).key("x"), waveform)?;
         }
     }
     let at = root.key("contacts");
     for (name, contact) in &mut form.contacts.0 {
         let at = at.key(name);
         let at = at.key("normal");
-        found |= match &mut contact.normal {
-            NormalForm::Force(moving) => in_moving(&at.key("force"), moving, files)?,
-            NormalForm::Indentation(moving) => in_moving(&at.key("indentation"), moving, files)?,
-            NormalForm::Radius(moving) => in_moving(&at.key("radius"), moving, files)?,
-            NormalForm::Coupled => false,
-        };
+        match &mut contact.normal {
+            NormalForm::Force(moving) => shelf.in_moving(&at.key("force"), moving)?,
+            NormalForm::Indentation(moving) => shelf.in_moving(&at.key("indentation"), moving)?,
+            NormalForm::Radius(moving) => shelf.in_moving(&at.key("radius"), moving)?,
+            NormalForm::Coupled => {}
+        }
     }
     let at = root.key("actuators");
     for (name, actuator) in &mut form.actuators.0 {
         if let Some(stroke) = &mut actuator.stroke {
-            found |= in_moving(&at.key(name).key("stroke"), stroke, files)?;
+            shelf.in_moving(&at.key(name).key("stroke"), stroke)?;
         }
     }
     let at = root.key("loads");
     for (i, load) in form.loads.iter_mut().enumerate() {
         if let Some(x) = &mut load.x {
-            found |= in_moving(&at.index(i).key("x"), x, files)?;
+            shelf.in_moving(&at.index(i).key("x"), x)?;
         }
     }
-    Ok(found)
+    Ok(!document.tables.is_empty())
 }
 
-fn in_moving<D>(at: &At<'_>, moving: &mut Moving<D>, files: &mut Files<'_>) -> Result<bool, Fault> {
-    match moving {
-        Moving::Constant(_) => Ok(false),
-        Moving::Follows(waveform) => in_reference(at, waveform, files),
+/// The files of a scenario.
+struct Shelf<'a> {
+    base: &'a Path,
+    document: &'a mut Document,
+    /// Bytes read so far.
+    bytes: usize,
+}
+
+impl Shelf<'_> {
+    fn in_moving<D>(&mut self, at: &At<'_>, moving: &mut Moving<D>) -> Result<(), Fault> {
+        match moving {
+            Moving::Constant(_) => Ok(()),
+            Moving::Follows(waveform) => self.in_reference(at, waveform),
+        }
     }
-}
 
-fn in_reference(at: &At<'_>, waveform: &mut WaveformRef, files: &mut Files<'_>) -> Result<bool, Fault> {
-    match waveform {
-        WaveformRef::Name(_) => Ok(false),
-        WaveformRef::Inline(waveform) => in_waveform(&at.key("follows"), waveform, files),
+    fn in_reference(&mut self, at: &At<'_>, waveform: &mut WaveformRef) -> Result<(), Fault> {
+        match waveform {
+            WaveformRef::Name(_) => Ok(()),
+            WaveformRef::Inline(waveform) => self.in_waveform(&at.key("follows"), waveform),
+        }
     }
-}
 
-fn in_waveform(at: &At<'_>, waveform: &mut WaveformForm, files: &mut Files<'_>) -> Result<bool, Fault> {
-    let WaveformForm::Table(table) = waveform else { return Ok(false) };
-    let at = at.key("table");
-    let Some(file) = table.file.take() else {
-        for (key, given) in [("time", table.time.is_some()), ("value", table.value.is_some())] {
-            if given {
-                return Err(at.key(key).fault("names a column, but there is no file").on_key());
+    fn in_waveform(&mut self, at: &At<'_>, waveform: &mut WaveformForm) -> Result<(), Fault> {
+        let WaveformForm::Table(table) = waveform else { return Ok(()) };
+        let at = at.key("table");
+        let Some(file) = table.file.take() else {
+            for (key, given) in [("time", table.time.is_some()), ("value", table.value.is_some())] {
+                if given {
+                    let fault = at.key(key).fault("names a column, but there is no file").on_key();
+                    return Err(fault.help("leave it out; points have no columns"));
+                }
             }
+            return Ok(());
+        };
+        if table.points.is_some() {
+            let fault = at.key("file").fault("the points are given already").on_key();
+            return Err(fault.help("keep one of them"));
         }
-        return Ok(false);
-    };
-    if table.points.is_some() {
-        return Err(at.key("file").fault("the points are given already").on_key().help("keep one of them"));
+        table.points = Some(self.points(&at, &file, table)?);
+        (table.time, table.value) = (None, None);
+        Ok(())
     }
-    table.points = Some(read(&at, &file, table, files)?);
-    (table.time, table.value) = (None, None);
-    Ok(true)
+
+    fn points(&mut self, at: &At<'_>, file: &str, table: &TableForm) -> Result<Vec<Point>, Fault> {
+        let file_at = at.key("file");
+        let bytes = self.read(&file_at, file)?;
+        let source = self.document.sources.len();
+        let name = match Path::new(&self.document.sources[0].name).parent() {
+            Some(folder) => folder.join(file).display().to_string(),
+            None => file.to_owned(),
+        };
+        let kind = SourceKind::Table(file_at.path());
+        let span = |Range { start, end }: Range<usize>| Span { source, start, end };
+        let text = match text::decode(bytes) {
+            Ok(text) => text,
+            Err(garbled) => {
+                self.document.add(name, garbled.text, kind);
+                let fault = file_at.fault(garbled.message).at_span(span(garbled.range));
+                return Err(fault.help(garbled.help));
+            }
+        };
+        let slipped =
+            |slip: sheet::Slip| file_at.fault(slip.message).at_span(span(slip.range)).maybe_help(slip.help);
+        let text = self.document.add(name, text, kind);
+        let header = sheet::header(text).map_err(slipped)?;
+        let columns = [
+            column(at, "time", table.time.as_deref(), &header)?,
+            column(at, "value", table.value.as_deref(), &header)?,
+        ];
+        let numbers = sheet::numbers(text, columns, header.len()).map_err(slipped)?;
+        self.document.tables.push(TableFile { path: at.path(), source, columns });
+        let point = |[time, value]: [f64; 2]| Point(Time::new(time), AnyQuantity { si: value, kind: None });
+        Ok(numbers.into_iter().map(point).collect())
+    }
+
+    fn read(&mut self, at: &At<'_>, file: &str) -> Result<Vec<u8>, Fault> {
+        let unreadable = |error: io::Error| at.fault(format!("cannot read \"{}\": {error}", shown(file)));
+        let path = folder::find(self.base, Path::new(file)).map_err(|denied| match denied {
+            Denied::Outside => at
+                .fault(format!("\"{}\" lies outside the scenario's folder", shown(file)))
+                .help("a scenario may name files at or below its own folder only"),
+            Denied::NotThere => {
+                let fault = at.fault(format!("there is no file \"{}\"", shown(file)));
+                let names = folder::names(self.base);
+                let near = suggest::nearest(file, names.iter().map(String::as_str));
+                fault.help(match near {
+                    Some(near) => format!("did you mean \"{near}\"?"),
+                    None => "files are looked for from the scenario's own folder".to_owned(),
+                })
+            }
+            Denied::NotAFile => at.fault(format!("\"{}\" is not a file", shown(file))),
+            Denied::Unreadable(error) => unreadable(error),
+        })?;
+        let (most, most_together) = MAX_BYTES;
+        let Some(bytes) = text::read(&path, most).map_err(unreadable)? else {
+            return Err(at.fault(format!("a table has at most {most} bytes")).help("keep fewer points"));
+        };
+        self.bytes += bytes.len();
+        if self.bytes > most_together {
+            let message = format!("the files of all tables have more than {most_together} bytes together");
+            let help = "keep fewer points; a table that is used twice can be a waveform with a name";
+            return Err(at.fault(message).help(help));
+        }
+        Ok(bytes)
+    }
 }
 
-fn read(at: &At<'_>, file: &str, table: &TableForm, files: &mut Files<'_>) -> Result<Vec<Point>, Fault> {
-    let file_at = at.key("file");
-    let path = inside(&file_at, file, files.base)?;
-    let unreadable =
-        |error: std::io::Error| file_at.fault(format!("cannot read \"{}\": {error}", shown(file)));
-    let mut text = String::new();
-    let limit = syntax::MAX_BYTES as u64;
-    let opened = File::open(path).map_err(unreadable)?;
-    opened.take(limit + 1).read_to_string(&mut text).map_err(unreadable)?;
-    if text.len() as u64 > limit {
-        return Err(file_at.fault(format!("a table has at most {limit} bytes")).help("keep fewer points"));
-    }
-    files.left = files.left.checked_sub(text.len() as u64).ok_or_else(|| {
-        let fault =
-            file_at.fault(format!("the files of all tables have more than {MAX_TOTAL} bytes together"));
-        fault.help("keep fewer points; a table that is used twice can be a waveform with a name")
-    })?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
-    let broken = |error: &csv::Error| {
-        let message = error.to_string();
-        let plain = message.strip_prefix("CSV error: ").unwrap_or(&message);
-        file_at.fault(format!("\"{}\" is not a CSV table: {plain}", shown(file)))
-    };
-    let header = reader.headers().map_err(|error| broken(&error))?.clone();
-    let time = column(at, "time", table.time.as_deref(), &header)?;
-    let value = column(at, "value", table.value.as_deref(), &header)?;
-    let mut points = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| broken(&error))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |column: usize| number(&file_at, file, line, record.get(column).unwrap_or(""));
-        points.push(Point(Time::new(number(time)?), AnyQuantity { si: number(value)?, kind: None }));
-    }
-    Ok(points)
-}
-
-/// A file at or below the scenario's own folder, wherever links and `..` lead.
-fn inside(at: &At<'_>, file: &str, base: &Path) -> Result<PathBuf, Fault> {
-    let cannot = |error: std::io::Error| at.fault(format!("cannot read \"{}\": {error}", shown(file)));
-    let base = if base.as_os_str().is_empty() { Path::new(".") } else { base };
-    let base = base.canonicalize().map_err(cannot)?;
-    let path = base.join(file).canonicalize().map_err(cannot)?;
-    if !path.starts_with(&base) {
-        let fault = at.fault(format!("\"{}\" lies outside the scenario's folder", shown(file)));
-        return Err(fault.help("a scenario may name files at or below its own folder only"));
-    }
-    if !path.is_file() {
-        return Err(at.fault(format!("\"{}\" is not a file", shown(file))));
-    }
-    Ok(path)
-}
-
-fn column(at: &At<'_>, key: &str, name: Option<&str>, header: &csv::StringRecord) -> Result<usize, Fault> {
+fn column(at: &At<'_>, key: &str, name: Option<&str>, header: &[String]) -> Result<usize, Fault> {
     let Some(name) = name else {
-        return Err(at.missing(key).help("the name of a column of the file"));
+        return Err(at.missing(key));
     };
     let mut columns = header.iter().enumerate().filter(|(_, head)| *head == name).map(|(i, _)| i);
     let at = at.key(key);
-    match (columns.next(), columns.next()) {
-        (Some(only), None) => Ok(only),
-        (Some(_), Some(_)) => Err(at.fault(format!("the file has more than one column \"{}\"", shown(name)))),
-        (None, _) => {
-            let fault = at.fault(format!("the file has no column \"{}\"", shown(name)));
-            Err(fault.maybe_help(suggest::help(name, header.iter())))
+    match (columns.next(), columns.next(), header) {
+        (Some(only), None, _) => Ok(only),
+        (Some(_), Some(_), _) => {
+            let fault = at.fault(format!("the file has more than one column \"{}\"", shown(name)));
+            Err(fault.help("give its columns different names"))
         }
-    }
-}
-
-fn number(at: &At<'_>, file: &str, line: u64, text: &str) -> Result<f64, Fault> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(at.fault(format!(
-            "\"{}\", line {line}: expected a number, got \"{}\"",
-            shown(file),
-            shown(text)
-        ))),
+        (None, _, header) => {
+            let fault = at.fault(format!("the file has no column \"{}\"", shown(name)));
+            let help = match header {
+                [only] if only.contains([';', '\t']) => {
+                    Some(format!("its first line is \"{}\": put commas between the fields", shown(only)))
+                }
+                _ => suggest::help(name, header.iter().map(String::as_str)),
+            };
+            Err(fault.maybe_help(help))
+        }
     }
 }

@@ -1,5 +1,9 @@
 //! Dimensions and units of the scenario file.
 
+mod advice;
+
+pub(crate) use advice::{advice, of_another};
+
 use std::f64::consts::PI;
 
 /// Dimension of a quantity.
@@ -78,6 +82,9 @@ impl Kind {
     }
 }
 
+/// Blank, tab, no-break space, thin space, narrow no-break space.
+pub(crate) const BLANKS: [char; 5] = [' ', '\t', '\u{a0}', '\u{2009}', '\u{202f}'];
+
 /// All units: symbol as it is compared (see [`normalise`]), dimension, scale.
 pub(crate) const UNITS: &[(&str, Kind, Scale)] = {
     use Kind::*;
@@ -148,22 +155,36 @@ pub(crate) const UNITS: &[(&str, Kind, Scale)] = {
 /// a star is a blank.
 pub(crate) fn normalise(unit: &str) -> String {
     let mut plain = String::with_capacity(unit.len());
-    for c in unit.trim().chars() {
+    for c in unit.chars() {
         match c {
             '\u{b5}' | '\u{3bc}' => plain.push('u'),
             '\u{b2}' => plain.push_str("^2"),
             '\u{3a9}' | '\u{2126}' => plain.push_str("ohm"),
             '\u{b0}' => plain.push_str("deg"),
-            '\u{b7}' | '\u{22c5}' | '*' => plain.push(' '),
-            c if c.is_whitespace() => plain.push(' '),
+            c if is_times(c) => plain.push(' '),
+            c if is_blank(c) => plain.push(' '),
             c => plain.push(c),
         }
     }
     plain.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
+/// What may stand between number and unit: blanks, also those that keep the two on one line.
+pub(crate) fn is_blank(c: char) -> bool {
+    BLANKS.contains(&c)
+}
+
+/// Signs of multiplication between two units.
+fn is_times(c: char) -> bool {
+    matches!(c, '\u{b7}' | '\u{22c5}' | '*')
+}
+
 /// A unit by its symbol as a user writes it.
 pub(crate) fn find(symbol: &str) -> Option<(Kind, Scale)> {
+    let symbol = symbol.trim_matches(is_blank);
+    if symbol.starts_with(is_times) || symbol.ends_with(is_times) {
+        return None;
+    }
     let plain = normalise(symbol);
     UNITS.iter().find(|(known, ..)| *known == plain).map(|&(_, kind, scale)| (kind, scale))
 }

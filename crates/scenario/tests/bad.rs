@@ -5,8 +5,10 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
 
 use std::fs;
-use std::path::PathBuf;
-use stickslip_scenario::Scenario;
+use std::path::{Path, PathBuf};
+use stickslip_drive::{Model, SceneError};
+use stickslip_scenario::{Scenario, ScenarioError};
+use unicode_width::UnicodeWidthChar;
 
 fn cases() -> Vec<PathBuf> {
     let folder = fs::read_dir("tests/bad").unwrap();
@@ -16,16 +18,23 @@ fn cases() -> Vec<PathBuf> {
     cases
 }
 
+/// What is wrong with a file before its run starts, also where only the model can tell.
+fn refusal(path: &Path) -> Option<ScenarioError> {
+    let scenario = match Scenario::load(path) {
+        Ok(scenario) => scenario,
+        Err(error) => return Some(error),
+    };
+    let locate = |error: SceneError| scenario.locate(&error.path, error.message, error.help);
+    Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan)).map_err(locate).err()
+}
+
 #[test]
 fn every_bad_scenario_is_refused_word_for_word() {
     let cases = cases();
-    assert!(cases.len() >= 25, "only {} cases", cases.len());
+    assert!(cases.len() >= 190, "only {} cases", cases.len());
     let mut wrong = Vec::new();
     for path in cases {
-        let message = match Scenario::load(&path) {
-            Ok(_) => "accepted".to_owned(),
-            Err(error) => error.to_string(),
-        };
+        let message = refusal(&path).map_or("accepted".to_owned(), |error| error.to_string());
         let beside = path.with_extension("txt");
         if std::env::var_os("STICKSLIP_WRITE").is_some() {
             fs::write(&beside, format!("{message}\n")).unwrap();
@@ -38,22 +47,38 @@ fn every_bad_scenario_is_refused_word_for_word() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// The characters that stand in some cells of a line, as a terminal shows it.
+fn in_cells(line: &str, from: usize, to: usize) -> String {
+    let mut cell = 0;
+    let cells = line.chars().map(|c| {
+        let start = cell;
+        cell += c.width().unwrap();
+        (start, c)
+    });
+    cells.filter(|(start, _)| (from..to).contains(start)).map(|(_, c)| c).collect()
+}
+
 #[test]
 fn the_marker_stands_under_what_is_to_blame() {
     for path in cases() {
-        let Err(error) = Scenario::load(&path) else { continue };
-        let excerpt = error.excerpt.as_ref().unwrap();
-        let text = fs::read_to_string(&path).unwrap();
-        assert_eq!(text.lines().nth(excerpt.line - 1).unwrap_or(""), excerpt.text, "{}", path.display());
+        let error = refusal(&path).unwrap();
+        let excerpt = error.excerpt.as_ref().unwrap_or_else(|| panic!("{} has no place", path.display()));
+        let bytes = fs::read(&error.file).unwrap();
+        if !bytes.starts_with(&[0xff, 0xfe]) {
+            let text = String::from_utf8_lossy(&bytes);
+            assert_eq!(text.lines().nth(excerpt.line - 1).unwrap_or(""), excerpt.text, "{}", path.display());
+        }
         assert_eq!(excerpt.marker.start + 1, excerpt.column, "{}", path.display());
-        assert!(!excerpt.marker.is_empty());
         let shown = error.to_string();
         let lines: Vec<_> = shown.lines().collect();
-        let carets = lines[2].chars().position(|c| c == '^').unwrap();
-        let under: Vec<char> = lines[1].chars().skip(carets).take(1).collect();
-        let blamed: Vec<char> = excerpt.text.chars().skip(excerpt.marker.start).take(1).collect();
-        // Control characters are shown as blanks.
-        let blamed: Vec<char> = blamed.into_iter().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        assert_eq!(under, blamed, "{}", path.display());
+        assert!(lines[0].starts_with(&format!("{}:{}:{}  ", error.file, excerpt.line, excerpt.column)));
+        let (start, end) = (lines[2].find('^').unwrap(), lines[2].len());
+        assert!(lines[2].trim_start().bytes().all(|byte| byte == b'^'), "{shown}");
+        let blamed: String =
+            excerpt.text.chars().skip(excerpt.marker.start).take(excerpt.marker.len()).collect();
+        let under = in_cells(lines[1], start, end);
+        // What is too long for a line is cut; tabs and the like are shown as others.
+        let same = blamed.starts_with(&under) && (under == blamed || lines[1].ends_with('…'));
+        assert!(same || under == " " || under == "\u{fffd}", "{blamed:?} {under:?}\n{shown}");
     }
 }

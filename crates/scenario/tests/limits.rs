@@ -54,7 +54,8 @@ fn parts_of_one_kind_are_counted() {
     refused(&loads(10_001), "loads", message);
     let waves = many(10_001, r#""w#": { "sine": { "amplitude": 1, "period": 1 } }"#);
     refused(&format!(r#""waveforms": {{ {waves} }}"#), "waveforms", message);
-    let rest = format!(r#"{}, "loads": [{}]"#, bodies(10_000), many(10_000, r#"{ "on": "b9999", "x": 1 }"#));
+    let loads = many(10_000, r#"{ "on": "b9999", "x": 1 }"#);
+    let rest = format!(r#"{}, "loads": [{loads}], "gravity": {{ "incline": 1 }}"#, bodies(10_000));
     assert!(load(&rest, Path::new("")).is_ok(), "as many as may be");
 }
 

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
 
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::fs;
 use stickslip_scenario::{Scenario, schema};
 
@@ -77,4 +78,131 @@ fn what_the_loader_refuses_by_form_the_schema_refuses() {
     let mut scenario = good;
     scenario["bodies"]["slider"]["inertia"] = json!(1);
     assert!(!validator.is_valid(&scenario), "keys of later versions are marked in an editor");
+}
+
+/// A key of the schema: its name, what is said about it, whether it must be there.
+struct Key<'a> {
+    name: &'a str,
+    schema: &'a Value,
+    is_required: bool,
+}
+
+/// All keys that the schema describes; conditions such as "this or that" are none.
+fn keys<'a>(schema: &'a Value, found: &mut Vec<Key<'a>>) {
+    let Value::Object(entries) = schema else { return };
+    let required = entries.get("required").and_then(Value::as_array);
+    for (name, inner) in entries.get("properties").and_then(Value::as_object).into_iter().flatten() {
+        let is_required = required.is_some_and(|required| required.iter().any(|key| key == name));
+        found.push(Key { name, schema: inner, is_required });
+    }
+    for group in ["properties", "$defs"] {
+        entries.get(group).and_then(Value::as_object).into_iter().flatten().for_each(|(_, s)| keys(s, found));
+    }
+    let kinds = entries.get("oneOf").and_then(Value::as_array).into_iter().flatten();
+    kinds.filter(|kind| kind.get("type").is_some()).for_each(|kind| keys(kind, found));
+}
+
+/// The unit of a quantity: what the description of its type says a bare number is in.
+fn unit<'a>(root: &'a Value, schema: &Value) -> Option<&'a str> {
+    let named = root.pointer(schema["$ref"].as_str()?.strip_prefix('#')?)?;
+    let described = named["description"].as_str().unwrap_or("");
+    if described.ends_with("constant or following a waveform.") {
+        return unit(root, &named["anyOf"][0]);
+    }
+    Some(described.split_once(": a number in ")?.1.split_once(',')?.0)
+}
+
+#[test]
+fn every_key_is_described_with_unit_default_and_examples() {
+    let root: Value = serde_json::from_str(&schema()).unwrap();
+    let mut found = Vec::new();
+    keys(&root, &mut found);
+    assert!(found.len() > 100, "{}", found.len());
+    let mut units = 0;
+    for Key { name, schema, is_required } in found {
+        let text = schema["description"].as_str().unwrap_or_else(|| panic!("{name} is not described"));
+        assert!(text.len() > 10 && text.ends_with('.') && !text.contains('\n'), "{name}: {text}");
+        if schema["$ref"] == "#/$defs/NotYet" {
+            assert!(text.contains("not yet") || text.contains("Not yet"), "{name}: {text}");
+            continue;
+        }
+        if let Some(unit) = unit(&root, schema) {
+            let words: Vec<&str> = text.split([',', ';', ':', '.', '(']).map(str::trim).collect();
+            let of_another = unit == "SI" && words.contains(&"in the unit of what follows");
+            let said = words.iter().any(|word| *word == unit || *word == format!("a number in {unit}"));
+            assert!(said || of_another, "{name}: no word of {unit} in {text}");
+            units += 1;
+        }
+        let says = |words: &[&str]| words.iter().any(|word| text.contains(word));
+        let optional = says(&["default", "needed", "this or", "Only \"fixed\""]);
+        assert!(is_required || schema.get("default").is_some() || optional, "{name}: no default in {text}");
+        let mut alone = schema.clone();
+        alone["$defs"] = root["$defs"].clone();
+        let validator = jsonschema::validator_for(&alone).unwrap();
+        let examples = schema["examples"].as_array().unwrap_or_else(|| panic!("{name} has no example"));
+        for example in examples.iter().chain(schema.get("default")) {
+            let errors: Vec<_> = validator.iter_errors(example).map(|error| error.to_string()).collect();
+            assert!(errors.is_empty(), "{name} = {example}: {errors:?}");
+        }
+    }
+    assert!(units > 40, "{units}");
+}
+
+#[test]
+fn what_an_editor_offers_for_an_empty_file_runs() {
+    let schema: Value = serde_json::from_str(&schema()).unwrap();
+    let body = schema["defaultSnippets"][0]["body"].to_string();
+    let scenario = Scenario::from_str(&body, "snippet", "").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scenario.warnings, []);
+    assert!(validator().is_valid(&serde_json::from_str(&body).unwrap()));
+}
+
+/// What a schema cannot tell: names of other parts, relations between values, quantities beyond the largest or smallest
+/// number, other files, what only the equations say, and duplicate keys, which are gone when a schema looks.
+const REASONS: [&str; 6] = ["name", "relation", "number", "file", "model", "duplicate"];
+
+const MISSES: &str = "tests/schema_misses.txt";
+
+/// An editor marks every bad scenario but those in `tests/schema_misses.txt`, each listed there with the reason.
+#[test]
+fn the_schema_catches_what_a_schema_can() {
+    let validator = validator();
+    let listed = fs::read_to_string(MISSES).unwrap();
+    let listed: BTreeMap<&str, &str> =
+        listed.lines().skip(1).filter_map(|line| line.split_once(": ")).collect();
+    let (mut files, mut syntax, mut caught, mut missed) = (0, 0, 0, BTreeMap::new());
+    for entry in fs::read_dir("tests/bad").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "json") {
+            continue;
+        }
+        files += 1;
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        let text = fs::read(&path).unwrap();
+        match serde_json::from_slice::<Value>(&text) {
+            Err(_) => syntax += 1,
+            Ok(value) if !validator.is_valid(&value) => caught += 1,
+            Ok(_) => {
+                let reason = listed.get(name.as_str()).copied().unwrap_or("no reason given").to_owned();
+                missed.insert(name, reason);
+            }
+        }
+    }
+    let count = format!(
+        "{files} bad scenarios: {syntax} are no JSON, {caught} are caught by the schema, {} are not:",
+        missed.len()
+    );
+    let lines: Vec<String> = missed.iter().map(|(name, reason)| format!("{name}: {reason}")).collect();
+    if std::env::var_os("STICKSLIP_WRITE").is_some() {
+        fs::write(MISSES, format!("{count}\n{}\n", lines.join("\n"))).unwrap();
+    }
+    for (name, reason) in &missed {
+        assert!(REASONS.contains(&reason.as_str()), "{name}: {reason}");
+        let told = fs::read_to_string(format!("tests/bad/{name}.txt")).unwrap();
+        assert_eq!(told.contains("stands here twice"), reason == "duplicate", "{name}");
+    }
+    let written = fs::read_to_string(MISSES).unwrap();
+    assert_eq!(written, format!("{count}\n{}\n", lines.join("\n")));
+    // What passes the schema is wrong in its meaning alone.
+    assert!(missed.values().filter(|reason| *reason != "duplicate").count() >= 25);
 }

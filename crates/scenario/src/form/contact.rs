@@ -1,35 +1,42 @@
 //! Contacts.
 
 use super::{Count, Lengths, Moving, Reserved, Two};
-use crate::quantity::{self, Force, Length};
+use crate::quantity::{Force, Length, dimension};
+use crate::schema::{above_zero, at_least_zero, never};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
-/// A frictional contact: u = x(first) - x(second); friction pulls the second body along with the
-/// first.
+/// A frictional contact: u = x(first) - x(second); friction pulls the second body along with the first.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactForm {
     /// First (lower) and second body; `ground` is one too.
+    #[schemars(extend("uniqueItems" = true), example = json!(["foot", "slider"]))]
     pub(crate) between: Two,
     /// Names of the two materials; their order does not matter.
+    #[schemars(example = json!(["ruby", "steel"]))]
     pub(crate) materials: Two,
     /// Profile of the gap.
+    #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
     pub(crate) profile: ProfileForm,
-    /// Coulomb's coefficient of friction, 0 to 1000; typical 0.05 to 0.6.
-    #[schemars(range(min = 0.0, max = 1000.0))]
+    /// The Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6.
+    #[schemars(range(min = 0.0, max = 1000.0), example = 0.2)]
     pub(crate) friction: f64,
     /// What presses the contact.
+    #[schemars(example = json!({ "force": "0.3 N" }))]
     pub(crate) normal: NormalForm,
     /// Number of identical contacts that share this motion, 1 to 1 000 000.
     #[serde(default = "one")]
-    #[schemars(range(min = 1, max = 1_000_000))]
+    #[schemars(range(min = 1, max = 1_000_000), example = 3)]
     pub(crate) count: Count,
     /// The contact's own state at t = 0; u counts from where the bodies start.
     #[serde(default)]
+    #[schemars(example = json!({ "force": "10 mN" }))]
     pub(crate) start: ContactStartForm,
     /// How the tangential problem is solved.
     #[serde(default)]
+    #[schemars(example = &"curve", example = json!({ "springs": { "count": 1024 } }))]
     pub(crate) engine: EngineForm,
     /// Contact point relative to the bodies' reference points. Not yet in this version.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,16 +58,22 @@ fn one() -> Count {
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ProfileForm {
     /// Flat cylindrical punch.
-    Flat(RadiusForm),
+    #[schemars(example = json!({ "flat": { "radius": "50 um" } }))]
+    Flat(FlatForm),
     /// Cone, f = slope · r.
+    #[schemars(example = json!({ "cone": { "slope": 0.01 } }))]
     Cone(ConeForm),
     /// Paraboloid, f = r²/(2R): Hertz.
-    Paraboloid(RadiusForm),
+    #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
+    Paraboloid(BallForm),
     /// Sphere, f = R - √(R²-r²), exact.
-    Sphere(RadiusForm),
+    #[schemars(example = json!({ "sphere": { "radius": "0.5 mm" } }))]
+    Sphere(BallForm),
     /// Power law, f = A rⁿ.
+    #[schemars(example = json!({ "power": { "coefficient": 1e6, "exponent": 4 } }))]
     Power(PowerForm),
     /// One-dimensional foundation given by its heights; need not be monotone.
+    #[schemars(example = json!({ "foundation": { "heights": [0, "10 nm", "20 nm"], "length": "1 um" } }))]
     Foundation(FoundationForm),
     /// Table of the profile. Not yet in this version.
     Table(Reserved),
@@ -68,11 +81,21 @@ pub(crate) enum ProfileForm {
     Rough(Reserved),
 }
 
-/// A profile with one radius.
+/// A flat punch.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RadiusForm {
-    /// Radius, m, above 0.
+pub(crate) struct FlatForm {
+    /// Radius of the flat face, m, above 0; typical 10 um to 5 mm.
+    #[schemars(example = &"50 um", transform = above_zero)]
+    pub(crate) radius: Length,
+}
+
+/// A ball.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BallForm {
+    /// Radius of curvature R, m, above 0; typical 0.1 mm to 50 mm.
+    #[schemars(example = &"0.5 mm", transform = above_zero)]
     pub(crate) radius: Length,
 }
 
@@ -80,8 +103,8 @@ pub(crate) struct RadiusForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ConeForm {
-    /// Slope of the flank against the plane, tan θ, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    /// Slope of the flank against the plane, tan θ, above 0; typical 0.001 to 0.1.
+    #[schemars(extend("exclusiveMinimum" = 0), example = 0.01)]
     pub(crate) slope: f64,
 }
 
@@ -89,11 +112,11 @@ pub(crate) struct ConeForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PowerForm {
-    /// Coefficient A in SI, m^(1-n), above 0.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    /// Coefficient A of f = A rⁿ in SI, m^(1-n), above 0; the paraboloid of radius R has A = 1/(2R) and n = 2.
+    #[schemars(extend("exclusiveMinimum" = 0), example = 1e6)]
     pub(crate) coefficient: f64,
-    /// Exponent n, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    /// Exponent n of f = A rⁿ, above 0; 1 is a cone, 2 a paraboloid.
+    #[schemars(extend("exclusiveMinimum" = 0), example = 4)]
     pub(crate) exponent: f64,
 }
 
@@ -101,9 +124,11 @@ pub(crate) struct PowerForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FoundationForm {
-    /// Heights of the springs above the lowest point, m, at least 0, in any order.
+    /// Heights of the springs above the lowest point, m, at least 0, in any order; typical 1 nm to 10 um.
+    #[schemars(length(min = 1), example = json!([0, "10 nm", "20 nm"]), transform = at_least_zero)]
     pub(crate) heights: Vec<Length>,
-    /// Length of foundation at each height, m, above 0: one for all, or one each.
+    /// Length of foundation at each height, m, above 0: one for all, or one each; typical 10 nm to 100 um.
+    #[schemars(example = &"1 um", example = json!(["1 um", "2 um", "1 um"]), transform = above_zero)]
     pub(crate) length: Lengths,
 }
 
@@ -111,13 +136,18 @@ pub(crate) struct FoundationForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum NormalForm {
-    /// Normal force of one contact, N, at least 0; at 0 the contact touches and its memory is gone.
-    Force(Moving<quantity::dimension::Force>),
-    /// Indentation, m; negative: open.
-    Indentation(Moving<quantity::dimension::Length>),
-    /// Contact radius, m, at least 0.
-    Radius(Moving<quantity::dimension::Length>),
+    /// Normal force of one contact, N, at least 0; at 0 the contact touches and its memory is gone; typical 1 mN to
+    /// 100 N.
+    #[schemars(transform = at_least_zero, example = json!({ "force": "0.3 N" }))]
+    Force(Moving<dimension::Force>),
+    /// Indentation, m; negative: open; typical 1 nm to 1 um.
+    #[schemars(example = json!({ "indentation": "50 nm" }))]
+    Indentation(Moving<dimension::Length>),
+    /// Contact radius, m, at least 0; typical 1 um to 100 um.
+    #[schemars(transform = at_least_zero, example = json!({ "radius": "5 um" }))]
+    Radius(Moving<dimension::Length>),
     /// From the bodies' z. Not yet in this version.
+    #[schemars(transform = never)]
     Coupled,
 }
 
@@ -129,8 +159,10 @@ pub(crate) enum ContactStartForm {
     #[default]
     Untouched,
     /// Preloaded to this tangential force of one contact, N; below friction times normal force in magnitude.
+    #[schemars(example = json!({ "force": "10 mN" }))]
     Force(Force),
-    /// Preloaded by this displacement u, m.
+    /// Preloaded by this displacement u, m; typical below the displacement of gross slip, some 10 nm.
+    #[schemars(example = json!({ "displacement": "3 nm" }))]
     Displacement(Length),
 }
 
@@ -142,6 +174,7 @@ pub(crate) enum EngineForm {
     #[default]
     Curve,
     /// A row of springs.
+    #[schemars(example = json!({ "springs": { "count": 1024 } }))]
     Springs(SpringsForm),
 }
 
@@ -149,10 +182,11 @@ pub(crate) enum EngineForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpringsForm {
-    /// Number of springs, 1 to 1 000 000.
-    #[schemars(range(min = 1, max = 1_000_000))]
+    /// Number of springs, 1 to 1 000 000; typical 256 to 4096.
+    #[schemars(range(min = 1, max = 1_000_000), example = 1024)]
     pub(crate) count: Count,
     /// Length of the row, m, above 0; by default the contact's width at the largest indentation known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"20 um", transform = above_zero)]
     pub(crate) span: Option<Length>,
 }

@@ -2,8 +2,11 @@
 
 use super::{Moving, Reserved, Two};
 use crate::quantity::{Acceleration, Angle, Damping, Force, Stiffness, dimension};
+use crate::schema::{above_zero, at_least_zero, never, something_to_do, stroke_needed, x_needed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::f64::consts::PI;
 
 /// Standard gravity, m/s² (CGPM 1901).
 const STANDARD_GRAVITY: f64 = 9.80665;
@@ -16,45 +19,58 @@ pub(crate) enum DirectionForm {
     #[default]
     X,
     /// Normal to the slide. Not yet in this version.
+    #[schemars(transform = never)]
     Z,
 }
 
 /// Linear spring with a damper: force on the second body preload - k e - c ė, e = x(second) - x(first).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = something_to_do)]
 pub(crate) struct SpringForm {
     /// First and second body; `ground` is one too.
+    #[schemars(extend("uniqueItems" = true), example = json!(["ground", "slider"]))]
     pub(crate) between: Two,
     /// Direction; only "x" in this version.
     #[serde(default)]
+    #[schemars(example = &"x")]
     pub(crate) direction: DirectionForm,
-    /// Stiffness k, N/m, at least 0.
+    /// Stiffness k, N/m, at least 0; typical 1 kN/m to 100 N/um.
     #[serde(default = "no_stiffness")]
+    #[schemars(example = &"2 N/um", transform = at_least_zero)]
     pub(crate) stiffness: Stiffness,
-    /// Damping c, N s/m, at least 0.
+    /// Damping c, N s/m, at least 0; typical 0.1 N s/m to 100 N s/m.
     #[serde(default = "no_damping")]
+    #[schemars(example = &"0.5 N s/m", transform = at_least_zero)]
     pub(crate) damping: Damping,
-    /// Force on the second body at e = 0, N.
+    /// Force on the second body at e = 0, N; typical 1 mN to 100 N.
     #[serde(default = "no_force")]
+    #[schemars(example = &"-1 mN")]
     pub(crate) preload: Force,
 }
 
 /// Piezo stack: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first), s the free stroke.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = stroke_needed)]
 pub(crate) struct ActuatorForm {
     /// First and second body; `ground` is one too.
+    #[schemars(extend("uniqueItems" = true), example = json!(["ground", "slider"]))]
     pub(crate) between: Two,
     /// Direction; only "x" in this version.
     #[serde(default)]
+    #[schemars(example = &"x")]
     pub(crate) direction: DirectionForm,
-    /// Stiffness k, N/m, above 0.
+    /// Stiffness k, N/m, above 0; typical 1 N/um to 500 N/um.
+    #[schemars(example = &"20 N/um", transform = above_zero)]
     pub(crate) stiffness: Stiffness,
-    /// Damping c, N s/m, at least 0.
+    /// Damping c, N s/m, at least 0; typical 0.1 N s/m to 100 N s/m.
     #[serde(default = "no_damping")]
+    #[schemars(example = &"0.5 N s/m", transform = at_least_zero)]
     pub(crate) damping: Damping,
-    /// Free stroke s, m; needed in this version.
+    /// Free stroke s, m; needed in this version; typical 10 nm to 100 um.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!({ "follows": "drive" }))]
     pub(crate) stroke: Option<Moving<dimension::Length>>,
     /// Voltage. Not yet in this version.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -79,11 +95,14 @@ pub(crate) struct ActuatorForm {
 /// Force on a body.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = x_needed)]
 pub(crate) struct LoadForm {
     /// Name of the body.
+    #[schemars(example = &"slider")]
     pub(crate) on: String,
-    /// Force along x, N; needed in this version.
+    /// Force along x, N; needed in this version; typical 1 mN to 10 N.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"-0.02 N")]
     pub(crate) x: Option<Moving<dimension::Force>>,
     /// Force along z, N. Not yet in this version.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -102,9 +121,12 @@ pub(crate) struct LoadForm {
 pub(crate) struct GravityForm {
     /// Acceleration g, m/s², at least 0; standard gravity by default.
     #[serde(default = "standard_gravity")]
+    #[schemars(example = &"9.81 m/s²", transform = at_least_zero)]
     pub(crate) acceleration: Acceleration,
-    /// Angle by which the slide climbs from the horizontal, -180 to 180 degrees.
+    /// Angle by which the slide climbs from the horizontal, a number in rad, -180 deg to 180 deg; typical 0 deg or
+    /// 90 deg.
     #[serde(default = "horizontal")]
+    #[schemars(extend("minimum" = -PI, "maximum" = PI), example = &"90 deg")]
     pub(crate) incline: Angle,
 }
 

@@ -1,6 +1,7 @@
 //! One length for all entries of a list, or one each.
 
 use crate::quantity::Length;
+use crate::schema::above_zero;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, SeqAccess, Visitor};
@@ -67,6 +68,8 @@ impl JsonSchema for Lengths {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let length = generator.subschema_for::<Length>();
-        json_schema!({ "anyOf": [length, { "type": "array", "items": length }] })
+        let mut list = json_schema!({ "type": "array", "items": length });
+        above_zero(&mut list);
+        json_schema!({ "anyOf": [length, list] })
     }
 }

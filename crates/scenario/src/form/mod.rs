@@ -23,8 +23,10 @@ pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::{HarmonicsForm, Periodic, Point, TableForm, WaveformForm};
 
 use crate::PlotName;
+use crate::schema::{no_ground, no_trace_column};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// A stick-slip drive: bodies, contacts, waveforms, and how to run them. A quantity is a number in SI or a string with
 /// a unit, such as "5 um".
@@ -32,49 +34,69 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 #[schemars(title = "stickslip scenario, version 1")]
 pub(crate) struct Form {
-    /// Where an editor finds the schema; ignored.
+    /// Where an editor finds the schema; nothing by default, and of no meaning here.
     #[serde(rename = "$schema", default, skip_serializing)]
+    #[schemars(example = &"../schema/scenario-1.json")]
     #[expect(dead_code, reason = "the key is allowed, and of no meaning here")]
     pub(crate) schema: Option<String>,
     /// Version of this form.
-    #[schemars(extend("const" = 1))]
+    #[schemars(extend("const" = 1), example = 1)]
     pub(crate) stickslip: Count,
-    /// A line for people.
+    /// A line for people; empty by default.
     #[serde(default, skip_serializing_if = "String::is_empty")]
+    #[schemars(example = &"Sawtooth drive on three ruby balls")]
     pub(crate) title: String,
-    /// Materials by name.
+    /// Materials by name; none by default.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
+    #[schemars(example = json!({ "ruby": { "youngs_modulus": "400 GPa", "poisson_ratio": 0.27 } }))]
     pub(crate) materials: Parts<MaterialForm>,
-    /// Prescribed courses in time by name; `{"follows": name}` refers to them.
+    /// Prescribed courses in time by name, none by default; `{"follows": name}` refers to them.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
+    #[schemars(example = json!({ "drive": { "sawtooth": { "stroke": "200 nm", "period": "10 ms", "flyback": "10 us" } } }))]
     pub(crate) waveforms: Parts<WaveformForm>,
-    /// Bodies by name. `ground` is always there, fixed.
+    /// Bodies by name, none by default; `ground` is always there, fixed.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
+    #[schemars(example = json!({ "slider": { "mass": "10 g", "x": "free" } }), transform = no_ground)]
     pub(crate) bodies: Parts<BodyForm>,
-    /// Frictional contacts by name.
+    /// Frictional contacts by name; none by default.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
+    #[schemars(
+        example = json!({ "ball": {
+            "between": ["foot", "slider"], "materials": ["ruby", "steel"],
+            "profile": { "paraboloid": { "radius": "0.5 mm" } }, "friction": 0.2, "normal": { "force": "0.3 N" }
+        } }),
+        transform = no_trace_column
+    )]
     pub(crate) contacts: Parts<ContactForm>,
-    /// Linear springs with dampers by name.
+    /// Linear springs with dampers by name; none by default.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
+    #[schemars(example = json!({ "return": { "between": ["ground", "slider"], "stiffness": "2 N/um" } }))]
     pub(crate) springs: Parts<SpringForm>,
-    /// Piezo stacks by name.
+    /// Piezo stacks by name; none by default.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
+    #[schemars(example = json!({ "stack": { "between": ["ground", "foot"], "stiffness": "20 N/um", "stroke": { "follows": "drive" } } }))]
     pub(crate) actuators: Parts<ActuatorForm>,
-    /// Forces on bodies.
+    /// Forces on bodies; none by default.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(example = json!([{ "on": "slider", "x": "-0.02 N" }]))]
     pub(crate) loads: Vec<LoadForm>,
     /// Gravity; none by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!({ "acceleration": "9.81 m/s²", "incline": "90 deg" }))]
     pub(crate) gravity: Option<GravityForm>,
     /// How long, from where and by which stepper.
+    #[schemars(example = json!({ "duration": "100 ms" }))]
     pub(crate) run: RunForm,
-    /// Whose period and whose motion make steps and speeds.
+    /// Whose period and whose motion make steps and speeds; by default the only ones there are.
     #[serde(default, skip_serializing_if = "FiguresForm::is_empty")]
+    #[schemars(example = json!({ "waveform": "drive", "body": "slider" }))]
     pub(crate) figures: FiguresForm,
-    /// What is written down.
+    /// What is written down; by default all channels, but only the first and the last row.
     #[serde(default, skip_serializing_if = "OutputForm::is_empty")]
+    #[schemars(example = json!({ "every": "10 us" }))]
     pub(crate) output: OutputForm,
-    /// Pictures to draw.
+    /// Pictures to draw; none by default.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(example = json!(["loop", "trajectory"]))]
     pub(crate) plots: Vec<PlotName>,
 }

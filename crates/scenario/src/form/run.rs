@@ -2,29 +2,36 @@
 
 use super::Count;
 use crate::quantity::Time;
+use crate::schema::{above_zero, duration_or_cycles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use stickslip_drive::Limits;
 
 /// How long, from where and by which stepper.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = duration_or_cycles)]
 pub(crate) struct RunForm {
-    /// Simulated time, s, above 0; this or `cycles`.
+    /// Simulated time, s, above 0; this or `cycles`; typical 1 ms to 10 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"100 ms", transform = above_zero)]
     pub(crate) duration: Option<Time>,
     /// Simulated time in cycles of the waveform of `figures`, above 0, after its delay; this or `duration`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
     pub(crate) cycles: Option<f64>,
     /// How the free coordinates start.
     #[serde(default)]
+    #[schemars(example = &"equilibrium")]
     pub(crate) start: RunStartForm,
-    /// Time stepping.
+    /// Time stepping; a tolerance suits every scene, a fixed step must stay below the scene's fastest oscillation.
     #[serde(default)]
+    #[schemars(example = json!({ "event": { "tolerance": 1e-8 } }), example = json!({ "verlet": { "step": "1 us" } }))]
     pub(crate) stepper: StepperForm,
     /// Guards against endless work.
     #[serde(default)]
+    #[schemars(example = json!({ "wall": "10 min" }))]
     pub(crate) limits: LimitsForm,
 }
 
@@ -44,12 +51,16 @@ pub(crate) enum RunStartForm {
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StepperForm {
     /// Order 8 with located events.
+    #[schemars(example = json!({ "event": { "tolerance": 1e-8 } }))]
     Event(ToleranceForm),
     /// Velocity Verlet at a fixed step.
+    #[schemars(example = json!({ "verlet": { "step": "1 us" } }))]
     Verlet(StepForm),
     /// Classical Runge–Kutta of order 4 at a fixed step.
+    #[schemars(example = json!({ "rk4": { "step": "1 us" } }))]
     Rk4(StepForm),
     /// Dormand–Prince 5(4) without events: the plain explicit reference.
+    #[schemars(example = json!({ "dopri5": { "tolerance": 1e-8 } }))]
     Dopri5(ToleranceForm),
 }
 
@@ -63,9 +74,9 @@ impl Default for StepperForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ToleranceForm {
-    /// Local error per step, 1e-13 to 1e-2.
+    /// Local error per step, relative to the scene's own scales u_c and μF_N, 1e-13 to 1e-2; typical 1e-10 to 1e-6.
     #[serde(default = "default_tolerance")]
-    #[schemars(range(min = 1e-13, max = 1e-2))]
+    #[schemars(range(min = 1e-13, max = 1e-2), example = 1e-8)]
     pub(crate) tolerance: f64,
 }
 
@@ -73,7 +84,8 @@ pub(crate) struct ToleranceForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StepForm {
-    /// Step, s, above 0.
+    /// Step, s, above 0; typical 10 ns to 1 us.
+    #[schemars(example = &"100 ns", transform = above_zero)]
     pub(crate) step: Time,
 }
 
@@ -87,14 +99,15 @@ fn default_tolerance() -> f64 {
 pub(crate) struct LimitsForm {
     /// Most accepted and rejected steps, at least 1.
     #[serde(default = "default_steps")]
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1), example = 1_000_000)]
     pub(crate) steps: Count,
     /// Most located events, at least 1.
     #[serde(default = "default_events")]
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1), example = 100_000)]
     pub(crate) events: Count,
     /// Most wall-clock time, s, above 0; without end by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"10 min", transform = above_zero)]
     pub(crate) wall: Option<Time>,
 }
 
@@ -116,11 +129,13 @@ fn default_events() -> Count {
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FiguresForm {
-    /// Name of a waveform; the only one there is by default.
+    /// Name of a waveform with a period; the only waveform there is by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"drive")]
     pub(crate) waveform: Option<String>,
-    /// Name of a body; the only free one, or the only one, by default.
+    /// Name of a body that moves; the only free one, or the only one, by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"slider")]
     pub(crate) body: Option<String>,
 }
 

@@ -2,11 +2,13 @@
 
 use super::WaveformForm;
 use crate::quantity::{Dimension, Quantity};
+use crate::schema::names;
 use crate::units::Kind;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::json;
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
@@ -77,7 +79,11 @@ impl<T: JsonSchema> JsonSchema for Parts<T> {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "object", "additionalProperties": generator.subschema_for::<T>() })
+        json_schema!({
+            "type": "object",
+            "propertyNames": names(),
+            "additionalProperties": generator.subschema_for::<T>()
+        })
     }
 }
 
@@ -137,7 +143,8 @@ impl JsonSchema for WaveformRef {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Follows {
-    /// The waveform to follow.
+    /// The waveform to follow: the name of one of `waveforms`, or one written out here.
+    #[schemars(example = &"drive", example = json!({ "sine": { "amplitude": "100 nm", "frequency": "100 Hz" } }))]
     follows: WaveformRef,
 }
 

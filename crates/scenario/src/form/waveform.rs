@@ -2,9 +2,11 @@
 
 use super::Reserved;
 use crate::quantity::{Angle, AnyQuantity, Frequency, Time};
+use crate::schema::{above_zero, at_least_zero, period_or_frequency, points_or_file};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::json;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -13,16 +15,22 @@ use std::fmt;
 #[serde(rename_all = "snake_case")]
 pub(crate) enum WaveformForm {
     /// Starts at 0, rises linearly to the stroke, falls linearly to 0 in the flyback that ends the period.
+    #[schemars(example = json!({ "sawtooth": { "stroke": "200 nm", "period": "10 ms", "flyback": "10 us" } }))]
     Sawtooth(SawtoothForm),
     /// Rises linearly from 0 to the stroke in half a period and falls back.
+    #[schemars(example = json!({ "triangle": { "stroke": "200 nm", "period": "10 ms" } }))]
     Triangle(TriangleForm),
     /// offset + amplitude · sin(ωt + phase).
+    #[schemars(example = json!({ "sine": { "amplitude": "100 nm", "frequency": "100 Hz" } }))]
     Sine(SineForm),
     /// Sum of amplitude · sin(order · ωt + phase).
+    #[schemars(example = json!({ "harmonics": { "terms": [{ "amplitude": "100 nm", "order": 1 }, { "amplitude": "25 nm", "order": 2 }], "period": "10 ms" } }))]
     Harmonics(HarmonicsForm),
     /// Rises by the cycloidal law stroke · (τ - sin(2πτ)/2π), falls by the same law in the flyback that ends the period.
+    #[schemars(example = json!({ "cycloid": { "stroke": "200 nm", "period": "10 ms" } }))]
     Cycloid(CycloidForm),
     /// Straight between given points, held before the first and after the last.
+    #[schemars(example = json!({ "table": { "points": [[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]] } }))]
     Table(TableForm),
     /// Not yet in this version.
     Parabola(Reserved),
@@ -50,23 +58,28 @@ macro_rules! periodic {
         $(#[$meta])*
         #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
+        #[schemars(transform = period_or_frequency)]
         pub(crate) struct $name {
             $($(#[$field_meta])* pub(crate) $field: $type,)*
-            /// Period, s, above 0; this or `frequency`.
+            /// Period, s, above 0; this or `frequency`; typical 1 us to 1 s.
             #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(example = &"10 ms", transform = above_zero)]
             pub(crate) period: Option<Time>,
-            /// Frequency, Hz, above 0; this or `period`.
+            /// Frequency, Hz, above 0; this or `period`; typical 1 Hz to 1 MHz.
             #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(example = &"100 Hz", transform = above_zero)]
             pub(crate) frequency: Option<Frequency>,
             /// Phase, rad: advances the waveform by phase/2π periods.
             #[serde(default = "no_angle")]
+            #[schemars(example = &"90 deg")]
             pub(crate) phase: Angle,
             /// Delay, s, at least 0: until then the first value is held.
             #[serde(default = "no_time")]
+            #[schemars(example = &"1 ms", transform = at_least_zero)]
             pub(crate) delay: Time,
             /// Number of cycles, above 0, after which the last value is held; without end by default.
             #[serde(default, skip_serializing_if = "Option::is_none")]
-            #[schemars(extend("exclusiveMinimum" = 0))]
+            #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
             pub(crate) cycles: Option<f64>,
         }
 
@@ -87,9 +100,11 @@ macro_rules! periodic {
 periodic! {
     /// Sawtooth.
     SawtoothForm {
-        /// Peak-to-peak value.
+        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
-        /// Duration of the fall, s, at least 0 (a jump) and below the period.
+        /// Duration of the fall, s, at least 0 (a jump) and below the period; typical a hundredth of the period.
+        #[schemars(example = &"10 us", transform = at_least_zero)]
         flyback: Time,
     }
 }
@@ -97,7 +112,8 @@ periodic! {
 periodic! {
     /// Triangle.
     TriangleForm {
-        /// Peak-to-peak value.
+        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
     }
 }
@@ -105,10 +121,12 @@ periodic! {
 periodic! {
     /// Sine.
     SineForm {
-        /// Half the peak-to-peak value.
+        /// Half the peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        #[schemars(example = &"100 nm")]
         amplitude: AnyQuantity,
-        /// Mean value.
+        /// Mean value, in the unit of what follows.
         #[serde(default = "no_value")]
+        #[schemars(example = &"100 nm")]
         offset: AnyQuantity,
     }
 }
@@ -117,6 +135,7 @@ periodic! {
     /// Sum of sines.
     HarmonicsForm {
         /// The sines, at least one; at most 1000 in all waveforms together.
+        #[schemars(length(min = 1, max = 1000), example = json!([{ "amplitude": "100 nm", "order": 1 }]))]
         terms: Vec<HarmonicForm>,
     }
 }
@@ -124,10 +143,12 @@ periodic! {
 periodic! {
     /// Cycloid.
     CycloidForm {
-        /// Peak-to-peak value.
+        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
         /// Duration of the fall, s, above 0 and below the period; half a period by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(example = &"1 ms", transform = above_zero)]
         flyback: Option<Time>,
     }
 }
@@ -136,34 +157,42 @@ periodic! {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HarmonicForm {
-    /// Amplitude.
+    /// Amplitude, in the unit of what follows; typical 1 nm to 10 um.
+    #[schemars(example = &"100 nm")]
     pub(crate) amplitude: AnyQuantity,
-    /// Multiple of the frequency, a whole number of at least 1.
-    #[schemars(range(min = 1, max = 1000))]
+    /// Multiple of the frequency, a whole number, 1 to 1000.
+    #[schemars(range(min = 1, max = 1000), example = 2)]
     pub(crate) order: super::Count,
     /// Phase, rad.
     #[serde(default = "no_angle")]
+    #[schemars(example = &"90 deg")]
     pub(crate) phase: Angle,
 }
 
 /// Table: `points`, or `file` with the names of its columns.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = points_or_file)]
 pub(crate) struct TableForm {
-    /// Pairs of time and value, at least two, times rising; two equal times are a jump.
+    /// Pairs of time and value, at least two, times rising; two equal times are a jump; this or `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2), example = json!([[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]]))]
     pub(crate) points: Option<Vec<Point>>,
-    /// CSV file with a header, numbers in SI; at or below the scenario's own folder.
+    /// CSV file with a header, numbers in SI; at or below the scenario's own folder; this or `points`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"measured.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of times, s; with `file`.
+    /// Name of the column of times, s; needed with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"time_s")]
     pub(crate) time: Option<String>,
-    /// Name of the column of values, SI; with `file`.
+    /// Name of the column of values, SI; needed with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"stroke_m")]
     pub(crate) value: Option<String>,
     /// Delay, s, at least 0: added to all times.
     #[serde(default = "no_time")]
+    #[schemars(example = &"1 ms", transform = at_least_zero)]
     pub(crate) delay: Time,
 }
 
@@ -203,6 +232,7 @@ impl JsonSchema for Point {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "description": "Time and value.",
+            "examples": [["1 ms", "200 nm"]],
             "type": "array",
             "prefixItems": [generator.subschema_for::<Time>(), generator.subschema_for::<AnyQuantity>()],
             "minItems": 2,

@@ -3,6 +3,7 @@
 use super::{Builder, range};
 use crate::fault::Fault;
 use crate::form::{ContactForm, ContactStartForm, EngineForm, Lengths, NormalForm, ProfileForm};
+use crate::guide::Help;
 use crate::path::At;
 use crate::suggest;
 use stickslip_contact::{Interface, Pair, Profile};
@@ -186,7 +187,7 @@ fn profile(at: &At<'_>, form: &ProfileForm) -> Result<Profile, Fault> {
 fn foundation(at: &At<'_>, heights: &[crate::quantity::Length], length: &Lengths) -> Result<Profile, Fault> {
     let heights_at = at.key("heights");
     if heights.is_empty() {
-        return Err(heights_at.fault("expected at least one height"));
+        return Err(heights_at.fault("expected at least one height").ask(Help::Shape));
     }
     let mut levels = Vec::with_capacity(heights.len());
     for (i, height) in heights.iter().enumerate() {

@@ -3,10 +3,12 @@
 mod body;
 mod contact;
 mod coupling;
+mod motion;
 mod names;
 mod output;
 mod range;
 mod run;
+pub(crate) mod warnings;
 mod waveform;
 
 pub use output::{MemoryOutput, SpringsOutput};
@@ -70,9 +72,11 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     builder.actuators()?;
     builder.loads()?;
     builder.gravity()?;
+    builder.actions()?;
     let figures = builder.figures()?;
     let plan = builder.plan(figures)?;
     builder.start()?;
+    builder.plots()?;
     let (springs, memory) = (builder.springs_output(plan)?, builder.memory_output(plan, figures)?);
     Ok(Meaning {
         plan,

@@ -91,7 +91,7 @@ impl Builder<'_> {
         }
         if sides[0] == sides[1] {
             let message = format!("expected two different bodies, got \"{}\" twice", names.0[0]);
-            return Err(at.index(1).fault(message));
+            return Err(at.index(1).fault(message).help("name two bodies, or one and \"ground\""));
         }
         Ok(sides)
     }

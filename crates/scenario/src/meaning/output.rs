@@ -5,6 +5,7 @@ use super::{Builder, Figures, range};
 use crate::PlotName;
 use crate::fault::Fault;
 use crate::form::MemoryOutputForm;
+use crate::guide::Help;
 use crate::path::At;
 use crate::quantity::Time;
 use stickslip_drive::scene::EngineChoice;
@@ -134,7 +135,7 @@ fn interval(at: &At<'_>, every: Time, plan: Plan) -> Result<f64, Fault> {
 /// Moments in ascending order, within the run.
 fn list(at: &At<'_>, times: &[Time], plan: Plan) -> Result<Vec<f64>, Fault> {
     if times.is_empty() {
-        return Err(at.fault("expected at least one moment"));
+        return Err(at.fault("expected at least one moment").ask(Help::Shape));
     }
     let mut moments = Vec::with_capacity(times.len());
     for (i, time) in times.iter().enumerate() {

@@ -18,19 +18,31 @@ impl Builder<'_> {
         let root = At::ROOT;
         let at = root.key("figures");
         let waveform = match &form.waveform {
-            Some(name) => Some(self.form.waveforms.find(name).ok_or_else(|| {
-                let fault = at
-                    .key("waveform")
-                    .fault(format!("there is no waveform \"{}\"", crate::document::shown(name)));
-                fault.maybe_help(suggest::help(name, self.form.waveforms.names()))
-            })?),
+            Some(name) => Some(self.periodic(&at.key("waveform"), name)?),
             None => (self.scene.waveforms.len() == 1).then_some(0),
         };
         let body = match &form.body {
-            Some(name) => Some(self.body(&at.key("body"), name)?),
+            Some(name) => {
+                let at = at.key("body");
+                Some(self.moving_body(&at, self.body(&at, name)?)?)
+            }
             None => self.only_body(),
         };
         Ok(Figures { waveform, body })
+    }
+
+    /// The place of a waveform with a period.
+    fn periodic(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
+        let waveforms = &self.form.waveforms;
+        let index = waveforms.find(name).ok_or_else(|| {
+            let fault = at.fault(format!("there is no waveform \"{}\"", crate::document::shown(name)));
+            fault.maybe_help(suggest::help(name, waveforms.names()))
+        })?;
+        if self.scene.waveforms[index].part.period().is_some() {
+            return Ok(index);
+        }
+        let fault = at.expected("a waveform with a period");
+        Err(fault.help("a table repeats nothing: there are no steps to count"))
     }
 
     /// The only free body, or the only body.
@@ -100,6 +112,7 @@ fn stepper(at: &At<'_>, form: &StepperForm, duration: f64) -> Result<Stepper, Fa
         if step <= duration {
             return Ok(step);
         }
+        let duration = range::short(duration);
         Err(at.expected(format_args!("a time up to the duration of the run, {duration} s")))
     };
     Ok(match form {

@@ -3,6 +3,7 @@
 use super::{Builder, Course, range};
 use crate::fault::Fault;
 use crate::form::{HarmonicsForm, Moving, Periodic, Point, TableForm, WaveformForm, WaveformRef};
+use crate::guide::Help;
 use crate::path::At;
 use crate::quantity::{AnyQuantity, Dimension, Time};
 use crate::suggest;
@@ -192,7 +193,7 @@ fn refused(at: &At<'_>, error: &WaveformError) -> Fault {
 fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values) -> Result<Shape, Fault> {
     let at = at.key("terms");
     if form.terms.is_empty() {
-        return Err(at.fault("expected at least one term"));
+        return Err(at.fault("expected at least one term").ask(Help::Shape));
     }
     let mut terms = Vec::with_capacity(form.terms.len());
     for (i, term) in form.terms.iter().enumerate() {
@@ -210,6 +211,7 @@ fn flyback(at: &At<'_>, flyback: Time, period: f64) -> Result<f64, Fault> {
     if value < period {
         return Ok(value);
     }
+    let period = range::short(period);
     Err(at.expected(format_args!("a time below the period of {period} s")))
 }
 
@@ -222,13 +224,15 @@ fn table(at: &At<'_>, form: &TableForm, values: &mut Values) -> Result<(&'static
     let delay = range::at_least_zero(&at.key("delay"), form.delay)?;
     let at = at.key("points");
     if points.len() < 2 {
-        return Err(at.fault(format!("expected at least two points, got {}", points.len())));
+        let fault = at.fault(format!("expected at least two points, got {}", points.len()));
+        return Err(fault.ask(Help::Shape));
     }
     let mut pairs: Vec<(f64, f64)> = Vec::with_capacity(points.len());
     for (i, &Point(time, value)) in points.iter().enumerate() {
         let at = at.index(i);
         if pairs.last().is_some_and(|last| time.si < last.0) {
-            return Err(at.index(0).expected("a time not before the point before it"));
+            let fault = at.index(0).expected("a time not before the point before it");
+            return Err(fault.help("times rise; two points at one time are a jump"));
         }
         if pairs.len() > 1 && pairs[i - 2].0 == time.si {
             let fault = at.index(0).fault("three points have the same time");

@@ -1,0 +1,280 @@
+//! Help from the schema: what it says about a key is what a message says that has nothing better to say.
+
+use crate::path::{KeyPath, Step};
+use crate::schema;
+use serde_json::Value;
+use std::cmp::Reverse;
+use std::fmt::Write;
+use std::sync::OnceLock;
+
+/// The help of a fault.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Help {
+    None,
+    /// Its own.
+    Said(String),
+    /// From the schema: what the value means.
+    Meaning,
+    /// From the schema: what the value looks like.
+    Shape,
+    /// From the schema: what a missing key means, and how it looks.
+    Missing(String),
+}
+
+impl Help {
+    /// The sentence about the value under a path.
+    pub(crate) fn about(self, path: &KeyPath) -> Option<String> {
+        let mut path = path.clone();
+        match self {
+            Self::None => None,
+            Self::Said(text) => Some(text),
+            Self::Meaning => {
+                // What a list means says more than what its entries are.
+                while path.0.pop_if(|last| matches!(last, Step::Index(_))).is_some() {}
+                let guide = Guide::get();
+                guide.description(guide.at(&path)?)
+            }
+            Self::Shape => {
+                let guide = Guide::get();
+                Some(format!("such as {}", line(guide.example(guide.at(&path)?)?)))
+            }
+            Self::Missing(key) => {
+                let guide = Guide::get();
+                let schema = guide.enter(guide.at(&path)?, &Step::Key(key.clone()))?;
+                let (example, description) = (guide.example(schema)?, guide.description(schema)?);
+                Some(format!("add \"{key}\": {} ({description})", line(example)))
+            }
+        }
+    }
+}
+
+/// The schema as a book to look things up in.
+pub(crate) struct Guide {
+    root: Value,
+}
+
+impl Guide {
+    /// The book, written when it is first asked for.
+    pub(crate) fn get() -> &'static Self {
+        static GUIDE: OnceLock<Guide> = OnceLock::new();
+        GUIDE.get_or_init(|| Self { root: schema::tree() })
+    }
+
+    /// The schema of a whole scenario.
+    pub(crate) fn root(&self) -> &Value {
+        &self.root
+    }
+
+    /// What the schema says about the value under a path.
+    pub(crate) fn at(&self, path: &KeyPath) -> Option<&Value> {
+        path.0.iter().try_fold(&self.root, |schema, step| self.enter(schema, step))
+    }
+
+    /// One step further in, whichever of several kinds has it.
+    pub(crate) fn enter<'a>(&'a self, schema: &'a Value, step: &Step) -> Option<&'a Value> {
+        let inner = match step {
+            Step::Key(key) => schema.get("properties").and_then(|keys| keys.get(key)),
+            Step::Index(index) => schema.get("prefixItems").and_then(|items| items.get(index)),
+        };
+        let other = match step {
+            Step::Key(_) => schema.get("additionalProperties"),
+            Step::Index(_) => schema.get("items"),
+        };
+        if let Some(found) = inner.or(other).filter(|found| found.is_object()) {
+            return Some(found);
+        }
+        self.parts(schema).find_map(|part| self.enter(part, step))
+    }
+
+    /// The schemas that a schema refers to as a whole: the one of its type, and those of its kinds.
+    fn parts<'a>(&'a self, schema: &'a Value) -> impl Iterator<Item = &'a Value> {
+        let named = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix('#'));
+        let kinds = ["oneOf", "anyOf"].into_iter().filter_map(|key| schema.get(key)?.as_array()).flatten();
+        named.and_then(|pointer| self.root.pointer(pointer)).into_iter().chain(kinds)
+    }
+
+    /// Whether a list may stand here.
+    pub(crate) fn has_lists(&self, schema: &Value) -> bool {
+        schema.get("type").is_some_and(|kind| kind == "array")
+            || is_later(schema)
+            || self.parts(schema).any(|part| self.has_lists(part))
+    }
+
+    /// The first sentence of the description, as part of another one.
+    fn description(&self, schema: &Value) -> Option<String> {
+        let text = match schema.get("description") {
+            Some(text) => text.as_str()?,
+            None => return self.parts(schema).next().and_then(|part| self.description(part)),
+        };
+        let sentence = text.split(". ").next()?;
+        let text = sentence.strip_suffix('.').unwrap_or(sentence).replace('`', "\"");
+        let mut chars = text.chars();
+        let first = chars.next()?;
+        let word = text.split(' ').next()?;
+        // Names of people and abbreviations stay as they are.
+        if word.ends_with("'s") || (word.len() > 1 && word.chars().all(char::is_uppercase)) {
+            return Some(text);
+        }
+        Some(first.to_lowercase().chain(chars).collect())
+    }
+
+    fn example<'a>(&'a self, schema: &'a Value) -> Option<&'a Value> {
+        let own = schema.get("examples").and_then(|examples| examples.get(0));
+        own.or_else(|| self.parts(schema).find_map(|part| self.example(part)))
+    }
+
+    /// An example of the kind of value that has this name.
+    pub(crate) fn example_of(&self, path: &KeyPath, kind: &str) -> Option<String> {
+        let schema = self.enter(self.at(path)?, &Step::Key(kind.to_owned()))?;
+        Some(format!("{{\"{kind}\": {}}}", line(self.example(schema)?)))
+    }
+
+    /// Words and keys that say which kind of value stands under a path, without those of later versions.
+    pub(crate) fn kinds(&self, path: &KeyPath) -> Vec<String> {
+        let mut kinds = Vec::new();
+        if let Some(schema) = self.at(path) {
+            self.add_kinds(schema, &mut kinds);
+        }
+        kinds
+    }
+
+    fn add_kinds(&self, schema: &Value, kinds: &mut Vec<String>) {
+        let words = schema.get("enum").and_then(Value::as_array).into_iter().flatten();
+        kinds.extend(words.filter_map(Value::as_str).map(str::to_owned));
+        if schema.get("oneOf").is_none() {
+            kinds.extend(self.keys_of(schema));
+        }
+        for part in self.parts(schema) {
+            self.add_kinds(part, kinds);
+        }
+    }
+
+    /// Whether a key may stand in the value under a path.
+    pub(crate) fn knows(&self, path: &KeyPath, key: &str) -> bool {
+        let schema = self.at(path).and_then(|schema| self.enter(schema, &Step::Key(key.to_owned())));
+        schema.is_some_and(|schema| !is_later(schema))
+    }
+
+    fn keys_of<'a>(&self, schema: &'a Value) -> impl Iterator<Item = String> + use<'a> {
+        let keys = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
+        keys.filter(|(_, inner)| inner.is_object() && !is_later(inner)).map(|(key, _)| key.clone())
+    }
+
+    /// Where in a scenario a key stands: the places that share most with the one where it was looked for, of those the
+    /// ones closest to the root. Names of parts that are not shared are written as NAME.
+    pub(crate) fn homes(&self, sought: &KeyPath, key: &str) -> Vec<String> {
+        let mut homes: Vec<KeyPath> = Vec::new();
+        let mut level = vec![(KeyPath::default(), &self.root)];
+        while !level.is_empty() {
+            let here = level.iter().filter(|(_, schema)| self.keys_of(schema).any(|known| known == key));
+            homes.extend(here.map(|(path, _)| path.clone()));
+            level = level.iter().flat_map(|(path, schema)| self.next_level(sought, path, schema)).collect();
+        }
+        let shared = |home: &KeyPath| home.0.iter().zip(&sought.0).take_while(|(a, b)| a == b).count();
+        let rank = |home: &KeyPath| (shared(home), Reverse(home.0.len()));
+        let best = homes.iter().map(rank).max();
+        homes.retain(|home| Some(rank(home)) == best && !home.0.is_empty());
+        homes.iter().map(KeyPath::to_string).collect()
+    }
+
+    fn next_level<'a>(
+        &'a self,
+        sought: &KeyPath,
+        path: &KeyPath,
+        schema: &'a Value,
+    ) -> Vec<(KeyPath, &'a Value)> {
+        let deeper = |step: Step| KeyPath(path.0.iter().cloned().chain([step]).collect());
+        let mut level: Vec<_> = self.parts(schema).map(|part| (path.clone(), part)).collect();
+        if let Some(keys) = schema.get("properties").and_then(Value::as_object) {
+            level.extend(keys.iter().map(|(key, inner)| (deeper(Step::Key(key.clone())), inner)));
+        }
+        let on_the_way = sought.0.starts_with(&path.0);
+        let name = sought.0.get(path.0.len()).filter(|_| on_the_way);
+        let any = [("additionalProperties", Step::Key("NAME".to_owned())), ("items", Step::Index(0))];
+        for (keyword, step) in any {
+            let inner = schema.get(keyword).filter(|inner| inner.is_object());
+            level.extend(inner.map(|inner| (deeper(name.cloned().unwrap_or(step)), inner)));
+        }
+        // What may only be one word has no keys.
+        level.retain(|(_, inner)| inner.get("const").is_none());
+        level
+    }
+}
+
+/// Part of the form, but of a later version.
+fn is_later(schema: &Value) -> bool {
+    schema.get("$ref").and_then(Value::as_str).is_some_and(|name| name.ends_with("/NotYet"))
+}
+
+/// A value on one line, as people write it.
+fn line(value: &Value) -> String {
+    let mut text = String::new();
+    match value {
+        Value::Object(entries) => {
+            let entries = entries.iter().map(|(key, value)| format!("\"{key}\": {}", line(value)));
+            let _ = write!(text, "{{{}}}", entries.collect::<Vec<_>>().join(", "));
+        }
+        Value::Array(entries) => {
+            let entries: Vec<_> = entries.iter().map(line).collect();
+            let _ = write!(text, "[{}]", entries.join(", "));
+        }
+        plain => {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "{plain}");
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn path(text: &str) -> KeyPath {
+        KeyPath::parse(text).unwrap()
+    }
+
+    #[test]
+    fn the_schema_answers() {
+        let friction = "the Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6";
+        assert_eq!(Help::Meaning.about(&path("contacts.a b.friction")).unwrap(), friction);
+        assert_eq!(
+            Help::Missing("friction".to_owned()).about(&path("contacts.ball")).unwrap(),
+            format!("add \"friction\": 0.2 ({friction})")
+        );
+        let modulus = Help::Meaning.about(&path("materials.x.youngs_modulus")).unwrap();
+        assert!(modulus.starts_with("Young's modulus E, Pa"));
+        let radius = Help::Meaning.about(&path("contacts.c.profile.sphere.radius")).unwrap();
+        assert!(radius.ends_with("typical 0.1 mm to 50 mm"));
+        assert_eq!(
+            Help::Shape.about(&path("gravity")).unwrap(),
+            "such as {\"acceleration\": \"9.81 m/s²\", \"incline\": \"90 deg\"}"
+        );
+        let inline = Help::Meaning.about(&path("loads[3].x.follows.sine.delay")).unwrap();
+        assert!(inline.starts_with("delay, s, at least 0"));
+        let points = Help::Meaning.about(&path("waveforms.w.table.points[2][0]")).unwrap();
+        assert!(points.starts_with("pairs of time and value"));
+        assert_eq!(Help::Meaning.about(&path("nowhere.to.go")), None);
+    }
+
+    #[test]
+    fn kinds_and_homes_leave_out_later_versions() {
+        let guide = Guide::get();
+        assert_eq!(guide.kinds(&path("bodies.a.x")), ["fixed", "free", "follows"]);
+        assert_eq!(guide.kinds(&path("contacts.a.normal")), ["force", "indentation", "radius"]);
+        assert_eq!(guide.kinds(&path("run.stepper")), ["event", "verlet", "rk4", "dopri5"]);
+        assert_eq!(guide.kinds(&path("contacts.a.engine")), ["curve", "springs"]);
+        assert_eq!(guide.kinds(&path("springs.a.direction")), ["x"]);
+        assert!(!guide.kinds(&path("contacts.a.profile")).contains(&"rough".to_owned()));
+        let homes = |sought: &str, key: &str| guide.homes(&path(sought), key);
+        assert_eq!(homes("materials.ruby", "friction"), ["contacts.NAME"]);
+        assert_eq!(homes("contacts.ball", "mass"), ["bodies.NAME"]);
+        assert_eq!(homes("run", "on"), ["loads[0]"]);
+        assert_eq!(homes("waveforms.saw", "order"), ["waveforms.saw.harmonics.terms[0]"]);
+        assert_eq!(homes("bodies.foot", "follows"), ["bodies.foot.x"]);
+        let profiles = ["flat", "paraboloid", "sphere"].map(|kind| format!("contacts.ball.profile.{kind}"));
+        assert_eq!(homes("contacts.ball.profile.cone", "radius"), profiles);
+        assert_eq!(homes("run", "no_such_key"), [""; 0]);
+        assert!(guide.knows(&path("bodies.a"), "mass") && !guide.knows(&path("bodies.a"), "inertia"));
+    }
+}

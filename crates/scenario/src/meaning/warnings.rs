@@ -1,0 +1,230 @@
+//! What is allowed and probably not meant.
+
+use super::{Meaning, motion};
+use crate::fault::Fault;
+use crate::form::{Form, FreedomForm, Parts, RunStartForm};
+use crate::path::{At, KeyPath};
+use std::collections::HashSet;
+use stickslip_drive::Scene;
+use stickslip_drive::scene::{ContactStart, Freedom, Normal, Side, Varying};
+
+/// Young's moduli between the softest gels and more than diamond, Pa.
+const MODULUS: (f64, f64) = (1e3, 2e12);
+/// More than the coefficient of friction of rubber on clean glass.
+const FRICTION: f64 = 4.0;
+
+/// Everything odd about a scenario. `is_written` says whether a value stands in the file.
+pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -> bool) -> Vec<Fault> {
+    let mut odd = Oddities { form, meaning, scene: &meaning.scene, found: Vec::new() };
+    odd.unused();
+    odd.materials();
+    odd.bodies(is_written);
+    odd.contacts();
+    odd.idle_links();
+    odd.run();
+    odd.waveforms_too_late();
+    odd.found
+}
+
+struct Oddities<'a> {
+    form: &'a Form,
+    meaning: &'a Meaning,
+    scene: &'a Scene,
+    found: Vec<Fault>,
+}
+
+impl Oddities<'_> {
+    /// Names that nothing refers to.
+    fn unused(&mut self) {
+        let (form, scene) = (self.form, self.scene);
+        let contacts = form.contacts.iter();
+        let materials: HashSet<&str> =
+            contacts.flat_map(|(_, contact)| contact.materials.0.iter().map(String::as_str)).collect();
+        let used = form.materials.names().map(|name| materials.contains(name)).collect();
+        self.unnamed("materials", &form.materials, used, "no contact names this material");
+        let mut used = followed(scene);
+        if let (Some(waveform), Some(_)) = (self.meaning.figures.waveform, &form.figures.waveform) {
+            used[waveform] = true;
+        }
+        self.unnamed("waveforms", &form.waveforms, used, "nothing follows this waveform");
+        let moves_alone = scene.bodies.iter().map(|body| body.part.x == Freedom::Free);
+        let used = motion::named_bodies(scene).into_iter().zip(moves_alone).map(|(a, b)| a || b).collect();
+        self.unnamed("bodies", &form.bodies, used, "no contact, spring, actuator or load names this body");
+    }
+
+    fn unnamed<T>(&mut self, key: &str, parts: &Parts<T>, used: Vec<bool>, message: &str) {
+        let root = At::ROOT;
+        let at = root.key(key);
+        let unused = parts.names().zip(used).filter(|(_, used)| !used);
+        self.found.extend(unused.map(|(name, _)| {
+            at.key(name).fault(message).on_key().help("remove it, or is another name misspelt?")
+        }));
+    }
+
+    /// Numbers that suggest a forgotten unit.
+    fn materials(&mut self) {
+        let root = At::ROOT;
+        let at = root.key("materials");
+        for (name, material) in self.form.materials.iter() {
+            let (value, at) = (material.youngs_modulus.si, at.key(name));
+            let at = at.key("youngs_modulus");
+            if value < MODULUS.0 {
+                let fault = at.fault(format!("{value} Pa is softer than any solid"));
+                self.found.push(fault.help("a bare number is in Pa; steel has \"210 GPa\""));
+            } else if value > MODULUS.1 {
+                let fault = at.fault(format!("{value:e} Pa is stiffer than diamond"));
+                self.found.push(fault.help("steel has \"210 GPa\""));
+            }
+        }
+    }
+
+    /// Bodies that do not move though that was probably meant.
+    fn bodies(&mut self, is_written: impl Fn(&KeyPath) -> bool) {
+        let root = At::ROOT;
+        let at = root.key("bodies");
+        for (name, body) in self.form.bodies.iter() {
+            let at = at.key(name);
+            if let (Some(_), FreedomForm::Fixed) = (body.mass, &body.x)
+                && !is_written(&at.key("x").path())
+            {
+                let fault = at.key("mass").fault("this body has a mass, but x is fixed: it does not move");
+                self.found.push(fault.on_key().help("write \"x\": \"free\""));
+            }
+        }
+        let at = root.key("loads");
+        for (i, load) in self.scene.loads.iter().enumerate() {
+            let on = &self.scene.bodies[load.on];
+            if on.part.x != Freedom::Free {
+                let message = format!("this load moves nothing: x of \"{}\" is not free", on.name);
+                self.found.push(at.index(i).key("on").fault(message).help("load a body that is free"));
+            }
+        }
+    }
+
+    /// Contacts that never touch, or hardly let go.
+    fn contacts(&mut self) {
+        let root = At::ROOT;
+        let at = root.key("contacts");
+        for contact in &self.scene.contacts {
+            let at = at.key(&contact.name);
+            let friction = contact.part.friction;
+            if friction > FRICTION {
+                let fault = at.key("friction").fault(format!("{friction} is more than any dry pair has"));
+                self.found.push(fault.help("twenty per cent are 0.2; typical 0.05 to 0.6"));
+            }
+            let (key, value) = match contact.part.normal {
+                Normal::Force(value) => ("force", value),
+                Normal::Indentation(value) => ("indentation", value),
+                Normal::Radius(value) => ("radius", value),
+            };
+            let highest = match value {
+                Varying::Constant(value) => value,
+                Varying::Follows(waveform) => self.scene.waveforms[waveform].part.range().1,
+            };
+            if highest <= 0.0 {
+                let at = at.key("normal");
+                let fault = at.key(key).fault("this contact is never pressed: it carries no force");
+                self.found.push(fault.help("press it with a value above 0"));
+            }
+        }
+    }
+
+    /// Springs and actuators with nothing to move.
+    fn idle_links(&mut self) {
+        let scene = self.scene;
+        let springs = scene.springs.iter().map(|spring| ("springs", &spring.name, spring.part.between));
+        let actuators = scene.actuators.iter().map(|part| ("actuators", &part.name, part.part.between));
+        let is_free = |side: &Side| matches!(side, Side::Body(i) if scene.bodies[*i].part.x == Freedom::Free);
+        for (key, name, between) in springs.chain(actuators) {
+            if !between.iter().any(is_free) {
+                let root = At::ROOT;
+                let at = root.key(key);
+                let fault =
+                    at.key(name).key("between").fault("neither of the two is free: this moves nothing");
+                self.found.push(fault.help("give one of them a mass and \"x\": \"free\""));
+            }
+        }
+    }
+
+    /// Runs in which nothing happens, or nothing is seen.
+    fn run(&mut self) {
+        let (root, scene, plan) = (At::ROOT, self.scene, self.meaning.plan);
+        if is_at_rest(scene) {
+            let fault = root.key("run").fault("nothing sets this scene in motion").on_key();
+            self.found
+                .push(fault.help("let a body or a load follow a waveform, or let a body start off its rest"));
+        }
+        let is_free = scene.bodies.iter().any(|body| body.part.x == Freedom::Free);
+        if self.form.run.start == RunStartForm::Equilibrium && !is_free {
+            let fault =
+                root.key("run").key("start").fault("nothing is free: there is no equilibrium to find");
+            self.found.push(fault.help("leave it out"));
+        }
+        if scene.gravity.acceleration > 0.0 && scene.gravity.incline.sin() == 0.0 {
+            let fault = root.key("gravity").fault("on a level slide gravity has no part along x").on_key();
+            let help = "give an \"incline\"; what presses the contacts is given in their \"normal\"";
+            self.found.push(fault.help(help));
+        }
+        if plan.every.is_some_and(|every| every > plan.duration) {
+            let at = root.key("output");
+            let fault = at.key("every").fault(format!("longer than the run of {} s", plan.duration));
+            self.found.push(fault.help("only the first and the last row are written"));
+        }
+        let plots = &self.form.plots;
+        if let Some(i) = (0..plots.len()).find(|&i| plots[..i].contains(&plots[i])) {
+            self.found.push(root.key("plots").index(i).fault("this picture is in the list already"));
+        }
+    }
+
+    /// Waveforms that start when all is over.
+    fn waveforms_too_late(&mut self) {
+        let root = At::ROOT;
+        let at = root.key("waveforms");
+        let used = followed(self.scene);
+        for (i, name) in self.form.waveforms.names().enumerate() {
+            let delay = self.scene.waveforms[i].part.timing().delay;
+            if used[i] && delay >= self.meaning.plan.duration {
+                let message = format!("this waveform starts at {delay} s, when the run is over");
+                self.found
+                    .push(at.key(name).fault(message).on_key().help("run longer, or shorten its delay"));
+            }
+        }
+    }
+}
+
+/// The values of a scene that may vary in time.
+fn varying(scene: &Scene) -> impl Iterator<Item = Varying> {
+    let pressed = scene.contacts.iter().map(|contact| match contact.part.normal {
+        Normal::Force(value) | Normal::Indentation(value) | Normal::Radius(value) => value,
+    });
+    let strokes = scene.actuators.iter().map(|actuator| actuator.part.stroke);
+    pressed.chain(strokes).chain(scene.loads.iter().map(|load| load.x))
+}
+
+/// Whether something follows each waveform.
+fn followed(scene: &Scene) -> Vec<bool> {
+    let mut followed = vec![false; scene.waveforms.len()];
+    for body in &scene.bodies {
+        if let Freedom::Follows(waveform) = body.part.x {
+            followed[waveform] = true;
+        }
+    }
+    for value in varying(scene) {
+        if let Varying::Follows(waveform) = value {
+            followed[waveform] = true;
+        }
+    }
+    followed
+}
+
+/// Whether nothing ever leaves its place: no waveform, no force, no stretched spring.
+fn is_at_rest(scene: &Scene) -> bool {
+    let gravity = scene.gravity;
+    !followed(scene).contains(&true)
+        && scene.loads.iter().all(|load| load.x == Varying::Constant(0.0))
+        && gravity.acceleration * gravity.incline.sin() == 0.0
+        && scene.bodies.iter().all(|body| body.part.start_x == 0.0 && body.part.start_vx == 0.0)
+        && scene.springs.iter().all(|spring| spring.part.preload == 0.0)
+        && scene.actuators.iter().all(|actuator| actuator.part.stroke == Varying::Constant(0.0))
+        && scene.contacts.iter().all(|contact| contact.part.start == ContactStart::Untouched)
+}

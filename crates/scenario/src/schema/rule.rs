@@ -1,0 +1,107 @@
+//! Rules that types do not tell: ranges of quantities, keys that need or exclude each other, names.
+
+use schemars::Schema;
+use serde_json::{Map, Value, json};
+
+/// A number or quantity above zero.
+pub(crate) fn above_zero(schema: &mut Schema) {
+    bound(schema, &json!({ "exclusiveMinimum": 0, "pattern": r"^\s*0*\.?0*[1-9]" }));
+}
+
+/// A number or quantity of at least zero. The one with a minus sign is minus zero.
+pub(crate) fn at_least_zero(schema: &mut Schema) {
+    bound(schema, &json!({ "minimum": 0, "pattern": r"^\s*([^-\s]|-[0.]*([^0-9.]|$))" }));
+}
+
+/// Rules for numbers hold for numbers, patterns for strings; of a kind such as `{"force": …}` its value is meant, of a
+/// list its entries.
+fn bound(schema: &mut Schema, rules: &Value) {
+    let Some(rules) = rules.as_object() else { return };
+    let apply = |inner: &mut Map<String, Value>| inner.extend(rules.clone());
+    if let Some(Value::Object(keys)) = schema.get_mut("properties") {
+        keys.values_mut().filter_map(Value::as_object_mut).for_each(apply);
+    } else if let Some(Value::Object(items)) = schema.get_mut("items") {
+        apply(items);
+    } else {
+        for (key, value) in rules {
+            schema.insert(key.clone(), value.clone());
+        }
+    }
+}
+
+/// Part of the form that this version does not take.
+pub(crate) fn never(schema: &mut Schema) {
+    *schema = schemars::json_schema!({ "not": {} });
+}
+
+/// Names of parts are steps of key paths and heads of columns.
+pub(crate) fn names() -> Value {
+    json!({ "pattern": r"^[\p{Alphabetic}\p{N}_+-]([\p{Alphabetic}\p{N}_+ -]*[\p{Alphabetic}\p{N}_+-])?$", "maxLength": 64 })
+}
+
+/// The ground is always there.
+pub(crate) fn no_ground(schema: &mut Schema) {
+    not_named(schema, &["ground"]);
+}
+
+/// A contact heads columns of the trace.
+pub(crate) fn no_trace_column(schema: &mut Schema) {
+    not_named(schema, &["ground", "energy", "time_s"]);
+}
+
+fn not_named(schema: &mut Schema, taken: &[&str]) {
+    if let Some(Value::Object(names)) = schema.get_mut("propertyNames") {
+        names.insert("not".to_owned(), json!({ "enum": taken }));
+    }
+}
+
+/// A periodic waveform has one of the two.
+pub(crate) fn period_or_frequency(schema: &mut Schema) {
+    either(schema, "period", "frequency");
+}
+
+/// A run has one of the two.
+pub(crate) fn duration_or_cycles(schema: &mut Schema) {
+    either(schema, "duration", "cycles");
+}
+
+fn either(schema: &mut Schema, one: &str, other: &str) {
+    schema.insert("oneOf".to_owned(), json!([{ "required": [one] }, { "required": [other] }]));
+}
+
+/// A table stands in the scenario or in a file.
+pub(crate) fn points_or_file(schema: &mut Schema) {
+    let here =
+        json!({ "required": ["points"], "properties": { "file": false, "time": false, "value": false } });
+    let there = json!({ "required": ["file", "time", "value"], "properties": { "points": false } });
+    schema.insert("oneOf".to_owned(), json!([here, there]));
+}
+
+/// A body that obeys Newton needs a mass.
+pub(crate) fn mass_where_free(schema: &mut Schema) {
+    let free = json!({ "properties": { "x": { "const": "free" } }, "required": ["x"] });
+    schema.insert("if".to_owned(), free);
+    schema.insert("then".to_owned(), json!({ "required": ["mass"] }));
+}
+
+/// A spring pulls somehow.
+pub(crate) fn something_to_do(schema: &mut Schema) {
+    let keys = ["stiffness", "damping", "preload"].map(|key| json!({ "required": [key] }));
+    schema.insert("anyOf".to_owned(), json!(keys));
+}
+
+/// In this version an actuator's stroke is given.
+pub(crate) fn stroke_needed(schema: &mut Schema) {
+    needed(schema, "stroke");
+}
+
+/// In this version a load acts along x.
+pub(crate) fn x_needed(schema: &mut Schema) {
+    needed(schema, "x");
+}
+
+fn needed(schema: &mut Schema, key: &str) {
+    if let Some(Value::Array(required)) = schema.get_mut("required") {
+        required.push(json!(key));
+    }
+}

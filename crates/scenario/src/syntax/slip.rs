@@ -1,0 +1,248 @@
+//! What people write that is not JSON, told from the text around the place where reading stopped.
+
+use super::bracket;
+use crate::document::shown;
+use crate::excerpt::is_invisible;
+use jsonc_parser::errors::{ParseError, ParseErrorKind};
+use std::ops::Range;
+
+/// A place that is not JSON, and what to do about it.
+#[derive(Debug, PartialEq)]
+pub(super) struct Slip {
+    pub(super) range: Range<usize>,
+    pub(super) message: String,
+    pub(super) help: Option<String>,
+}
+
+fn slip(range: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> Slip {
+    Slip { range, message: message.into(), help: Some(help.into()) }
+}
+
+/// What the reader stumbled over.
+pub(super) fn of(text: &str, error: &ParseError) -> Slip {
+    let at = error.range().start.min(text.len());
+    at_character(text, at)
+        .or_else(|| at_number(text, at))
+        .or_else(|| at_bracket(text, at, error.kind()))
+        .or_else(|| at_word(text, at))
+        .unwrap_or_else(|| wording(text, error.range().start..error.range().end, error.kind()))
+}
+
+/// A character that has no place outside of strings.
+pub(super) fn at_character(text: &str, at: usize) -> Option<Slip> {
+    let c = text.get(at..)?.chars().next()?;
+    let range = at..at + c.len_utf8();
+    let line_end = text[at..].find('\n').map_or(text.len(), |i| at + i);
+    Some(match c {
+        '#' => slip(at..line_end, "comments are not allowed", "remarks fit into \"title\""),
+        '/' if text[at..].starts_with("/*") || text[at..].starts_with("//") => return None,
+        ';' => slip(range, "expected a comma, got a semicolon", "entries are separated by commas"),
+        '=' => slip(range, "expected a colon, got an equals sign", "write \"key\": value"),
+        '“' | '”' | '„' | '«' | '»' | '‘' | '’' | '`' | '´' | '＂' => {
+            slip(range, "strings stand in plain double quotes", format!("write \"text\" without {c}"))
+        }
+        '\u{2212}' | '\u{2013}' => slip(range, "this is no minus sign", "write -"),
+        c if is_invisible(c) || (c.is_whitespace() && !c.is_ascii()) => slip(
+            range,
+            format!("an invisible character, U+{:04X}", c as u32),
+            "delete it; only plain blanks, tabs and line ends stand between values",
+        ),
+        c if !c.is_ascii() && !c.is_alphabetic() => {
+            slip(range, format!("the character {c} stands outside of quotes"), "texts stand in double quotes")
+        }
+        _ => return None,
+    })
+}
+
+/// A number with something JSON does not allow, or with a unit.
+fn at_number(text: &str, at: usize) -> Option<Slip> {
+    let bytes = text.as_bytes();
+    let numeric = |b: &u8| b.is_ascii_digit() || matches!(b, b'.' | b'+' | b'-' | b'e' | b'E');
+    // Back over blanks and the number before.
+    let gap = text[..at].trim_end_matches([' ', '\t']).len();
+    let start = gap - bytes[..gap].iter().rev().take_while(|b| numeric(b)).count();
+    let before = &text[start..gap];
+    let here = text[at..].chars().next()?;
+    let has_digit = |text: &str| text.bytes().any(|b| b.is_ascii_digit());
+    let line_end = text[at..].find(['\n', ',', '}', ']', '"']).map_or(text.len(), |i| at + i);
+    let whole = &text[start..line_end].trim_end();
+    let range = start..start + whole.len();
+    if has_digit(before) && (here.is_alphabetic() || matches!(here, '°' | '%' | 'µ')) {
+        let help = format!("write \"{}\"", shown(whole));
+        return Some(slip(range, "a quantity with a unit stands in double quotes", help));
+    }
+    if has_digit(before) && here == '/' {
+        return Some(slip(range, "a fraction is no number here", "write a decimal number"));
+    }
+    if before == "0" && here.is_ascii_digit() {
+        let plain = whole.trim_start_matches('0');
+        let zero = if plain.starts_with(|c: char| c.is_ascii_digit()) { "" } else { "0" };
+        return Some(slip(range, "a number with a leading zero", format!("write {zero}{plain}")));
+    }
+    if here.is_ascii_digit() && before.is_empty() && text[..gap].ends_with(',') {
+        let integer = bytes[..gap - 1].iter().rev().take_while(|b| b.is_ascii_digit()).count();
+        let digits = bytes[at..].iter().take_while(|b| b.is_ascii_digit()).count();
+        if integer > 0 && gap == at {
+            let (first, second) = (&text[gap - 1 - integer..gap - 1], &text[at..at + digits]);
+            let help = format!("decimals stand after a point: {first}.{second}");
+            return Some(slip(gap - 1 - integer..at + digits, "a number with a comma in it", help));
+        }
+    }
+    let range = at..at + text[at..].bytes().take_while(numeric).count().max(1);
+    match here {
+        '.' => {
+            let help = format!("write 0{}", shown(&text[range.clone()]));
+            Some(slip(range, "a number that starts with a point", help))
+        }
+        '+' => Some(slip(range, "a number with a plus sign", "write the number without it")),
+        _ => None,
+    }
+}
+
+/// A closing bracket where another one, or none, was expected.
+fn at_bracket(text: &str, at: usize, kind: &ParseErrorKind) -> Option<Slip> {
+    if matches!(kind, ParseErrorKind::UnterminatedObject | ParseErrorKind::UnterminatedArray) {
+        let range = bracket::unclosed(text);
+        let (what, closing) =
+            if text[range.clone()].starts_with('[') { ("list", ']') } else { ("object", '}') };
+        return Some(slip(range, format!("this {what} is never closed"), format!("a {closing} is missing")));
+    }
+    if matches!(kind, ParseErrorKind::TrailingCommasNotAllowed) {
+        return None;
+    }
+    let here = text[at..].chars().next()?;
+    if matches!(kind, ParseErrorKind::MultipleRootJsonValues) {
+        let message = "something follows the end of the scenario";
+        let help = match here {
+            ',' | '}' | ']' => "one closing bracket too many stands before this",
+            _ => "one file holds one object",
+        };
+        return Some(slip(at..at + here.len_utf8(), message, help));
+    }
+    let before = text[..at].trim_end();
+    let list = bracket::closes_list(text, at)?;
+    match here {
+        '}' | ']' if (here == ']') != list => {
+            let (what, closing) = if list { ("list", ']') } else { ("object", '}') };
+            let message = format!("expected {closing} to close this {what}, got {here}");
+            Some(slip(at..at + 1, message, "brackets close in the reverse order of their opening"))
+        }
+        '}' | ']' | ',' if before.ends_with(':') => {
+            Some(slip(at..at + 1, "a value is missing here", "write \"key\": value"))
+        }
+        ',' => Some(slip(
+            at..at + 1,
+            "a value is missing before this comma",
+            "entries are separated by one comma",
+        )),
+        _ => None,
+    }
+}
+
+/// A word without quotes.
+fn at_word(text: &str, at: usize) -> Option<Slip> {
+    let rest = &text[at..];
+    let length =
+        rest.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | '+'))).unwrap_or(rest.len());
+    let word = &rest[..length];
+    let bare = word.trim_start_matches(['-', '+']);
+    if !bare.starts_with(char::is_alphabetic) {
+        return None;
+    }
+    let range = at..at + length;
+    let before = text[..at].trim_end();
+    if before.is_empty() {
+        let message = "a scenario is a JSON object { … }";
+        return Some(slip(range, message, "it starts with { \"stickslip\": 1, the version of its form"));
+    }
+    let after = text[at + length..].trim_start();
+    if before.ends_with(['{', ',']) && after.starts_with(':') {
+        return Some(slip(range, "keys stand in double quotes", format!("write \"{}\":", shown(word))));
+    }
+    let lower = bare.to_lowercase();
+    Some(match lower.as_str() {
+        "nan" | "inf" | "infinity" => {
+            slip(range, "NaN and infinities are not numbers of a scenario", "write a finite number")
+        }
+        "true" | "false" => slip(range, "expected true or false in small letters", format!("write {lower}")),
+        "none" | "null" | "nil" | "undefined" => {
+            slip(range, "this is no value of a scenario", "leave the key out for its default")
+        }
+        _ => slip(range, "a word without quotes", format!("write \"{}\"", shown(word))),
+    })
+}
+
+/// A string that does not end on its line: where its quote was probably forgotten.
+pub(super) fn quote_missing(text: &str, line_end: usize) -> Slip {
+    let line_start = text[..line_end].rfind('\n').map_or(0, |i| i + 1);
+    let line = text[line_start..line_end].trim_end();
+    let quotes = quotes(line);
+    let slipped = |range: Range<usize>| {
+        let range = line_start + range.start..line_start + range.end;
+        slip(range, "a double quote is missing", "strings and quantities with a unit stand in double quotes")
+    };
+    for pair in quotes.chunks(2) {
+        let before = line[..pair[0]].trim_end();
+        if !before.is_empty() && !before.ends_with(['{', '[', ',', ':']) {
+            // A word before the quote: it was to be inside.
+            let word = before.rfind(['{', '[', ',', ':']).map_or(0, |i| i + 1);
+            let word = word + line[word..].len() - line[word..].trim_start().len();
+            return slipped(word..pair[0] + 1);
+        }
+        let Some(close) = pair.get(1) else { break };
+        let after = line[close + 1..].trim_start();
+        if !after.is_empty() && !after.starts_with(['}', ']', ',', ':']) {
+            return slipped(pair[0]..close + 1);
+        }
+    }
+    slipped(quotes.last().map_or(0, |quote| *quote)..line.len())
+}
+
+/// Places of the quotes of a line that are not escaped.
+fn quotes(line: &str) -> Vec<usize> {
+    let (mut places, mut escaped) = (Vec::new(), false);
+    for (i, byte) in line.bytes().enumerate() {
+        match byte {
+            _ if escaped => escaped = false,
+            b'\\' if places.len() % 2 == 1 => escaped = true,
+            b'"' => places.push(i),
+            _ => {}
+        }
+    }
+    places
+}
+
+/// The parser's own complaint in our words.
+fn wording(text: &str, range: Range<usize>, kind: &ParseErrorKind) -> Slip {
+    let (message, help) = match kind {
+        ParseErrorKind::CommentsNotAllowed => ("comments are not allowed", "remarks fit into \"title\""),
+        ParseErrorKind::TrailingCommasNotAllowed => {
+            ("a comma before a closing bracket", "remove the comma, or the entry after it got lost")
+        }
+        ParseErrorKind::ExpectedComma => ("expected a comma", "entries are separated by commas"),
+        ParseErrorKind::ExpectedColonAfterObjectKey => {
+            ("expected a colon after the key", "write \"key\": value")
+        }
+        ParseErrorKind::ExpectedStringObjectProperty => {
+            ("keys stand in double quotes", "write \"key\": value")
+        }
+        ParseErrorKind::SingleQuotedStringsNotAllowed => {
+            ("strings stand in double quotes", "write \"text\" instead of 'text'")
+        }
+        ParseErrorKind::BareDecimalPointNumbersNotAllowed => {
+            ("a number that ends with a point", "write a digit after the point")
+        }
+        ParseErrorKind::HexadecimalNumbersNotAllowed => ("a hexadecimal number", "write it in decimals"),
+        ParseErrorKind::String(_) if text[range.start..].starts_with("\\u") => {
+            ("this stands for no character", "write the character itself")
+        }
+        ParseErrorKind::String(_) if text[range.start..].starts_with('\\') => {
+            ("a backslash with nothing to stand for", "write \\\\ for a backslash; texts need none")
+        }
+        ParseErrorKind::UnterminatedCommentBlock => {
+            ("comments are not allowed", "remarks fit into \"title\"")
+        }
+        _ => ("this is no JSON value", "numbers are finite decimals; strings stand in double quotes"),
+    };
+    slip(range, message, help)
+}

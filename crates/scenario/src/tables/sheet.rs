@@ -1,0 +1,139 @@
+//! A CSV file: its columns, its numbers, and the place of each cell.
+
+use crate::document::shown;
+use crate::quantity::number_help;
+use std::ops::Range;
+
+/// Something wrong in a CSV text.
+#[derive(Debug, PartialEq)]
+pub(super) struct Slip {
+    pub(super) range: Range<usize>,
+    pub(super) message: String,
+    pub(super) help: Option<String>,
+}
+
+/// Names of the columns.
+pub(super) fn header(text: &str) -> Result<Vec<String>, Slip> {
+    match reader(text).headers() {
+        Ok(header) if !header.is_empty() => Ok(header.iter().map(str::to_owned).collect()),
+        _ => Err(Slip {
+            range: 0..1,
+            message: "expected a first line with the names of the columns, got nothing".to_owned(),
+            help: Some("such as \"time,value\"".to_owned()),
+        }),
+    }
+}
+
+/// The numbers of two columns of a table that is `width` columns wide.
+pub(super) fn numbers(text: &str, columns: [usize; 2], width: usize) -> Result<Vec<[f64; 2]>, Slip> {
+    let mut pairs = Vec::new();
+    for record in reader(text).records() {
+        // A text in memory can be read, and any text is a flexible table.
+        let Ok(record) = record else { continue };
+        let start = start_of(text, &record);
+        if record.len() != width {
+            let line = text[start..].lines().next().unwrap_or("").len();
+            let fields = if width == 1 { "1 field" } else { &format!("{width} fields") };
+            return Err(Slip {
+                range: start..start + line,
+                message: format!("expected {fields} like the first line, got {}", record.len()),
+                help: Some("fields stand between commas; decimals stand after a point".to_owned()),
+            });
+        }
+        let number = |column: usize| {
+            let field = record.get(column).unwrap_or("");
+            match field.parse::<f64>() {
+                Ok(value) if value.is_finite() => Ok(value),
+                _ => Err(Slip {
+                    range: field_at(text, start, column),
+                    message: format!("expected a number, got \"{}\"", shown(field)),
+                    help: Some(number_help(field).unwrap_or("numbers in SI without units").to_owned()),
+                }),
+            }
+        };
+        pairs.push([number(columns[0])?, number(columns[1])?]);
+    }
+    Ok(pairs)
+}
+
+/// The place of a cell, by the row of numbers and the column.
+pub(super) fn cell(text: &str, row: usize, column: usize) -> Option<Range<usize>> {
+    let record = reader(text).into_records().nth(row)?.ok()?;
+    Some(field_at(text, start_of(text, &record), column))
+}
+
+fn reader(text: &str) -> csv::Reader<&[u8]> {
+    let mut builder = csv::ReaderBuilder::new();
+    builder.trim(csv::Trim::All).comment(Some(b'#')).flexible(true).from_reader(text.as_bytes())
+}
+
+/// Where a record starts: what its reader notes may be the comments and blank lines before it.
+fn start_of(text: &str, record: &csv::StringRecord) -> usize {
+    let noted = record.position().map_or(0, csv::Position::byte) as usize;
+    let mut start = noted.min(text.len());
+    for line in text[start..].split_inclusive('\n') {
+        if !line.starts_with('#') && !line.trim_end_matches(['\r', '\n']).is_empty() {
+            break;
+        }
+        start += line.len();
+    }
+    start
+}
+
+/// Where a field of a record stands, without the blanks around it.
+fn field_at(text: &str, start: usize, column: usize) -> Range<usize> {
+    let (mut field, mut from, mut quoted, mut after_quote) = (0, start, false, false);
+    let mut end = text.len();
+    for (i, byte) in text.bytes().enumerate().skip(start) {
+        match byte {
+            b'"' if quoted => quoted = false,
+            // At the start of a field, or twice for one.
+            b'"' => quoted = i == from || after_quote,
+            b',' if !quoted && field < column => (field, from) = (field + 1, i + 1),
+            b',' | b'\n' if !quoted => {
+                end = i;
+                break;
+            }
+            _ => {}
+        }
+        after_quote = byte == b'"' && !quoted;
+    }
+    let whole = &text[from..end];
+    let before = whole.len() - whole.trim_start().len();
+    from + before..from + before + whole.trim().len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str =
+        "# measured\n time ,\"x, m\",note\r\n\r\n# more\n 0, 1e-6 ,\"a \"\"b\"\"\nc\"\n1 ,2, d\n";
+
+    #[test]
+    fn cells_are_read_and_found() {
+        assert_eq!(header(TEXT).unwrap(), ["time", "x, m", "note"]);
+        assert_eq!(numbers(TEXT, [0, 1], 3).unwrap(), [[0.0, 1e-6], [1.0, 2.0]]);
+        let found = |row, column| &TEXT[cell(TEXT, row, column).unwrap()];
+        assert_eq!([found(0, 0), found(0, 1), found(0, 2)], ["0", "1e-6", "\"a \"\"b\"\"\nc\""]);
+        assert_eq!([found(1, 0), found(1, 1), found(1, 2)], ["1", "2", "d"]);
+        assert_eq!(cell(TEXT, 2, 0), None);
+    }
+
+    #[test]
+    fn what_is_no_number_is_pointed_at() {
+        let slip = |text: &str, width| {
+            let slip = numbers(text, [0, 1], width).unwrap_err();
+            (text[slip.range].to_owned(), slip.message)
+        };
+        let number = |got: &str| (got.to_owned(), format!("expected a number, got \"{got}\""));
+        assert_eq!(slip("t,x\n0,0\n1, far \n", 2), number("far"));
+        assert_eq!(slip("t,x\n0,0\n\n#\n1,nan\n", 2), number("nan"));
+        assert_eq!(slip("t,x\n0,1e999", 2), number("1e999"));
+        assert_eq!(slip("t,x\n0,\n", 2), number(""));
+        let fields = ("0,5,1".to_owned(), "expected 2 fields like the first line, got 3".to_owned());
+        assert_eq!(slip("t,x\n0,5,1\n", 2), fields);
+        assert_eq!(header("").unwrap_err().range, 0..1);
+        assert!(header("\n# only\n").is_err());
+    }
+}
