@@ -10,6 +10,7 @@ mod info;
 mod info_tables;
 mod insides;
 mod new;
+mod pictures;
 mod program;
 mod refusals;
 mod reproducibility;

@@ -1,10 +1,15 @@
 //! The command line.
 
+mod pictures;
+
 use crate::compare::{self, CompareArguments};
+use crate::look::Look;
 use crate::new;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
+
+pub(crate) use pictures::PlotArguments;
 
 /// Exit codes, as every command keeps them.
 const EXIT_CODES: &str = "\
@@ -60,6 +65,13 @@ pub(crate) enum Command {
     /// Print the JSON Schema of the scenario file
     #[command(after_long_help = "Example:\n  stickslip schema > scenario-1.json")]
     Schema,
+    /// Draw pictures from results on disk
+    ///
+    /// Reads scenario.json, trace.csv and events.csv of each folder and draws what `run` draws, to the same bits, or
+    /// other pictures of the same results. Exit codes: 0 done, 2 a folder that is no result of a run, or that lacks what
+    /// a picture needs, 3 the pictures cannot be written.
+    #[command(after_long_help = pictures::PLOT_EXAMPLES)]
+    Plot(PlotArguments),
     /// Compare two folders of results: channels, events, figures
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
@@ -156,6 +168,8 @@ pub(crate) struct RunArguments {
     /// No progress, no warnings, no result for people; errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: Look,
 }
 
 /// Splits `path=value`.

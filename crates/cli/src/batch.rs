@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Verdict {
         let report = match job {
             Err(refusal) => Report::refused(&refusal),
             Ok(job) if interrupt.is_raised() => Report::skipped(&job),
-            Ok(job) => run_job(&job, &interrupt, &progress),
+            Ok(job) => run_job(&job, &arguments.look, &interrupt, &progress),
         };
         let verdict = report.verdict;
         console.print(place, report);

@@ -1,27 +1,30 @@
 //! The folder of a run: its files appear together, each whole.
 
-use crate::insides::{MEMORY, SPRINGS};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
-
-/// Files that not every run leaves; those of an earlier run are removed, lest they be taken for this one's.
-const OPTIONAL: [&str; 4] = [SPRINGS, MEMORY, "loop.png", "trajectory.png"];
 
 /// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
 /// the end: after a crash there is the old file or the whole new one.
 #[derive(Debug)]
 pub(crate) struct Folder {
     path: PathBuf,
-    staged: Vec<(&'static str, NamedTempFile)>,
+    staged: Vec<(String, NamedTempFile)>,
+    /// Files of an earlier run that must not be taken for this one's.
+    stale: Vec<String>,
 }
 
 impl Folder {
     /// Makes the folder if it is not there.
     pub(crate) fn make(path: &Path) -> io::Result<Self> {
         fs::create_dir_all(path)?;
-        Ok(Self { path: path.to_owned(), staged: Vec::new() })
+        Ok(Self { path: path.to_owned(), staged: Vec::new(), stale: Vec::new() })
+    }
+
+    /// Files that go when the others appear, unless they are among them.
+    pub(crate) fn forget(&mut self, names: Vec<String>) {
+        self.stale = names;
     }
 
     /// An empty file beside the place of `name`.
@@ -30,30 +33,30 @@ impl Folder {
     }
 
     /// Takes a written draft as the file `name`; it appears with [`Self::publish`].
-    pub(crate) fn stage(&mut self, name: &'static str, mut file: NamedTempFile) -> io::Result<()> {
+    pub(crate) fn stage(&mut self, name: &str, mut file: NamedTempFile) -> io::Result<()> {
         file.flush()?;
         file.as_file().sync_all()?;
-        self.staged.push((name, file));
+        self.staged.push((name.to_owned(), file));
         Ok(())
     }
 
     /// Writes a whole file; it appears with [`Self::publish`].
-    pub(crate) fn write(&mut self, name: &'static str, bytes: &[u8]) -> io::Result<()> {
+    pub(crate) fn write(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let mut file = self.draft(name)?;
         file.write_all(bytes)?;
         self.stage(name, file)
     }
 
     /// Names staged so far.
-    pub(crate) fn names(&self) -> Vec<&'static str> {
-        self.staged.iter().map(|(name, _)| *name).collect()
+    pub(crate) fn names(&self) -> Vec<String> {
+        self.staged.iter().map(|(name, _)| name.clone()).collect()
     }
 
     /// Gives all files their names, in the order they were staged.
     pub(crate) fn publish(self) -> io::Result<()> {
-        for optional in OPTIONAL {
-            if !self.staged.iter().any(|(name, _)| *name == optional) {
-                match fs::remove_file(self.path.join(optional)) {
+        for stale in &self.stale {
+            if !self.staged.iter().any(|(name, _)| name == stale) {
+                match fs::remove_file(self.path.join(stale)) {
                     Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
                     _ => {}
                 }
@@ -89,14 +92,13 @@ mod tests {
     }
 
     #[test]
-    fn files_appear_together_and_old_ones_go() {
+    fn files_appear_together_and_stale_ones_go() {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("a/b");
         let mut folder = Folder::make(&path).unwrap();
-        for old in ["loop.png", "springs.csv", "memory.csv"] {
-            fs::write(path.join(old), "old").unwrap();
-        }
+        fs::write(path.join("loop.png"), "old").unwrap();
         fs::write(path.join("mine.txt"), "kept").unwrap();
+        folder.forget(vec!["loop.png".to_owned(), "none.png".to_owned(), "trace.csv".to_owned()]);
         folder.write("trace.csv", b"t\n").unwrap();
         assert!(!path.join("trace.csv").exists());
         folder.publish().unwrap();

@@ -31,6 +31,8 @@ pub(crate) struct Job {
     pub(crate) resolved: String,
     /// SHA-256 of [`Self::resolved`], in hexadecimal digits.
     pub(crate) hash: String,
+    /// Name and version of the program that computes the results, or did.
+    pub(crate) program: String,
 }
 
 /// Why a file makes no job.
@@ -60,6 +62,11 @@ impl Job {
         let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();
         let scenario = Scenario::load_with(file, &overrides)?;
         let stem = file.file_stem().ok_or_else(|| Refusal::NoName(file.to_owned()))?;
+        Ok(Self::new(scenario, stem.to_string_lossy().into_owned(), out.join(stem))?)
+    }
+
+    /// Builds a scenario and checks everything that can still be wrong with it; `folder` is for its results.
+    pub(crate) fn new(scenario: Scenario, name: String, folder: PathBuf) -> Result<Self, ScenarioError> {
         let locate = |error: SceneError| scenario.locate(&error.path, error.message, error.help);
         let model = Model::new(&scenario.scene).map_err(locate)?;
         let start = model.start(&scenario.plan).map_err(locate)?;
@@ -70,8 +77,13 @@ impl Job {
         let grids = limits::grids(&scenario, &model, &start)?;
         let resolved = scenario.resolved();
         let hash = hash(&resolved);
-        let name = stem.to_string_lossy().into_owned();
-        Ok(Self { name, folder: out.join(stem), scenario, model, start, columns, grids, resolved, hash })
+        let program = this_program();
+        Ok(Self { name, folder, scenario, model, start, columns, grids, resolved, hash, program })
+    }
+
+    /// The same job as its results tell it: with the text and the program that they were computed from.
+    pub(crate) fn with_origin(self, resolved: String, program: String) -> Self {
+        Self { hash: hash(&resolved), resolved, program, ..self }
     }
 
     /// The scenario's title, or else its name.
@@ -104,6 +116,11 @@ impl Job {
     }
 }
 
+/// Name and version of this program.
+pub(crate) fn this_program() -> String {
+    format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"))
+}
+
 /// The columns asked for.
 fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, ScenarioError> {
     let Some(names) = &scenario.channels else { return Ok(Columns::all(channels)) };
@@ -128,7 +145,7 @@ fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, Scenari
     Ok(Columns::chosen(channels, &places))
 }
 
-fn hash(text: &str) -> String {
+pub(crate) fn hash(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
         // Writing to a string cannot fail.
         let _ = write!(digits, "{byte:02x}");

@@ -3,8 +3,8 @@
 //! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several
 //! files, messages in order) and its [`verdict`]; [`job`] (a scenario that was found good, with everything a run needs)
 //! within its [`limits`]; [`run`] (one job from start to files); [`record`] with [`table`], [`insides`], [`sheet`],
-//! [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared for the
-//! analysis); [`summary`], [`figures`], [`report`] (what is told); [`folder`] (how files are written); [`progress`],
+//! [`kept`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared for the
+//! analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`] and [`provenance`]; [`results`] with [`replay`] and [`rows`] (what is read back) and [`redraw`]; [`folder`] (how files are written); [`progress`],
 //! [`interrupt`]. [`frame`] reads tables back; [`compare`] tells two runs apart.
 
 mod arguments;
@@ -20,13 +20,20 @@ mod info;
 mod insides;
 mod interrupt;
 mod job;
+mod kept;
 mod limits;
+mod look;
 mod new;
 mod periods;
 mod progress;
+mod provenance;
 mod real;
 mod record;
+mod redraw;
+mod replay;
 mod report;
+mod results;
+mod rows;
 mod run;
 mod schema;
 mod series;
@@ -47,6 +54,7 @@ fn main() -> ExitCode {
         Command::New(arguments) => new::new(&arguments),
         Command::Schema => schema::print(),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Plot(arguments) => redraw::plot(&arguments),
     };
     ExitCode::from(verdict.code())
 }

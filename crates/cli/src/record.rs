@@ -1,13 +1,12 @@
-//! What a run leaves behind while it goes on: tables on disk, series and books in memory.
+//! What a run leaves behind while it goes on: tables on disk, the rest in memory.
 
 use crate::books::Books;
 use crate::folder::Folder;
 use crate::insides::Insides;
 use crate::interrupt::Interrupt;
 use crate::job::Job;
-use crate::limits::MOST_VALUES;
+use crate::kept::Kept;
 use crate::progress::Bar;
-use crate::series::Series;
 use crate::table::Table;
 use std::io;
 use stickslip_contact::Memory;
@@ -26,20 +25,17 @@ pub(crate) struct Recorder<'a> {
     trace: Table,
     events: Table,
     insides: Insides<'a>,
-    kept: Kept,
+    recorded: Recorded,
     failure: Option<io::Error>,
 }
 
-/// What stays in memory.
-pub(crate) struct Kept {
-    /// Rows and moments after events.
-    pub(crate) series: Series,
+/// What was recorded, beside the tables.
+pub(crate) struct Recorded {
+    pub(crate) kept: Kept,
     /// Energies.
     pub(crate) books: Books,
     /// Number of rows of the trace.
     pub(crate) rows: u64,
-    /// Events left out of the series for want of room.
-    pub(crate) left_out: u64,
 }
 
 impl<'a> Recorder<'a> {
@@ -58,20 +54,20 @@ impl<'a> Recorder<'a> {
             trace: Table::new(folder.draft(TRACE)?, job.columns.clone(), &[])?,
             events: Table::new(folder.draft(EVENTS)?, job.columns.clone(), &["source", "kind"])?,
             insides: Insides::new(job, folder)?,
-            kept: Kept { series: Series::new(&channels), books: Books::new(&channels), rows: 0, left_out: 0 },
+            recorded: Recorded { kept: Kept::new(&channels), books: Books::new(&channels), rows: 0 },
             failure: None,
         })
     }
 
     /// Closes the tables.
-    pub(crate) fn finish(self, folder: &mut Folder) -> io::Result<Kept> {
+    pub(crate) fn finish(self, folder: &mut Folder) -> io::Result<Recorded> {
         if let Some(failure) = self.failure {
             return Err(failure);
         }
         folder.stage(TRACE, self.trace.finish()?)?;
         folder.stage(EVENTS, self.events.finish()?)?;
         self.insides.finish(folder)?;
-        Ok(self.kept)
+        Ok(self.recorded)
     }
 
     fn note(&mut self, result: io::Result<()>) {
@@ -85,9 +81,9 @@ impl Record for Recorder<'_> {
     fn row(&mut self, values: &[f64]) {
         let written = self.trace.write(&[], values);
         self.note(written);
-        self.kept.rows += 1;
-        self.kept.series.push(values);
-        self.kept.books.read(values);
+        self.recorded.rows += 1;
+        self.recorded.kept.row(values);
+        self.recorded.books.read(values);
         self.bar.at(values.first().copied().unwrap_or(0.0));
     }
 
@@ -96,13 +92,8 @@ impl Record for Recorder<'_> {
         let source = self.job.model.source_name(event.source, |w| waveform(w).unwrap_or_default());
         let written = self.events.write(&[&source, event.kind.name()], values);
         self.note(written);
-        self.kept.books.read(values);
-        // Rows are bounded before the run starts; events are not.
-        if self.kept.series.size() < 2 * MOST_VALUES {
-            self.kept.series.push(values);
-        } else {
-            self.kept.left_out += 1;
-        }
+        self.recorded.books.read(values);
+        self.recorded.kept.event(values);
     }
 
     fn next_look(&mut self) -> Option<f64> {

@@ -56,6 +56,11 @@ impl Series {
         self.columns.first().map_or(&[], |column| &column.values)
     }
 
+    /// Whether a column is kept.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.places.contains_key(name)
+    }
+
     /// A column by part and quantity; empty where there is none.
     pub(crate) fn column(&self, part: &str, quantity: &str) -> &[f64] {
         let place = self.places.get(&format!("{part}.{quantity}"));

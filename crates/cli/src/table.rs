@@ -28,6 +28,11 @@ impl Columns {
     pub(crate) fn len(&self) -> usize {
         self.chosen.len()
     }
+
+    /// The channels, the time first.
+    pub(crate) fn channels(&self) -> Vec<Channel> {
+        self.chosen.iter().map(|(_, channel)| channel.clone()).collect()
+    }
 }
 
 /// A table being written.

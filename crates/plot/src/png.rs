@@ -36,9 +36,12 @@ pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
 /// what is Unicode, each kind in its order.
 ///
 /// # Errors
-/// Bytes that are no PNG; a text beyond 64 MiB.
+/// Bytes that are no PNG; a damaged chunk; a text beyond 64 MiB.
 pub fn read_text(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
-    let reader = png::Decoder::new(Cursor::new(bytes)).read_info()?;
+    let mut options = png::DecodeOptions::default();
+    // By default a damaged text is as if it were not there.
+    options.set_skip_ancillary_crc_failures(false);
+    let reader = png::Decoder::new_with_options(Cursor::new(bytes), options).read_info()?;
     let info = reader.info();
     let mut texts: Vec<(String, String)> = Vec::new();
     for chunk in &info.uncompressed_latin1_text {

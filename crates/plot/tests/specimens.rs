@@ -109,6 +109,24 @@ fn long_texts_are_packed_and_come_back_whole() {
 }
 
 #[test]
+fn a_damaged_text_is_an_error_and_not_a_missing_one() {
+    let provenance = [("Latin", "größer 1e-9\n"), ("Unicode", "μ <1e-9> & so on\n")];
+    let provenance = provenance.map(|(key, text)| (key.to_owned(), text.repeat(500))).to_vec();
+    let bytes = draw_png(&Figure { provenance: provenance.clone(), ..loop_figure("", &[]) }).unwrap();
+    assert_eq!(read_text(&bytes).unwrap(), provenance);
+    for key in ["zTXt", "iTXt"] {
+        let place = bytes.windows(4).position(|w| w == key.as_bytes()).unwrap();
+        for offset in [4, 60] {
+            let mut bytes = bytes.clone();
+            bytes[place + offset] ^= 1;
+            let error = read_text(&bytes).unwrap_err().to_string();
+            assert!(error.starts_with("PNG: ") && error.contains("CRC"), "{error}");
+        }
+        assert!(read_text(&bytes[..place + 60]).is_err());
+    }
+}
+
+#[test]
 fn one_loop_without_limits() {
     let (u, force) = sphere_loop(0.9, 3e-6, 12.0);
     draw(

@@ -40,6 +40,9 @@ pub enum PlotName {
 }
 
 impl PlotName {
+    /// All that are drawn so far.
+    pub const ALL: [Self; 2] = [Self::Loop, Self::Trajectory];
+
     /// The name in the file.
     pub fn name(self) -> &'static str {
         match self {

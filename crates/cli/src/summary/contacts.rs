@@ -133,7 +133,7 @@ fn contact(
         all: load(f64::from(count) * normal),
         peak_tangential: peak("fx_N"),
         peak_normal: peak("fn_N"),
-        friction: Real(outcome.kept.books.friction_of(c)),
+        friction: Real(outcome.books.friction_of(c)),
         fretting: fretting(job, outcome, (c, name, law), notes),
     }
 }

@@ -1,0 +1,38 @@
+//! The command line of pictures.
+
+use crate::look::Look;
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::path::PathBuf;
+use stickslip_scenario::PlotName;
+
+pub(super) const PLOT_EXAMPLES: &str = "\
+Examples:
+  stickslip plot results/p1                                  the pictures of its scenario
+  stickslip plot results/* --plots trajectory --format svg   one picture of every run, as SVG
+  stickslip plot results/p1 --scale 2 --out pictures         into pictures/p1/, twice as many pixels";
+
+#[derive(Debug, Args)]
+pub(crate) struct PlotArguments {
+    /// Folders of results
+    #[arg(required = true, value_name = "DIR")]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Pictures to draw, instead of those that the scenario names
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = plot_names())]
+    pub(crate) plots: Vec<PlotName>,
+    /// Folder of the pictures: those of a folder NAME go to OUT/NAME/; by default they go beside the results
+    #[arg(long, value_name = "OUT")]
+    pub(crate) out: Option<PathBuf>,
+    /// Errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: Look,
+}
+
+/// Reads the name of a picture.
+fn plot_names() -> impl TypedValueParser<Value = PlotName> {
+    let names = PossibleValuesParser::new(PlotName::ALL.map(PlotName::name));
+    names
+        .try_map(|given| PlotName::ALL.into_iter().find(|plot| plot.name() == given).ok_or("no such picture"))
+}

@@ -1,0 +1,121 @@
+//! A folder of results read back: the job that was run, and what was kept of it.
+
+use crate::frame::FrameError;
+use crate::job::{Job, hash, this_program};
+use crate::kept::Kept;
+use crate::record::{EVENTS, TRACE};
+use crate::replay;
+use crate::run::{SCENARIO, SUMMARY};
+use serde::Deserialize;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_scenario::{Scenario, ScenarioError};
+use thiserror::Error;
+
+/// Results on disk.
+pub(crate) struct Results {
+    pub(crate) job: Job,
+    pub(crate) kept: Kept,
+}
+
+/// Why a folder cannot be read as results.
+#[derive(Debug, Error)]
+pub(crate) enum ResultsError {
+    /// Its scenario.
+    #[error("{error}{}", other_program(.program))]
+    Scenario {
+        error: Box<ScenarioError>,
+        /// The program that wrote it.
+        program: String,
+    },
+    /// A file that cannot be read at all.
+    #[error("{}: cannot be read: {source}", .path.display())]
+    Read { path: PathBuf, source: io::Error },
+    /// A summary that is none.
+    #[error("{}: expected the summary of a run: {source}", .path.display())]
+    Summary { path: PathBuf, source: serde_json::Error },
+    /// A scenario that is not the one of the results.
+    #[error("{}: was changed after the run: its SHA-256 is not that of the summary beside it\n   help: run it again, or draw other pictures with --plots", .0.display())]
+    Changed(PathBuf),
+    /// A damaged table.
+    #[error(transparent)]
+    Table(FrameError),
+    /// A state of a contact that there is not.
+    #[error("{}:{line}  {column}: expected open, stick, partial or slip, got \"{}\"", .path.display(), .text.escape_debug())]
+    State { path: PathBuf, line: u64, column: String, text: String },
+    /// A table of another scenario.
+    #[error("{}:1  column {place}: expected {expected}, got {got}\n   help: the table is not of the scenario.json beside it, or of another version of the program; run the scenario again", .path.display())]
+    Column { path: PathBuf, place: usize, expected: String, got: String },
+    /// A table without rows.
+    #[error("{}: has no rows", .0.display())]
+    Empty(PathBuf),
+}
+
+/// What of the summary is read back.
+#[derive(Debug, Deserialize)]
+struct Origin {
+    program: Program,
+    scenario_sha256: String,
+}
+
+#[derive(Debug, Deserialize)]
+struct Program {
+    name: String,
+    version: String,
+}
+
+impl Results {
+    /// Reads the results that [`run`](crate::run) wrote into a folder.
+    pub(crate) fn read(folder: &Path) -> Result<Self, ResultsError> {
+        let job = job(folder)?;
+        let kept = replay::read(&folder.join(TRACE), &folder.join(EVENTS), &job.columns)?;
+        Ok(Self { job, kept })
+    }
+
+    /// The program that computed the results, where it is another one.
+    pub(crate) fn other_program(&self) -> Option<&str> {
+        (self.job.program != this_program()).then_some(self.job.program.as_str())
+    }
+}
+
+/// The job that was run, under the folder's name.
+fn job(folder: &Path) -> Result<Job, ResultsError> {
+    let origin = origin(&folder.join(SUMMARY))?;
+    let program = match &origin {
+        Some(Origin { program, .. }) => format!("{} {}", program.name, program.version),
+        None => this_program(),
+    };
+    let path = folder.join(SCENARIO);
+    let refused =
+        |error: ScenarioError| ResultsError::Scenario { error: Box::new(error), program: program.clone() };
+    let scenario = Scenario::load(&path).map_err(refused)?;
+    let text =
+        fs::read_to_string(&path).map_err(|source| ResultsError::Read { path: path.clone(), source })?;
+    if origin.is_some_and(|origin| origin.scenario_sha256 != hash(&text)) {
+        return Err(ResultsError::Changed(path));
+    }
+    // "." has a name, too.
+    let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let name = place.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let job = Job::new(scenario, name, folder.to_owned()).map_err(refused)?;
+    Ok(job.with_origin(text, program))
+}
+
+/// Where results come from; none without a summary.
+fn origin(path: &Path) -> Result<Option<Origin>, ResultsError> {
+    match fs::read(path) {
+        Ok(bytes) => match serde_json::from_slice(&bytes) {
+            Ok(origin) => Ok(Some(origin)),
+            Err(source) => Err(ResultsError::Summary { path: path.to_owned(), source }),
+        },
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(source) => Err(ResultsError::Read { path: path.to_owned(), source }),
+    }
+}
+
+/// Another program may write what this one does not read.
+fn other_program(program: &str) -> String {
+    let this = this_program();
+    if program == this { String::new() } else { format!("\n   note: written by {program}, this is {this}") }
+}

@@ -1,0 +1,240 @@
+//! Pictures drawn again from results on disk.
+
+use crate::program::{code, listing, run, run_example, scenario, stderr, stdout, stickslip};
+use std::path::{Path, PathBuf};
+use std::process::Output;
+use tempfile::tempdir;
+
+/// `stickslip plot` of a folder.
+fn plot(folder: &Path, options: &[&str]) -> Output {
+    stickslip().arg("plot").arg(folder).args(options).output().unwrap()
+}
+
+/// Pictures in a folder.
+fn pictures(folder: &Path) -> Vec<String> {
+    let is_picture = |name: &String| name.ends_with(".png") || name.ends_with(".svg");
+    listing(folder).into_iter().filter(is_picture).collect()
+}
+
+#[test]
+fn plot_draws_what_run_drew_to_the_bit() {
+    let out = tempdir().unwrap();
+    let all: &[&[&str]] = &[&["run.cycles=3"], &["run.cycles=3", "waveforms.drive.sawtooth.flyback=0"]];
+    let cases: [(&str, &[&[&str]]); 4] = [
+        ("p1", all),
+        (
+            "quickstart",
+            &[&["run.limits.steps=1500"], &["title=", "run.stepper={\"verlet\":{\"step\":\"1 us\"}}"]],
+        ),
+        ("oblique_loading", &[&[]]),
+        ("vibrated_slider", &[&["run.cycles=5", "output={}"]]),
+    ];
+    for (name, sets) in cases {
+        for (i, set) in sets.iter().enumerate() {
+            let folder = out.path().join(i.to_string());
+            let ran = run(&scenario(name), &folder, set);
+            assert!([0, 3].contains(&code(&ran)), "{name}: {}", stderr(&ran));
+            let folder = folder.join(name);
+            let again = out.path().join("again");
+            let drawn = plot(&folder, &["--out", again.to_str().unwrap()]);
+            assert_eq!((code(&drawn), stderr(&drawn)), (0, String::new()), "{name} {set:?}");
+            let again = again.join(name);
+            assert_eq!(pictures(&folder), pictures(&again));
+            assert!(!pictures(&folder).is_empty());
+            for picture in pictures(&folder) {
+                let [first, second] = [&folder, &again].map(|f| std::fs::read(f.join(&picture)).unwrap());
+                assert!(first == second, "{name} {set:?}: {picture}");
+            }
+            std::fs::remove_dir_all(again).unwrap();
+        }
+    }
+}
+
+#[test]
+fn pictures_come_in_the_forms_asked_for_beside_the_others() {
+    let out = tempdir().unwrap();
+    let folder = run_example("quickstart", out.path(), &["run.duration=20 ms", "plots=[\"loop\"]"]);
+    let drawn = plot(&folder, &["--plots", "trajectory,loop", "--format", "svg,png", "--scale", "2"]);
+    assert_eq!(code(&drawn), 0, "{}", stderr(&drawn));
+    let names = ["loop.png", "loop@2x.png", "loop@2x.svg", "trajectory@2x.png", "trajectory@2x.svg"];
+    assert_eq!(pictures(&folder), names);
+    assert!(
+        stdout(&drawn)
+            .ends_with("quickstart: loop@2x.svg, loop@2x.png, trajectory@2x.svg, trajectory@2x.png\n")
+    );
+    let svg = std::fs::read_to_string(folder.join("loop@2x.svg")).unwrap();
+    assert!(svg.contains("width=\"3200\""));
+    let png = std::fs::read(folder.join("loop@2x.png")).unwrap();
+    // Width in the header chunk.
+    assert_eq!(png[16..20], 3200_u32.to_be_bytes());
+    let dark = plot(&folder, &["--plots", "loop", "--theme", "dark"]);
+    assert!(stdout(&dark).ends_with("quickstart: loop-dark.png\n"), "{}", stderr(&dark));
+    assert!(
+        std::fs::read(folder.join("loop.png")).unwrap()
+            != std::fs::read(folder.join("loop-dark.png")).unwrap()
+    );
+    // Another run takes all pictures of this one away.
+    run_example("quickstart", out.path(), &["run.duration=20 ms", "plots=[\"trajectory\"]"]);
+    assert_eq!(pictures(&folder), ["trajectory.png"]);
+}
+
+#[test]
+fn a_picture_carries_the_scenario_it_shows() {
+    let out = tempdir().unwrap();
+    let folder = run_example("quickstart", out.path(), &["run.duration=20 ms", "title=größer als Δ"]);
+    let drawn = plot(&folder, &["--format", "svg"]);
+    assert_eq!(code(&drawn), 0, "{}", stderr(&drawn));
+    let resolved = std::fs::read_to_string(folder.join("scenario.json")).unwrap();
+    let texts = stickslip_plot::read_text(&std::fs::read(folder.join("loop.png")).unwrap()).unwrap();
+    assert!(texts.contains(&("Scenario".to_owned(), resolved)));
+    assert!(texts.contains(&("Simulated/s".to_owned(), "0.02".to_owned())));
+    let svg = std::fs::read_to_string(folder.join("loop.svg")).unwrap();
+    assert!(svg.contains("Scenario: {\n") && svg.contains("Simulated/s: 0.02"));
+}
+
+#[test]
+fn columns_left_out_are_named() {
+    let out = tempdir().unwrap();
+    let set = ["run.duration=20 ms", "output.channels=[\"slider.x_m\", \"foot.x_m\", \"ball.u_m\"]"];
+    let folder = run_example("quickstart", out.path(), &set);
+    let drawn = plot(&folder, &[]);
+    assert_eq!(code(&drawn), 2);
+    assert!(stdout(&drawn).ends_with("quickstart: trajectory.png\n"), "{}", stdout(&drawn));
+    let said = stderr(&drawn);
+    let message = "loop was not drawn: it needs ball.d_m, ball.fx_N, which output.channels left out\n   \
+                   help: run the scenario with these channels, or without output.channels, which writes all\n";
+    assert_eq!(said, format!("{}: {message}", folder.display()));
+}
+
+/// Results of a short run, in which something is then spoiled.
+struct Spoiled {
+    _root: tempfile::TempDir,
+    folder: PathBuf,
+}
+
+impl Spoiled {
+    fn new() -> Self {
+        let root = tempdir().unwrap();
+        let folder = run_example("quickstart", root.path(), &["run.duration=20 ms"]);
+        Self { _root: root, folder }
+    }
+
+    /// Replaces a text in a file.
+    fn replace(&self, name: &str, from: &str, to: &str) {
+        let path = self.folder.join(name);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains(from), "{from} in {name}");
+        std::fs::write(path, text.replacen(from, to, 1)).unwrap();
+    }
+
+    /// What `plot` says, without the folder; it draws nothing.
+    fn message(&self) -> String {
+        std::fs::remove_file(self.folder.join("loop.png")).unwrap();
+        let drawn = plot(&self.folder, &[]);
+        assert_eq!((code(&drawn), stdout(&drawn)), (2, String::new()), "{}", stderr(&drawn));
+        assert!(!self.folder.join("loop.png").exists());
+        stderr(&drawn).replace(&format!("{}/", self.folder.display()), "")
+    }
+}
+
+#[test]
+fn damaged_results_are_refused_with_file_and_line() {
+    let after = |name: &str, from: &str, to: &str| {
+        let spoiled = Spoiled::new();
+        spoiled.replace(name, from, to);
+        spoiled.message()
+    };
+    let other = "   help: the table is not of the scenario.json beside it, or of another version of the program; run the \
+                 scenario again\n";
+    let cases = [
+        (
+            after("trace.csv", "\n0.00002,", "\n0.00002x,"),
+            "trace.csv:4  time_s: expected a number, got \"0.00002x\"\n".to_owned(),
+        ),
+        (
+            after("trace.csv", ",partial,", ",partly,"),
+            "trace.csv:3  ball.state: expected open, stick, partial or slip, got \"partly\"\n".to_owned(),
+        ),
+        (
+            after("events.csv", "source,kind", "source,sort"),
+            format!("events.csv:1  column 3: expected \"kind\", got \"sort\"\n{other}"),
+        ),
+        (
+            after("trace.csv", ",energy.error_J", ""),
+            format!("trace.csv:1  column 19: expected \"energy.error_J\", got nothing\n{other}"),
+        ),
+        (
+            after("scenario.json", "Sawtooth", "Saw"),
+            "scenario.json: was changed after the run: its SHA-256 is not that of the summary beside it\n   help: run it \
+             again, or draw other pictures with --plots\n"
+                .to_owned(),
+        ),
+    ];
+    for (got, want) in cases {
+        assert_eq!(got, want);
+    }
+    let summary = after("summary.json", "\"program\"", "\"programme\"");
+    let message = "summary.json: expected the summary of a run: missing field `program` at line ";
+    assert!(summary.starts_with(message), "{summary}");
+    let cut = after("trace.csv", "\n0.00004,", "\n0.00004,0.1\n0.00005,");
+    assert!(cut.starts_with("trace.csv: ") && cut.contains("line: 6"), "{cut}");
+}
+
+#[test]
+fn results_that_are_not_there_or_of_another_program_are_refused() {
+    let spoiled = Spoiled::new();
+    std::fs::remove_file(spoiled.folder.join("events.csv")).unwrap();
+    assert!(spoiled.message().starts_with("events.csv: cannot be read: "));
+    let spoiled = Spoiled::new();
+    std::fs::write(spoiled.folder.join("trace.csv"), "").unwrap();
+    assert!(spoiled.message().starts_with("trace.csv:1  column 1: expected \"time_s\", got nothing"));
+    let spoiled = Spoiled::new();
+    let head = std::fs::read_to_string(spoiled.folder.join("trace.csv")).unwrap();
+    std::fs::write(spoiled.folder.join("trace.csv"), head.lines().next().unwrap()).unwrap();
+    assert_eq!(spoiled.message(), "trace.csv: has no rows\n");
+    let spoiled = Spoiled::new();
+    spoiled.replace("summary.json", "\"version\": \"0.1.0\"", "\"version\": \"0.0.9\"");
+    spoiled.replace("scenario.json", "\"friction\"", "\"rubbing\"");
+    let said = spoiled.message();
+    assert!(
+        said.contains("rubbing")
+            && said.ends_with("   note: written by stickslip 0.0.9, this is stickslip 0.1.0\n")
+    );
+    let nothing = plot(Path::new("no/such/folder"), &[]);
+    assert_eq!(code(&nothing), 2);
+    assert!(stderr(&nothing).starts_with("no/such/folder/scenario.json: cannot be read: "));
+}
+
+#[test]
+fn results_without_a_summary_or_of_another_version_are_drawn_still() {
+    let out = tempdir().unwrap();
+    let folder = run_example("oblique_loading", out.path(), &[]);
+    let first = std::fs::read(folder.join("loop.png")).unwrap();
+    let summary = std::fs::read_to_string(folder.join("summary.json")).unwrap();
+    std::fs::remove_file(folder.join("summary.json")).unwrap();
+    assert_eq!(code(&plot(&folder, &[])), 0);
+    assert!(first == std::fs::read(folder.join("loop.png")).unwrap());
+    let older = summary.replacen("\"version\": \"0.1.0\"", "\"version\": \"0.0.9\"", 1);
+    std::fs::write(folder.join("summary.json"), older).unwrap();
+    let drawn = plot(&folder, &[]);
+    assert_eq!(code(&drawn), 0);
+    assert_eq!(stderr(&drawn), format!("{}: note: computed by stickslip 0.0.9\n", folder.display()));
+    let texts = stickslip_plot::read_text(&std::fs::read(folder.join("loop.png")).unwrap()).unwrap();
+    assert!(texts.contains(&("Software".to_owned(), "stickslip 0.0.9".to_owned())));
+}
+
+#[test]
+fn several_folders_are_drawn_whatever_is_wrong_with_one() {
+    let out = tempdir().unwrap();
+    let first = run_example("oblique_loading", out.path(), &[]);
+    let second = run_example("fretting_sphere", out.path(), &["plots=[]", "run.duration=1 s"]);
+    let output = stickslip().arg("plot").args([&second, &first]).output().unwrap();
+    assert_eq!(code(&output), 2);
+    let help =
+        "its scenario names no pictures\n   help: name some with --plots, such as --plots loop,trajectory";
+    assert!(stderr(&output).contains(help), "{}", stderr(&output));
+    assert!(stdout(&output).contains("oblique_loading: loop.png"));
+    let unknown = plot(&first, &["--plots", "lop"]);
+    assert_eq!(code(&unknown), 2);
+    assert!(stderr(&unknown).contains("tip: a similar value exists: 'loop'"), "{}", stderr(&unknown));
+}
