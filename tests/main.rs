@@ -13,6 +13,7 @@ mod new;
 mod pictures;
 mod program;
 mod refusals;
+mod repro;
 mod reproducibility;
 mod results;
 mod scenarios;

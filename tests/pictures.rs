@@ -89,7 +89,7 @@ fn a_picture_carries_the_scenario_it_shows() {
     assert!(texts.contains(&("Scenario".to_owned(), resolved)));
     assert!(texts.contains(&("Simulated/s".to_owned(), "0.02".to_owned())));
     let svg = std::fs::read_to_string(folder.join("loop.svg")).unwrap();
-    assert!(svg.contains("Scenario: {\n") && svg.contains("Simulated/s: 0.02"));
+    assert!(svg.contains("key=\"Scenario\">{\n") && svg.contains("Simulated/s: 0.02"));
 }
 
 #[test]

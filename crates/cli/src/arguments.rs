@@ -9,7 +9,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
-pub(crate) use pictures::PlotArguments;
+pub(crate) use pictures::{PlotArguments, ReproArguments};
 
 /// Exit codes, as every command keeps them.
 const EXIT_CODES: &str = "\
@@ -72,6 +72,13 @@ pub(crate) enum Command {
     /// a picture needs, 3 the pictures cannot be written.
     #[command(after_long_help = pictures::PLOT_EXAMPLES)]
     Plot(PlotArguments),
+    /// Run again what a picture carries, and tell whether the same comes out
+    ///
+    /// A PNG or SVG of `run` or `plot` carries its whole scenario and a fingerprint of the trace and the events. Says
+    /// "identical", or which channel differs from when. Exit codes: 0 identical, 1 different, 2 a file that is no such
+    /// picture, 3 the results cannot be written, 130 interrupted.
+    #[command(after_long_help = pictures::REPRO_EXAMPLES)]
+    Repro(ReproArguments),
     /// Compare two folders of results: channels, events, figures
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),

@@ -2,6 +2,7 @@
 
 use crate::folder::Folder;
 use crate::job::Job;
+use crate::record::Draft;
 use crate::sheet::Sheet;
 use std::io;
 use stickslip_contact::{Memory, SpringState};
@@ -71,13 +72,10 @@ impl<'a> Insides<'a> {
     }
 
     /// Closes the tables.
-    pub(crate) fn finish(self, folder: &mut Folder) -> io::Result<()> {
-        for (name, looks) in [(SPRINGS, self.springs), (MEMORY, self.memory)] {
-            if let Some(looks) = looks {
-                folder.stage(name, looks.sheet.finish()?)?;
-            }
-        }
-        Ok(())
+    pub(crate) fn finish(self) -> io::Result<Vec<Draft>> {
+        let looks = [(SPRINGS, self.springs), (MEMORY, self.memory)];
+        let looks = looks.into_iter().filter_map(|(name, looks)| Some((name, looks?)));
+        looks.map(|(name, looks)| Ok((name, looks.sheet.finish()?))).collect()
     }
 }
 

@@ -1,7 +1,9 @@
 //! What the summary and the pictures are made from: kept while a run goes on, or read back from its tables.
 
+use crate::fingerprint::{Fingerprint, Sketch};
 use crate::limits::MOST_VALUES;
 use crate::series::Series;
+use crate::table::Columns;
 use stickslip_drive::Channel;
 
 /// What stays in memory of a run.
@@ -10,21 +12,40 @@ pub(crate) struct Kept {
     pub(crate) series: Series,
     /// Events left out of the series for want of room.
     pub(crate) left_out: u64,
+    /// For a fingerprint, where one is wanted.
+    sketch: Option<Sketch>,
 }
 
 impl Kept {
     /// Nothing yet, of these channels.
     pub(crate) fn new(channels: &[Channel]) -> Self {
-        Self { series: Series::new(channels), left_out: 0 }
+        Self { series: Series::new(channels), left_out: 0, sketch: None }
+    }
+
+    /// The same with a fingerprint of the tables that have these columns.
+    pub(crate) fn fingerprinted(self, columns: Columns) -> Self {
+        Self { sketch: Some(Sketch::new(columns)), ..self }
+    }
+
+    /// Fingerprint of the tables so far; that of nothing where none is wanted.
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        let nothing = || Sketch::new(Columns::default()).finish();
+        self.sketch.as_ref().map_or_else(nothing, Sketch::finish)
     }
 
     /// Takes the next row of the trace.
     pub(crate) fn row(&mut self, values: &[f64]) {
         self.series.push(values);
+        if let Some(sketch) = &mut self.sketch {
+            sketch.row(values);
+        }
     }
 
-    /// Takes the values after the next event.
-    pub(crate) fn event(&mut self, values: &[f64]) {
+    /// Takes the next event, its source and kind, and the values after it.
+    pub(crate) fn event(&mut self, words: [&str; 2], values: &[f64]) {
+        if let Some(sketch) = &mut self.sketch {
+            sketch.event(words, values);
+        }
         // Rows are bounded before the run starts; events are not.
         if self.series.size() < 2 * MOST_VALUES {
             self.series.push(values);

@@ -3,9 +3,11 @@
 //! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several
 //! files, messages in order) and its [`verdict`]; [`job`] (a scenario that was found good, with everything a run needs)
 //! within its [`limits`]; [`run`] (one job from start to files); [`record`] with [`table`], [`insides`], [`sheet`],
-//! [`kept`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared for the
-//! analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`] and [`provenance`]; [`results`] with [`replay`] and [`rows`] (what is read back) and [`redraw`]; [`folder`] (how files are written); [`progress`],
-//! [`interrupt`]. [`frame`] reads tables back; [`compare`] tells two runs apart.
+//! [`kept`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared for
+//! the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`], [`provenance`] and [`fingerprint`]
+//! (pictures and what they carry); [`folder`] (how files are written); [`progress`], [`interrupt`]; [`results`] with
+//! [`replay`] and [`rows`] (what is read back from a folder) and [`redraw`]; [`origin`] (what is read back from a
+//! picture) and [`repro`]; [`frame`] (tables read back whole); [`compare`] (tells two runs apart).
 
 mod arguments;
 mod batch;
@@ -14,6 +16,7 @@ mod check;
 mod compare;
 mod contact_path;
 mod figures;
+mod fingerprint;
 mod folder;
 mod frame;
 mod info;
@@ -24,6 +27,7 @@ mod kept;
 mod limits;
 mod look;
 mod new;
+mod origin;
 mod periods;
 mod progress;
 mod provenance;
@@ -32,6 +36,7 @@ mod record;
 mod redraw;
 mod replay;
 mod report;
+mod repro;
 mod results;
 mod rows;
 mod run;
@@ -55,6 +60,7 @@ fn main() -> ExitCode {
         Command::Schema => schema::print(),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Plot(arguments) => redraw::plot(&arguments),
+        Command::Repro(arguments) => repro::repro(&arguments),
     };
     ExitCode::from(verdict.code())
 }

@@ -3,17 +3,31 @@
 use crate::job::Job;
 use crate::kept::Kept;
 
+/// Key of the title.
+pub(crate) const TITLE: &str = "Title";
+/// Key of the program that computed the results.
+pub(crate) const PROGRAM: &str = "Software";
+/// Key of the scenario's hash.
+pub(crate) const HASH: &str = "Scenario SHA-256";
+/// Key of the time reached.
+pub(crate) const END: &str = "Simulated/s";
+/// Key of the whole resolved scenario.
+pub(crate) const SCENARIO: &str = "Scenario";
+/// Key of the fingerprint of the tables.
+pub(crate) const FINGERPRINT: &str = "Fingerprint";
+
 /// Where the pictures of a job's results come from: keys and texts.
 pub(crate) fn provenance(job: &Job, kept: &Kept) -> Vec<(String, String)> {
     let (stepper, word, value) = job.stepper();
     let entries = [
-        ("Title", job.title().to_owned()),
-        ("Software", job.program.clone()),
-        ("Scenario SHA-256", job.hash.clone()),
+        (TITLE, job.title().to_owned()),
+        (PROGRAM, job.program.clone()),
+        (HASH, job.hash.clone()),
         ("Stepper", stepper.to_owned()),
         (if word == "tolerance" { "Tolerance" } else { "Step/s" }, format!("{value:?}")),
-        ("Simulated/s", format!("{:?}", kept.end())),
-        ("Scenario", job.resolved.clone()),
+        (END, format!("{:?}", kept.end())),
+        (SCENARIO, job.resolved.clone()),
+        (FINGERPRINT, kept.fingerprint().text()),
     ];
     entries.map(|(key, text)| (key.to_owned(), text)).to_vec()
 }

@@ -11,6 +11,7 @@ use crate::table::Table;
 use std::io;
 use stickslip_contact::Memory;
 use stickslip_drive::{Event, Record};
+use tempfile::NamedTempFile;
 
 /// Names of the tables.
 pub(crate) const TRACE: &str = "trace.csv";
@@ -22,12 +23,22 @@ pub(crate) struct Recorder<'a> {
     job: &'a Job,
     interrupt: &'a Interrupt,
     bar: &'a Bar,
+    tables: Option<Tables<'a>>,
+    recorded: Recorded,
+    /// Time at which the run is stopped, s.
+    until: f64,
+    failure: Option<io::Error>,
+}
+
+/// Tables under construction.
+struct Tables<'a> {
     trace: Table,
     events: Table,
     insides: Insides<'a>,
-    recorded: Recorded,
-    failure: Option<io::Error>,
 }
+
+/// A written table: its name and its draft.
+pub(crate) type Draft = (&'static str, NamedTempFile);
 
 /// What was recorded, beside the tables.
 pub(crate) struct Recorded {
@@ -36,37 +47,48 @@ pub(crate) struct Recorded {
     pub(crate) books: Books,
     /// Number of rows of the trace.
     pub(crate) rows: u64,
+    /// The tables, where there are any.
+    pub(crate) drafts: Vec<Draft>,
 }
 
 impl<'a> Recorder<'a> {
-    /// Opens the tables.
-    pub(crate) fn new(
-        job: &'a Job,
-        interrupt: &'a Interrupt,
-        bar: &'a Bar,
-        folder: &Folder,
-    ) -> io::Result<Self> {
+    /// Keeps in memory what is wanted.
+    pub(crate) fn new(job: &'a Job, interrupt: &'a Interrupt, bar: &'a Bar) -> Self {
         let channels = job.model.channels();
-        Ok(Self {
-            job,
-            interrupt,
-            bar,
-            trace: Table::new(folder.draft(TRACE)?, job.columns.clone(), &[])?,
-            events: Table::new(folder.draft(EVENTS)?, job.columns.clone(), &["source", "kind"])?,
-            insides: Insides::new(job, folder)?,
-            recorded: Recorded { kept: Kept::new(&channels), books: Books::new(&channels), rows: 0 },
-            failure: None,
-        })
+        let (kept, books) = (Kept::new(&channels), Books::new(&channels));
+        let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new() };
+        Self { job, interrupt, bar, tables: None, recorded, until: f64::INFINITY, failure: None }
+    }
+
+    /// The same with tables in a folder.
+    pub(crate) fn with_tables(self, folder: &Folder) -> io::Result<Self> {
+        let columns = &self.job.columns;
+        let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[])?;
+        let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"])?;
+        let insides = Insides::new(self.job, folder)?;
+        Ok(Self { tables: Some(Tables { trace, events, insides }), ..self })
+    }
+
+    /// The same with a fingerprint of the tables, written or not.
+    pub(crate) fn fingerprinted(mut self) -> Self {
+        self.recorded.kept = self.recorded.kept.fingerprinted(self.job.columns.clone());
+        self
+    }
+
+    /// The same for a run that is to stop at a time, s, at which an earlier one was stopped.
+    pub(crate) fn until(self, until: f64) -> Self {
+        Self { until, ..self }
     }
 
     /// Closes the tables.
-    pub(crate) fn finish(self, folder: &mut Folder) -> io::Result<Recorded> {
+    pub(crate) fn finish(mut self) -> io::Result<Recorded> {
         if let Some(failure) = self.failure {
             return Err(failure);
         }
-        folder.stage(TRACE, self.trace.finish()?)?;
-        folder.stage(EVENTS, self.events.finish()?)?;
-        self.insides.finish(folder)?;
+        if let Some(Tables { trace, events, insides }) = self.tables {
+            self.recorded.drafts = vec![(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
+            self.recorded.drafts.extend(insides.finish()?);
+        }
         Ok(self.recorded)
     }
 
@@ -79,8 +101,10 @@ impl<'a> Recorder<'a> {
 
 impl Record for Recorder<'_> {
     fn row(&mut self, values: &[f64]) {
-        let written = self.trace.write(&[], values);
-        self.note(written);
+        if let Some(tables) = &mut self.tables {
+            let written = tables.trace.write(&[], values);
+            self.note(written);
+        }
         self.recorded.rows += 1;
         self.recorded.kept.row(values);
         self.recorded.books.read(values);
@@ -90,23 +114,27 @@ impl Record for Recorder<'_> {
     fn event(&mut self, event: &Event, values: &[f64]) {
         let waveform = |w: usize| self.job.scenario.scene.waveforms.get(w).map(|w| w.name.clone());
         let source = self.job.model.source_name(event.source, |w| waveform(w).unwrap_or_default());
-        let written = self.events.write(&[&source, event.kind.name()], values);
-        self.note(written);
+        if let Some(tables) = &mut self.tables {
+            let written = tables.events.write(&[&source, event.kind.name()], values);
+            self.note(written);
+        }
         self.recorded.books.read(values);
-        self.recorded.kept.event(values);
+        self.recorded.kept.event([&source, event.kind.name()], values);
     }
 
     fn next_look(&mut self) -> Option<f64> {
-        self.insides.next_look()
+        self.tables.as_mut()?.insides.next_look()
     }
 
     fn look(&mut self, _: f64, memories: &[Memory]) {
-        let written = self.insides.look(memories);
-        self.note(written);
+        if let Some(tables) = &mut self.tables {
+            let written = tables.insides.look(memories);
+            self.note(written);
+        }
     }
 
     fn goes_on(&mut self, t: f64) -> bool {
         self.bar.at(t);
-        self.failure.is_none() && !self.interrupt.is_raised()
+        self.failure.is_none() && t < self.until && !self.interrupt.is_raised()
     }
 }

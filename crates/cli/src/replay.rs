@@ -15,7 +15,7 @@ const STATES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 /// a step that has written its rows; only the last row is written after everything.
 pub(crate) fn read(trace: &Path, events: &Path, columns: &Columns) -> Result<Kept, ResultsError> {
     let channels = columns.channels();
-    let mut kept = Kept::new(&channels);
+    let mut kept = Kept::new(&channels).fingerprinted(Columns::all(&channels));
     let mut rows = Replay::open(trace, &channels, &[])?;
     let mut events = Replay::open(events, &channels, &["source", "kind"])?;
     let (mut row, mut next) = (Vec::new(), Vec::new());
@@ -27,7 +27,7 @@ pub(crate) fn read(trace: &Path, events: &Path, columns: &Columns) -> Result<Kep
     loop {
         let is_last = !rows.advance(&mut next)?;
         while has_event && (is_last || time(&event) < time(&row)) {
-            kept.event(&event);
+            kept.event([events.rows.text(1), events.rows.text(2)], &event);
             has_event = events.advance(&mut event)?;
         }
         kept.row(&row);
@@ -127,13 +127,15 @@ mod tests {
         let job = Job::prepare(&file, &set, root.path()).unwrap();
         let mut folder = Folder::make(&job.folder).unwrap();
         let (interrupt, bar) = (Interrupt::default(), Progress::new(false).start("", 1.0));
-        let mut recorder = Recorder::new(&job, &interrupt, &bar, &folder).unwrap();
+        let recorder = Recorder::new(&job, &interrupt, &bar).fingerprinted();
+        let mut recorder = recorder.with_tables(&folder).unwrap();
         let mut state = job.start.clone();
         let _ = stickslip_drive::run(&job.model, &job.scenario.plan, &mut state, &mut recorder);
-        let kept = recorder.finish(&mut folder).unwrap().kept;
+        let recorded = recorder.finish().unwrap();
+        recorded.drafts.into_iter().for_each(|(name, draft)| folder.stage(name, draft).unwrap());
         folder.publish().unwrap();
         let read = read(&job.folder.join(TRACE), &job.folder.join(EVENTS), &job.columns).unwrap();
-        (kept, read)
+        (recorded.kept, read)
     }
 
     #[test]
@@ -151,6 +153,7 @@ mod tests {
             let (kept, read) = kept_and_read(name, set);
             assert!(kept.series.time().windows(2).any(|t| t[0] == t[1]), "{name}: no shared moment");
             assert!(kept.series == read.series, "{name} {set:?}");
+            assert_eq!(kept.fingerprint(), read.fingerprint(), "{name} {set:?}");
         }
     }
 }

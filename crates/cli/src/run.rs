@@ -9,7 +9,7 @@ use crate::job::Job;
 use crate::kept::Kept;
 use crate::look::Look;
 use crate::progress::Progress;
-use crate::record::{Recorded, Recorder};
+use crate::record::{Draft, Recorded, Recorder};
 use crate::report::Report;
 use crate::summary::Summary;
 use std::io;
@@ -42,29 +42,36 @@ pub(crate) fn run(job: &Job, look: &Look, interrupt: &Interrupt, progress: &Prog
         Ok(folder) => folder,
         Err(error) => return Report::no_folder(job, &error),
     };
-    match simulate(job, look, folder, (interrupt, progress)) {
-        Ok(report) => report,
-        Err(error) => Report::not_written(job, &error),
-    }
+    let bar = progress.start(&job.name, job.scenario.plan.duration);
+    let recorder = Recorder::new(job, interrupt, &bar);
+    let recorder = if job.scenario.plots.is_empty() { recorder } else { recorder.fingerprinted() };
+    let report = recorder.with_tables(&folder).and_then(|recorder| {
+        let (outcome, drafts) = simulate(job, recorder)?;
+        write(job, look, folder, (&outcome, drafts))
+    });
+    report.unwrap_or_else(|error| Report::not_written(job, &error))
 }
 
-fn simulate(
-    job: &Job,
-    look: &Look,
-    mut folder: Folder,
-    (interrupt, progress): (&Interrupt, &Progress),
-) -> io::Result<Report> {
-    let bar = progress.start(&job.name, job.scenario.plan.duration);
-    let mut recorder = Recorder::new(job, interrupt, &bar, &folder)?;
+/// Runs a job; returns the tables as well, where the recorder writes any.
+pub(crate) fn simulate(job: &Job, mut recorder: Recorder<'_>) -> io::Result<(Outcome, Vec<Draft>)> {
     let mut state = job.start.clone();
     let begun = Instant::now();
     let result = stickslip_drive::run(&job.model, &job.scenario.plan, &mut state, &mut recorder);
     let wall = begun.elapsed().as_secs_f64();
-    let Recorded { kept, books, rows } = recorder.finish(&mut folder)?;
-    drop(bar);
-    let outcome = Outcome { error: result.err(), state, kept, books, rows, wall };
+    let Recorded { kept, books, rows, drafts } = recorder.finish()?;
+    Ok((Outcome { error: result.err(), state, kept, books, rows, wall }, drafts))
+}
+
+/// Writes what comes beside the tables, and gives all files their names.
+pub(crate) fn write(
+    job: &Job,
+    look: &Look,
+    mut folder: Folder,
+    (outcome, drafts): (&Outcome, Vec<Draft>),
+) -> io::Result<Report> {
+    drafts.into_iter().try_for_each(|(name, draft)| folder.stage(name, draft))?;
     folder.write(SCENARIO, job.resolved.as_bytes())?;
-    let mut summary = Summary::new(job, &outcome);
+    let mut summary = Summary::new(job, outcome);
     for pictures in figures::draw(job, &outcome.kept, &job.scenario.plots, look) {
         match pictures {
             Ok(pictures) => pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?,
@@ -77,5 +84,5 @@ fn simulate(
     summary.set_files(names);
     folder.write(SUMMARY, summary.pretty()?.as_bytes())?;
     folder.publish()?;
-    Report::ended(job, &outcome, &summary)
+    Report::ended(job, outcome, &summary)
 }

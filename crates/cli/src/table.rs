@@ -6,7 +6,7 @@ use stickslip_drive::{Channel, state_name};
 use tempfile::NamedTempFile;
 
 /// The columns of a table: places among a model's channels.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Columns {
     chosen: Vec<(usize, Channel)>,
 }
@@ -27,6 +27,11 @@ impl Columns {
     /// Number of columns.
     pub(crate) fn len(&self) -> usize {
         self.chosen.len()
+    }
+
+    /// The chosen of all channels' values. What is missing is NaN.
+    pub(crate) fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = (f64, &'a Channel)> {
+        self.chosen.iter().map(|(place, channel)| (values.get(*place).copied().unwrap_or(f64::NAN), channel))
     }
 
     /// The channels, the time first.

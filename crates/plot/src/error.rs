@@ -76,6 +76,12 @@ pub enum PlotError {
     /// The encoder or decoder of PNG refused.
     #[error("PNG: {0}")]
     Png(String),
+    /// The reader of SVG refused.
+    #[error("SVG: {0}")]
+    Svg(String),
+    /// Bytes that are no drawn figure.
+    #[error("neither PNG nor SVG")]
+    NoPicture,
 }
 
 impl<E: std::error::Error + Send + Sync> From<DrawingErrorKind<E>> for PlotError {

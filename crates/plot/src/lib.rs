@@ -16,11 +16,12 @@
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
 //! * `paint`, `content` – the figure in strokes, areas and texts, which `canvas` hands to any backend of plotters;
 //! * `font`, `raster` – the backend for pictures: coverage-exact strokes and glyphs;
-//! * [`png`], [`svg`] – the two outputs.
+//! * [`png`], [`svg`] – the two outputs; [`carried`] – what they carry unseen.
 //!
 //! Same figure, same bytes: nothing is read but the figure, the font is built in.
 
 mod canvas;
+pub mod carried;
 pub mod compare;
 mod content;
 mod dash;
@@ -50,6 +51,7 @@ pub mod theme;
 mod thin;
 pub mod trajectory;
 
+pub use carried::read_text;
 pub use compare::{ComparedChannel, compare_figure};
 pub use energy::{EnergyBook, energy_figure};
 pub use error::PlotError;
@@ -60,7 +62,7 @@ pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
 pub use panel::{Axis, Band, Lane, Mark, Mosaic, Panel, Reference, Series};
 pub use phase::{PhasePath, phase_figure};
-pub use png::{draw_png, read_text};
+pub use png::draw_png;
 pub use state::{SpringCondition, SpringMap, state_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};

@@ -1,5 +1,6 @@
 //! Figures as PNG, with what they come from in text chunks.
 
+use crate::carried::{LONG_TEXT, MOST_TEXT, texts};
 use crate::layout::Layout;
 use crate::mosaic::Image;
 use crate::paint::{mosaics, paint};
@@ -10,10 +11,6 @@ use std::io::{Cursor, Write};
 
 /// Centimetres in print for the width of a figure, whatever its pixels.
 const PRINT_WIDTH_CM: f64 = 16.0;
-/// Texts longer than this, bytes, are compressed.
-const LONG_TEXT: usize = 1024;
-/// Most that a text may unpack to, bytes: a stranger's picture does not fill the memory.
-const MOST_TEXT: usize = 64 << 20;
 
 /// Draws a figure and encodes it. The title (unless the provenance has one) and the provenance become text chunks:
 /// `tEXt` where Latin-1 suffices, else `iTXt`; beyond a kilobyte both are compressed (`zTXt`, `iTXt`). The same figure gives the same bytes.
@@ -32,12 +29,9 @@ pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
     encode(&raster.rgb(), figure)
 }
 
-/// The text chunks of a PNG, compressed or not: first what is Latin-1 as it stands, then what is compressed, then
-/// what is Unicode, each kind in its order.
-///
-/// # Errors
-/// Bytes that are no PNG; a damaged chunk; a text beyond 64 MiB.
-pub fn read_text(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
+/// The text chunks, compressed or not: first what is Latin-1 as it stands, then what is compressed, then what is
+/// Unicode, each kind in its order.
+pub(crate) fn read_png(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
     let mut options = png::DecodeOptions::default();
     // By default a damaged text is as if it were not there.
     options.set_skip_ancillary_crc_failures(false);
@@ -120,13 +114,6 @@ fn write_text<W: Write>(
             writer.write_text_chunk(&chunk)
         }
     }
-}
-
-/// The figure's title and provenance.
-pub(crate) fn texts(figure: &Figure<'_>) -> Vec<(String, String)> {
-    let titled = figure.provenance.iter().any(|(key, _)| key == "Title");
-    let title = (!titled && !figure.title.is_empty()).then(|| ("Title".to_owned(), figure.title.text()));
-    title.into_iter().chain(figure.provenance.iter().cloned()).collect()
 }
 
 /// PNG's rule for keywords: 1 to 79 printable Latin-1 characters, no blanks at the ends or in a row.

@@ -1,22 +1,26 @@
 //! Figures as SVG.
 
 use crate::canvas::UNITS;
+use crate::carried::{LONG_TEXT, texts};
 use crate::layout::{Area, Layout};
 use crate::mosaic::Image;
 use crate::paint::{mosaics, paint};
-use crate::png::{encoded, texts};
+use crate::png::encoded;
 use crate::theme::Colour;
 use crate::{Figure, PlotError};
 use data_encoding::BASE64;
 use plotters::backend::SVGBackend;
+use roxmltree::{Document, Node};
 use std::fmt::Write as _;
 
+/// XML namespace of the entries.
+const NAMESPACE: &str = "urn:stickslip";
 /// Least width of the figure, px, as which embedded pictures are drawn: 500 to the inch at 16 cm.
 const EMBEDDED_WIDTH: u32 = 3200;
 
-/// Draws a figure as an SVG document; title and provenance become its `<title>` and `<desc>`. Texts stay texts, in
-/// `DejaVu` Sans or what the viewer has instead. Mosaics are embedded pictures, fine enough for print: as
-/// rectangles they would swell the file and show seams.
+/// Draws a figure as an SVG document; title and provenance become its `<title>` and `<desc>`, the long texts too the
+/// entries of its `<metadata>`. Texts stay texts, in `DejaVu` Sans or what the viewer has instead. Mosaics are embedded
+/// pictures, fine enough for print: as rectangles they would swell the file and show seams.
 ///
 /// # Errors
 /// A figure that cannot be drawn, see [`PlotError`].
@@ -37,12 +41,36 @@ pub fn draw_svg(figure: &Figure<'_>) -> Result<String, PlotError> {
     for (frame, image) in mosaics(&layout, &figure.theme, EMBEDDED_WIDTH.div_ceil(width) as usize) {
         ground += &embedded(frame, &image)?;
     }
+    let texts = texts(figure);
+    let short = texts.iter().filter(|(_, text)| text.len() <= LONG_TEXT);
+    let description: String = short.map(|(key, text)| escaped(&format!("{key}: {text}\n"))).collect();
+    let metadata: String = texts.iter().map(entry).collect();
     Ok(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" \
-         stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n<desc>{}</desc>\n{ground}{body}",
+         stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n<desc>{description}</desc>\n\
+         <metadata>\n{metadata}</metadata>\n{ground}{body}",
         escaped(&figure.title.text()),
-        texts(figure).iter().map(|(key, text)| escaped(&format!("{key}: {text}\n"))).collect::<String>(),
     ))
+}
+
+fn entry((key, text): &(String, String)) -> String {
+    let key = escaped(key).replace('"', "&quot;");
+    format!("<entry xmlns=\"{NAMESPACE}\" key=\"{key}\">{}</entry>\n", escaped(text))
+}
+
+/// The entries of the metadata.
+pub(crate) fn read_svg(text: &str) -> Result<Vec<(String, String)>, PlotError> {
+    let document = Document::parse(text).map_err(|e| PlotError::Svg(e.to_string()))?;
+    let root = document.root_element();
+    if !root.has_tag_name("svg") {
+        return Err(PlotError::NoPicture);
+    }
+    let metadata = root.children().filter(|node| node.has_tag_name("metadata"));
+    let entries = metadata.flat_map(|node| node.children()).filter(|n| n.has_tag_name((NAMESPACE, "entry")));
+    let pair = |node: Node<'_, '_>| {
+        Some((node.attribute("key")?.to_owned(), node.text().unwrap_or_default().to_owned()))
+    };
+    Ok(entries.filter_map(pair).collect())
 }
 
 /// An image over a frame; `xlink:href` is what older viewers know.

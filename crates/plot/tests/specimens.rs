@@ -79,6 +79,7 @@ fn loops_of_several_amplitudes() {
     assert!(texts.iter().any(|(key, text)| key == "Title" && text.starts_with("Hysteresis")));
     let drawing = draw_svg(&figure).unwrap();
     assert!(drawing.contains("tolerance 1e-8") && drawing.contains("width=\"1600\""));
+    assert_eq!(read_text(drawing.as_bytes()).unwrap()[1..], figure.provenance);
 }
 
 #[test]
@@ -110,10 +111,13 @@ fn long_texts_are_packed_and_come_back_whole() {
 
 #[test]
 fn a_damaged_text_is_an_error_and_not_a_missing_one() {
-    let provenance = [("Latin", "größer 1e-9\n"), ("Unicode", "μ <1e-9> & so on\n")];
+    let provenance = [("\"Latin\"", "größer 1e-9\n"), ("Unicode", "μ <1e-9> & so on\n")];
     let provenance = provenance.map(|(key, text)| (key.to_owned(), text.repeat(500))).to_vec();
     let bytes = draw_png(&Figure { provenance: provenance.clone(), ..loop_figure("", &[]) }).unwrap();
     assert_eq!(read_text(&bytes).unwrap(), provenance);
+    let drawing = draw_svg(&Figure { provenance: provenance.clone(), ..loop_figure("", &[]) }).unwrap();
+    assert_eq!(read_text(drawing.as_bytes()).unwrap(), provenance);
+    assert!(drawing.contains("<desc></desc>"));
     for key in ["zTXt", "iTXt"] {
         let place = bytes.windows(4).position(|w| w == key.as_bytes()).unwrap();
         for offset in [4, 60] {
@@ -320,7 +324,9 @@ fn what_cannot_be_drawn_is_refused() {
         ..Figure::default()
     };
     assert_eq!(draw_png(&key).unwrap_err(), PlotError::Key(" key".into()));
-    assert!(read_text(b"no picture").is_err());
+    for (bytes, message) in [("no picture", "neither"), ("<html/>", "neither"), ("<svg>", "SVG: ")] {
+        assert!(read_text(bytes.as_bytes()).unwrap_err().to_string().starts_with(message));
+    }
 }
 
 fn any_value() -> impl Strategy<Value = f64> {

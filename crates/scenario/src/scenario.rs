@@ -122,6 +122,23 @@ impl Scenario {
         base: impl AsRef<Path>,
         overrides: &[(&str, &str)],
     ) -> Result<Self, ScenarioError> {
+        Self::read(text, name, Some(base.as_ref()), overrides)
+    }
+
+    /// Reads a scenario that has no folder, such as one carried by a picture: it may name no files.
+    ///
+    /// # Errors
+    /// Whatever is wrong with it, with its place.
+    pub fn from_str_alone(text: &str, name: &str) -> Result<Self, ScenarioError> {
+        Self::read(text, name, None, &[])
+    }
+
+    fn read(
+        text: &str,
+        name: &str,
+        base: Option<&Path>,
+        overrides: &[(&str, &str)],
+    ) -> Result<Self, ScenarioError> {
         let mut document = Document::read(name, text)?;
         check_version(&document).map_err(|fault| document.report(fault))?;
         for (path, value) in overrides {
@@ -132,7 +149,7 @@ impl Scenario {
         let mut form: Form = serde_path_to_error::deserialize(&document.value)
             .map_err(|error| document.report(refusal::fault(&document, &error)))?;
         shape::check(&document.value).map_err(|fault| document.report(fault))?;
-        let inlined = tables::inline(&mut form, base.as_ref(), &mut document)
+        let inlined = tables::inline(&mut form, base, &mut document)
             .map_err(|fault| document.report(fault))?;
         let meaning = meaning::of(&form).map_err(|fault| document.report(fault))?;
         let is_written = |path: &KeyPath| document.root.deepest(path).1 == path.0.len();

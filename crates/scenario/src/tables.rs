@@ -45,8 +45,9 @@ impl TableFile {
     }
 }
 
-/// Replaces the files of all tables by their points. Says whether there were any.
-pub(crate) fn inline(form: &mut Form, base: &Path, document: &mut Document) -> Result<bool, Fault> {
+/// Replaces the files of all tables by their points; `base` is the scenario's folder, if it has one. Says whether there
+/// were any.
+pub(crate) fn inline(form: &mut Form, base: Option<&Path>, document: &mut Document) -> Result<bool, Fault> {
     let mut shelf = Shelf { base, document, bytes: 0 };
     let root = At::ROOT;
     let at = root.key("waveforms");
@@ -87,7 +88,8 @@ pub(crate) fn inline(form: &mut Form, base: &Path, document: &mut Document) -> R
 
 /// The files of a scenario.
 struct Shelf<'a> {
-    base: &'a Path,
+    /// The scenario's folder, if it has one.
+    base: Option<&'a Path>,
     document: &'a mut Document,
     /// Bytes read so far.
     bytes: usize,
@@ -163,13 +165,16 @@ impl Shelf<'_> {
 
     fn read(&mut self, at: &At<'_>, file: &str) -> Result<Vec<u8>, Fault> {
         let unreadable = |error: io::Error| at.fault(format!("cannot read \"{}\": {error}", shown(file)));
-        let path = folder::find(self.base, Path::new(file)).map_err(|denied| match denied {
+        let Some(base) = self.base else {
+            return Err(at.fault("this scenario has no folder: it may name no files").on_key());
+        };
+        let path = folder::find(base, Path::new(file)).map_err(|denied| match denied {
             Denied::Outside => at
                 .fault(format!("\"{}\" lies outside the scenario's folder", shown(file)))
                 .help("a scenario may name files at or below its own folder only"),
             Denied::NotThere => {
                 let fault = at.fault(format!("there is no file \"{}\"", shown(file)));
-                let names = folder::names(self.base);
+                let names = folder::names(base);
                 let near = suggest::nearest(file, names.iter().map(String::as_str));
                 fault.help(match near {
                     Some(near) => format!("did you mean \"{near}\"?"),

@@ -12,6 +12,11 @@ Examples:
   stickslip plot results/* --plots trajectory --format svg   one picture of every run, as SVG
   stickslip plot results/p1 --scale 2 --out pictures         into pictures/p1/, twice as many pixels";
 
+pub(super) const REPRO_EXAMPLES: &str = "\
+Examples:
+  stickslip repro loop.png             runs what loop.png carries and compares
+  stickslip repro loop.png --out here  leaves the results, scenario.json among them, in the folder here";
+
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
     /// Folders of results
@@ -24,6 +29,21 @@ pub(crate) struct PlotArguments {
     #[arg(long, value_name = "OUT")]
     pub(crate) out: Option<PathBuf>,
     /// Errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: Look,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReproArguments {
+    /// A picture
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Folder for the results of the run; by default nothing is written
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// No progress, no result for people; errors and the exit code only
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
