@@ -16,36 +16,36 @@ fn pictures(folder: &Path) -> Vec<String> {
     listing(folder).into_iter().filter(is_picture).collect()
 }
 
+/// All pictures, with few springs.
+const ALL: [&str; 2] = [
+    r#"plots=["loop", "trajectory", "energy", "phase", "events", "state", "memory"]"#,
+    "output.springs.count=40",
+];
+
 #[test]
 fn plot_draws_what_run_drew_to_the_bit() {
-    let out = tempdir().unwrap();
-    let all: &[&[&str]] = &[&["run.cycles=3"], &["run.cycles=3", "waveforms.drive.sawtooth.flyback=0"]];
-    let cases: [(&str, &[&[&str]]); 4] = [
-        ("p1", all),
-        (
-            "quickstart",
-            &[&["run.limits.steps=1500"], &["title=", "run.stepper={\"verlet\":{\"step\":\"1 us\"}}"]],
-        ),
-        ("oblique_loading", &[&[]]),
-        ("vibrated_slider", &[&["run.cycles=5", "output={}"]]),
+    let cases: [(&str, &[&str]); 7] = [
+        ("p1", &["run.cycles=3"]),
+        // Corners, jumps and rows at the same moments.
+        ("p1", &["run.cycles=3", "output.every=0.1 ms", "waveforms.drive.sawtooth.flyback=0"]),
+        ("quickstart", &["run.limits.steps=1500"]),
+        ("quickstart", &["title=", "run.duration=30 ms", "run.stepper={\"verlet\":{\"step\":\"1 us\"}}"]),
+        ("piezo_stack", &["run.cycles=3", "output.memory.every=20 us"]),
+        ("oblique_loading", &[]),
+        ("fretting_sphere", &["output.every=20 ms"]),
     ];
-    for (name, sets) in cases {
-        for (i, set) in sets.iter().enumerate() {
-            let folder = out.path().join(i.to_string());
-            let ran = run(&scenario(name), &folder, set);
-            assert!([0, 3].contains(&code(&ran)), "{name}: {}", stderr(&ran));
-            let folder = folder.join(name);
-            let again = out.path().join("again");
-            let drawn = plot(&folder, &["--out", again.to_str().unwrap()]);
-            assert_eq!((code(&drawn), stderr(&drawn)), (0, String::new()), "{name} {set:?}");
-            let again = again.join(name);
-            assert_eq!(pictures(&folder), pictures(&again));
-            assert!(!pictures(&folder).is_empty());
-            for picture in pictures(&folder) {
-                let [first, second] = [&folder, &again].map(|f| std::fs::read(f.join(&picture)).unwrap());
-                assert!(first == second, "{name} {set:?}: {picture}");
-            }
-            std::fs::remove_dir_all(again).unwrap();
+    for (name, set) in cases {
+        let (out, again) = (tempdir().unwrap(), tempdir().unwrap());
+        let ran = run(&scenario(name), out.path(), &[set, &ALL].concat());
+        assert!([0, 3].contains(&code(&ran)), "{name}: {}", stderr(&ran));
+        let folder = out.path().join(name);
+        let drawn = plot(&folder, &["--out", again.path().to_str().unwrap()]);
+        assert_eq!((code(&drawn), stderr(&drawn)), (0, String::new()), "{name} {set:?}");
+        let again = again.path().join(name);
+        assert_eq!((pictures(&folder).len(), pictures(&folder)), (7, pictures(&again)));
+        for picture in pictures(&folder) {
+            let [first, second] = [&folder, &again].map(|f| std::fs::read(f.join(&picture)).unwrap());
+            assert!(first == second, "{name} {set:?}: {picture}");
         }
     }
 }
@@ -104,6 +104,91 @@ fn columns_left_out_are_named() {
     let message = "loop was not drawn: it needs ball.d_m, ball.fx_N, which output.channels left out\n   \
                    help: run the scenario with these channels, or without output.channels, which writes all\n";
     assert_eq!(said, format!("{}: {message}", folder.display()));
+}
+
+#[test]
+fn a_picture_without_its_columns_or_its_table_says_what_to_run() {
+    let out = tempdir().unwrap();
+    let set = ["run.duration=20 ms", "plots=[]", "output.channels=[\"energy.input_J\"]"];
+    let folder = run_example("quickstart", out.path(), &set);
+    let needs = [
+        (
+            "energy",
+            "energy.kinetic_J, energy.elastic_J, energy.friction_J, energy.damping_J, energy.error_J, which",
+        ),
+        ("phase", "slider.x_m, slider.vx_m_s, which"),
+        (
+            "state",
+            "springs.csv, which the run did not write\n   help: run the scenario with this picture among its plots",
+        ),
+        ("memory", "memory.csv, which the run did not write"),
+    ];
+    for (picture, needed) in needs {
+        let drawn = plot(&folder, &["--plots", picture]);
+        assert_eq!((code(&drawn), stdout(&drawn)), (2, String::new()));
+        assert!(
+            stderr(&drawn).contains(&format!(": {picture} was not drawn: it needs {needed}")),
+            "{}",
+            stderr(&drawn)
+        );
+    }
+    // The events are in a table of their own, whatever its channels.
+    assert_eq!(code(&plot(&folder, &["--plots", "events"])), 0);
+}
+
+#[test]
+fn damaged_insides_are_refused_with_file_and_line() {
+    let root = tempdir().unwrap();
+    let set = ["plots=[\"state\", \"memory\"]", "output.springs.count=4", "output.every=1 s"];
+    let folder = run_example("oblique_loading", root.path(), &set);
+    let springs = std::fs::read_to_string(folder.join("springs.csv")).unwrap();
+    let memory = std::fs::read_to_string(folder.join("memory.csv")).unwrap();
+    let lines: Vec<&str> = springs.lines().collect();
+    assert_eq!(lines.len(), 1 + 4 * 8);
+    let line = |n: usize, from: &str, to: &str| {
+        let mut lines: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+        assert!(lines[n - 1].contains(from), "{from} in {}", lines[n - 1]);
+        lines[n - 1] = lines[n - 1].replacen(from, to, 1);
+        lines.join("\n") + "\n"
+    };
+    let without = |n: usize| [&lines[..n - 1], &lines[n..]].concat().join("\n") + "\n";
+    let place = lines[6].split(',').nth(2).unwrap();
+    let cases = [
+        (
+            "springs.csv",
+            line(8, "stick", "stuck"),
+            "springs.csv:8  state: expected open, stick, slip+ or slip-, got \"stuck\"",
+        ),
+        (
+            "springs.csv",
+            line(7, place, "7"),
+            "springs.csv:7  x_m: expected the places of the first moment, got 7",
+        ),
+        ("springs.csv", line(7, place, "far"), "springs.csv:7  x_m: expected a number, got \"far\""),
+        ("springs.csv", without(9), "springs.csv:9  expected 4 springs of \"ball\" at every moment"),
+        ("springs.csv", without(33), "springs.csv:32  expected 4 springs of \"ball\" at every moment"),
+        (
+            "springs.csv",
+            line(1, "stretch_m", "stretch"),
+            "springs.csv:1  column 4: expected \"stretch_m\", got \"stretch\"",
+        ),
+        ("memory.csv", memory.replacen(",ball,", ",ball,,", 1), "memory.csv: CSV error: record 1 (line: 2, "),
+        (
+            "memory.csv",
+            memory.replacen(",p_m", ",p", 1),
+            "memory.csv:1  column 6: expected \"p_m\", got \"p\"",
+        ),
+    ];
+    for (name, text, message) in cases {
+        std::fs::write(folder.join(name), text).unwrap();
+        let drawn = plot(&folder, &[]);
+        assert_eq!(code(&drawn), 2);
+        let said = stderr(&drawn).replace(&format!("{}/", folder.display()), "");
+        assert!(said.contains(&format!("was not drawn: {message}")), "{said}");
+        std::fs::write(folder.join("springs.csv"), &springs).unwrap();
+        std::fs::write(folder.join("memory.csv"), &memory).unwrap();
+    }
+    assert_eq!(code(&plot(&folder, &[])), 0);
 }
 
 /// Results of a short run, in which something is then spoiled.
@@ -230,8 +315,7 @@ fn several_folders_are_drawn_whatever_is_wrong_with_one() {
     let second = run_example("fretting_sphere", out.path(), &["plots=[]", "run.duration=1 s"]);
     let output = stickslip().arg("plot").args([&second, &first]).output().unwrap();
     assert_eq!(code(&output), 2);
-    let help =
-        "its scenario names no pictures\n   help: name some with --plots, such as --plots loop,trajectory";
+    let help = "its scenario names no pictures\n   help: name some with --plots, such as --plots loop,trajectory,energy,phase,events,state,memory";
     assert!(stderr(&output).contains(help), "{}", stderr(&output));
     assert!(stdout(&output).contains("oblique_loading: loop.png"));
     let unknown = plot(&first, &["--plots", "lop"]);

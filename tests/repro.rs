@@ -76,13 +76,17 @@ fn a_picture_of_a_run_is_reproduced() {
         ("oblique_loading", &[]),
     ];
     for (name, set) in cases {
-        let ran = run(&scenario(name), out.path(), &[set, &["plots=[\"loop\"]"]].concat());
+        let plots = r#"plots=["loop", "state"]"#;
+        let ran = run(&scenario(name), out.path(), &[set, &[plots, "output.springs.count=40"]].concat());
         assert!([0, 3].contains(&code(&ran)), "{name}: {}", stderr(&ran));
         let folder = out.path().join(name);
         let drawn =
             stickslip().arg("plot").arg(&folder).args(["--plots", "trajectory", "--format", "svg"]).output();
-        let pictures: &[&str] =
-            if code(&drawn.unwrap()) == 0 { &["loop.png", "trajectory.svg"] } else { &["loop.png"] };
+        let pictures: &[&str] = if code(&drawn.unwrap()) == 0 {
+            &["loop.png", "trajectory.svg"]
+        } else {
+            &["loop.png", "state.png"]
+        };
         for picture in pictures {
             let output = repro(&folder.join(picture), &[]);
             assert_eq!(

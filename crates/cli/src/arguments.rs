@@ -67,8 +67,8 @@ pub(crate) enum Command {
     Schema,
     /// Draw pictures from results on disk
     ///
-    /// Reads scenario.json, trace.csv and events.csv of each folder and draws what `run` draws, to the same bits, or
-    /// other pictures of the same results. Exit codes: 0 done, 2 a folder that is no result of a run, or that lacks what
+    /// Reads scenario.json, trace.csv, events.csv and, where they are needed, springs.csv and memory.csv of each folder and
+    /// draws what `run` draws, to the same bits, or other pictures of the same results. Exit codes: 0 done, 2 a folder that is no result of a run, or that lacks what
     /// a picture needs, 3 the pictures cannot be written.
     #[command(after_long_help = pictures::PLOT_EXAMPLES)]
     Plot(PlotArguments),

@@ -1,54 +1,94 @@
 //! The pictures of results, drawn alike from a run that has just ended and from its folder.
 
+mod energy;
+mod events;
 mod hysteresis;
+mod memory;
+mod phase;
+mod state;
 mod trajectory;
 
+use crate::curves;
+use crate::frame::FrameError;
+use crate::insides::{MEMORY, SPRINGS};
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::look::{Look, Pen, Picture};
 use crate::provenance::provenance;
+use crate::series::ENERGY;
+use crate::springs;
+use std::path::{Path, PathBuf};
 use stickslip_drive::scene::Freedom;
 use stickslip_plot::PlotError;
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
+/// Most memory curves in one picture.
+const MOST_CURVES: usize = 24;
+
+/// What pictures are drawn from.
+pub(crate) struct Sources<'a> {
+    pub(crate) job: &'a Job,
+    pub(crate) kept: &'a Kept,
+    /// Where `springs.csv` lies, if it was written.
+    pub(crate) springs: PathBuf,
+    /// Where `memory.csv` lies, if it was written.
+    pub(crate) memory: PathBuf,
+}
+
 /// Why a picture is not drawn.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Error)]
 pub(crate) enum FigureError {
     /// Columns that the tables do not have.
     #[error("{plot} was not drawn: it needs {}, which output.channels left out", .columns.join(", "))]
     Missing { plot: &'static str, columns: Vec<String> },
+    /// A table that the run did not write.
+    #[error("{plot} was not drawn: it needs {file}, which the run did not write")]
+    Absent { plot: &'static str, file: &'static str },
+    /// A damaged table.
+    #[error("{plot} was not drawn: {source}")]
+    Table { plot: &'static str, source: FrameError },
     /// Drawing failed.
     #[error("{plot} was not drawn: {source}")]
     Plot { plot: &'static str, source: PlotError },
 }
 
-/// Draws pictures, each once, in the order of their names' list.
-pub(crate) fn draw(
-    job: &Job,
-    kept: &Kept,
-    plots: &[PlotName],
-    look: &Look,
-) -> Vec<Result<Vec<Picture>, FigureError>> {
-    let mut plots = plots.to_vec();
+/// Draws the pictures that the job's scenario names, each once, in the order of all names.
+pub(crate) fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, FigureError>> {
+    let mut plots = sources.job.scenario.plots.clone();
     plots.sort_by_key(|plot| *plot as u8);
     plots.dedup();
-    let pen = Pen { look, provenance: provenance(job, kept) };
-    plots.into_iter().map(|plot| picture(job, kept, plot, &pen)).collect()
+    let pen = Pen { look, provenance: provenance(sources.job, sources.kept) };
+    plots.into_iter().map(|plot| picture(sources, plot, &pen)).collect()
 }
 
-fn picture(job: &Job, kept: &Kept, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<Picture>, FigureError> {
+fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<Picture>, FigureError> {
+    let (job, kept) = (sources.job, sources.kept);
     let columns: Vec<String> = needs(job, plot).into_iter().filter(|name| !kept.series.has(name)).collect();
     if !columns.is_empty() {
         return Err(FigureError::Missing { plot: plot.name(), columns });
     }
+    let table = |source| FigureError::Table { plot: plot.name(), source };
     let pictures = match plot {
         PlotName::Loop => hysteresis::draw(job, kept, pen),
         PlotName::Trajectory => trajectory::draw(job, kept, pen),
-        // Not drawn yet.
-        _ => Ok(Vec::new()),
+        PlotName::Energy => energy::draw(job, kept, pen),
+        PlotName::Phase => phase::draw(job, kept, pen),
+        PlotName::Events => events::draw(job, kept, pen),
+        PlotName::State => {
+            check_written(plot, SPRINGS, &sources.springs)?;
+            state::draw(job, &springs::read(&sources.springs).map_err(table)?, pen)
+        }
+        PlotName::Memory => {
+            check_written(plot, MEMORY, &sources.memory)?;
+            memory::draw(job, &curves::read(&sources.memory, MOST_CURVES).map_err(table)?, pen)
+        }
     };
     pictures.map_err(|source| FigureError::Plot { plot: plot.name(), source })
+}
+
+fn check_written(plot: PlotName, file: &'static str, path: &Path) -> Result<(), FigureError> {
+    if path.exists() { Ok(()) } else { Err(FigureError::Absent { plot: plot.name(), file }) }
 }
 
 /// Columns that a picture is drawn from.
@@ -57,12 +97,23 @@ fn needs(job: &Job, plot: PlotName) -> Vec<String> {
         let names = job.model.contacts().map(|(name, _)| name);
         names.flat_map(|name| quantities.iter().map(move |quantity| format!("{name}.{quantity}"))).collect()
     };
+    let bodies = |bodies: Vec<&str>, quantities: &[&str]| -> Vec<String> {
+        bodies
+            .iter()
+            .flat_map(|body| quantities.iter().map(move |quantity| format!("{body}.{quantity}")))
+            .collect()
+    };
     match plot {
         PlotName::Loop => contacts(&["u_m", "d_m", "fx_N"]),
-        PlotName::Trajectory => {
-            let moving = job.scenario.scene.bodies.iter().filter(|body| body.part.x != Freedom::Fixed);
-            moving.map(|body| format!("{}.x_m", body.name)).chain(contacts(&["u_m"])).collect()
-        }
-        _ => Vec::new(),
+        PlotName::Trajectory => [bodies(moving(job), &["x_m"]), contacts(&["u_m"])].concat(),
+        PlotName::Energy => energy::COLUMNS.map(|quantity| format!("{ENERGY}.{quantity}")).to_vec(),
+        PlotName::Phase => bodies(phase::bodies(job), &["x_m", "vx_m_s"]),
+        PlotName::Events | PlotName::State | PlotName::Memory => Vec::new(),
     }
+}
+
+/// Names of the bodies that move.
+fn moving(job: &Job) -> Vec<&str> {
+    let moving = job.scenario.scene.bodies.iter().filter(|body| body.part.x != Freedom::Fixed);
+    moving.map(|body| body.name.as_str()).collect()
 }

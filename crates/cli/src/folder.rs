@@ -47,6 +47,12 @@ impl Folder {
         self.stage(name, file)
     }
 
+    /// Where a file lies now: its draft, or else its place.
+    pub(crate) fn place(&self, name: &str) -> PathBuf {
+        let draft = self.staged.iter().find(|(staged, _)| staged == name);
+        draft.map_or_else(|| self.path.join(name), |(_, file)| file.path().to_owned())
+    }
+
     /// Names staged so far.
     pub(crate) fn names(&self) -> Vec<String> {
         self.staged.iter().map(|(name, _)| name.clone()).collect()

@@ -61,6 +61,28 @@ pub(crate) enum FrameError {
         /// What stands there.
         text: String,
     },
+    /// A column where another is expected.
+    #[error("{}:1  column {place}: expected {expected}, got {got}", .path.display())]
+    Head {
+        /// Which file.
+        path: PathBuf,
+        /// Place of the column, from 1.
+        place: usize,
+        /// The column that belongs there.
+        expected: String,
+        /// The one that stands there.
+        got: String,
+    },
+    /// A line that says what cannot be.
+    #[error("{}:{line}  {message}", .path.display())]
+    Content {
+        /// Which file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        message: String,
+    },
 }
 
 /// A missing file is told in the system's words.

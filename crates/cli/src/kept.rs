@@ -4,12 +4,16 @@ use crate::fingerprint::{Fingerprint, Sketch};
 use crate::limits::MOST_VALUES;
 use crate::series::Series;
 use crate::table::Columns;
+use crate::tracks::Tracks;
 use stickslip_drive::Channel;
+use stickslip_scenario::PlotName;
 
 /// What stays in memory of a run.
 pub(crate) struct Kept {
     /// Rows and moments after events.
     pub(crate) series: Series,
+    /// Moments of the events, where a picture shows them.
+    pub(crate) tracks: Option<Tracks>,
     /// Events left out of the series for want of room.
     pub(crate) left_out: u64,
     /// For a fingerprint, where one is wanted.
@@ -17,9 +21,10 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// Nothing yet, of these channels.
-    pub(crate) fn new(channels: &[Channel]) -> Self {
-        Self { series: Series::new(channels), left_out: 0, sketch: None }
+    /// Nothing yet, of these channels; what only pictures need is kept for those in `plots`.
+    pub(crate) fn new(channels: &[Channel], plots: &[PlotName]) -> Self {
+        let tracks = plots.contains(&PlotName::Events).then(Tracks::default);
+        Self { series: Series::new(channels, plots), tracks, left_out: 0, sketch: None }
     }
 
     /// The same with a fingerprint of the tables that have these columns.
@@ -49,6 +54,9 @@ impl Kept {
         // Rows are bounded before the run starts; events are not.
         if self.series.size() < 2 * MOST_VALUES {
             self.series.push(values);
+            if let (Some(tracks), Some(time)) = (&mut self.tracks, values.first()) {
+                tracks.push(words, *time);
+            }
         } else {
             self.left_out += 1;
         }

@@ -3,11 +3,12 @@
 //! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several
 //! files, messages in order) and its [`verdict`]; [`job`] (a scenario that was found good, with everything a run needs)
 //! within its [`limits`]; [`run`] (one job from start to files); [`record`] with [`table`], [`insides`], [`sheet`],
-//! [`kept`], [`series`] and [`books`] (what a run leaves behind); [`contact_path`] and [`periods`] (series prepared for
-//! the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`], [`provenance`] and [`fingerprint`]
-//! (pictures and what they carry); [`folder`] (how files are written); [`progress`], [`interrupt`]; [`results`] with
-//! [`replay`] and [`rows`] (what is read back from a folder) and [`redraw`]; [`origin`] (what is read back from a
-//! picture) and [`repro`]; [`frame`] (tables read back whole); [`compare`] (tells two runs apart).
+//! [`kept`], [`series`], [`tracks`] and [`books`] (what a run leaves behind); [`contact_path`], [`trail`] and [`periods`]
+//! (series prepared for the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`],
+//! [`provenance`] and [`fingerprint`] (pictures and what they carry); [`folder`] (how files are written); [`progress`],
+//! [`interrupt`]; [`results`] with [`replay`], [`rows`], [`springs`] and [`curves`] (what is read back from a folder) and
+//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`frame`] (tables read back whole);
+//! [`compare`] (tells two runs apart).
 
 mod arguments;
 mod batch;
@@ -15,6 +16,7 @@ mod books;
 mod check;
 mod compare;
 mod contact_path;
+mod curves;
 mod figures;
 mod fingerprint;
 mod folder;
@@ -43,8 +45,11 @@ mod run;
 mod schema;
 mod series;
 mod sheet;
+mod springs;
 mod summary;
 mod table;
+mod tracks;
+mod trail;
 mod verdict;
 
 use arguments::{Arguments, Command};

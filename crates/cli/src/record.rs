@@ -55,7 +55,7 @@ impl<'a> Recorder<'a> {
     /// Keeps in memory what is wanted.
     pub(crate) fn new(job: &'a Job, interrupt: &'a Interrupt, bar: &'a Bar) -> Self {
         let channels = job.model.channels();
-        let (kept, books) = (Kept::new(&channels), Books::new(&channels));
+        let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
         let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new() };
         Self { job, interrupt, bar, tables: None, recorded, until: f64::INFINITY, failure: None }
     }

@@ -1,8 +1,9 @@
 //! Pictures drawn again from results on disk.
 
 use crate::arguments::PlotArguments;
-use crate::figures::{self, FigureError};
+use crate::figures::{self, FigureError, Sources};
 use crate::folder::Folder;
+use crate::insides::{MEMORY, SPRINGS};
 use crate::results::{Results, ResultsError};
 use crate::verdict::Verdict;
 use std::io::{self, Write};
@@ -41,20 +42,20 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Verdict {
 
 /// Draws the pictures of one folder; returns what went wrong.
 fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
-    let results = match Results::read(folder) {
+    let results = match Results::read(folder, &arguments.plots) {
         Ok(results) => results,
         Err(error) => return vec![error.into()],
     };
     let Results { job, kept } = &results;
-    let plots = if arguments.plots.is_empty() { &job.scenario.plots } else { &arguments.plots };
-    if plots.is_empty() {
+    if job.scenario.plots.is_empty() {
         return vec![PlotFailure::NoPlots(folder.to_owned())];
     }
     if let (Some(program), false) = (results.other_program(), arguments.quiet) {
         let _ = writeln!(io::stderr(), "{}: note: computed by {program}", folder.display());
     }
     let (mut pictures, mut failures) = (Vec::new(), Vec::new());
-    for drawn in figures::draw(job, kept, plots, &arguments.look) {
+    let (springs, memory) = (folder.join(SPRINGS), folder.join(MEMORY));
+    for drawn in figures::draw(&Sources { job, kept, springs, memory }, &arguments.look) {
         match drawn {
             Ok(files) => pictures.extend(files),
             Err(source) => failures.push(PlotFailure::Figure { folder: folder.to_owned(), source }),
@@ -86,10 +87,8 @@ fn write(out: &Path, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> 
 impl PlotFailure {
     fn verdict(&self) -> Verdict {
         match self {
-            Self::Results(_)
-            | Self::NoPlots(_)
-            | Self::Figure { source: FigureError::Missing { .. }, .. } => Verdict::BadInput,
-            Self::Figure { .. } | Self::Write { .. } => Verdict::Stopped,
+            Self::Figure { source: FigureError::Plot { .. }, .. } | Self::Write { .. } => Verdict::Stopped,
+            Self::Results(_) | Self::NoPlots(_) | Self::Figure { .. } => Verdict::BadInput,
         }
     }
 }
@@ -100,6 +99,7 @@ fn advice(error: &FigureError) -> &'static str {
         FigureError::Missing { .. } => {
             "\n   help: run the scenario with these channels, or without output.channels, which writes all"
         }
-        FigureError::Plot { .. } => "",
+        FigureError::Absent { .. } => "\n   help: run the scenario with this picture among its plots",
+        FigureError::Table { .. } | FigureError::Plot { .. } => "",
     }
 }

@@ -7,15 +7,20 @@ use crate::rows::Rows;
 use crate::table::Columns;
 use std::path::Path;
 use stickslip_drive::{Channel, state_name};
+use stickslip_scenario::PlotName;
 
 /// Codes of the states of a contact.
 const STATES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
 /// Reads the trace and the events as they were recorded: a row comes before the events of its own moment, for events end
 /// a step that has written its rows; only the last row is written after everything.
-pub(crate) fn read(trace: &Path, events: &Path, columns: &Columns) -> Result<Kept, ResultsError> {
+pub(crate) fn read(
+    (trace, events): (&Path, &Path),
+    columns: &Columns,
+    plots: &[PlotName],
+) -> Result<Kept, ResultsError> {
     let channels = columns.channels();
-    let mut kept = Kept::new(&channels).fingerprinted(Columns::all(&channels));
+    let mut kept = Kept::new(&channels, plots).fingerprinted(Columns::all(&channels));
     let mut rows = Replay::open(trace, &channels, &[])?;
     let mut events = Replay::open(events, &channels, &["source", "kind"])?;
     let (mut row, mut next) = (Vec::new(), Vec::new());
@@ -55,7 +60,7 @@ impl<'a> Replay<'a> {
         let mut rows = Rows::open(path)?;
         let mut names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
         names.splice(1..1, words.iter().copied());
-        check_head(&mut rows, &names)?;
+        rows.check_head(&names)?;
         Ok(Self { rows, channels, words: words.len() })
     }
 
@@ -77,36 +82,19 @@ impl<'a> Replay<'a> {
             return Ok(self.rows.number(column, &channel.name)?);
         }
         let text = self.rows.text(column);
-        STATES.into_iter().find(|code| state_name(*code) == text).ok_or_else(|| ResultsError::State {
-            path: self.rows.path().to_owned(),
-            line: self.rows.line(),
-            column: channel.name.clone(),
-            text: text.to_owned(),
+        let code = STATES.into_iter().find(|code| state_name(*code) == text);
+        code.ok_or_else(|| {
+            let text = text.escape_debug();
+            self.rows
+                .fault(format!("{}: expected open, stick, partial or slip, got \"{text}\"", channel.name))
+                .into()
         })
     }
 }
 
-/// The columns must be those that the scenario writes.
-fn check_head(rows: &mut Rows, names: &[&str]) -> Result<(), ResultsError> {
-    let path = rows.path().to_owned();
-    let head = rows.head()?;
-    let differs = (0..names.len().max(head.len())).find(|&i| head.get(i) != names.get(i).copied());
-    let Some(place) = differs else { return Ok(()) };
-    let quoted = |name: Option<&str>| match name {
-        Some(name) => format!("\"{}\"", name.escape_debug()),
-        None => "nothing".to_owned(),
-    };
-    Err(ResultsError::Column {
-        path,
-        place: place + 1,
-        expected: quoted(names.get(place).copied()),
-        got: quoted(head.get(place)),
-    })
-}
-
 impl From<FrameError> for ResultsError {
-    fn from(error: FrameError) -> Self {
-        Self::Table(error)
+    fn from(source: FrameError) -> Self {
+        Self::Table { source }
     }
 }
 
@@ -124,7 +112,8 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name);
         let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-        let job = Job::prepare(&file, &set, root.path()).unwrap();
+        let mut job = Job::prepare(&file, &set, root.path()).unwrap();
+        job.scenario.plots = PlotName::ALL.to_vec();
         let mut folder = Folder::make(&job.folder).unwrap();
         let (interrupt, bar) = (Interrupt::default(), Progress::new(false).start("", 1.0));
         let recorder = Recorder::new(&job, &interrupt, &bar).fingerprinted();
@@ -134,7 +123,8 @@ mod tests {
         let recorded = recorder.finish().unwrap();
         recorded.drafts.into_iter().for_each(|(name, draft)| folder.stage(name, draft).unwrap());
         folder.publish().unwrap();
-        let read = read(&job.folder.join(TRACE), &job.folder.join(EVENTS), &job.columns).unwrap();
+        let read =
+            read((&job.folder.join(TRACE), &job.folder.join(EVENTS)), &job.columns, &PlotName::ALL).unwrap();
         (recorded.kept, read)
     }
 
@@ -153,6 +143,7 @@ mod tests {
             let (kept, read) = kept_and_read(name, set);
             assert!(kept.series.time().windows(2).any(|t| t[0] == t[1]), "{name}: no shared moment");
             assert!(kept.series == read.series, "{name} {set:?}");
+            assert_eq!(kept.tracks, read.tracks, "{name} {set:?}");
             assert_eq!(kept.fingerprint(), read.fingerprint(), "{name} {set:?}");
         }
     }

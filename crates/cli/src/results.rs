@@ -10,7 +10,7 @@ use serde::Deserialize;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use stickslip_scenario::{Scenario, ScenarioError};
+use stickslip_scenario::{PlotName, Scenario, ScenarioError};
 use thiserror::Error;
 
 /// Results on disk.
@@ -39,14 +39,8 @@ pub(crate) enum ResultsError {
     #[error("{}: was changed after the run: its SHA-256 is not that of the summary beside it\n   help: run it again, or draw other pictures with --plots", .0.display())]
     Changed(PathBuf),
     /// A damaged table.
-    #[error(transparent)]
-    Table(FrameError),
-    /// A state of a contact that there is not.
-    #[error("{}:{line}  {column}: expected open, stick, partial or slip, got \"{}\"", .path.display(), .text.escape_debug())]
-    State { path: PathBuf, line: u64, column: String, text: String },
-    /// A table of another scenario.
-    #[error("{}:1  column {place}: expected {expected}, got {got}\n   help: the table is not of the scenario.json beside it, or of another version of the program; run the scenario again", .path.display())]
-    Column { path: PathBuf, place: usize, expected: String, got: String },
+    #[error("{source}{}", advice(.source))]
+    Table { source: FrameError },
     /// A table without rows.
     #[error("{}: has no rows", .0.display())]
     Empty(PathBuf),
@@ -66,10 +60,15 @@ struct Program {
 }
 
 impl Results {
-    /// Reads the results that [`run`](crate::run) wrote into a folder.
-    pub(crate) fn read(folder: &Path) -> Result<Self, ResultsError> {
-        let job = job(folder)?;
-        let kept = replay::read(&folder.join(TRACE), &folder.join(EVENTS), &job.columns)?;
+    /// Reads the results that [`run`](crate::run) wrote into a folder, with what pictures need: these, or where there are
+    /// none those of the scenario.
+    pub(crate) fn read(folder: &Path, plots: &[PlotName]) -> Result<Self, ResultsError> {
+        let mut job = job(folder)?;
+        if !plots.is_empty() {
+            job.scenario.plots = plots.to_vec();
+        }
+        let tables = (&*folder.join(TRACE), &*folder.join(EVENTS));
+        let kept = replay::read(tables, &job.columns, &job.scenario.plots)?;
         Ok(Self { job, kept })
     }
 
@@ -111,6 +110,17 @@ fn origin(path: &Path) -> Result<Option<Origin>, ResultsError> {
         },
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(source) => Err(ResultsError::Read { path: path.to_owned(), source }),
+    }
+}
+
+/// What to try with a table of other columns.
+fn advice(error: &FrameError) -> &'static str {
+    match error {
+        FrameError::Head { .. } => {
+            "\n   help: the table is not of the scenario.json beside it, or of another version of the program; run the \
+             scenario again"
+        }
+        _ => "",
     }
 }
 

@@ -9,6 +9,8 @@ pub(crate) struct Rows {
     path: PathBuf,
     reader: csv::Reader<File>,
     record: csv::StringRecord,
+    /// Line of the row, from 1.
+    line: u64,
 }
 
 impl Rows {
@@ -17,28 +19,36 @@ impl Rows {
         let csv = |source| FrameError::Csv { path: path.to_owned(), source };
         let mut reader = csv::Reader::from_path(path).map_err(csv)?;
         reader.headers().map_err(csv)?;
-        Ok(Self { path: path.to_owned(), reader, record: csv::StringRecord::new() })
-    }
-
-    /// The file.
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Names of the columns.
-    pub(crate) fn head(&mut self) -> Result<&csv::StringRecord, FrameError> {
-        self.reader.headers().map_err(|source| FrameError::Csv { path: self.path.clone(), source })
+        Ok(Self { path: path.to_owned(), reader, record: csv::StringRecord::new(), line: 1 })
     }
 
     /// Goes on to the next row; `false` after the last.
     pub(crate) fn advance(&mut self) -> Result<bool, FrameError> {
         let csv = |source| FrameError::Csv { path: self.path.clone(), source };
-        self.reader.read_record(&mut self.record).map_err(csv)
+        let is_there = self.reader.read_record(&mut self.record).map_err(csv)?;
+        if let (true, Some(position)) = (is_there, self.record.position()) {
+            self.line = position.line();
+        }
+        Ok(is_there)
     }
 
-    /// Line of the row, from 1.
-    pub(crate) fn line(&self) -> u64 {
-        self.record.position().map_or(0, csv::Position::line)
+    /// Fails where the columns are not these.
+    pub(crate) fn check_head(&mut self, names: &[&str]) -> Result<(), FrameError> {
+        let head =
+            self.reader.headers().map_err(|source| FrameError::Csv { path: self.path.clone(), source })?;
+        let differs = (0..names.len().max(head.len())).find(|&i| head.get(i) != names.get(i).copied());
+        let Some(place) = differs else { return Ok(()) };
+        let quoted = |name: Option<&str>| match name {
+            Some(name) => format!("\"{}\"", name.escape_debug()),
+            None => "nothing".to_owned(),
+        };
+        let (expected, got) = (quoted(names.get(place).copied()), quoted(head.get(place)));
+        Err(FrameError::Head { path: self.path.clone(), place: place + 1, expected, got })
+    }
+
+    /// What is wrong with the row; after the last, with that one.
+    pub(crate) fn fault(&self, message: String) -> FrameError {
+        FrameError::Content { path: self.path.clone(), line: self.line, message }
     }
 
     /// A cell; empty where there is no such column.
@@ -51,7 +61,7 @@ impl Rows {
         let text = self.text(column);
         text.parse().map_err(|_| FrameError::Number {
             path: self.path.clone(),
-            line: self.line(),
+            line: self.line,
             column: name.to_owned(),
             text: text.to_owned(),
         })

@@ -1,7 +1,7 @@
 //! One job from start to files.
 
 use crate::books::Books;
-use crate::figures;
+use crate::figures::{self, Sources};
 use crate::folder::Folder;
 use crate::insides::{MEMORY, SPRINGS};
 use crate::interrupt::Interrupt;
@@ -72,7 +72,8 @@ pub(crate) fn write(
     drafts.into_iter().try_for_each(|(name, draft)| folder.stage(name, draft))?;
     folder.write(SCENARIO, job.resolved.as_bytes())?;
     let mut summary = Summary::new(job, outcome);
-    for pictures in figures::draw(job, &outcome.kept, &job.scenario.plots, look) {
+    let (springs, memory) = (folder.place(SPRINGS), folder.place(MEMORY));
+    for pictures in figures::draw(&Sources { job, kept: &outcome.kept, springs, memory }, look) {
         match pictures {
             Ok(pictures) => pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?,
             Err(error) => summary.note(error.to_string()),

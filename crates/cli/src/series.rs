@@ -2,9 +2,13 @@
 
 use std::collections::HashMap;
 use stickslip_drive::Channel;
+use stickslip_scenario::PlotName;
 
 /// Quantities kept; the rest is in the tables only.
 const KEPT: [&str; 7] = ["time_s", "x_m", "vx_m_s", "u_m", "d_m", "fx_N", "fn_N"];
+
+/// Part that the energies of the whole belong to.
+pub(crate) const ENERGY: &str = "energy";
 
 /// Rows and the moments after events, in order of time: all are exact states of the run, and the turning points
 /// between two rows are among them.
@@ -22,10 +26,15 @@ struct Column {
 }
 
 impl Series {
-    /// An empty series of a model's channels.
-    pub(crate) fn new(channels: &[Channel]) -> Self {
-        let quantity = |name: &str| name.rsplit_once('.').map_or(name, |(_, quantity)| quantity).to_owned();
-        let kept = channels.iter().enumerate().filter(|(_, c)| KEPT.contains(&quantity(&c.name).as_str()));
+    /// An empty series of a model's channels; what only pictures need is kept for those in `plots`.
+    pub(crate) fn new(channels: &[Channel], plots: &[PlotName]) -> Self {
+        let with_energies = plots.contains(&PlotName::Energy);
+        let is_kept = |name: &str| match name.rsplit_once('.') {
+            Some((ENERGY, _)) if with_energies => true,
+            Some((_, quantity)) => KEPT.contains(&quantity),
+            None => KEPT.contains(&name),
+        };
+        let kept = channels.iter().enumerate().filter(|(_, channel)| is_kept(&channel.name));
         let (mut columns, mut places) = (Vec::new(), HashMap::new());
         for (place, channel) in kept {
             places.insert(channel.name.clone(), columns.len());
@@ -76,7 +85,7 @@ mod tests {
     fn a_column_is_found_by_part_and_quantity() {
         let names = ["time_s", "ball.state", "ball.u_m", "ball 2.u_m"];
         let channels = names.map(|name| Channel { name: name.to_owned(), is_state: false });
-        let mut series = Series::new(&channels);
+        let mut series = Series::new(&channels, &[]);
         series.push(&[0.0, 1.0, 2.0, 3.0]);
         assert_eq!((series.time(), series.column("ball", "u_m")), (&[0.0][..], &[2.0][..]));
         assert_eq!((series.column("ball 2", "u_m"), series.column("ball", "state")), (&[3.0][..], &[][..]));

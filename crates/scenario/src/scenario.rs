@@ -40,8 +40,9 @@ pub enum PlotName {
 }
 
 impl PlotName {
-    /// All that are drawn so far.
-    pub const ALL: [Self; 2] = [Self::Loop, Self::Trajectory];
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Loop, Self::Trajectory, Self::Energy, Self::Phase, Self::Events, Self::State, Self::Memory];
 
     /// The name in the file.
     pub fn name(self) -> &'static str {

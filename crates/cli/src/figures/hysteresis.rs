@@ -1,17 +1,18 @@
 //! Hysteresis loops of the contacts.
 
-use crate::contact_path::ContactPath;
+use crate::contact_path::contact_path;
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::look::{Pen, Picture};
 use crate::summary::periods;
+use crate::trail::Trail;
 use stickslip_plot::{HysteresisLoop, Ink, PlotError, loop_figure};
 use stickslip_scenario::PlotName;
 
 /// A curve in the figure of loops.
 struct Curve {
     name: String,
-    path: ContactPath,
+    path: Trail,
     gross_slip: Option<f64>,
     limit: Option<f64>,
     /// Stands behind the others.
@@ -27,8 +28,8 @@ pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>
         .iter()
         .map(|curve| HysteresisLoop {
             name: &curve.name,
-            u: &curve.path.u,
-            force: &curve.path.force,
+            u: &curve.path.x,
+            force: &curve.path.y,
             gross_slip: curve.gross_slip,
             limit: curve.limit,
         })
@@ -62,7 +63,7 @@ fn curves(job: &Job, kept: &Kept, c: usize) -> Vec<Curve> {
     let is_alone = job.model.contacts().count() == 1;
     let name = if count > 1 { format!("{name} × {count}") } else { name.to_owned() };
     let scale = job.model.contact_scale(c).filter(|_| job.has_constant_load(c));
-    let curve = |words: &str, path: ContactPath, is_muted: bool| Curve {
+    let curve = |words: &str, path: Trail, is_muted: bool| Curve {
         name: match (is_alone, words) {
             (_, "") => name.clone(),
             (true, words) => words.to_owned(),
@@ -73,7 +74,7 @@ fn curves(job: &Job, kept: &Kept, c: usize) -> Vec<Curve> {
         limit: scale.map(|(_, normal)| f64::from(count) * law.friction() * normal),
         is_muted,
     };
-    let path = ContactPath::of(job, c, &kept.series);
+    let path = contact_path(job, c, &kept.series);
     let Some(periods) = periods(job, c, kept.end()) else { return vec![curve("", path, false)] };
     let last = path.part(periods.last());
     if last.is_closed() {

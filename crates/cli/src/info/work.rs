@@ -73,7 +73,8 @@ impl Expected {
         // The grid strictly inside the run, and both its ends.
         let rows = plan.every.map_or(2.0, |every| (plan.duration / every - SAME).ceil().max(1.0) + 1.0);
         let columns = job.columns.len();
-        let kept = Series::new(&job.model.channels()).width() as f64 * (rows + events.total());
+        let series = Series::new(&job.model.channels(), &job.scenario.plots);
+        let kept = series.width() as f64 * (rows + events.total());
         let steps = match job.model.effective(plan.stepper) {
             Stepper::Verlet { step } | Stepper::Rk4 { step } => {
                 Some(Real((plan.duration / step - SAME).ceil()))

@@ -1,7 +1,7 @@
 //! Contacts, and the quantities of their last cycle.
 
 use super::Parts;
-use crate::contact_path::ContactPath;
+use crate::contact_path::contact_path;
 use crate::job::Job;
 use crate::periods::Periods;
 use crate::real::Real;
@@ -174,11 +174,11 @@ fn fretting(
     notes: &mut Vec<String>,
 ) -> Option<Fretting> {
     let (from, to) = periods(job, c, outcome.state.time())?.last();
-    let path = ContactPath::of(job, c, &outcome.kept.series).part((from, to));
+    let path = contact_path(job, c, &outcome.kept.series).part((from, to));
     if !path.is_closed() {
         return None;
     }
-    let cycle = match Cycle::of_loop(&path.u, &path.force) {
+    let cycle = match Cycle::of_loop(&path.x, &path.y) {
         Ok(cycle) => cycle,
         Err(error) => {
             notes.push(format!("{name}: no fretting quantities: {error}"));
