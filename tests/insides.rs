@@ -1,6 +1,6 @@
 //! What goes on inside the contacts: `springs.csv` and `memory.csv`.
 
-use crate::program::{Table, code, listing, run, run_example, scenario, stderr, summary};
+use crate::program::{Table, code, listing, number, run, run_example, scenario, stderr, summary};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -261,4 +261,27 @@ fn a_run_that_stops_leaves_its_looks() {
     assert!(trace.len() > 10);
     assert_eq!(springs, trace[..trace.len() - 1]);
     assert_eq!(curves, springs);
+}
+
+#[test]
+fn info_says_how_much_there_will_be() {
+    let out = tempdir().unwrap();
+    let springs = r#"output.springs={"count": 21, "every": "0.3 ms"}"#;
+    let set = ["run.duration=30 ms", springs, r#"output.memory={"every": "7 ms"}"#];
+    let folder = run_example("quickstart", out.path(), &set);
+    let arguments: Vec<&str> = set.iter().flat_map(|set| ["--set", *set]).collect();
+    let info = crate::info::info(&scenario("quickstart"), &arguments);
+    let lines = Table::read(&folder.join("springs.csv")).rows.len() as f64;
+    assert_eq!(number(&info, "/expected/spring_lines"), lines);
+    let size = std::fs::metadata(folder.join("springs.csv")).unwrap().len() as f64;
+    let ratio = number(&info, "/expected/springs_B") / size;
+    assert!((0.9..=1.1).contains(&ratio), "{ratio} of {size} B");
+    let table = Table::read(&folder.join("memory.csv"));
+    let mut curves = table.column("time_s");
+    curves.dedup();
+    assert_eq!(number(&info, "/expected/memory_curves"), curves.len() as f64);
+    let plain = crate::info::info(&scenario("quickstart"), &[]);
+    assert!(
+        plain["expected"].get("spring_lines").is_none() && plain["expected"].get("memory_curves").is_none()
+    );
 }

@@ -19,8 +19,6 @@ pub struct Model {
     /// Number of contacts whose force is a state while they grow.
     pub(crate) growing: usize,
     pub(crate) equilibrium: bool,
-    /// Largest indentation of each contact, m; not above 0 for one that is never pressed.
-    pub(crate) deepest: Vec<f64>,
 }
 
 /// Where a position comes from.
@@ -211,8 +209,8 @@ impl Model {
 
     /// Largest width 2a of contact `index`, m; 0 for one that is never pressed.
     pub fn contact_width(&self, index: usize) -> Option<f64> {
-        let (contact, deepest) = (self.contacts.get(index)?, self.deepest.get(index)?);
-        Some(2.0 * contact.law.profile().radius(*deepest))
+        let deepest = self.indentations(index)?.most;
+        self.contacts.get(index).map(|contact| 2.0 * contact.law.profile().radius(deepest))
     }
 
     /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.

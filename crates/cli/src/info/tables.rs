@@ -93,6 +93,8 @@ impl Info {
             _ => stepping.stepper.to_owned(),
         };
         let stable = |step: Option<Real>| step.map(|step| format!("below {}", quantity(step, "s")));
+        let of_springs =
+            |(lines, size): (Real, Real)| format!("{} lines, about {}", whole(lines.0), bytes(size));
         let events = &expected.events;
         let per_period = events
             .per_period
@@ -113,6 +115,8 @@ impl Info {
                 "trace.csv, events.csv",
                 Some(format!("about {}, {}", bytes(expected.trace), bytes(expected.events_file))),
             ),
+            ("springs.csv", expected.spring_lines.zip(expected.springs_file).map(of_springs)),
+            ("memory.csv", expected.memory_curves.map(|curves| format!("{} curves", whole(curves.0)))),
             ("memory", Some(format!("about {}", bytes(expected.memory)))),
         ];
         let rows = rows.into_iter().filter_map(|(label, cell)| Some(vec![label.to_owned(), cell?]));

@@ -9,6 +9,8 @@ use stickslip_drive::Stepper;
 
 /// Bytes of a number with its comma in a table: 13.9 to 19.7 on the examples.
 const BYTES_PER_VALUE: f64 = 19.0;
+/// Bytes of a line of `springs.csv`: 67.9 and 68.6 on the examples.
+const BYTES_PER_SPRING: f64 = 68.0;
 /// What the program takes by itself, its pictures included, B.
 const BASE: f64 = 20e6;
 /// Memory over what is kept: growing lists, and the copies that become figures. 1.56 with a million rows.
@@ -46,6 +48,14 @@ pub(super) struct Expected {
     pub(super) trace: Real,
     #[serde(rename = "events_B")]
     pub(super) events_file: Real,
+    /// Lines of `springs.csv`, and its size.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) spring_lines: Option<Real>,
+    #[serde(rename = "springs_B", skip_serializing_if = "Option::is_none")]
+    pub(super) springs_file: Option<Real>,
+    /// Curves in `memory.csv`; an open contact has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) memory_curves: Option<Real>,
     #[serde(rename = "memory_B")]
     pub(super) memory: Real,
 }
@@ -81,8 +91,16 @@ impl Expected {
             }
             Stepper::Event { .. } | Stepper::Dopri5 { .. } => None,
         };
+        let springs: usize = job.grids.iter().flatten().map(|grid| grid.count()).sum();
+        let spring_lines =
+            job.scenario.springs.as_ref().map(|asked| springs as f64 * asked.moments.count(plan.duration));
+        let contacts = job.scenario.scene.contacts.len() as f64;
+        let curves = job.scenario.memory.as_ref().map(|asked| contacts * asked.moments.count(plan.duration));
         Self {
             steps,
+            spring_lines: spring_lines.map(Real),
+            springs_file: spring_lines.map(|lines| Real(lines * BYTES_PER_SPRING)),
+            memory_curves: curves.map(Real),
             rows: Real(rows),
             columns,
             trace: Real(rows * columns as f64 * BYTES_PER_VALUE),

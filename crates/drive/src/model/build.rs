@@ -37,7 +37,7 @@ impl Model {
         let loads = loads(scene, &bodies, &mut free);
         scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
         let equilibrium = scene.start == Start::Equilibrium;
-        Ok(Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium, deepest })
+        Ok(Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium })
     }
 }
 
