@@ -219,7 +219,7 @@ fn errors_of_a_scene_name_the_key_that_is_wrong() {
             s.contacts[0].part.profile = Profile::sphere(1e-6).unwrap();
             s.contacts[0].part.normal = Normal::Force(Varying::Constant(100.0));
         }),
-        ("contacts.ball.engine", |s| {
+        ("contacts.ball.engine.springs.count", |s| {
             s.contacts[0].part.engine = EngineChoice::Springs { count: 0, span: None };
         }),
         ("contacts.ball.start.force", |s| s.contacts[0].part.start = ContactStart::Force(0.2)),
