@@ -2,6 +2,7 @@
 
 use crate::program::{code, listing, stderr, stdout, stickslip};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 use tempfile::tempdir;
 
 /// Where the messages beside the files were written: their places are named from here.
@@ -20,17 +21,24 @@ fn each_broken_file_ends_with_its_message_and_leaves_nothing() {
     let before = listing(&home().join("tests/bad"));
     let names = names("tests/bad");
     assert!(names.len() >= 190);
+    let mut times = Vec::new();
     for name in names {
         let file = format!("tests/bad/{name}.json");
         let results = out.path().join("results");
+        let begun = Instant::now();
         let output =
             stickslip().current_dir(home()).args(["run", &file, "--out"]).arg(&results).output().unwrap();
+        times.push(begun.elapsed());
         let expected = std::fs::read_to_string(home().join(format!("tests/bad/{name}.txt"))).unwrap();
         assert_eq!(stderr(&output), expected, "{name}");
         assert_eq!((code(&output), stdout(&output)), (2, String::new()), "{name}");
         assert!(!results.exists(), "{name}");
     }
     assert_eq!(listing(&home().join("tests/bad")), before);
+    // From a typo to the message, the start of the program included: the median, for machines with more to do.
+    times.sort();
+    let median = times[times.len() / 2];
+    assert!(median < Duration::from_millis(50), "{median:?}");
 }
 
 #[test]

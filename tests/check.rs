@@ -111,6 +111,39 @@ fn machines_get_a_line_of_json_per_file() {
 }
 
 #[test]
+fn what_is_odd_is_good_and_said() {
+    let folder = tempdir().unwrap();
+    broken(folder.path(), "\"bodies\": {", "\"bodies\": { \"wall\": {},");
+    let odd = "mine.json:10:15  bodies.wall: no contact, spring, actuator or load names this body\n";
+    let output = check(folder.path(), &["mine.json"]);
+    assert_eq!((code(&output), stdout(&output)), (0, "mine.json: ok\n".to_owned()));
+    assert!(stderr(&output).starts_with(&format!("warning: {odd}")), "{}", stderr(&output));
+    assert_eq!(stderr(&check(folder.path(), &["-q", "mine.json"])), "");
+    let output = check(folder.path(), &["--json", "mine.json"]);
+    let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!((code(&output), &line["ok"], line.get("error")), (0, &true.into(), None));
+    let warning = &line["warnings"][0];
+    assert_eq!((&warning["line"], &warning["column"]), (&10.into(), &15.into()));
+    assert_eq!((&warning["path"], warning.get("table")), (&"bodies.wall".into(), None));
+}
+
+#[test]
+fn a_broken_table_is_named_to_machines() {
+    let folder = tempdir().unwrap();
+    broken(
+        folder.path(),
+        "{ \"sawtooth\": { \"stroke\": \"200 nm\", \"period\": \"10 ms\", \"flyback\": \"10 us\" } }",
+        "{ \"table\": { \"file\": \"t.csv\", \"time\": \"t\", \"value\": \"x\" } }",
+    );
+    std::fs::write(folder.path().join("t.csv"), "t,x\n0,0\n1,far\n").unwrap();
+    let output = check(folder.path(), &["--json", "mine.json"]);
+    let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let error = &line["error"];
+    assert_eq!((&line["file"], &error["table"]), (&"mine.json".into(), &"t.csv".into()));
+    assert_eq!((&error["line"], &error["column"], &error["width"]), (&3.into(), &3.into(), &3.into()));
+}
+
+#[test]
 fn the_schema_is_printed_as_it_lies_in_its_folder() {
     let output = stickslip().arg("schema").output().unwrap();
     let copy = scenario("p1").parent().unwrap().join("../schema/scenario-1.json");

@@ -134,7 +134,7 @@ pub(crate) struct CheckArguments {
     /// Print one line of JSON per file, also of the bad ones, to stdout
     #[arg(long)]
     pub(crate) json: bool,
-    /// Errors only
+    /// Errors only, no warnings
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

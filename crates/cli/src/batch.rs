@@ -4,7 +4,7 @@ use crate::arguments::RunArguments;
 use crate::interrupt::Interrupt;
 use crate::job::{Job, Refusal};
 use crate::progress::Progress;
-use crate::report::Report;
+use crate::report::{Report, warn};
 use crate::run::run as run_job;
 use crate::verdict::Verdict;
 use rayon::prelude::*;
@@ -50,7 +50,7 @@ fn prepare(arguments: &RunArguments) -> Vec<Result<Job, Refusal>> {
     let prepare = |file: &PathBuf| {
         let job = Job::prepare(file, &arguments.set, &arguments.out)?;
         if !arguments.quiet {
-            warn(&job);
+            warn(&job.scenario);
         }
         match taken.insert(job.folder.clone(), file.clone()) {
             None => Ok(job),
@@ -58,13 +58,6 @@ fn prepare(arguments: &RunArguments) -> Vec<Result<Job, Refusal>> {
         }
     };
     arguments.files.iter().map(prepare).collect()
-}
-
-/// Says what is odd about a scenario. Nobody listening is no reason to stop.
-fn warn(job: &Job) {
-    for warning in &job.scenario.warnings {
-        let _ = writeln!(std::io::stderr(), "warning: {warning}");
-    }
 }
 
 /// Prints reports in the order of the files, whichever is ready first.

@@ -2,10 +2,12 @@
 
 use crate::arguments::CheckArguments;
 use crate::job::{Job, Refusal};
+use crate::report::warn;
 use crate::verdict::Verdict;
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
+use stickslip_scenario::Report;
 
 /// What is found of a file, for machines.
 #[derive(Debug, Serialize)]
@@ -14,11 +16,17 @@ struct Finding<'a> {
     ok: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Fault>,
+    /// What is allowed and probably not meant.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<Fault>,
 }
 
 /// What is wrong, and where. Lines and columns count from 1, columns in characters.
 #[derive(Debug, Default, Serialize)]
 struct Fault {
+    /// The table that line and column count in, where one is to blame that the scenario names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table: Option<String>,
     /// The argument of `--set` that line and column count in, where one is to blame.
     #[serde(rename = "override", skip_serializing_if = "Option::is_none")]
     assignment: Option<String>,
@@ -40,43 +48,56 @@ struct Fault {
 pub(crate) fn check(arguments: &CheckArguments) -> Verdict {
     let mut worst = Verdict::Done;
     for file in &arguments.files {
-        let refusal = Job::prepare(file, &arguments.set, Path::new("")).err();
-        if refusal.is_some() {
+        let job = Job::prepare(file, &arguments.set, Path::new(""));
+        if job.is_err() {
             worst = Verdict::BadInput;
         }
-        tell(arguments, file, refusal.as_ref());
+        tell(arguments, file, &job);
     }
     worst
 }
 
 /// A closed pipe does not change what was found.
-fn tell(arguments: &CheckArguments, file: &Path, refusal: Option<&Refusal>) {
+fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
     let mut stdout = std::io::stdout();
     if arguments.json {
-        let finding = Finding { file, ok: refusal.is_none(), error: refusal.map(Fault::of) };
+        let odd = job.as_ref().map_or(&[][..], |job| &job.scenario.warnings);
+        let finding = Finding {
+            file,
+            ok: job.is_ok(),
+            error: job.as_ref().err().map(|refusal| Fault::of(refusal, file)),
+            warnings: odd.iter().map(|warning| Fault::at(warning, file)).collect(),
+        };
         // A path that is not Unicode is the only thing that JSON has no words for.
         let line = serde_json::to_string(&finding);
-        let _ = writeln!(stdout, "{}", line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", refusal.is_none())));
+        let _ = writeln!(stdout, "{}", line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", job.is_ok())));
         return;
     }
-    match refusal {
-        Some(refusal) => {
+    match job {
+        Err(refusal) => {
             let _ = writeln!(std::io::stderr(), "{refusal}");
         }
-        None if arguments.quiet => {}
-        None => {
+        Ok(_) if arguments.quiet => {}
+        Ok(job) => {
+            warn(&job.scenario);
             let _ = writeln!(stdout, "{}: ok", file.display());
         }
     }
 }
 
 impl Fault {
-    fn of(refusal: &Refusal) -> Self {
-        let Refusal::Scenario(report) = refusal else {
-            return Self { message: refusal.to_string(), ..Self::default() };
-        };
+    fn of(refusal: &Refusal, file: &Path) -> Self {
+        match refusal {
+            Refusal::Scenario(error) => Self::at(error, file),
+            other => Self { message: other.to_string(), ..Self::default() },
+        }
+    }
+
+    fn at(report: &Report, file: &Path) -> Self {
         let excerpt = report.excerpt.as_ref();
+        let elsewhere = !report.is_override && Path::new(&report.file) != file;
         Self {
+            table: elsewhere.then(|| report.file.clone()),
             assignment: report.is_override.then(|| report.file.clone()),
             line: excerpt.map(|e| e.line),
             column: excerpt.map(|e| e.column),

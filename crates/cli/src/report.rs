@@ -5,8 +5,9 @@ use crate::real::Real;
 use crate::run::Outcome;
 use crate::summary::{Status, Summary};
 use crate::verdict::Verdict;
-use std::io;
+use std::io::{self, Write};
 use stickslip_analysis::Prefix;
+use stickslip_scenario::Scenario;
 
 /// A spread below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
@@ -21,6 +22,13 @@ pub(crate) struct Report {
     pub(crate) json: String,
     /// On stderr.
     pub(crate) error: String,
+}
+
+/// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
+pub(crate) fn warn(scenario: &Scenario) {
+    for warning in &scenario.warnings {
+        let _ = writeln!(io::stderr(), "warning: {warning}");
+    }
 }
 
 impl Report {

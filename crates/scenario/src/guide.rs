@@ -88,9 +88,10 @@ impl Guide {
 
     /// The schemas that a schema refers to as a whole: the one of its type, and those of its kinds.
     fn parts<'a>(&'a self, schema: &'a Value) -> impl Iterator<Item = &'a Value> {
-        let named = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix('#'));
+        let name = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
+        let named = name.and_then(|name| self.root.get("$defs")?.get(name));
         let kinds = ["oneOf", "anyOf"].into_iter().filter_map(|key| schema.get(key)?.as_array()).flatten();
-        named.and_then(|pointer| self.root.pointer(pointer)).into_iter().chain(kinds)
+        named.into_iter().chain(kinds)
     }
 
     /// Whether a list may stand here.

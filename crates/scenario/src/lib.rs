@@ -2,12 +2,16 @@
 //!
 //! [`Scenario::load`] makes a [`Scene`](stickslip_drive::Scene) and a [`Plan`](stickslip_drive::Plan) of a file. The
 //! form of the file and its meaning are two sets of types with one conversion between them, which does all checking.
-//! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept.
+//! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept. The first
+//! error ends the reading: what follows one is too often its consequence. What is allowed and odd is a warning, of which
+//! a [`Scenario`] carries several.
 //!
-//! In reading order: `syntax` (strict JSON, limits, duplicate keys) and `place` (the index) under `document`;
-//! `overrides` (`--set`); `units` and `quantity`; `form` (what may stand where, with the docs that become the schema)
-//! and `refusal` (what serde says about it, in our words); `tables` (files named by the scenario); `meaning` (the
-//! conversion); `resolved` (canonical JSON); `pairing` (what contacts are made of); `schema`.
+//! In reading order: `text` (bytes that are text), `syntax` (strict JSON, limits, duplicate keys, what people write
+//! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
+//! stand where, with the docs that become the schema), `refusal` (what serde says about it, in our words) and `shape`
+//! (what serde lets pass); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
+//! (canonical JSON); `pairing` (what contacts are made of); `schema`, and `guide`, which answers from it.
+//! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
 mod document;
 mod error;

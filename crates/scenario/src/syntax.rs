@@ -87,7 +87,10 @@ fn check_outline(text: &str, origin: &Origin) -> Result<(), Fault> {
             _ => {}
         }
     }
-    Ok(())
+    match string {
+        Some(_) => Err(origin.slipped(slip::quote_missing(text, text.len()))),
+        None => Ok(()),
+    }
 }
 
 fn parse<'a>(text: &'a str, origin: &Origin) -> Result<ast::Value<'a>, Fault> {

@@ -2,14 +2,17 @@
 
 use super::{Meaning, motion};
 use crate::fault::Fault;
-use crate::form::{Form, FreedomForm, Parts, RunStartForm};
+use crate::form::{Form, FreedomForm, Parts, RunStartForm, WaveformForm};
 use crate::path::{At, KeyPath};
 use std::collections::HashSet;
+use std::f64::consts::TAU;
 use stickslip_drive::Scene;
 use stickslip_drive::scene::{ContactStart, Freedom, Normal, Side, Varying};
 
 /// Young's moduli between the softest gels and more than diamond, Pa.
 const MODULUS: (f64, f64) = (1e3, 2e12);
+/// Phases of more than one turn are degrees without their unit, rad.
+const TURN: f64 = TAU * (1.0 + 1e-9);
 /// More than the coefficient of friction of rubber on clean glass.
 const FRICTION: f64 = 4.0;
 
@@ -23,6 +26,7 @@ pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -
     odd.idle_links();
     odd.run();
     odd.waveforms_too_late();
+    odd.phases();
     odd.found
 }
 
@@ -187,6 +191,28 @@ impl Oddities<'_> {
                 let message = format!("this waveform starts at {delay} s, when the run is over");
                 self.found
                     .push(at.key(name).fault(message).on_key().help("run longer, or shorten its delay"));
+            }
+        }
+    }
+
+    /// Phases in degrees that lack their unit.
+    fn phases(&mut self) {
+        let root = At::ROOT;
+        let at = root.key("waveforms");
+        for (name, waveform) in self.form.waveforms.iter() {
+            let (kind, periodic) = match waveform {
+                WaveformForm::Sawtooth(form) => ("sawtooth", form.periodic()),
+                WaveformForm::Triangle(form) => ("triangle", form.periodic()),
+                WaveformForm::Sine(form) => ("sine", form.periodic()),
+                WaveformForm::Harmonics(form) => ("harmonics", form.periodic()),
+                WaveformForm::Cycloid(form) => ("cycloid", form.periodic()),
+                _ => continue,
+            };
+            let (at, phase) = (at.key(name), periodic.phase.si);
+            if phase.abs() > TURN {
+                let at = at.key(kind);
+                let fault = at.key("phase").fault(format!("{phase} rad is more than a whole turn"));
+                self.found.push(fault.help("a bare number is in rad; for degrees write \"90 deg\""));
             }
         }
     }

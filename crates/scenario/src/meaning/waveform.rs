@@ -187,7 +187,14 @@ fn refused(at: &At<'_>, error: &WaveformError) -> Fault {
     let message = error.to_string();
     let plain =
         message.strip_prefix(error.key()).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
-    at.key(error.key()).fault(plain)
+    let at = at.key(error.key());
+    match (error, plain.split_once(", got ")) {
+        // As it stands in the file: 1e308 has 309 digits.
+        (WaveformError::Number { key, .. }, Some((wanted, _))) if *key != "points" => {
+            at.fault(wanted).with_value().ask(Help::Meaning)
+        }
+        _ => at.fault(plain),
+    }
 }
 
 fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values) -> Result<Shape, Fault> {

@@ -41,8 +41,9 @@ pub(super) fn at_character(text: &str, at: usize) -> Option<Slip> {
         '“' | '”' | '„' | '«' | '»' | '‘' | '’' | '`' | '´' | '＂' => {
             slip(range, "strings stand in plain double quotes", format!("write \"text\" without {c}"))
         }
+        '(' | ')' => slip(range, "round brackets have no meaning here", "lists stand in [ ], objects in { }"),
         '\u{2212}' | '\u{2013}' => slip(range, "this is no minus sign", "write -"),
-        c if is_invisible(c) || (c.is_whitespace() && !c.is_ascii()) => slip(
+        c if is_invisible(c) || (c.is_whitespace() && !c.is_ascii()) || is_stray(c) => slip(
             range,
             format!("an invisible character, U+{:04X}", c as u32),
             "delete it; only plain blanks, tabs and line ends stand between values",
@@ -52,6 +53,11 @@ pub(super) fn at_character(text: &str, at: usize) -> Option<Slip> {
         }
         _ => return None,
     })
+}
+
+/// A control character that is not one of JSON's blanks.
+fn is_stray(c: char) -> bool {
+    c.is_control() && !matches!(c, '\t' | '\n' | '\r')
 }
 
 /// A number with something JSON does not allow, or with a unit.
@@ -71,8 +77,8 @@ fn at_number(text: &str, at: usize) -> Option<Slip> {
         let help = format!("write \"{}\"", shown(whole));
         return Some(slip(range, "a quantity with a unit stands in double quotes", help));
     }
-    if has_digit(before) && here == '/' {
-        return Some(slip(range, "a fraction is no number here", "write a decimal number"));
+    if has_digit(before) && matches!(here, '/' | '*' | '^') {
+        return Some(slip(range, "a calculation is no number here", "write its result as a decimal number"));
     }
     if before == "0" && here.is_ascii_digit() {
         let plain = whole.trim_start_matches('0');
@@ -130,11 +136,14 @@ fn at_bracket(text: &str, at: usize, kind: &ParseErrorKind) -> Option<Slip> {
         '}' | ']' | ',' if before.ends_with(':') => {
             Some(slip(at..at + 1, "a value is missing here", "write \"key\": value"))
         }
-        ',' => Some(slip(
-            at..at + 1,
-            "a value is missing before this comma",
-            "entries are separated by one comma",
-        )),
+        ':' if list => {
+            let help = "a ] is missing before this, or the list is an object { }";
+            Some(slip(at..at + 1, "a colon inside a list", help))
+        }
+        ',' if !matches!(kind, ParseErrorKind::ExpectedColonAfterObjectKey) => {
+            let help = "entries are separated by one comma";
+            Some(slip(at..at + 1, "a value is missing before this comma", help))
+        }
         _ => None,
     }
 }
@@ -238,6 +247,9 @@ fn wording(text: &str, range: Range<usize>, kind: &ParseErrorKind) -> Slip {
         }
         ParseErrorKind::String(_) if text[range.start..].starts_with('\\') => {
             ("a backslash with nothing to stand for", "write \\\\ for a backslash; texts need none")
+        }
+        ParseErrorKind::UnexpectedTokenInObject => {
+            ("expected a key", "write \"key\": value; entries without keys stand in [ ]")
         }
         ParseErrorKind::UnterminatedCommentBlock => {
             ("comments are not allowed", "remarks fit into \"title\"")

@@ -90,10 +90,12 @@ fn spelt_out(plain: &str) -> Option<(&'static str, Kind)> {
     })
 }
 
-/// The only unit with the same letters in another case or with other blanks: "khz", "Ns/m".
+/// The only unit with the same letters in another case or with other blanks: "khz", "Ns/m". Between m and M lie nine
+/// orders of magnitude: that is not guessed.
 fn same_letters(plain: &str, kind: Option<Kind>) -> Option<&'static str> {
     let folded = |text: &str| text.replace([' ', '.', '-'], "").to_lowercase();
-    only(symbols(kind).filter(|symbol| folded(symbol) == folded(plain)))
+    let large = |text: &str| text.starts_with('M');
+    only(symbols(kind).filter(|symbol| folded(symbol) == folded(plain) && large(symbol) == large(plain)))
 }
 
 /// The only unit one slip away; in units of one or two letters every other one is.
@@ -145,6 +147,7 @@ mod tests {
     fn other_units_are_not_guessed() {
         assert_eq!(advice("cm", Some(Kind::Length)), "units here: nm, um, mm, m");
         assert_eq!(advice("N/nm", Some(Kind::Stiffness)), "units here: N/m, N/mm, N/um, kN/m");
+        assert_eq!(advice("MN", Some(Kind::Force)), "units here: uN, mN, N, kN");
         assert_eq!(advice("M", Some(Kind::Force)), "units here: uN, mN, N, kN");
         assert_eq!(
             advice("grams", Some(Kind::Length)),
