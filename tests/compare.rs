@@ -308,7 +308,7 @@ fn runs_at_different_tolerances_agree_within_what_they_promise() {
     let pair = Pair::quickstart();
     let (code, found) = compare(&pair.a, &b, &[]);
     assert_eq!((code, &found["tolerance"]["relative"]), (0, &json!(1e-6)));
-    let (code, found) = compare(&pair.a, &b, &["--tolerance", "1e-10"]);
+    let (code, found) = compare(&pair.a, &b, &["--tolerance", "1e-13"]);
     assert_eq!(code, 1);
     assert!(differing(&found).contains(&"slider.x_m"));
 }

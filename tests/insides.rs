@@ -247,8 +247,12 @@ fn a_plot_asks_for_its_table_and_old_tables_go() {
 #[test]
 fn a_run_that_stops_leaves_its_looks() {
     let out = tempdir().unwrap();
-    let set =
-        ["run.limits.steps=500", "output.springs={\"count\": 3}", "output.memory={\"every\": \"10 us\"}"];
+    let set = [
+        "run.limits.steps=200",
+        "run.duration=25 ms",
+        "output.springs={\"count\": 3}",
+        "output.memory={\"every\": \"10 us\"}",
+    ];
     let output = run(&scenario("quickstart"), out.path(), &set);
     assert_eq!(code(&output), 3, "{}", stderr(&output));
     let folder = out.path().join("quickstart");

@@ -11,6 +11,7 @@ mod info_tables;
 mod insides;
 mod new;
 mod pictures;
+mod planar;
 mod program;
 mod refusals;
 mod repro;

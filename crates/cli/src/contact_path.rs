@@ -9,7 +9,7 @@ use stickslip_drive::{Stepper, Waveform};
 /// Samples between the limit forces of one sign and the other.
 const FINENESS: f64 = 128.0;
 
-/// The way of contact `c`, all identical contacts together. The law has no time in it: between two samples on one
+/// The way of contact `c`, all identical contacts together. Without damping the law has no time in it: between two samples on one
 /// branch the force follows from the way alone, and all turning points are events. So under a constant load the contact
 /// is walked once more through the samples, and asked in between. Elsewhere the samples stand alone.
 pub(crate) fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
@@ -19,7 +19,7 @@ pub(crate) fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
     let turns_known = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
     match job.start.memories().get(c) {
-        Some(memory) if turns_known && !jumps && job.has_constant_load(c) => {
+        Some(memory) if turns_known && !jumps && job.has_law_without_time(c) => {
             let d = d.first().copied().unwrap_or(0.0);
             refined(&samples, law, memory.clone(), (d, f64::from(job.count(c))))
         }

@@ -105,7 +105,7 @@ fn needs(job: &Job, plot: PlotName) -> Vec<String> {
     };
     match plot {
         PlotName::Loop => contacts(&["u_m", "d_m", "fx_N"]),
-        PlotName::Trajectory => [bodies(moving(job), &["x_m"]), contacts(&["u_m"])].concat(),
+        PlotName::Trajectory => [trajectory::needs(job), contacts(&["u_m"])].concat(),
         PlotName::Energy => energy::COLUMNS.map(|quantity| format!("{ENERGY}.{quantity}")).to_vec(),
         PlotName::Phase => bodies(phase::bodies(job), &["x_m", "vx_m_s"]),
         PlotName::Events | PlotName::State | PlotName::Memory => Vec::new(),
@@ -114,6 +114,6 @@ fn needs(job: &Job, plot: PlotName) -> Vec<String> {
 
 /// Names of the bodies that move.
 fn moving(job: &Job) -> Vec<&str> {
-    let moving = job.scenario.scene.bodies.iter().filter(|body| body.part.x != Freedom::Fixed);
+    let moving = job.scenario.scene.bodies.iter().filter(|body| body.part.x.freedom != Freedom::Fixed);
     moving.map(|body| body.name.as_str()).collect()
 }

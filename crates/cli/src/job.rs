@@ -102,6 +102,28 @@ impl Job {
             Normal::Force(load) | Normal::Indentation(load) | Normal::Radius(load) => {
                 matches!(load, Constant(_))
             }
+            Normal::Coupled => false,
+        })
+    }
+
+    /// Whether the force of contact `c` follows from the way of its bodies along the slide alone.
+    pub(crate) fn has_law_without_time(&self, c: usize) -> bool {
+        let damping = self.scenario.scene.contacts.get(c).map_or(0.0, |contact| contact.part.damping);
+        self.has_constant_load(c) && damping == 0.0
+    }
+
+    /// Whether the bodies' motion presses contact `c`.
+    pub(crate) fn is_coupled(&self, c: usize) -> bool {
+        self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.normal == Normal::Coupled)
+    }
+
+    /// Gross-slip displacement u_c (m) and normal force (N) of one contact of `c` at t = 0: in equilibrium, if the run
+    /// starts there.
+    pub(crate) fn contact_scale(&self, c: usize) -> (f64, f64) {
+        let contact = self.model.contacts().zip(self.start.memories()).nth(c);
+        contact.map_or((0.0, 0.0), |((_, law), memory)| {
+            let d = memory.apex().d;
+            (law.gross_slip_displacement(d), law.normal_force(d))
         })
     }
 

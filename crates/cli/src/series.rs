@@ -5,7 +5,8 @@ use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
 
 /// Quantities kept; the rest is in the tables only.
-const KEPT: [&str; 7] = ["time_s", "x_m", "vx_m_s", "u_m", "d_m", "fx_N", "fn_N"];
+const KEPT: [&str; 11] =
+    ["time_s", "x_m", "vx_m_s", "z_m", "vz_m_s", "pitch_rad", "vpitch_rad_s", "u_m", "d_m", "fx_N", "fn_N"];
 
 /// Part that the energies of the whole belong to.
 pub(crate) const ENERGY: &str = "energy";

@@ -66,7 +66,7 @@ impl Front {
 
 impl Curve {
     /// Knots kept by default; a free decay adds two per period, for ever.
-    pub const DEFAULT_CAPACITY: usize = 4096;
+    pub const DEFAULT_CAPACITY: usize = 16_384;
 
     /// The untouched contact: open or just touching (d ≤ 0) or pressed with unstretched springs (d > 0).
     pub fn new(law: &Interface, at: Apex) -> Self {

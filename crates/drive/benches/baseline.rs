@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::time::Instant;
 use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, EngineChoice, Freedom, Named, Normal, Scene, Side, Varying,
+    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Scene, Side, Varying,
 };
 use stickslip_drive::{Event, Limits, Model, Plan, Record, Shape, Stepper, Timing, Waveform, run};
 
@@ -109,13 +109,16 @@ fn named<T>(name: &str, part: T) -> Named<T> {
 fn p1() -> Scene {
     let steel = Material::new(YOUNG, POISSON).unwrap();
     let shape = Shape::Sawtooth { stroke: STROKE, flyback: 0.1e-3 };
-    let body = |mass, x| Body { mass, x, start_x: 0.0, start_vx: 0.0 };
+    let body = |mass, x| Body { mass, x, ..Body::default() };
     let contact = Contact {
         between: [Side::Body(0), Side::Body(1)],
+        at: [Point::default(); 2],
         pair: Pair::new(steel, steel),
         profile: Profile::paraboloid(RADIUS).unwrap(),
         friction: FRICTION,
         normal: Normal::Force(Varying::Constant(FORCE)),
+        gap: 0.0,
+        damping: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,
@@ -123,8 +126,8 @@ fn p1() -> Scene {
     Scene {
         waveforms: vec![named("drive", Waveform::new(shape, Timing::every(1e-3)).unwrap())],
         bodies: vec![
-            named("foot", body(None, Freedom::Follows(0))),
-            named("slider", body(Some(MASS), Freedom::Free)),
+            named("foot", body(None, Coordinate::follows(0))),
+            named("slider", body(Some(MASS), Coordinate::FREE)),
         ],
         contacts: vec![named("ball", contact)],
         ..Scene::default()

@@ -5,7 +5,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, EngineChoice, Freedom, Named, Normal, Scene, Side, Varying,
+    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Scene, Side, Varying,
 };
 use stickslip_drive::{Event, Limits, Model, Plan, Record, Shape, Stepper, Timing, Waveform, run};
 
@@ -17,13 +17,16 @@ fn named<T>(name: &str, part: T) -> Named<T> {
 fn p1() -> Scene {
     let steel = Material::new(210e9, 0.3).unwrap();
     let shape = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 };
-    let body = |mass, x| Body { mass, x, start_x: 0.0, start_vx: 0.0 };
+    let body = |mass, x| Body { mass, x, ..Body::default() };
     let contact = Contact {
         between: [Side::Body(0), Side::Body(1)],
+        at: [Point::default(); 2],
         pair: Pair::new(steel, steel),
         profile: Profile::paraboloid(1e-3).unwrap(),
         friction: 0.15,
         normal: Normal::Force(Varying::Constant(1.0)),
+        gap: 0.0,
+        damping: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,
@@ -31,8 +34,8 @@ fn p1() -> Scene {
     Scene {
         waveforms: vec![named("drive", Waveform::new(shape, Timing::every(1e-3)).unwrap())],
         bodies: vec![
-            named("foot", body(None, Freedom::Follows(0))),
-            named("slider", body(Some(0.02), Freedom::Free)),
+            named("foot", body(None, Coordinate::follows(0))),
+            named("slider", body(Some(0.02), Coordinate::FREE)),
         ],
         contacts: vec![named("ball", contact)],
         ..Scene::default()

@@ -1,10 +1,10 @@
 //! The equations of motion, evaluated on borrowed memory.
 
-use crate::model::{Contact, Motion, Place, Press, Stroke};
+use crate::model::{Contact, Link, Measure, Motion, Place, Press, Stroke};
 use crate::state::{Layout, Mode, State};
 use crate::{Model, Piece, Sample};
-use stickslip_contact::{Branch, Memory};
-use stickslip_stepper::System;
+use stickslip_contact::{Branch, Memory, Move};
+use stickslip_stepper::{Conservative, System};
 
 /// How far beyond a piece, in its lengths, a step that may cross corners still counts as on it.
 const CORNER_SLACK: f64 = 1e-9;
@@ -52,34 +52,65 @@ impl Equations<'_> {
         waveform.sample(piece, t)
     }
 
-    /// Position and velocity of a place; `y` reads a component.
-    #[inline(always)]
-    pub(crate) fn place(&self, place: Place, t: f64, y: impl Fn(usize) -> f64) -> (f64, f64) {
+    /// A coordinate and its rate.
+    pub(crate) fn place(&self, place: Place, t: f64, y: impl Fn(usize) -> f64) -> [f64; 2] {
         match place {
-            Place::Held(x) => (x, 0.0),
-            Place::Free(i) => (y(i), y(self.layout.velocity(i))),
+            Place::Held(x) => [x, 0.0],
+            Place::Free(i) => [y(i), y(self.layout.velocity(i))],
             Place::Driven(w) => {
                 let sample = self.sample(w, t);
-                (sample.value, sample.rate)
+                [sample.value, sample.rate]
             }
         }
+    }
+
+    /// A measure at time t; `y` reads a component.
+    #[inline(always)]
+    pub(crate) fn read(&self, measure: &Measure, t: f64, y: impl Fn(usize) -> f64) -> Reading {
+        let (mut own, mut rate) = (0.0, 0.0);
+        for &(i, a) in &measure.free {
+            own += a * y(i);
+            rate += a * y(self.layout.velocity(i));
+        }
+        let (mut followed, mut driven) = (0.0, 0.0);
+        for &(w, a) in &measure.driven {
+            let sample = self.sample(w, t);
+            followed += a * sample.value;
+            driven += a * sample.rate;
+        }
+        // Two bodies far from their start may be close to each other: their difference first.
+        Reading { value: measure.constant + (own + followed), rate: rate + driven, driven }
+    }
+
+    /// Second derivative of a measure, m/s²; `free` gives that of a free coordinate.
+    pub(crate) fn acceleration(&self, measure: &Measure, t: f64, free: impl Fn(usize) -> f64) -> f64 {
+        let followed = measure.driven.iter().map(|(w, a)| a * self.sample(*w, t).acceleration);
+        measure.free.iter().map(|(i, a)| a * free(*i)).sum::<f64>() + followed.sum::<f64>()
     }
 
     /// Motion of a contact; `y` reads a component.
     #[inline]
     pub(crate) fn motion(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
-        let ends = (self.place(contact.first, t, &y), self.place(contact.second, t, &y));
-        self.relative(contact, t, ends)
+        let u = self.read(&contact.u, t, &y);
+        let (d, dd) = match contact.coupling() {
+            Some(measure) => {
+                let d = self.read(measure, t, &y);
+                (d.value, d.rate)
+            }
+            None => self.pressed(contact, t),
+        };
+        Motion { d, u: u.value, dd, du: u.rate }
     }
 
-    /// Motion of a contact from position and velocity of its two sides.
+    /// Prescribed indentation and its rate.
     #[inline(always)]
-    fn relative(&self, contact: &Contact, t: f64, ((x1, v1), (x2, v2)): ((f64, f64), (f64, f64))) -> Motion {
-        let (d, dd) = match contact.press {
-            Press::Constant { d, .. } => (d, 0.0),
-            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(self.sample(w, t)),
-        };
-        Motion { d, u: x1 - x2 - contact.offset, dd, du: v1 - v2 }
+    fn pressed(&self, contact: &Contact, t: f64) -> (f64, f64) {
+        match &contact.press {
+            Press::Constant { d, .. } => (*d, 0.0),
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(self.sample(*w, t)),
+            // The bodies say.
+            Press::Coupled(_) => (0.0, 0.0),
+        }
     }
 
     /// F_x of one contact, N, under its decreed law.
@@ -89,12 +120,13 @@ impl Equations<'_> {
         match &self.modes[c] {
             Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => self.dragged(c, branch, motion).0,
             Mode::Slip(branch) => {
-                let area = match contact.press {
-                    Press::Constant { area, .. } => area,
+                let area = match &contact.press {
+                    Press::Constant { area, .. } => *area,
                     _ => contact.law.profile().area(motion.d),
                 };
                 branch.force(&contact.law, motion.d, motion.u, area)
             }
+            Mode::Whole { .. } if contact.inert => 0.0,
             Mode::Whole { .. } => self.whole(c, motion),
             Mode::Grow => contact.slot.map_or(0.0, |slot| y(self.layout.force(slot))),
             Mode::Open => 0.0,
@@ -125,6 +157,20 @@ impl Equations<'_> {
         }
     }
 
+    /// Stiffness of the springs that stick, N/m: what carries a contact's own damping.
+    pub(crate) fn stuck_stiffness(&self, c: usize, motion: &Motion) -> f64 {
+        let law = &self.model.contacts[c].law;
+        match &self.modes[c] {
+            Mode::Open => 0.0,
+            Mode::Grow => law.stick_stiffness(motion.d),
+            Mode::Slip(branch) if branch.is_gross() => 0.0,
+            Mode::Slip(branch) => {
+                law.stick_stiffness(self.front(c, branch, motion).clamp(0.0, motion.d.max(0.0)))
+            }
+            Mode::Whole { .. } => self.memories[c].trial(law, Move::Chord(motion.apex())).stiffness,
+        }
+    }
+
     /// Slopes of the extra components of a growing contact: Ḟ = G\*m(d)u̇ and Ė = Fu̇ in full stick, friction power
     /// where an edge drags. `extra` begins after the velocities.
     #[inline(never)]
@@ -148,49 +194,93 @@ impl Equations<'_> {
         extra[self.layout.friction(slot) - from] = friction;
     }
 
+    /// A measure without the rates of free coordinates.
     #[inline(always)]
-    fn contacts(&self, sides: &Sides<'_>, y: &[f64], sum: &mut Sum<'_>, extra: &mut [f64]) {
+    fn place_of(&self, measure: &Measure, t: f64, x: &[f64]) -> Reading {
+        let own: f64 = measure.free.iter().map(|(i, a)| a * x[*i]).sum();
+        let (mut followed, mut driven) = (0.0, 0.0);
+        for &(w, a) in &measure.driven {
+            let sample = self.sample(w, t);
+            followed += a * sample.value;
+            driven += a * sample.rate;
+        }
+        Reading { value: measure.constant + (own + followed), rate: driven, driven }
+    }
+
+    /// Forces of all contacts; `read` reads measures, `y` components.
+    #[inline(always)]
+    fn contacts(
+        &self,
+        t: f64,
+        read: impl Fn(&Measure) -> Reading,
+        y: impl Fn(usize) -> f64,
+        sum: &mut Sum<'_>,
+        extra: &mut [f64],
+    ) {
         for (c, contact) in self.model.contacts.iter().enumerate() {
-            let (first, second) = (sides.of(contact.first), sides.of(contact.second));
-            let force = match (&self.modes[c], contact.press) {
+            let u = read(&contact.u);
+            let force = match (&self.modes[c], &contact.press) {
                 // What nearly all evaluations of nearly all scenes are.
-                (Mode::Slip(branch), Press::Constant { d, area }) => {
-                    branch.force(&contact.law, d, first.0 - second.0 - contact.offset, area)
+                (Mode::Slip(branch), Press::Constant { d, area }) if contact.damping == 0.0 => {
+                    branch.force(&contact.law, *d, u.value, *area)
                 }
-                _ => self.contact(c, sides.t, (first, second), y, extra),
+                (_, press) => {
+                    let (d, dd) = match press {
+                        Press::Coupled(measure) => {
+                            let d = read(measure);
+                            sum.apply(measure, &d, -contact.count * contact.law.normal_force(d.value));
+                            (d.value, d.rate)
+                        }
+                        _ => self.pressed(contact, t),
+                    };
+                    self.contact(c, &Motion { d, u: u.value, dd, du: u.rate }, &y, sum, extra)
+                }
             };
-            let force = contact.count * force;
-            sum.apply(contact.first, first.1, -force);
-            sum.apply(contact.second, second.1, force);
+            sum.apply(&contact.u, &u, -contact.count * force);
         }
     }
 
     /// Any contact in any mode: F_x of one, and the slopes of its extra components.
     #[inline(never)]
-    fn contact(&self, c: usize, t: f64, ends: ((f64, f64), (f64, f64)), y: &[f64], extra: &mut [f64]) -> f64 {
+    fn contact(
+        &self,
+        c: usize,
+        motion: &Motion,
+        y: &impl Fn(usize) -> f64,
+        sum: &mut Sum<'_>,
+        extra: &mut [f64],
+    ) -> f64 {
         let contact = &self.model.contacts[c];
-        let motion = self.relative(contact, t, ends);
-        let force = self.force(c, &motion, |i| y[i]);
+        let force = self.force(c, motion, y);
         if let (Some(slot), true) = (contact.slot, self.layout.growing > 0) {
-            self.grow(c, slot, &motion, force, extra);
+            self.grow(c, slot, motion, force, extra);
         }
-        force
+        if contact.damping == 0.0 {
+            return force;
+        }
+        let damping = contact.damping * self.stuck_stiffness(c, motion);
+        sum.damping += contact.count * damping * motion.du * motion.du;
+        force + damping * motion.du
     }
 
     #[inline(never)]
-    fn links(&self, sides: &Sides<'_>, sum: &mut Sum<'_>) {
+    fn links(&self, t: f64, read: impl Fn(&Measure) -> Reading, sum: &mut Sum<'_>) {
         for link in &self.model.links {
-            let ((x1, v1), (x2, v2)) = (sides.of(link.first), sides.of(link.second));
-            let stroke = match link.stroke {
-                Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },
-                Stroke::Driven(w) => self.sample(w, sides.t),
-            };
-            let (stretch, rate) = (stroke.value - (x2 - x1), stroke.rate - (v2 - v1));
+            let elongation = read(&link.elongation);
+            let stroke = self.stroke(link, t);
+            let (stretch, rate) = (stroke.value - elongation.value, stroke.rate - elongation.rate);
             let force = link.stiffness * stretch + link.damping * rate;
-            sum.apply(link.first, v1, -force - link.preload);
-            sum.apply(link.second, v2, force + link.preload);
+            sum.apply(&link.elongation, &elongation, force + link.preload);
             sum.input += force * stroke.rate;
             sum.damping += link.damping * rate * rate;
+        }
+    }
+
+    /// Free stroke of a link.
+    pub(crate) fn stroke(&self, link: &Link, t: f64) -> Sample {
+        match link.stroke {
+            Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },
+            Stroke::Driven(w) => self.sample(w, t),
         }
     }
 }
@@ -210,55 +300,54 @@ impl System for Equations<'_> {
 
     fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
         let layout = self.layout;
-        let (x, rest) = y.split_at(layout.free);
-        let v = &rest[..layout.free];
-        let sides = Sides { equations: self, t, x, v };
+        let v = &y[layout.free..2 * layout.free];
         let (dx, rest) = dy.split_at_mut(layout.free);
         let (dv, extra) = rest.split_at_mut(layout.free);
-        let mut input = 0.0;
-        for (((free, v), dx), dv) in self.model.free.iter().zip(v).zip(dx).zip(dv.iter_mut()) {
-            *dx = *v;
-            *dv = free.force;
-            input += free.force * v;
-        }
-        let mut sum = Sum { dv, input, damping: 0.0 };
-        self.contacts(&sides, y, &mut sum, extra);
+        dx.copy_from_slice(v);
+        let mut sum = Sum::new(self.model, dv);
+        let read = |measure: &Measure| self.read(measure, t, |i| y[i]);
+        self.contacts(t, read, |i| y[i], &mut sum, extra);
         if !self.model.links.is_empty() {
-            self.links(&sides, &mut sum);
+            self.links(t, read, &mut sum);
         }
         for load in &self.model.loads {
-            let force = self.sample(load.waveform, t).value;
+            let force = load.arm * self.sample(load.waveform, t).value;
             sum.dv[load.free] += force;
             sum.input += force * v[load.free];
         }
-        for (free, dv) in self.model.free.iter().zip(sum.dv.iter_mut()) {
-            *dv *= free.mobility;
-        }
+        let (input, damping) = sum.accelerate(self.model);
         let growing = layout.growing;
-        (extra[growing], extra[growing + 1]) = (sum.input, sum.damping);
+        (extra[growing], extra[growing + 1]) = (input, damping);
     }
 }
 
-/// Positions and velocities at one moment.
-struct Sides<'a> {
-    equations: &'a Equations<'a>,
-    t: f64,
-    x: &'a [f64],
-    v: &'a [f64],
-}
+impl Conservative for Equations<'_> {
+    fn positions(&self) -> usize {
+        self.layout.free
+    }
 
-impl Sides<'_> {
-    #[inline(always)]
-    fn of(&self, place: Place) -> (f64, f64) {
-        match place {
-            Place::Held(x) => (x, 0.0),
-            Place::Free(i) => (self.x[i], self.v[i]),
-            Place::Driven(w) => {
-                let sample = self.equations.sample(w, self.t);
-                (sample.value, sample.rate)
-            }
+    fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]) {
+        let (dv, extra) = out.split_at_mut(self.layout.free);
+        let mut sum = Sum::new(self.model, dv);
+        let read = |measure: &Measure| self.place_of(measure, t, x);
+        self.contacts(t, read, |_| 0.0, &mut sum, &mut []);
+        if !self.model.links.is_empty() {
+            self.links(t, read, &mut sum);
         }
+        let (input, damping) = sum.accelerate(self.model);
+        (extra[0], extra[1]) = (input, damping);
     }
+}
+
+/// A measure at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Reading {
+    /// m.
+    pub(crate) value: f64,
+    /// m/s.
+    pub(crate) rate: f64,
+    /// The part of the rate that followers make, m/s.
+    driven: f64,
 }
 
 /// Forces on the free coordinates, and powers, as they add up.
@@ -268,15 +357,29 @@ struct Sum<'a> {
     damping: f64,
 }
 
-impl Sum<'_> {
-    /// Adds a force on a place that moves with velocity v. What drives a follower supplies the opposite force: its
-    /// power is input.
-    #[inline(always)]
-    fn apply(&mut self, place: Place, v: f64, force: f64) {
-        match place {
-            Place::Held(_) => {}
-            Place::Free(i) => self.dv[i] += force,
-            Place::Driven(_) => self.input -= force * v,
+impl<'a> Sum<'a> {
+    fn new(model: &Model, dv: &'a mut [f64]) -> Self {
+        for (dv, free) in dv.iter_mut().zip(&model.free) {
+            *dv = free.force;
         }
+        Self { dv, input: 0.0, damping: 0.0 }
+    }
+
+    /// From forces to accelerations; gives the powers.
+    #[inline(always)]
+    fn accelerate(self, model: &Model) -> (f64, f64) {
+        for (dv, free) in self.dv.iter_mut().zip(&model.free) {
+            *dv *= free.mobility;
+        }
+        (self.input, self.damping)
+    }
+
+    /// Adds a force along a measure. What drives its followers supplies the opposite force: its power is input.
+    #[inline(always)]
+    fn apply(&mut self, measure: &Measure, reading: &Reading, force: f64) {
+        for &(i, a) in &measure.free {
+            self.dv[i] += a * force;
+        }
+        self.input -= force * reading.driven;
     }
 }

@@ -1,20 +1,27 @@
 //! The start of a run: given, or the static equilibrium under what acts at t = 0.
+//!
+//! The loads are put on in proportion, and the contacts remember the way: which of them slips hangs on it. A body that
+//! is drawn above what will hold it is first set down by a millionth of its loads.
+
+mod balance;
+mod statics;
 
 use crate::equations::Equations;
-use crate::model::{Contact, Model, Place, Stroke};
+use crate::model::Model;
 use crate::record;
+use crate::scene::Axis;
 use crate::state::State;
 use crate::{Plan, SceneError, Stepper};
-use nalgebra::{DMatrix, DVector};
-use stickslip_contact::{Apex, Move, Segment};
+use balance::{Balance, Search};
+use nalgebra::DVector;
+use stickslip_contact::Segment;
 
-/// Parts in which the loads are put on where several coordinates share them: the order in which contacts slip
-/// matters then.
+/// Parts in which the loads are put on where several coordinates share them.
 const PARTS: u32 = 64;
 /// Most free coordinates whose equilibrium is sought: the work grows with the cube of their number, seconds for these.
 const MOST: usize = 200;
-/// Most iterations of Newton's method for one part of the loads.
-const ITERATIONS: u32 = 200;
+/// Share of the loads that sets the bodies down: what the contacts remember of the way through the air is as small.
+const LANDING: f64 = 1e-6;
 
 impl Model {
     /// The state at t = 0 of a plan's run.
@@ -37,8 +44,9 @@ impl Model {
         if self.equilibrium && !self.free.is_empty() {
             self.settle(&mut state)?;
         }
-        let varying = self.contacts.iter().filter(|c| !c.is_constant());
-        state.jumps = -varying.map(|c| c.count * c.law.normal_energy(self.indentation(c, 0.0))).sum::<f64>();
+        let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());
+        state.jumps = -varying.map(|c| c.count * c.law.normal_energy(self.indentation(c))).sum::<f64>()
+            - self.lifted(|i| state.y[i]);
         let mut row = Vec::new();
         record::fill(&self.equations(&state), &state, 0.0, &|i| state.y[i], &mut row);
         // The books' error at t = 0 is minus what is stored: that is where they start.
@@ -75,126 +83,96 @@ impl Model {
         for i in 0..n {
             state.y[self.layout().velocity(i)] = 0.0;
         }
-        let initial = self.forces(state, &state.y).0;
-        let parts = if n == 1 { 1 } else { PARTS };
-        for part in 1..=parts {
-            let missing = &initial * (1.0 - f64::from(part) / f64::from(parts));
-            self.balance(state, &missing)?;
-            let apexes: Vec<Apex> = self.apexes(state, &state.y);
-            for ((contact, memory), to) in self.contacts.iter().zip(&mut state.memories).zip(apexes) {
-                // Finite: the solution has been checked.
-                let _ = memory.commit(&contact.law, Segment::Straight(to));
+        let initial = self.statics(state, &state.y).net;
+        let alone = n == 1 && self.contacts.iter().all(|c| c.coupling().is_none());
+        let parts = if alone { 1 } else { PARTS };
+        let landing = (!alone).then_some(LANDING);
+        let mut reached = false;
+        for share in landing.into_iter().chain((1..=parts).map(|k| f64::from(k) / f64::from(parts))) {
+            let missing = &initial * (1.0 - share);
+            let balance = self.balance(state, &missing, &state.y, &vec![false; n]);
+            if balance.holds {
+                self.stand(state, &balance)?;
+            } else if share == 1.0 {
+                let balance = self.released(state)?;
+                self.stand(state, &balance)?;
+            } else if !reached {
+                // A part of the loads may not yet press a body against what holds it in the end.
+                self.released(state)?;
+                reached = true;
             }
         }
         Ok(())
     }
 
-    /// Newton's method with halved steps for forces = missing.
-    fn balance(&self, state: &mut State, missing: &DVector<f64>) -> Result<(), SceneError> {
+    /// The balance nearest to y with some forces still missing and some coordinates held.
+    fn balance(&self, state: &State, missing: &DVector<f64>, y: &[f64], held: &[bool]) -> Balance {
+        Search { model: self, state, missing, held }.from(y)
+    }
+
+    /// Takes over a balance: the contacts go there on straight paths.
+    fn stand(&self, state: &mut State, balance: &Balance) -> Result<(), SceneError> {
+        let apexes = self.apexes(state, &balance.y);
+        for ((contact, memory), to) in self.contacts.iter().zip(&mut state.memories).zip(apexes) {
+            memory.commit(&contact.law, Segment::Straight(to)).map_err(|e| {
+                let path = format!("contacts.{}.engine", contact.name);
+                SceneError::new(path, format!("in static equilibrium {e}"))
+                    .help("give the row a longer span, or use the engine \"curve\"")
+            })?;
+        }
+        state.y.clone_from(&balance.y);
+        Ok(())
+    }
+
+    /// The balance under all loads, found by letting go of one coordinate after the other: first those along z, which
+    /// set the normal forces, then those along x, which live on friction, then pitch.
+    fn released(&self, state: &State) -> Result<Balance, SceneError> {
         let n = self.free.len();
-        let mut y = state.y.clone();
-        let (forces, mut stiffness) = self.forces(state, &y);
-        let mut residual = forces - missing;
-        for _ in 0..ITERATIONS {
-            let Some(step) =
-                stiffness.clone().lu().solve(&residual).filter(|s| s.iter().all(|x| x.is_finite()))
-            else {
-                return if residual.amax() == 0.0 { Ok(()) } else { Err(self.no_equilibrium(&residual)) };
-            };
-            let mut share = 1.0;
-            let (norm, mut better) = (self.size(&residual), false);
-            while share > 1e-10 && !better {
-                let trial: Vec<f64> =
-                    y.iter().enumerate().map(|(i, x)| if i < n { x + share * step[i] } else { *x }).collect();
-                let (forces, tangent) = self.forces(state, &trial);
-                let rest = forces - missing;
-                better = self.size(&rest) < norm;
-                if better {
-                    (y, residual, stiffness) = (trial, rest, tangent);
+        let (nothing, mut held) = (DVector::zeros(n), vec![true; n]);
+        let mut balance = self.balance(state, &nothing, &state.y, &held);
+        for axis in [Axis::Z, Axis::X, Axis::Pitch] {
+            let along: Vec<usize> = (0..n).filter(|i| self.free[*i].axis == axis).collect();
+            for &i in &along {
+                held[i] = false;
+                let next = self.balance(state, &nothing, &balance.y, &held);
+                if !next.holds {
+                    along.iter().for_each(|i| held[*i] = false);
+                    return Err(self.lost(state, &balance.y, held, (i, &along)));
                 }
-                share *= 0.5;
-            }
-            if !better || residual.amax() == 0.0 {
-                break;
+                balance = next;
             }
         }
-        if self.size(&residual) > 1e-9 {
-            return Err(self.no_equilibrium(&residual));
-        }
-        state.y = y;
-        Ok(())
+        Ok(balance)
     }
 
-    /// Largest residual in units of what contacts and springs can hold and what presses on each body.
-    fn size(&self, residual: &DVector<f64>) -> f64 {
-        let unit = |i: usize| {
-            let here = Place::Free(i);
-            let on = self.contacts.iter().filter(|c| c.first == here || c.second == here);
-            let limit = |d: f64, c: &Contact| c.count * c.law.friction() * c.law.normal_force(d);
-            let contacts: f64 = on.map(|c| limit(self.indentation(c, 0.0), c)).sum();
-            let at = self.links.iter().filter(|l| l.first == here || l.second == here);
-            let links: f64 = at.map(|l| l.stiffness * self.free[i].scale.0 + l.preload.abs()).sum();
-            (contacts + links + self.free[i].force.abs()).max(f64::MIN_POSITIVE)
+    /// Names the coordinate without an equilibrium: one of those `along` an axis without which all others are in
+    /// balance, or else the `first` that could not be let go of.
+    fn lost(
+        &self,
+        state: &State,
+        y: &[f64],
+        mut held: Vec<bool>,
+        (first, along): (usize, &[usize]),
+    ) -> SceneError {
+        let nothing = DVector::zeros(held.len());
+        let gone = self.balance(state, &nothing, y, &held);
+        let mut without = |i: usize, y: &[f64]| {
+            held[i] = true;
+            let others = self.balance(state, &nothing, y, &held);
+            held[i] = false;
+            others
         };
-        residual.iter().enumerate().map(|(i, r)| r.abs() / unit(i)).fold(0.0, f64::max)
-    }
-
-    fn no_equilibrium(&self, residual: &DVector<f64>) -> SceneError {
-        let (worst, force) =
-            residual.iter().enumerate().fold(
-                (0, 0.0),
-                |worst: (usize, f64), (i, r)| {
-                    if r.abs() > worst.1.abs() { (i, *r) } else { worst }
-                },
-            );
-        let name = &self.bodies[self.free[worst].body].name;
-        let message = format!("`{name}` has no static equilibrium along x: {force:.3e} N stay unbalanced");
+        let place = along.iter().copied().find(|i| without(*i, y).holds).unwrap_or(first);
+        // Held where it went when nothing held it.
+        let unbalanced = without(place, &gone.y).residual[place];
+        let name = &self.bodies[self.free[place].body].name;
+        let (way, unit) = match self.free[place].axis {
+            Axis::X => ("along x", "N"),
+            Axis::Z => ("along z", "N"),
+            Axis::Pitch => ("in pitch", "N m"),
+        };
+        let message =
+            format!("`{name}` has no static equilibrium {way}: {unbalanced:.3e} {unit} stay unbalanced");
         SceneError::new("run.start", message).help("lower the load, press harder, or start from rest instead")
-    }
-
-    fn apexes(&self, state: &State, y: &[f64]) -> Vec<Apex> {
-        let eq = self.equations(state);
-        self.contacts.iter().map(|c| eq.motion(c, 0.0, |i| y[i]).apex()).collect()
-    }
-
-    /// Static forces on the free coordinates, N, and the stiffness matrix -∂F/∂x, N/m.
-    fn forces(&self, state: &State, y: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
-        let n = self.free.len();
-        let eq = self.equations(state);
-        let mut forces = DVector::from_iterator(n, self.free.iter().map(|f| f.force));
-        let mut stiffness = DMatrix::zeros(n, n);
-        let mut add = |first: Place, second: Place, force: f64, k: f64| {
-            let ends = [(first, -1.0), (second, 1.0)];
-            for (place, sign) in ends {
-                let Place::Free(i) = place else { continue };
-                forces[i] += sign * force;
-                for (other, partner) in ends {
-                    if let Place::Free(j) = other {
-                        stiffness[(i, j)] += sign * partner * k;
-                    }
-                }
-            }
-        };
-        for ((contact, memory), to) in self.contacts.iter().zip(&state.memories).zip(self.apexes(state, y)) {
-            let response = memory.trial(&contact.law, Move::Chord(to));
-            add(
-                contact.first,
-                contact.second,
-                contact.count * response.force,
-                contact.count * response.stiffness,
-            );
-        }
-        for link in &self.links {
-            let stroke = match link.stroke {
-                Stroke::Constant(s) => s,
-                Stroke::Driven(w) => eq.sample(w, 0.0).value,
-            };
-            let length = eq.place(link.second, 0.0, |i| y[i]).0 - eq.place(link.first, 0.0, |i| y[i]).0;
-            add(link.first, link.second, link.stiffness * (stroke - length) + link.preload, link.stiffness);
-        }
-        for load in &self.loads {
-            forces[load.free] += eq.sample(load.waveform, 0.0).value;
-        }
-        (forces, stiffness)
     }
 }

@@ -35,7 +35,8 @@ impl Guard {
     /// The guards of a contact in a mode.
     pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {
         match (mode, contact.is_constant()) {
-            _ if contact.inert => &[],
+            _ if contact.inert && contact.coupling().is_none() => &[],
+            (Mode::Whole { .. }, false) if contact.inert => &[Self::Contact],
             (Mode::Open, true) => &[],
             (Mode::Open, false) => &[Self::Gap],
             (Mode::Grow, _) => &[Self::Lower, Self::Upper, Self::Contact],
@@ -72,12 +73,26 @@ impl Guard {
         }
     }
 
+    /// Its rate, from the motion and its second derivatives (d̈, ü), where the bodies alone move the contact.
+    pub(crate) fn rate(self, contact: &Contact, mode: &Mode, at: &Motion, (bend, pull): (f64, f64)) -> f64 {
+        let slope = contact.law.stick_slope();
+        match (self, mode) {
+            (Self::Drag, Mode::Whole { sense }) => sense * pull,
+            (Self::Drag, _) => mode.sense() * pull - slope * bend,
+            (Self::Piece | Self::Side, _) => slope * at.dd - mode.sense() * at.du,
+            (Self::Lower, _) => slope * bend - pull,
+            (Self::Upper, _) => slope * bend + pull,
+            (Self::Contact, _) => at.dd,
+            (Self::Gap, _) => -at.dd,
+        }
+    }
+
     /// How far below zero a guard must fall to count, and how near to zero it counts as there.
     pub(crate) fn bands(self, contact: &Contact, tolerance: f64) -> (f64, f64) {
         let unit = match self {
             Self::Drag | Self::Lower | Self::Upper => contact.natural_velocity(),
-            Self::Piece | Self::Side => contact.natural.0,
-            Self::Contact | Self::Gap => contact.natural.0 / contact.law.stick_slope().max(1e-9),
+            Self::Piece | Self::Side => contact.natural.displacement,
+            Self::Contact | Self::Gap => contact.natural.depth,
         };
         (DEADBAND * unit, (NEARNESS * tolerance).max(2.0 * DEADBAND) * unit)
     }

@@ -8,8 +8,9 @@
 //! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its small motions, [`Linearised`]; [`State`]; the
 //! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down.
 //!
-//! Coordinates are displacements along the slide, in SI. Free normal motion and pitch are not modelled yet:
-//! they enter as further coordinates of [`scene::Body`] and a further [`scene::Normal`].
+//! Coordinates are x, z and the small pitch of each body, displacements from the position drawn, in SI: free, fixed or
+//! following a waveform. Where no force hangs on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere
+//! Dormand and Prince's of order 8.
 
 mod equations;
 mod equilibrium;

@@ -1,7 +1,6 @@
 //! Small motions: the equations of motion linearised with all contacts stuck, M ẍ + C ẋ + K x = 0.
 
-use crate::model::Place;
-use crate::{Model, Sample, Stepper};
+use crate::{Model, Sample, State, Stepper};
 use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};
 use std::f64::consts::SQRT_2;
 
@@ -50,38 +49,48 @@ pub struct NormalMode {
 type Row = Vec<(usize, f64)>;
 
 impl Model {
-    /// Indentations of contact `index` over all time; a table's beyond the end of the run count, too.
-    pub fn indentations(&self, index: usize) -> Option<Indentations> {
-        let contact = self.contacts.get(index)?;
-        let start = self.indentation(contact, 0.0);
+    /// Indentations of contact `index` over all time, from a state at t = 0 on; a table's beyond the end of the run count,
+    /// too. Of a coupled contact the largest is an expectation: what the loads and motions at the start can press.
+    pub fn indentations(&self, state: &State, index: usize) -> Option<Indentations> {
+        let (contact, start) = (self.contacts.get(index)?, state.memories().get(index)?.apex().d);
         let Some(waveform) = contact.press.waveform() else {
-            return Some(Indentations { least: start, start, most: start });
+            // A coupled contact leaves its bodies, or goes as deep as its natural scale expects.
+            let coupled = contact.coupling().is_some();
+            let (least, most) =
+                if coupled { (start.min(0.0), contact.natural.depth.max(start)) } else { (start, start) };
+            return Some(Indentations { least, start, most });
         };
         let at = |value| contact.pressed(Sample { value, rate: 0.0, acceleration: 0.0 }).0;
         let (low, high) = self.waveforms[waveform].range();
         Some(Indentations { least: at(low), start, most: at(high) })
     }
 
-    /// The motions about a state in which all contacts stick, each at the indentation (m) that `depth` picks.
-    pub fn linearised(&self, depth: impl Fn(&Indentations) -> f64) -> Linearised {
+    /// The motions about a `state` in which all contacts stick, each at the indentation (m) that `depth` picks.
+    pub fn linearised(&self, state: &State, depth: impl Fn(&Indentations) -> f64) -> Linearised {
         let n = self.free.len();
-        let name = |i: usize| format!("{}.x", self.bodies[self.free[i].body].name);
+        let name = |i: usize| format!("{}.{}", self.bodies[self.free[i].body].name, self.free[i].axis.key());
         let mut linearised = Linearised {
             coordinates: (0..n).map(name).collect(),
-            contacts: self.contacts.iter().map(|c| relative(c.first, c.second)).collect(),
+            contacts: self.contacts.iter().map(|c| c.u.free.clone()).collect(),
             mass: DVector::from_iterator(n, self.free.iter().map(|f| f.mass)),
             damping: DMatrix::zeros(n, n),
             stiffness: DMatrix::zeros(n, n),
         };
         for link in &self.links {
-            let row = relative(link.first, link.second);
-            add(&mut linearised.stiffness, &row, link.stiffness);
-            add(&mut linearised.damping, &row, link.damping);
+            let row = &link.elongation.free;
+            add(&mut linearised.stiffness, row, link.stiffness);
+            add(&mut linearised.damping, row, link.damping);
         }
-        for (c, contact) in self.contacts.iter().enumerate().filter(|(_, contact)| !contact.inert) {
-            let d = self.indentations(c).map_or(0.0, |d| depth(&d));
-            let stiffness = contact.count * contact.law.stick_stiffness(d);
-            add(&mut linearised.stiffness, &linearised.contacts[c], stiffness);
+        for (c, contact) in self.contacts.iter().enumerate() {
+            let d = self.indentations(state, c).map_or(0.0, |d| depth(&d));
+            if !contact.inert {
+                let stiffness = contact.count * contact.law.stick_stiffness(d);
+                add(&mut linearised.stiffness, &linearised.contacts[c], stiffness);
+                add(&mut linearised.damping, &linearised.contacts[c], contact.damping * stiffness);
+            }
+            if let Some(normal) = contact.coupling() {
+                add(&mut linearised.stiffness, &normal.free, contact.count * contact.law.normal_stiffness(d));
+            }
         }
         linearised
     }
@@ -91,32 +100,32 @@ impl Model {
     /// None where neither is free.
     pub fn contact_resonance(&self, index: usize, d: f64) -> Option<f64> {
         let contact = self.contacts.get(index)?;
-        let row = relative(contact.first, contact.second);
-        let mobility: f64 = row.iter().map(|(i, share)| share * share * self.free[*i].mobility).sum();
+        let mobility = contact.u.mobility(|i| self.free[i].mobility);
         let stiffness = if contact.inert { 0.0 } else { contact.count * contact.law.stick_stiffness(d) };
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
+    }
+
+    /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
+    pub(crate) fn fastest(&self) -> f64 {
+        let stiffest = self.linearised(&self.rest(), |d| d.most);
+        let frequency = stiffest.highest_frequency();
+        if stiffest.damping.amax() == 0.0 {
+            return frequency;
+        }
+        let rates = stiffest.rates(if frequency > 0.0 { frequency } else { 1.0 });
+        rates.iter().map(|rate| rate.norm()).fold(frequency, f64::max)
     }
 
     /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get; infinite where
     /// nothing swings. None for steppers that choose their steps.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
-        let stiffest = || self.linearised(|d| d.most);
+        let stiffest = || self.linearised(&self.rest(), |d| d.most);
         match stepper {
             Stepper::Verlet { .. } => Some(stiffest().longest_verlet_step()),
             Stepper::Rk4 { .. } => Some(stiffest().longest_rk4_step()),
             Stepper::Event { .. } | Stepper::Dopri5 { .. } => None,
         }
     }
-}
-
-/// x(first) - x(second) in the free coordinates.
-fn relative(first: Place, second: Place) -> Row {
-    let ends = [(first, 1.0), (second, -1.0)];
-    let free = ends.into_iter().filter_map(|(place, sign)| match place {
-        Place::Free(i) => Some((i, sign)),
-        Place::Held(_) | Place::Driven(_) => None,
-    });
-    free.collect()
 }
 
 /// Adds what a spring or damper along a row does to the coordinates.

@@ -2,8 +2,16 @@
 
 mod build;
 mod check;
+mod contact;
+mod dampers;
+mod held;
+mod measure;
+mod reach;
 mod scale;
 
+pub(crate) use measure::Measure;
+
+use crate::scene::Axis;
 use crate::{Sample, Waveform};
 use stickslip_contact::{Apex, Engine, Interface};
 
@@ -21,10 +29,10 @@ pub struct Model {
     pub(crate) equilibrium: bool,
 }
 
-/// Where a position comes from.
+/// Where a coordinate comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
-    /// Stays at this x, m.
+    /// Stays here, m or rad.
     Held(f64),
     /// A free coordinate.
     Free(usize),
@@ -36,21 +44,24 @@ pub(crate) enum Place {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Body {
     pub(crate) name: String,
-    pub(crate) place: Place,
+    /// Its x, z and pitch.
+    pub(crate) places: [Place; 3],
 }
 
 /// A free coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Free {
     pub(crate) body: usize,
-    /// kg.
+    pub(crate) axis: Axis,
+    /// Mass, kg, or moment of inertia, kg m².
     pub(crate) mass: f64,
-    /// 1/kg.
+    /// Its inverse.
     pub(crate) mobility: f64,
-    /// Gravity and constant loads, N.
+    /// Gravity and constant loads, N or N m.
     pub(crate) force: f64,
+    /// Where it starts and how fast.
     pub(crate) start: (f64, f64),
-    /// Natural scales of position and velocity, m and m/s.
+    /// Natural scales of position and velocity, m and m/s or rad and rad/s.
     pub(crate) scale: (f64, f64),
 }
 
@@ -58,10 +69,8 @@ pub(crate) struct Free {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Contact {
     pub(crate) name: String,
-    pub(crate) first: Place,
-    pub(crate) second: Place,
-    /// u = x(first) - x(second) - offset, m.
-    pub(crate) offset: f64,
+    /// u = x(first) - x(second) at the contact point, counted from the start.
+    pub(crate) u: Measure,
     pub(crate) law: Interface,
     pub(crate) engine: Engine,
     pub(crate) press: Press,
@@ -69,16 +78,28 @@ pub(crate) struct Contact {
     pub(crate) count: f64,
     /// Displacement reached before the start, m.
     pub(crate) start: f64,
+    /// Time constant β of the stuck springs, s.
+    pub(crate) damping: f64,
     /// Whether the contact can never carry a tangential force: no friction, or never pressed.
     pub(crate) inert: bool,
     /// Place among the growing contacts.
     pub(crate) slot: Option<usize>,
-    /// Natural displacement u_c, m, and angular frequency, rad/s.
-    pub(crate) natural: (f64, f64),
+    pub(crate) natural: Natural,
+}
+
+/// Natural scales of a contact at its largest indentation.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Natural {
+    /// That indentation, m.
+    pub(crate) depth: f64,
+    /// u_c, m.
+    pub(crate) displacement: f64,
+    /// Angular frequency of what the contact holds, rad/s.
+    pub(crate) frequency: f64,
 }
 
 /// What sets the indentation.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Press {
     /// Constant d (m) with M(d) (m²) at hand.
     Constant { d: f64, area: f64 },
@@ -88,6 +109,8 @@ pub(crate) enum Press {
     Indentation(usize),
     /// A waveform of the contact radius, m.
     Radius(usize),
+    /// The bodies' motion: d = z(first) - z(second) - gap at the contact point.
+    Coupled(Measure),
 }
 
 /// Natural scales of a contact at the deepest indentation that its scene names.
@@ -101,11 +124,11 @@ pub struct NaturalScale {
     pub velocity: f64,
 }
 
-/// Spring, damper or actuator: force on the second body k(s-e) + c(ṡ-ė) + preload, e = x(second) - x(first).
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Spring, damper or actuator: force on the second body k(s-e) + c(ṡ-ė) + preload, e the displacement of its end on the
+/// second body less that on the first.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Link {
-    pub(crate) first: Place,
-    pub(crate) second: Place,
+    pub(crate) elongation: Measure,
     pub(crate) stiffness: f64,
     pub(crate) damping: f64,
     pub(crate) preload: f64,
@@ -119,10 +142,12 @@ pub(crate) enum Stroke {
     Driven(usize),
 }
 
-/// A load that varies in time, on a free coordinate.
+/// A load that varies in time, on a free coordinate: arm times the waveform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
     pub(crate) free: usize,
+    /// 1, or m where a force turns.
+    pub(crate) arm: f64,
     pub(crate) waveform: usize,
 }
 
@@ -145,10 +170,10 @@ impl Motion {
 
 impl Press {
     /// The waveform that presses, if any.
-    pub(crate) fn waveform(self) -> Option<usize> {
+    pub(crate) fn waveform(&self) -> Option<usize> {
         match self {
-            Self::Constant { .. } => None,
-            Self::Force(w) | Self::Indentation(w) | Self::Radius(w) => Some(w),
+            Self::Constant { .. } | Self::Coupled(_) => None,
+            Self::Force(w) | Self::Indentation(w) | Self::Radius(w) => Some(*w),
         }
     }
 }
@@ -156,13 +181,7 @@ impl Press {
 impl Contact {
     /// Natural velocity u_c ω, m/s.
     pub(crate) fn natural_velocity(&self) -> f64 {
-        self.natural.0 * self.natural.1
-    }
-
-    /// μF_N at the deepest indentation, N.
-    fn natural_force(&self) -> f64 {
-        let deepest = self.natural.0 / self.law.stick_slope().max(f64::MIN_POSITIVE);
-        self.law.friction() * self.law.normal_force(deepest)
+        self.natural.displacement * self.natural.frequency
     }
 
     /// Indentation d (m) and its rate (m/s) from a sample of the waveform that presses.
@@ -170,7 +189,7 @@ impl Contact {
     pub(crate) fn pressed(&self, sample: Sample) -> (f64, f64) {
         match self.press {
             Press::Constant { d, .. } => (d, 0.0),
-            Press::Indentation(_) => (sample.value, sample.rate),
+            Press::Indentation(_) | Press::Coupled(_) => (sample.value, sample.rate),
             Press::Force(_) => {
                 let d = self.law.indentation(sample.value.max(0.0));
                 let stiffness = self.law.normal_stiffness(d);
@@ -183,9 +202,22 @@ impl Contact {
         }
     }
 
+    /// μF_N at the natural indentation, N.
+    pub(crate) fn friction_limit(&self) -> f64 {
+        self.law.friction() * self.law.normal_force(self.natural.depth)
+    }
+
     /// Whether the indentation never changes.
     pub(crate) fn is_constant(&self) -> bool {
         matches!(self.press, Press::Constant { .. })
+    }
+
+    /// How the bodies' motion sets the indentation, if it does.
+    pub(crate) fn coupling(&self) -> Option<&Measure> {
+        match &self.press {
+            Press::Coupled(measure) => Some(measure),
+            _ => None,
+        }
     }
 }
 
@@ -203,45 +235,57 @@ impl Model {
     /// Gross-slip displacement u_c (m) and normal force of one contact (N) of contact `index` at t = 0.
     pub fn contact_scale(&self, index: usize) -> Option<(f64, f64)> {
         let contact = self.contacts.get(index)?;
-        let d = self.indentation(contact, 0.0);
+        let d = self.indentation(contact);
         Some((contact.law.gross_slip_displacement(d), contact.law.normal_force(d)))
     }
 
     /// Largest width 2a of contact `index`, m; 0 for one that is never pressed.
     pub fn contact_width(&self, index: usize) -> Option<f64> {
-        let deepest = self.indentations(index)?.most;
+        let deepest = self.indentations(&self.rest(), index)?.most;
         self.contacts.get(index).map(|contact| 2.0 * contact.law.profile().radius(deepest))
     }
 
     /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.
     pub fn contact_frequency(&self, index: usize) -> Option<f64> {
-        self.contacts.get(index).map(|c| c.natural.1)
+        self.contacts.get(index).map(|c| c.natural.frequency)
     }
 
     /// Natural scales of contact `index`, one of its identical members: what the stepper's tolerance is relative to.
     pub fn contact_natural(&self, index: usize) -> Option<NaturalScale> {
         self.contacts.get(index).map(|c| NaturalScale {
-            displacement: c.natural.0,
-            force: c.natural_force(),
+            displacement: c.natural.displacement,
+            force: c.friction_limit(),
             velocity: c.natural_velocity(),
         })
     }
 
     /// Natural scale of work, J: μF_N u_c of the smallest contact.
     pub(crate) fn work_scale(&self) -> f64 {
-        let work = |c: &Contact| c.natural_force() * c.natural.0;
+        let work = |c: &Contact| c.friction_limit() * c.natural.displacement;
         let smallest = self.contacts.iter().map(work).filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
         if smallest.is_finite() { smallest } else { 1.0 }
     }
 
-    /// Indentation of a contact at time t, m.
-    pub(crate) fn indentation(&self, contact: &Contact, t: f64) -> f64 {
-        match contact.press {
-            Press::Constant { d, .. } => d,
-            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
-                let waveform = &self.waveforms[w];
-                contact.pressed(waveform.sample(&waveform.piece_at(t), t)).0
-            }
+    /// Work of gravity and constant loads on the way to the positions `x` from 0, J.
+    pub(crate) fn lifted(&self, x: impl Fn(usize) -> f64) -> f64 {
+        self.free.iter().enumerate().map(|(i, free)| free.force * x(i)).sum()
+    }
+
+    /// Whether no force hangs on a velocity: no damper, no load whose power does, no contact that grows along a curved
+    /// path.
+    pub(crate) fn is_conservative(&self) -> bool {
+        let undamped = self.links.iter().all(|link| link.damping == 0.0);
+        let unbraked = self.contacts.iter().all(|contact| contact.damping == 0.0);
+        undamped && unbraked && self.loads.is_empty() && self.growing == 0 && !self.free.is_empty()
+    }
+
+    /// Indentation of a contact at t = 0, m, with the free coordinates where they start.
+    pub(crate) fn indentation(&self, contact: &Contact) -> f64 {
+        let first = |w: usize| self.waveforms[w].first();
+        match &contact.press {
+            Press::Constant { d, .. } => *d,
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(first(*w)).0,
+            Press::Coupled(measure) => measure.value(|i| self.free[i].start.0, |w| first(w).value),
         }
     }
 }

@@ -3,7 +3,8 @@
 use crate::Model;
 use crate::equations::Equations;
 use crate::event::{Event, Source};
-use crate::model::{Contact, Link, Place, Stroke};
+use crate::model::{Body, Contact, Link, Place};
+use crate::scene::Axis;
 use crate::state::{Mode, State};
 use stickslip_contact::{ContactState, Memory, Outcome};
 
@@ -114,8 +115,13 @@ impl Model {
     /// Channels of a row, in order.
     pub fn channels(&self) -> Vec<Channel> {
         let mut names = vec!["time_s".to_owned()];
-        for body in self.bodies.iter().filter(|b| !matches!(b.place, Place::Held(_))) {
-            names.extend(["x_m", "vx_m_s"].map(|q| format!("{}.{q}", body.name)));
+        for (name, axis, _) in self.moving() {
+            let quantities = match axis {
+                Axis::X => ["x_m", "vx_m_s"],
+                Axis::Z => ["z_m", "vz_m_s"],
+                Axis::Pitch => ["pitch_rad", "vpitch_rad_s"],
+            };
+            names.extend(quantities.map(|q| format!("{name}.{q}")));
         }
         for contact in &self.contacts {
             let quantities = ["u_m", "d_m", "fx_N", "fn_N", "stick_m", "state", "elastic_J", "friction_J"];
@@ -124,6 +130,17 @@ impl Model {
         let energies = ["input", "kinetic", "elastic", "friction", "damping", "error"];
         names.extend(energies.map(|e| format!("energy.{e}_J")));
         names.into_iter().map(|name| Channel { is_state: name.ends_with(".state"), name }).collect()
+    }
+
+    /// Coordinates that are not fixed, under their bodies' names.
+    fn moving(&self) -> impl Iterator<Item = (&str, Axis, Place)> {
+        let axes = [Axis::X, Axis::Z, Axis::Pitch];
+        let of = move |body: &Body| axes.into_iter().zip(body.places);
+        let all = self
+            .bodies
+            .iter()
+            .flat_map(move |body| of(body).map(|(axis, place)| (body.name.as_str(), axis, place)));
+        all.filter(|(_, _, place)| !matches!(place, Place::Held(_)))
     }
 
     /// Name of the source of an event.
@@ -155,12 +172,10 @@ pub(crate) fn fill(
     row.clear();
     row.push(t);
     let (model, layout) = (equations.model, equations.layout);
-    let mut books = Books { input: y(layout.input()) + state.jumps, ..Books::default() };
-    for body in &model.bodies {
-        if !matches!(body.place, Place::Held(_)) {
-            let (x, v) = equations.place(body.place, t, y);
-            row.extend([x, v]);
-        }
+    let input = y(layout.input()) + model.lifted(y) + state.jumps;
+    let mut books = Books { input, ..Books::default() };
+    for (_, _, place) in model.moving() {
+        row.extend(equations.place(place, t, y));
     }
     for (c, contact) in model.contacts.iter().enumerate() {
         contact_columns(equations, state, (c, contact), t, y, row, &mut books);
@@ -205,15 +220,20 @@ fn contact_columns(
     let count = contact.count;
     let friction = state.friction[c] + count * outcome.friction;
     let normal = count * contact.law.normal_energy(motion.d);
-    if !contact.is_constant() {
+    // What sets the indentation does the work of pressing; a coupled contact's bodies do it among themselves.
+    if !contact.is_constant() && contact.coupling().is_none() {
         books.input += normal;
     }
+    let damping = match contact.damping {
+        0.0 => 0.0,
+        beta => beta * equations.stuck_stiffness(c, &motion) * motion.du,
+    };
     books.elastic += normal + count * outcome.elastic;
     books.friction += friction;
     row.extend([
         motion.u,
         motion.d,
-        count * outcome.force,
+        count * (outcome.force + damping),
         count * contact.law.normal_force(motion.d),
         outcome.stick_radius,
         state_code(outcome.state),
@@ -224,10 +244,7 @@ fn contact_columns(
 
 /// Potential energy of a link, J: ½k(s-e)² less the work its preload has done.
 pub(crate) fn link_energy(equations: &Equations<'_>, link: &Link, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
-    let stroke = match link.stroke {
-        Stroke::Constant(s) => s,
-        Stroke::Driven(w) => equations.sample(w, t).value,
-    };
-    let length = equations.place(link.second, t, y).0 - equations.place(link.first, t, y).0;
+    let stroke = equations.stroke(link, t).value;
+    let length = equations.read(&link.elongation, t, y).value;
     0.5 * link.stiffness * (stroke - length).powi(2) - link.preload * length
 }

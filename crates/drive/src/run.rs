@@ -13,7 +13,7 @@ use crate::{Model, Plan, RunError, State, Stepper};
 /// Moves `state` along `plan` to its end. What was computed before an error is in `state` and `record`.
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
     match model.effective(plan.stepper) {
-        Stepper::Event { tolerance } => events::Run::new(model, plan, tolerance).go(state, record),
+        Stepper::Event { tolerance } => events::run(model, plan, tolerance, state, record),
         Stepper::Verlet { step } => fixed::run(model, plan, fixed::Method::Verlet, step, state, record),
         Stepper::Rk4 { step } => fixed::run(model, plan, fixed::Method::Rk4, step, state, record),
         Stepper::Dopri5 { tolerance } => reference::run(model, plan, tolerance, state, record),

@@ -33,17 +33,61 @@ pub struct Named<T> {
     pub part: T,
 }
 
-/// A rigid body that moves along x.
-#[derive(Debug, Clone, PartialEq)]
+/// A rigid body in the plane. Its coordinates are displacements from the position drawn.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Body {
-    /// Mass, kg; needed where a coordinate is free.
+    /// Mass, kg; needed where x or z is free.
     pub mass: Option<f64>,
-    /// The coordinate along the slide.
-    pub x: Freedom,
-    /// Position x at t = 0, m, as a displacement from the position drawn.
-    pub start_x: f64,
-    /// Velocity at t = 0, m/s.
-    pub start_vx: f64,
+    /// Moment of inertia about the reference point, the centre of mass, kg m²; needed where the pitch is free.
+    pub inertia: Option<f64>,
+    /// Along the slide, m.
+    pub x: Coordinate,
+    /// Normal to the slide, up, m.
+    pub z: Coordinate,
+    /// Small angle of rotation, positive from x towards z, rad: a point at (X, Z) from the reference point moves by
+    /// (-Zθ, Xθ).
+    pub pitch: Coordinate,
+}
+
+/// Which coordinate of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// Along the slide.
+    X,
+    /// Normal to the slide.
+    Z,
+    /// Rotation.
+    Pitch,
+}
+
+/// A coordinate of a body; SI (m and m/s, rad and rad/s).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coordinate {
+    /// What it may do.
+    pub freedom: Freedom,
+    /// Where it is at t = 0, unless it follows a waveform.
+    pub position: f64,
+    /// How fast it is at t = 0, where free.
+    pub velocity: f64,
+}
+
+/// A point of a body relative to its reference point, m.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Point {
+    /// Along the slide.
+    pub x: f64,
+    /// Normal to the slide.
+    pub z: f64,
+}
+
+/// A direction of the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Direction {
+    /// Along the slide.
+    #[default]
+    X,
+    /// Normal to the slide.
+    Z,
 }
 
 /// What a coordinate may do.
@@ -76,11 +120,14 @@ pub enum Side {
     Body(usize),
 }
 
-/// A frictional contact: u = x(first) - x(second); F_x(u) acts on the second body, -F_x on the first.
+/// A frictional contact: u = x(first) - x(second) at the contact point; F_x(u) acts on the second body, -F_x on the
+/// first. The first body lies below.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
     /// First (lower) and second body.
     pub between: [Side; 2],
+    /// The contact point on either body.
+    pub at: [Point; 2],
     /// Effective moduli.
     pub pair: Pair,
     /// Profile of the gap.
@@ -89,6 +136,10 @@ pub struct Contact {
     pub friction: f64,
     /// What presses the contact.
     pub normal: Normal,
+    /// Gap between the bodies in the position drawn, m; negative: pressed. For [`Normal::Coupled`].
+    pub gap: f64,
+    /// Time constant β of the stuck springs, s, which then carry βG\*ṡ beside G\*s.
+    pub damping: f64,
     /// The contact's own starting state.
     pub start: ContactStart,
     /// How the tangential problem is solved.
@@ -106,6 +157,8 @@ pub enum Normal {
     Indentation(Varying),
     /// Contact radius, m, at least 0.
     Radius(Varying),
+    /// From the bodies' motion: d = z(first) - z(second) - gap at the contact point.
+    Coupled,
 }
 
 /// A contact's starting state; both kinds are reached monotonically from the untouched contact.
@@ -135,12 +188,16 @@ pub enum EngineChoice {
     },
 }
 
-/// Linear spring and damper along x: force on the second body `preload - stiffness·e - damping·ė`,
-/// e = x(second) - x(first).
+/// Linear spring and damper: force on the second body `preload - stiffness·e - damping·ė`, e = x(second) - x(first)
+/// or z(second) - z(first) at its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
     /// First and second body.
     pub between: [Side; 2],
+    /// Its ends on either body.
+    pub at: [Point; 2],
+    /// Along x or z.
+    pub direction: Direction,
     /// Stiffness, N/m, at least 0.
     pub stiffness: f64,
     /// Damping, N s/m, at least 0.
@@ -149,11 +206,16 @@ pub struct Spring {
     pub preload: f64,
 }
 
-/// Piezo stack along x: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first), s the free stroke.
+/// Piezo stack: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first) or z(second) - z(first) at its
+/// ends, s the free stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Actuator {
     /// First and second body.
     pub between: [Side; 2],
+    /// Its ends on either body.
+    pub at: [Point; 2],
+    /// Along x or z.
+    pub direction: Direction,
     /// Stiffness k, N/m, above 0.
     pub stiffness: f64,
     /// Damping c, N s/m, at least 0.
@@ -162,16 +224,23 @@ pub struct Actuator {
     pub stroke: Varying,
 }
 
-/// Force on a body along x.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Force and moment on a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Load {
     /// Place of the body in [`Scene::bodies`].
     pub on: usize,
-    /// Force, N.
+    /// Where the force attacks.
+    pub at: Point,
+    /// Force along x, N.
     pub x: Varying,
+    /// Force along z, N.
+    pub z: Varying,
+    /// Moment on the pitch, N m.
+    pub pitch: Varying,
 }
 
-/// Gravity: the slide climbs by `incline` from the horizontal, so the force along x is -m g sin(incline).
+/// Gravity: the slide climbs by `incline` from the horizontal, so the force is -m g sin(incline) along x and
+/// -m g cos(incline) along z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gravity {
     /// Acceleration g, m/s².
@@ -188,4 +257,43 @@ pub enum Start {
     Given,
     /// In static equilibrium under what acts at t = 0, at rest.
     Equilibrium,
+}
+
+impl Default for Varying {
+    fn default() -> Self {
+        Self::Constant(0.0)
+    }
+}
+
+impl Coordinate {
+    /// Free, at rest where it is drawn.
+    pub const FREE: Self = Self { freedom: Freedom::Free, position: 0.0, velocity: 0.0 };
+
+    /// Follows the waveform at this place of [`Scene::waveforms`].
+    pub fn follows(waveform: usize) -> Self {
+        Self { freedom: Freedom::Follows(waveform), ..Self::default() }
+    }
+}
+
+impl Body {
+    /// Whether any of its coordinates is free.
+    pub fn is_free(&self) -> bool {
+        self.coordinates().iter().any(|(_, coordinate)| coordinate.freedom == Freedom::Free)
+    }
+
+    /// Its coordinates with their axes.
+    pub fn coordinates(&self) -> [(Axis, Coordinate); 3] {
+        [(Axis::X, self.x), (Axis::Z, self.z), (Axis::Pitch, self.pitch)]
+    }
+}
+
+impl Axis {
+    /// Key of the coordinate in a scenario.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Z => "z",
+            Self::Pitch => "pitch",
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! All that the future of a run depends on.
 
 use crate::model::{Contact, Place};
+use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, Branch, Course, Memory, Move};
 use stickslip_stepper::StepControl;
@@ -20,7 +21,8 @@ pub struct State {
     pub(crate) pieces: Vec<Piece>,
     /// Friction work of each contact booked at its commits, J.
     pub(crate) friction: Vec<f64>,
-    /// Input that is not an integral over time: jumps, and normal work, J.
+    /// Input that is not an integral over time, J: jumps; and what constant forces and prescribed normal loads had done
+    /// before the start, since their work is read off the present state.
     pub(crate) jumps: f64,
     /// Kinetic plus elastic energy at t = 0, J.
     pub(crate) origin: f64,
@@ -79,8 +81,10 @@ impl Mode {
     /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
     pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
         match (memory, course) {
-            _ if contact.inert => Self::Open,
+            _ if contact.inert && contact.coupling().is_none() => Self::Open,
             (_, Course::Open) => Self::Open,
+            // Without friction there is nothing to remember, but the bodies still press on each other.
+            _ if contact.inert => Self::Whole { sense: 0.0 },
             (Memory::Row { .. }, course) => Self::Whole { sense: course.sense() },
             (Memory::Curve(_), Course::Grow) => Self::Grow,
             (Memory::Curve(curve), Course::Forward | Course::Backward) => {
@@ -165,7 +169,7 @@ impl Model {
 
     /// The memory a contact starts with: untouched, or loaded monotonically to its starting displacement.
     fn touched(&self, contact: &Contact) -> Memory {
-        let d = self.indentation(contact, 0.0);
+        let d = self.indentation(contact);
         let mut memory = contact.engine.memory(&contact.law, Apex { d, u: 0.0 });
         let to = Apex { d, u: contact.start };
         // Finite by the scene's checks, so the commit cannot fail.
@@ -214,9 +218,14 @@ impl State {
         &self.memories
     }
 
-    /// Position (m) and velocity (m/s) of body `index` of the scene.
+    /// Position (m) and velocity (m/s) along x of body `index` of the scene.
     pub fn body(&self, model: &Model, index: usize) -> Option<(f64, f64)> {
-        Some(match model.bodies.get(index)?.place {
+        self.coordinate(model, index, Axis::X)
+    }
+
+    /// A coordinate of body `index` of the scene and its rate; m and m/s, rad and rad/s.
+    pub fn coordinate(&self, model: &Model, index: usize, axis: Axis) -> Option<(f64, f64)> {
+        Some(match model.bodies.get(index)?.places[axis as usize] {
             Place::Held(x) => (x, 0.0),
             Place::Free(i) => (self.y[i], self.y[model.layout().velocity(i)]),
             Place::Driven(w) => {

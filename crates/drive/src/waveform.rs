@@ -124,6 +124,11 @@ impl Waveform {
         }
     }
 
+    /// Value and slopes at t = 0.
+    pub fn first(&self) -> Sample {
+        self.sample(&self.piece_at(0.0), 0.0)
+    }
+
     /// Jump of the value at the end of `piece`; exactly 0 where it is continuous.
     #[must_use]
     pub fn jump_after(&self, piece: &Piece) -> f64 {

@@ -66,4 +66,4 @@ pub use png::draw_png;
 pub use state::{SpringCondition, SpringMap, state_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};
-pub use trajectory::{Track, Trajectory, trajectory_figure};
+pub use trajectory::{Coordinate, Motion, Track, Trajectory, trajectory_figure};

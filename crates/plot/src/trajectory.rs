@@ -5,6 +5,9 @@ use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Reference, Series};
 use crate::theme::{Ink, Style};
 
+/// Height that each panel beyond two adds to the figure, px.
+const MORE: u32 = 300;
+
 /// A named position or displacement over the trajectory's time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track<'a> {
@@ -14,6 +17,26 @@ pub struct Track<'a> {
     pub values: &'a [f64],
 }
 
+/// A coordinate beside the position along the slide.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coordinate {
+    /// Position normal to the slide, m.
+    Height,
+    /// Angle, rad.
+    Pitch,
+}
+
+/// Motion in a coordinate that has a panel of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion<'a> {
+    /// Which coordinate.
+    pub coordinate: Coordinate,
+    /// The feet, drawn muted behind the sliders.
+    pub feet: Vec<Track<'a>>,
+    /// The sliders, each in its colour of the other panels.
+    pub sliders: Vec<Track<'a>>,
+}
+
 /// The motion of a drive.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trajectory<'a> {
@@ -21,8 +44,10 @@ pub struct Trajectory<'a> {
     pub time: &'a [f64],
     /// The feet, drawn muted behind the sliders.
     pub feet: Vec<Track<'a>>,
-    /// The sliders.
+    /// The sliders; no panel of positions without feet and sliders.
     pub sliders: Vec<Track<'a>>,
+    /// Motion in the other coordinates, one panel each.
+    pub beside: Vec<Motion<'a>>,
     /// Relative displacements of the contacts, m; no lower panel without.
     pub relative: Vec<Track<'a>>,
     /// Displacement `u_c` at which gross slip starts, m, marked with both signs in the lower panel; for contacts that
@@ -30,23 +55,45 @@ pub struct Trajectory<'a> {
     pub gross_slip: Option<f64>,
 }
 
-/// Position over time: sliders over feet above, relative displacements below, on one time axis.
+/// Position over time: sliders over feet above, the other coordinates and relative displacements below, on one time
+/// axis.
 pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure<'a> {
+    let beside = trajectory.beside.iter().flat_map(|motion| &motion.sliders);
+    let mut names: Vec<&str> = Vec::new();
+    for track in trajectory.sliders.iter().chain(beside) {
+        if !names.contains(&track.name) {
+            names.push(track.name);
+        }
+    }
     let series = |track: &Track<'a>, ink, width| Series {
         style: Style { ink: Some(ink), dash: None, width },
         ..Series::new(track.name, trajectory.time, track.values)
     };
     let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
-    let feet = trajectory.feet.iter().map(|track| series(track, Ink::Muted, 0.6));
-    let sliders = trajectory.sliders.iter().enumerate().map(|(i, track)| series(track, Ink::Palette(i), 1.0));
-    let mut panels = vec![Panel {
-        x: time.clone(),
-        y: Axis::new(Label::plain("position x"), "m"),
-        series: feet.chain(sliders).collect(),
-        absence: Label::plain("nothing moves"),
-        share: 1.6,
-        ..Panel::default()
-    }];
+    let panel = |(label, unit): (&str, &str), feet: &[Track<'a>], sliders: &[Track<'a>], share| {
+        let place = |track: &Track<'_>| names.iter().position(|name| *name == track.name).unwrap_or(0);
+        let feet = feet.iter().map(|track| series(track, Ink::Muted, 0.6));
+        let sliders = sliders.iter().map(|track| series(track, Ink::Palette(place(track)), 1.0));
+        Panel {
+            x: time.clone(),
+            y: Axis::new(Label::plain(label), unit),
+            series: feet.chain(sliders).collect(),
+            absence: Label::plain("nothing moves"),
+            share,
+            ..Panel::default()
+        }
+    };
+    let mut panels = Vec::new();
+    if !trajectory.feet.is_empty() || !trajectory.sliders.is_empty() || trajectory.beside.is_empty() {
+        panels.push(panel(("position x", "m"), &trajectory.feet, &trajectory.sliders, 1.6));
+    }
+    for motion in &trajectory.beside {
+        let axis = match motion.coordinate {
+            Coordinate::Height => ("height z", "m"),
+            Coordinate::Pitch => ("pitch θ", "rad"),
+        };
+        panels.push(panel(axis, &motion.feet, &motion.sliders, 1.0));
+    }
     if !trajectory.relative.is_empty() {
         let relative = trajectory.relative.iter().enumerate();
         let limit = |y| Reference::Horizontal { y, label: Label::markup("±u_c") };
@@ -60,6 +107,9 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
             ..Panel::default()
         });
     }
+    let (width, height) = Figure::DEFAULT_SIZE;
+    let size = (width, height + MORE * (panels.len() as u32).saturating_sub(2));
     let arrangement = Arrangement::Column { share_x: true };
-    Figure { title: Label::plain(title), panels, arrangement, ..Figure::default() }.with_room_for_legends()
+    Figure { title: Label::plain(title), panels, arrangement, size, ..Figure::default() }
+        .with_room_for_legends()
 }

@@ -6,8 +6,9 @@ mod drawn;
 use drawn::{assert_clear_border, decode, draw};
 use proptest::prelude::*;
 use stickslip_plot::{
-    Arrangement, Axis, Band, Figure, HysteresisLoop, Ink, Label, Mosaic, Panel, PlotError, Reference, Series,
-    Track, Trajectory, draw_png, draw_svg, loop_figure, read_text, trajectory_figure,
+    Arrangement, Axis, Band, Coordinate, Figure, HysteresisLoop, Ink, Label, Mosaic, Motion, Panel,
+    PlotError, Reference, Series, Track, Trajectory, draw_png, draw_svg, loop_figure, read_text,
+    trajectory_figure,
 };
 
 /// First loading to amplitude U and two cycles of the closed-form loop of a sphere (p = 3/2), u in m, F_x in N.
@@ -159,12 +160,46 @@ fn staircase_over_a_sawtooth() {
             Track { name: "slider, no load", values: &u },
             Track { name: "slider, λ = 0.5", values: &u_loaded },
         ],
-        gross_slip: None,
+        ..Trajectory::default()
     };
     let figure = trajectory_figure("Inertia drive, stroke 1 µm, period 1 ms", &trajectory);
     draw("staircase", &figure);
     let alone = Trajectory { relative: vec![], ..trajectory };
     draw("staircase-alone", &trajectory_figure("Staircase", &alone));
+}
+
+#[test]
+fn a_rocking_slider_on_a_foot_that_lifts() {
+    let ((t, foot, slider), (_, _, other)) = (staircase(6, 0.3), staircase(6, 0.65));
+    let wave = |size: f64, speed: f64| -> Vec<f64> { t.iter().map(|t| size * (speed * t).sin()).collect() };
+    let (lift, bounce, rock) = (wave(20e-9, 1e4), wave(35e-9, 2.3e4), wave(4e-6, 1.1e4));
+    let slider = Track { name: "slider", values: &slider };
+    let trajectory = Trajectory {
+        time: &t,
+        feet: vec![Track { name: "foot", values: &foot }],
+        sliders: vec![slider, Track { name: "counter-mass", values: &other }],
+        beside: vec![
+            Motion {
+                coordinate: Coordinate::Height,
+                feet: vec![Track { name: "foot", values: &lift }],
+                sliders: vec![Track { name: "counter-mass", values: &bounce }],
+            },
+            Motion {
+                coordinate: Coordinate::Pitch,
+                feet: vec![],
+                sliders: vec![Track { values: &rock, ..slider }],
+            },
+        ],
+        relative: vec![Track { name: "ball", values: slider.values }],
+        gross_slip: None,
+    };
+    let figure = trajectory_figure("Rocking slider", &trajectory);
+    let colours: Vec<_> = figure.panels.iter().map(|panel| panel.series.last().unwrap().style.ink).collect();
+    let palette = |place| Some(Ink::Palette(place));
+    assert_eq!(colours, [palette(1), palette(1), palette(0), palette(0)], "one body, one colour");
+    draw("rocking", &figure);
+    let still = Trajectory { feet: vec![], sliders: vec![], relative: vec![], ..trajectory };
+    assert_eq!(trajectory_figure("", &still).panels.len(), 2, "nothing moves along x");
 }
 
 #[test]

@@ -48,11 +48,16 @@ macro_rules! dimensions {
                 }
             )*
         }
-        $(pub(crate) type $name = Quantity<dimension::$name>;)*
+        $(
+            #[allow(dead_code, reason = "what always may vary in time is used as a dimension only")]
+            pub(crate) type $name = Quantity<dimension::$name>;
+        )*
     };
 }
 
-dimensions! { Length Time Frequency Velocity Acceleration Mass Force Stiffness Damping Pressure Angle }
+dimensions! {
+    Length Time Frequency Velocity AngularVelocity Acceleration Mass Inertia Force Moment Stiffness Damping Pressure Angle
+}
 
 impl<D> Quantity<D> {
     /// A quantity in SI.

@@ -150,8 +150,8 @@ impl Scenario {
         let mut form: Form = serde_path_to_error::deserialize(&document.value)
             .map_err(|error| document.report(refusal::fault(&document, &error)))?;
         shape::check(&document.value).map_err(|fault| document.report(fault))?;
-        let inlined = tables::inline(&mut form, base, &mut document)
-            .map_err(|fault| document.report(fault))?;
+        let inlined =
+            tables::inline(&mut form, base, &mut document).map_err(|fault| document.report(fault))?;
         let meaning = meaning::of(&form).map_err(|fault| document.report(fault))?;
         let is_written = |path: &KeyPath| document.root.deepest(path).1 == path.0.len();
         let odd = meaning::warnings::of(&form, &meaning, is_written);

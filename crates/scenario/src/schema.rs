@@ -3,8 +3,8 @@
 mod rule;
 
 pub(crate) use rule::{
-    above_zero, at_least_zero, duration_or_cycles, mass_where_free, names, never, no_ground, no_trace_column,
-    period_or_frequency, points_or_file, something_to_do, stroke_needed, x_needed,
+    above_zero, at_least_zero, duration_or_cycles, inertia_where_free, names, no_ground, no_trace_column,
+    period_or_frequency, points_or_file, something_on_it, something_to_do, stroke_needed,
 };
 
 use crate::form::Form;

@@ -6,8 +6,10 @@ use proptest::prelude::*;
 use std::fs;
 use std::path::Path;
 use stickslip_contact::{Material, Pair, Profile};
-use stickslip_drive::scene::{ContactStart, EngineChoice, Freedom, Normal, Side, Start, Varying};
-use stickslip_drive::{Moments, Shape, Stepper, Timing, Waveform};
+use stickslip_drive::scene::{
+    ContactStart, Coordinate, Direction, EngineChoice, Freedom, Normal, Point, Side, Start, Varying,
+};
+use stickslip_drive::{Model, Moments, Shape, Stepper, Timing, Waveform};
 use stickslip_scenario::{PlotName, Scenario};
 
 const QUICKSTART: &str = "../../scenarios/quickstart.json";
@@ -15,8 +17,15 @@ const QUICKSTART: &str = "../../scenarios/quickstart.json";
 /// A scenario that uses every part of the form.
 const FULL: &str = include_str!("good/full.json");
 
+/// A scenario that uses every part of the form that bodies in the plane have beyond those on a line.
+const PLANAR: &str = include_str!("good/planar.json");
+
 fn full() -> Scenario {
     Scenario::from_str(FULL, "full.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn planar() -> Scenario {
+    Scenario::from_str(PLANAR, "planar.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn refused(overrides: &[(&str, &str)]) -> String {
@@ -36,8 +45,8 @@ fn the_example_means_what_the_contract_says() {
     let timing = Timing { period: 1e-2, delay: 0.0, phase: 0.0, cycles: None };
     let drive = Waveform::new(Shape::Sawtooth { stroke: 2e-7, flyback: 1e-5 }, timing).unwrap();
     assert_eq!(scene.waveforms[0].part, drive);
-    assert_eq!(scene.bodies[0].part.x, Freedom::Follows(0));
-    assert_eq!((scene.bodies[1].part.x, scene.bodies[1].part.mass), (Freedom::Free, Some(0.01)));
+    assert_eq!(scene.bodies[0].part.x.freedom, Freedom::Follows(0));
+    assert_eq!((scene.bodies[1].part.x, scene.bodies[1].part.mass), (Coordinate::FREE, Some(0.01)));
     let ball = &scene.contacts[0].part;
     let pair = Pair::new(Material::new(400e9, 0.27).unwrap(), Material::new(210e9, 0.30).unwrap());
     assert_eq!(ball.between, [Side::Body(0), Side::Body(1)]);
@@ -79,8 +88,36 @@ fn every_part_of_the_form_arrives() {
 }
 
 #[test]
+fn every_part_of_a_planar_body_arrives() {
+    let scenario = planar();
+    let scene = &scenario.scene;
+    let foot = &scene.bodies[0].part;
+    assert_eq!([foot.x, foot.z, foot.pitch], [0, 1, 2].map(Coordinate::follows));
+    assert_eq!(scene.waveforms[2].part.range(), (-2e-4, 2e-4));
+    let slider = &scene.bodies[1].part;
+    let free = |position, velocity| Coordinate { freedom: Freedom::Free, position, velocity };
+    assert_eq!((slider.mass, slider.inertia), (Some(0.02), Some(2.5e-7)));
+    assert_eq!((slider.x, slider.z, slider.pitch), (free(1e-6, 2e-3), free(2e-5, -1e-3), free(1e-4, 3.0)));
+    assert_eq!(scene.bodies[2].part.z, Coordinate { position: 2e-6, ..Coordinate::default() });
+    assert_eq!(scene.bodies[3].part.pitch, Coordinate::FREE);
+    let ball = &scene.contacts[0].part;
+    assert_eq!((ball.normal, ball.gap, ball.damping), (Normal::Coupled, -2e-8, 1e-6));
+    assert_eq!(ball.at, [Point { x: 1e-3, z: 0.0 }, Point { x: 5e-3, z: -3e-3 }]);
+    assert_eq!(scene.contacts[1].part.at, [Point::default(), Point { x: 0.0, z: -0.02 }]);
+    let (press, jack) = (&scene.springs[0].part, &scene.actuators[0].part);
+    assert_eq!((press.direction, jack.direction), (Direction::Z, Direction::Z));
+    assert_eq!(press.at, [Point::default(), Point { x: 4e-3, z: 0.0 }]);
+    assert_eq!(jack.at, [Point { x: 0.0, z: -1e-3 }, Point { x: 8e-3, z: 0.0 }]);
+    let load = scene.loads[0];
+    assert_eq!((load.on, load.at, load.x), (1, Point { x: 2e-3, z: 0.0 }, Varying::default()));
+    assert_eq!((load.z, load.pitch), (Varying::Constant(-1.0), Varying::Constant(5e-4)));
+    assert_eq!((scene.loads[1].at, scene.loads[1].pitch), (Point::default(), Varying::Follows(3)));
+    Model::new(scene).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
 fn a_resolved_scenario_means_the_same_to_the_last_bit() {
-    for scenario in [Scenario::load(QUICKSTART).unwrap(), full()] {
+    for scenario in [Scenario::load(QUICKSTART).unwrap(), full(), planar()] {
         let text = scenario.resolved();
         // No folder: nothing is read from files any more.
         let again = Scenario::from_str(&text, "resolved", "/nowhere")
@@ -128,7 +165,7 @@ fn overrides_change_add_and_are_checked_like_the_file() {
         with(&[("run.stepper", r#"{"verlet": {"step": "1 us"}}"#)]).plan.stepper,
         Stepper::Verlet { step: 1e-6 }
     );
-    assert_eq!(with(&[("bodies.slider.x", "fixed")]).scene.bodies[1].part.x, Freedom::Fixed);
+    assert_eq!(with(&[("bodies.slider.x", "fixed")]).scene.bodies[1].part.x.freedom, Freedom::Fixed);
     let resolved = with(&[("run.duration", "20 ms")]).resolved();
     assert!(resolved.contains("\"duration\": 0.02"), "{resolved}");
 }
@@ -266,7 +303,16 @@ proptest! {
     /// A scenario with every value replaced by every other kind of value.
     #[test]
     fn an_override_of_anything_never_panics(path in path(), value in value()) {
-        let _ = Scenario::from_str_with(FULL, "full.json", "tests/good", &[(&path, &value)]);
+        for text in [FULL, PLANAR] {
+            let scenario = Scenario::from_str_with(text, "good.json", "tests/good", &[(&path, &value)]);
+            // What passes as a scenario is a model, or a refusal that points into the file.
+            let Ok(scenario) = scenario else { continue };
+            let model = Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan));
+            if let Err(error) = model {
+                let error = scenario.locate(&error.path, error.message, error.help);
+                prop_assert!(error.excerpt.is_some(), "{}", error);
+            }
+        }
     }
 }
 
@@ -301,6 +347,15 @@ fn path() -> impl Strategy<Value = String> {
         "gravity",
         "materials",
         "start",
+        "z",
+        "pitch",
+        "inertia",
+        "at",
+        "gap",
+        "damping",
+        "loads[2]",
+        "springs",
+        "press",
     ]);
     prop::collection::vec(step, 1..5).prop_map(|steps| steps.join("."))
 }
@@ -313,7 +368,9 @@ fn value() -> impl Strategy<Value = String> {
         "1e-300",
         "5 um",
         "5 N",
+        "3 mrad",
         "free",
+        "coupled",
         "fixed",
         "saw",
         "{}",

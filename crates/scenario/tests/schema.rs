@@ -63,6 +63,12 @@ fn what_the_loader_refuses_by_form_the_schema_refuses() {
         ("/contacts/ball/profile", json!({ "table": {} })),
         ("/contacts/ball/between", json!(["foot"])),
         ("/bodies/slider/mass", json!("10")),
+        ("/bodies/slider", json!({ "inertia": "10 g", "pitch": "free" })),
+        ("/bodies/slider", json!({ "pitch": { "follows": "drive", "free": {} } })),
+        ("/bodies/slider", json!({ "start": { "pitch": "1 um" } })),
+        ("/contacts/ball/normal", json!({ "coupled": {} })),
+        ("/loads/0", json!({ "on": "slider", "pitch": "1 N" })),
+        ("/loads/0", json!({ "on": "slider", "z": "1 N", "at": { "y": 1 } })),
         ("/waveforms/drive/sawtooth/stroke", json!("10 parsec")),
         ("/stickslip", json!(2)),
         ("/plots/0", json!("lop")),
@@ -73,10 +79,14 @@ fn what_the_loader_refuses_by_form_the_schema_refuses() {
         assert!(!validator.is_valid(&scenario), "{pointer} = {value}");
     }
     let mut scenario = good.clone();
+    scenario["contacts"]["ball"]["at"] = json!({ "slider": [0, 1] });
+    assert!(!validator.is_valid(&scenario));
+    let mut scenario = good.clone();
     scenario["contacts"]["ball"]["fricton"] = json!(1);
     assert!(!validator.is_valid(&scenario));
     let mut scenario = good;
-    scenario["bodies"]["slider"]["inertia"] = json!(1);
+    scenario["actuators"]["stack"] =
+        json!({ "between": ["ground", "slider"], "stiffness": 1, "stroke": 1, "voltage": 1 });
     assert!(!validator.is_valid(&scenario), "keys of later versions are marked in an editor");
 }
 

@@ -8,6 +8,8 @@
 //!
 //! * [`System`]: coupled components and quadratures.
 //! * [`Dop853`]: order 8(5,3) with dense output, one attempt at a time; an event may cut it short.
+//! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities; [`Attempt`]: what both have
+//!   in common.
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`bracket`], [`hermite_dip`]: where inside a step a guard crosses zero.
 //! * [`Rk4`], [`Verlet`]: fixed steps.
@@ -46,8 +48,12 @@
 
 mod system;
 pub use system::System;
+mod attempt;
+pub use attempt::Attempt;
 mod dop853;
 pub use dop853::{Dop853, ORDER as DOP853_ORDER};
+mod nystrom;
+pub use nystrom::{Conservative, Nystrom, ORDER as NYSTROM_ORDER};
 mod control;
 pub use control::{Memory as ControlMemory, StepControl, StepLimits, Verdict};
 mod root;

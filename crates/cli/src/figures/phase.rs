@@ -75,7 +75,7 @@ fn smooth(trail: &Trail) -> Trail {
 
 /// Names of the bodies that are shown.
 pub(super) fn bodies(job: &Job) -> Vec<&str> {
-    let free = job.scenario.scene.bodies.iter().filter(|body| body.part.x == Freedom::Free);
+    let free = job.scenario.scene.bodies.iter().filter(|body| body.part.x.freedom == Freedom::Free);
     let free: Vec<&str> = free.map(|body| body.name.as_str()).collect();
     if free.is_empty() { super::moving(job) } else { free }
 }

@@ -101,7 +101,7 @@ pub(super) fn of(job: &Job) -> Parts<ContactInfo> {
 
 fn contact(job: &Job, c: usize, law: &Interface) -> Option<ContactInfo> {
     let contact = &job.scenario.scene.contacts.get(c)?.part;
-    let depths = job.model.indentations(c)?;
+    let depths = job.model.indentations(&job.start, c)?;
     let beta = contact.pair.dundurs_beta();
     let varies = !job.has_constant_load(c);
     let pressed = |d: f64| pressed(job, c, law, d);
@@ -162,7 +162,7 @@ fn zero_step_stroke(law: &Interface, d: f64, share: f64) -> Option<f64> {
 fn load(job: &Job, c: usize) -> Option<f64> {
     let scene = &job.scenario.scene;
     let free = scene.contacts.get(c)?.part.between.into_iter().filter_map(|side| match side {
-        Side::Body(body) if scene.bodies[body].part.x == Freedom::Free => Some(body),
+        Side::Body(body) if scene.bodies[body].part.x.freedom == Freedom::Free => Some(body),
         _ => None,
     });
     let alone = |body: usize| {

@@ -42,7 +42,7 @@ pub(super) struct PerPeriod {
 impl Events {
     pub(super) fn of(job: &Job) -> Self {
         let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
-        let modes = job.model.linearised(|d| d.most).modes();
+        let modes = job.model.linearised(&job.start, |d| d.most).modes();
         let contacts = (0..scene.contacts.len()).map(|c| of_contact(job, c, &modes)).sum();
         // At fixed steps corners are crossed, not located.
         let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
@@ -96,7 +96,7 @@ fn corners(waveform: &Waveform, duration: f64) -> f64 {
 /// Estimate for contact `c` over the whole run.
 fn of_contact(job: &Job, c: usize, modes: &[NormalMode]) -> f64 {
     let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
-    let touches = job.model.indentations(c).is_some_and(|d| d.most > 0.0);
+    let touches = job.model.indentations(&job.start, c).is_some_and(|d| d.most > 0.0);
     if !touches || scene.contacts.get(c).is_none_or(|contact| contact.part.friction == 0.0) {
         return 0.0;
     }
@@ -141,7 +141,7 @@ pub(super) fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
         contacts.chain(springs).chain(scene.actuators.iter().map(|part| part.part.between))
     };
     let is_free = |side: &Side| match side {
-        Side::Body(body) => scene.bodies.get(*body).is_some_and(|body| body.part.x == Freedom::Free),
+        Side::Body(body) => scene.bodies.get(*body).is_some_and(|body| body.part.is_free()),
         Side::Ground => false,
     };
     let mut reached: Vec<Side> = contact.part.between.into_iter().filter(is_free).collect();
@@ -157,21 +157,26 @@ pub(super) fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
     let hangs_on = |between: &[Side; 2]| between.iter().any(|side| reached.contains(side));
     let mut sides: Vec<Side> = edges().filter(hangs_on).flatten().collect();
     sides.extend(contact.part.between);
-    let followed = sides.into_iter().filter_map(|side| match side {
-        Side::Body(body) => match scene.bodies.get(body)?.part.x {
+    let bodies = sides.into_iter().filter_map(|side| match side {
+        Side::Body(body) => scene.bodies.get(body),
+        Side::Ground => None,
+    });
+    let followed = bodies.flat_map(|body| body.part.coordinates()).filter_map(|(_, coordinate)| {
+        match coordinate.freedom {
             Freedom::Follows(waveform) => Some(waveform),
             Freedom::Fixed | Freedom::Free => None,
-        },
-        Side::Ground => None,
+        }
     });
     let pressing =
         scene.contacts.iter().enumerate().filter(|(i, part)| *i == c || hangs_on(&part.part.between));
     let pressing = pressing.map(|(_, part)| match part.part.normal {
         Normal::Force(value) | Normal::Indentation(value) | Normal::Radius(value) => value,
+        Normal::Coupled => Varying::Constant(0.0),
     });
     let strokes =
         scene.actuators.iter().filter(|part| hangs_on(&part.part.between)).map(|part| part.part.stroke);
-    let loads = scene.loads.iter().filter(|load| reached.contains(&Side::Body(load.on))).map(|load| load.x);
+    let loads = scene.loads.iter().filter(|load| reached.contains(&Side::Body(load.on)));
+    let loads = loads.flat_map(|load| [load.x, load.z, load.pitch]);
     let varying = pressing.chain(strokes).chain(loads).filter_map(|value| match value {
         Varying::Follows(waveform) => Some(waveform),
         Varying::Constant(_) => None,

@@ -6,7 +6,7 @@ use crate::summary::Parts;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use stickslip_drive::Waveform;
-use stickslip_drive::scene::{Freedom, Normal, Scene, Varying};
+use stickslip_drive::scene::{Axis, Coordinate, Freedom, Normal, Scene, Varying};
 
 /// A body.
 #[derive(Debug, Serialize)]
@@ -68,7 +68,13 @@ pub(super) struct Follower {
 pub(super) fn bodies(job: &Job) -> Parts<BodyInfo> {
     let scene = &job.scenario.scene;
     let body = |body: &stickslip_drive::scene::Named<stickslip_drive::scene::Body>| {
-        let coordinates = Parts(vec![("x".to_owned(), Freed::of(body.part.x, scene))]);
+        let of = |(axis, coordinate): (Axis, Coordinate)| {
+            (axis.key().to_owned(), Freed::of(coordinate.freedom, scene))
+        };
+        let moves = |(axis, coordinate): &(Axis, Coordinate)| {
+            *axis == Axis::X || coordinate.freedom != Freedom::Fixed
+        };
+        let coordinates = Parts(body.part.coordinates().into_iter().filter(moves).map(of).collect());
         (body.name.clone(), BodyInfo { mass: body.part.mass.map(Real), coordinates })
     };
     Parts(scene.bodies.iter().map(body).collect())
@@ -111,8 +117,10 @@ pub(super) fn followers(scene: &Scene) -> Vec<Follower> {
     let mut followers = Vec::new();
     let mut add = |waveform, what: String, is_force| followers.push(Follower { waveform, what, is_force });
     for body in &scene.bodies {
-        if let Freedom::Follows(w) = body.part.x {
-            add(w, format!("{}.x", body.name), false);
+        for (axis, coordinate) in body.part.coordinates() {
+            if let Freedom::Follows(w) = coordinate.freedom {
+                add(w, format!("{}.{}", body.name, axis.key()), false);
+            }
         }
     }
     for contact in &scene.contacts {
@@ -120,6 +128,7 @@ pub(super) fn followers(scene: &Scene) -> Vec<Follower> {
             Normal::Force(value) => (value, "force"),
             Normal::Indentation(value) => (value, "indentation"),
             Normal::Radius(value) => (value, "radius"),
+            Normal::Coupled => continue,
         };
         if let Varying::Follows(w) = value {
             add(w, format!("{}.{word}", contact.name), word == "force");
@@ -131,8 +140,11 @@ pub(super) fn followers(scene: &Scene) -> Vec<Follower> {
         }
     }
     for load in &scene.loads {
-        if let (Varying::Follows(w), Some(body)) = (load.x, scene.bodies.get(load.on)) {
-            add(w, format!("load on {}", body.name), true);
+        let Some(body) = scene.bodies.get(load.on) else { continue };
+        for (axis, value) in [(Axis::X, load.x), (Axis::Z, load.z), (Axis::Pitch, load.pitch)] {
+            if let Varying::Follows(w) = value {
+                add(w, format!("load on {}.{}", body.name, axis.key()), true);
+            }
         }
     }
     followers
@@ -140,13 +152,13 @@ pub(super) fn followers(scene: &Scene) -> Vec<Follower> {
 
 /// All normal modes.
 pub(super) fn modes(job: &Job) -> Vec<ModeInfo> {
-    let linearised = job.model.linearised(|d| d.start);
+    let linearised = job.model.linearised(&job.start, |d| d.start);
     let varies = (0..job.model.contacts().count()).any(|c| !job.has_constant_load(c));
     let frequencies = |modes: Vec<stickslip_drive::NormalMode>| -> Vec<f64> {
         modes.iter().map(|mode| mode.frequency / TAU).collect()
     };
-    let least = frequencies(job.model.linearised(|d| d.least).modes());
-    let most = frequencies(job.model.linearised(|d| d.most).modes());
+    let least = frequencies(job.model.linearised(&job.start, |d| d.least).modes());
+    let most = frequencies(job.model.linearised(&job.start, |d| d.most).modes());
     let names = linearised.coordinates();
     let mode = |(k, mode): (usize, stickslip_drive::NormalMode)| ModeInfo {
         frequency: Real(mode.frequency / TAU),

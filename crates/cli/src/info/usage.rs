@@ -5,7 +5,7 @@ use super::motion;
 use crate::job::Job;
 use serde::Serialize;
 use stickslip_drive::Stepper;
-use stickslip_drive::scene::{EngineChoice, Freedom, Normal, Side};
+use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Normal, Side};
 
 /// What is computed and what is not.
 #[derive(Debug, Default, Serialize)]
@@ -43,8 +43,7 @@ impl Usage {
     }
 
     fn motion(&mut self, job: &Job) {
-        let free = job.scenario.scene.bodies.iter().filter(|body| body.part.x == Freedom::Free);
-        let names: Vec<String> = free.map(|body| format!("{}.x", body.name)).collect();
+        let names = job.model.linearised(&job.start, |d| d.start).coordinates().to_vec();
         let (stepper, _, _) = job.stepper();
         if names.is_empty() {
             let asked = match job.scenario.plan.stepper {
@@ -65,7 +64,7 @@ impl Usage {
         let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
         for (c, contact) in job.scenario.scene.contacts.iter().enumerate() {
             let name = &contact.name;
-            if job.model.indentations(c).is_some_and(|d| d.most <= 0.0) {
+            if job.model.indentations(&job.start, c).is_some_and(|d| d.most <= 0.0) {
                 self.skips("contact", name, "never pressed: the bodies cannot touch");
                 continue;
             }
@@ -90,6 +89,7 @@ impl Usage {
             let why = match contact.part.normal {
                 Normal::Indentation(_) => "follows a waveform",
                 Normal::Force(_) | Normal::Radius(_) => "solved from a waveform at every evaluation",
+                Normal::Coupled => "from the motion of the bodies",
             };
             self.uses("indentation", name, why);
             if contact.part.engine == EngineChoice::Curve && located {
@@ -104,7 +104,7 @@ impl Usage {
 
     fn couplings(&mut self, job: &Job) {
         let scene = &job.scenario.scene;
-        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.x == Freedom::Free));
+        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free()));
         let springs = scene.springs.iter().map(|part| ("spring", &part.name, part.part.between));
         let actuators = scene.actuators.iter().map(|part| ("actuator", &part.name, part.part.between));
         for (kind, part, between) in springs.chain(actuators) {
@@ -124,8 +124,12 @@ impl Usage {
             }
         }
         if scene.gravity.acceleration != 0.0 {
-            let along = scene.gravity.acceleration * scene.gravity.incline.sin();
-            if along == 0.0 || !scene.bodies.iter().any(|body| body.part.x == Freedom::Free) {
+            let (down, normal) = scene.gravity.incline.sin_cos();
+            let along = scene.gravity.acceleration * down;
+            let lifts = |body: &Named<Body>| body.part.z.freedom == Freedom::Free && normal != 0.0;
+            if scene.bodies.iter().any(lifts) {
+                self.uses("gravity", "", format!("{:.4} m/s² down", scene.gravity.acceleration));
+            } else if along == 0.0 || !scene.bodies.iter().any(|body| body.part.is_free()) {
                 self.skips("gravity", "", "nothing moves freely along it");
             } else {
                 self.uses("gravity", "", format!("{along:.4} m/s² down the slide"));
@@ -145,7 +149,7 @@ impl Usage {
             }
         }
         for body in &scene.bodies {
-            if body.part.mass.is_some() && body.part.x != Freedom::Free {
+            if body.part.mass.is_some() && !body.part.is_free() {
                 self.skips("mass", &body.name, "the body is not free");
             }
         }

@@ -33,6 +33,9 @@ pub(crate) struct ContactSummary {
     peak_tangential: Real,
     #[serde(rename = "peak_fn_N")]
     peak_normal: Real,
+    /// Of a coupled contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    normal: Option<NormalMotion>,
     #[serde(rename = "friction_J")]
     friction: Real,
     /// Quantities of the last whole cycle; none where there is none, or where it does not come back to its start.
@@ -61,6 +64,19 @@ struct Scales {
     /// u_c ω.
     #[serde(rename = "velocity_m_s")]
     velocity: Real,
+}
+
+/// What the bodies' motion does to a contact along the normal, over all rows and events.
+#[derive(Debug, PartialEq, Serialize)]
+struct NormalMotion {
+    /// Least and largest normal force.
+    #[serde(rename = "fn_N")]
+    force: [Real; 2],
+    /// Least and largest indentation; negative: open.
+    #[serde(rename = "d_m")]
+    indentation: [Real; 2],
+    /// Share of the time in which the contact is open.
+    open_share: Real,
 }
 
 /// A fretting cycle.
@@ -99,7 +115,7 @@ pub(crate) struct Fretting {
     /// Tangential stiffness after the reversal at the smallest u.
     #[serde(rename = "stiffness_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
     stiffness_after_minimum: Option<Real>,
-    /// Against the thresholds of this profile on a rigid rig; only under a constant load.
+    /// Against the thresholds of this profile on a rigid rig; only under a constant load and without damping.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) regime: Option<&'static str>,
 }
@@ -120,7 +136,7 @@ fn contact(
     (c, name, law): (usize, &str, &Interface),
     notes: &mut Vec<String>,
 ) -> ContactSummary {
-    let (gross_slip, normal) = job.model.contact_scale(c).unwrap_or_default();
+    let (gross_slip, normal) = job.contact_scale(c);
     let load = |normal: f64| Load { normal: Real(normal), limit: Real(law.friction() * normal) };
     let series = &outcome.kept.series;
     let peak = |quantity| Real(series.column(name, quantity).iter().fold(0.0, |peak, f| f.abs().max(peak)));
@@ -133,6 +149,7 @@ fn contact(
         all: load(f64::from(count) * normal),
         peak_tangential: peak("fx_N"),
         peak_normal: peak("fn_N"),
+        normal: if job.is_coupled(c) { normal_motion(series, name) } else { None },
         friction: Real(outcome.books.friction_of(c)),
         fretting: fretting(job, outcome, (c, name, law), notes),
     }
@@ -148,12 +165,31 @@ fn scales(job: &Job, c: usize) -> Scales {
     }
 }
 
+/// Ranges of F_N and d and the time open; none without rows. Touching and lifting off are events, so that between two
+/// samples the contact is open or closed all the time.
+fn normal_motion(series: &Series, name: &str) -> Option<NormalMotion> {
+    let (t, d) = (series.time(), series.column(name, "d_m"));
+    let range = |values: &[f64]| {
+        let all = values.iter().copied();
+        [all.clone().fold(f64::INFINITY, f64::min), all.fold(f64::NEG_INFINITY, f64::max)].map(Real)
+    };
+    let total = t.last()? - t.first()?;
+    let spans = t.windows(2).zip(d.windows(2));
+    let open = spans.filter(|(_, d)| d[0] + d[1] <= 0.0).fold(0.0, |sum, (t, _)| sum + (t[1] - t[0]));
+    let open_share = if total > 0.0 { open / total } else { 0.0 };
+    Some(NormalMotion {
+        force: range(series.column(name, "fn_N")),
+        indentation: range(d),
+        open_share: Real(open_share),
+    })
+}
+
 /// The periods of whatever drives contact `c`: the one waveform that its bodies follow, or else the waveform of the
 /// scenario's `figures`.
 pub(crate) fn periods(job: &Job, c: usize, end: f64) -> Option<Periods> {
     let scene = &job.scenario.scene;
     let followed = scene.contacts.get(c)?.part.between.iter().filter_map(|side| match side {
-        Side::Body(body) => match scene.bodies.get(*body)?.part.x {
+        Side::Body(body) => match scene.bodies.get(*body)?.part.x.freedom {
             Freedom::Follows(waveform) => Some(waveform),
             Freedom::Fixed | Freedom::Free => None,
         },
@@ -187,7 +223,7 @@ fn fretting(
     };
     let normal = mean_over_time(&outcome.kept.series, name, (from, to));
     let d = outcome.kept.series.column(name, "d_m").first().copied().unwrap_or(0.0);
-    let thresholds = thresholds(law.profile(), d).filter(|_| job.has_constant_load(c));
+    let thresholds = thresholds(law.profile(), d).filter(|_| job.has_law_without_time(c));
     let regime = thresholds.map(|thresholds| word(thresholds.regime(&cycle)));
     Some(Fretting {
         cycle: [Real(from), Real(to)],
@@ -242,6 +278,23 @@ fn word(regime: Regime) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bouncing_contact_is_open_between_its_events() {
+        use stickslip_drive::Channel;
+        let channels =
+            ["time_s", "foot.d_m", "foot.fn_N"].map(|n| Channel { name: n.to_owned(), is_state: false });
+        let mut series = Series::new(&channels, &[]);
+        assert_eq!(normal_motion(&series, "foot"), None);
+        // Falls, touches at 2, rests until 3, lifts off, flies until 8, touches.
+        let rows =
+            [[0.0, -1.0, 0.0], [2.0, 1e-20, 0.0], [2.5, 3.0, 7.0], [3.0, -1e-20, 0.0], [5.0, -9.0, 0.0]];
+        rows.iter().chain(&[[8.0, 1e-20, 0.0], [10.0, 2.0, 4.0]]).for_each(|row| series.push(row));
+        let pair = |a: f64, b: f64| [Real(a), Real(b)];
+        let open_share = Real(0.7);
+        let wanted = NormalMotion { force: pair(0.0, 7.0), indentation: pair(-9.0, 3.0), open_share };
+        assert_eq!(normal_motion(&series, "foot"), Some(wanted));
+    }
 
     #[test]
     fn thresholds_are_those_of_the_closed_form() {

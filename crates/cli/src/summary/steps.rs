@@ -51,7 +51,7 @@ pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Optio
     let body = scene.bodies.get(figures.body?)?;
     let waveform = scene.waveforms.get(figures.waveform?)?;
     let period = waveform.part.period()?;
-    if body.part.x != Freedom::Free {
+    if body.part.x.freedom != Freedom::Free {
         return None;
     }
     let Some(periods) = Periods::until(&waveform.part, outcome.state.time()) else {

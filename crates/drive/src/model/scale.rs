@@ -1,9 +1,11 @@
 //! Natural scales: one tolerance suits every scene because errors are measured against these.
 
-use super::{Contact, Free, Link, Place};
+use super::{Contact, Free, Link, Natural};
 use crate::Waveform;
+use crate::scene::Axis;
 
-/// Sets the scales of contacts and free coordinates: u_c, and the velocities it makes with the stuck stiffness.
+/// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and the velocities they
+/// make with the stuck stiffness.
 ///
 /// `deepest` is the largest indentation of each contact.
 pub(super) fn assign(
@@ -13,22 +15,7 @@ pub(super) fn assign(
     waveforms: &[Waveform],
     deepest: &[f64],
 ) {
-    let mut springs = vec![(0.0, f64::INFINITY); free.len()];
-    let mut add = |place: Place, stiffness: f64, length: f64| {
-        if let Place::Free(i) = place {
-            springs[i].0 += stiffness;
-            springs[i].1 = springs[i].1.min(if length > 0.0 { length } else { f64::INFINITY });
-        }
-    };
-    for (c, &d) in contacts.iter().zip(deepest) {
-        for place in [c.first, c.second] {
-            add(place, c.count * c.law.stick_stiffness(d), c.law.gross_slip_displacement(d));
-        }
-    }
-    for link in links {
-        add(link.first, link.stiffness, 0.0);
-        add(link.second, link.stiffness, 0.0);
-    }
+    let springs = springs(contacts, free.len(), links, deepest);
     let (stroke, slow) = slowest(waveforms);
     // With high friction u_c lies far above anything that moves.
     let widest = waveforms.iter().map(|w| w.range().1 - w.range().0).fold(0.0, f64::max);
@@ -36,19 +23,50 @@ pub(super) fn assign(
     let mut frequency = vec![slow; free.len()];
     for (i, f) in free.iter_mut().enumerate() {
         let (stiffness, length) = springs[i];
-        let length = if length.is_finite() { length.min(reach) } else { stroke };
+        let length = match (length.is_finite(), f.axis) {
+            (true, Axis::X) => length.min(reach),
+            (true, _) => length,
+            (false, _) => stroke,
+        };
         if stiffness > 0.0 {
             frequency[i] = (stiffness / f.mass).sqrt();
         }
         f.scale = (length, length * frequency[i]);
     }
     for (c, &d) in contacts.iter_mut().zip(deepest) {
-        let fastest = [c.first, c.second].into_iter().fold(0.0_f64, |fastest, place| match place {
-            Place::Free(i) => fastest.max(frequency[i]),
-            Place::Held(_) | Place::Driven(_) => fastest,
-        });
-        c.natural = (c.law.gross_slip_displacement(d), if fastest > 0.0 { fastest } else { slow });
+        let normal = c.coupling().map_or(&[][..], |measure| &measure.free);
+        let moved = c.u.free.iter().chain(normal);
+        let fastest = moved.map(|(i, _)| frequency[*i]).fold(0.0, f64::max);
+        c.natural = Natural {
+            depth: d.max(0.0),
+            displacement: c.law.gross_slip_displacement(d),
+            frequency: if fastest > 0.0 { fastest } else { slow },
+        };
     }
+}
+
+/// Stiffness that each free coordinate feels with all contacts stuck, N/m or N m/rad, and the smallest displacement
+/// of it that matters to a contact, m or rad; infinite without any.
+fn springs(contacts: &[Contact], free: usize, links: &[Link], deepest: &[f64]) -> Vec<(f64, f64)> {
+    let mut springs = vec![(0.0, f64::INFINITY); free];
+    let mut add = |(i, arm): (usize, f64), stiffness: f64, length: f64| {
+        springs[i].0 += arm * arm * stiffness;
+        springs[i].1 = springs[i].1.min(if length > 0.0 { length / arm.abs() } else { f64::INFINITY });
+    };
+    for (c, &d) in contacts.iter().zip(deepest) {
+        for term in &c.u.free {
+            add(*term, c.count * c.law.stick_stiffness(d), c.law.gross_slip_displacement(d));
+        }
+        for term in c.coupling().iter().flat_map(|measure| &measure.free) {
+            add(*term, c.count * c.law.normal_stiffness(d), d);
+        }
+    }
+    for link in links {
+        for term in &link.elongation.free {
+            add(*term, link.stiffness, 0.0);
+        }
+    }
+    springs
 }
 
 /// Smallest stroke (m; 1 µm without any) and highest angular frequency (rad/s; 1 without any) of the waveforms.

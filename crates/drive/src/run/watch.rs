@@ -56,7 +56,7 @@ impl Watch {
             return Err(RunError::TooManyEvents { t: state.t, limit: self.limits.events });
         }
         let contact = &model.contacts[c];
-        let window = ZENO_WINDOW * std::f64::consts::TAU / contact.natural.1;
+        let window = ZENO_WINDOW * std::f64::consts::TAU / contact.natural.frequency;
         let (start, count) = &mut self.windows[c];
         if state.t - *start > window {
             (*start, *count) = (state.t, 0);

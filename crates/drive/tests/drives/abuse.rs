@@ -2,10 +2,13 @@
 
 use crate::lottery::Draw;
 use crate::parts::{
-    FOOT_SLIDER, Nothing, contact, damper, event, foot_and_slider, free, named, p1, plan, push, sine, wave,
+    FOOT_SLIDER, Nothing, contact, damper, event, foot_and_slider, free, named, p1, piezo, plan, push, sine,
+    wave,
 };
 use stickslip_contact::Profile;
-use stickslip_drive::scene::{Actuator, ContactStart, Freedom, Normal, Scene, Side, Spring, Start, Varying};
+use stickslip_drive::scene::{
+    Actuator, ContactStart, Coordinate, Normal, Scene, Side, Spring, Start, Varying,
+};
 use stickslip_drive::{Limits, Model, Plan, RunError, Shape, Stepper, Trace, run};
 
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(1)];
@@ -82,7 +85,7 @@ fn extreme(seed: u64) -> (Scene, f64) {
             let between = [Side::Ground, Side::Body(0)];
             scene
                 .actuators
-                .push(named("stack", Actuator { between, stiffness, damping, stroke: Varying::Follows(0) }));
+                .push(named("stack", Actuator { damping, ..piezo(between, stiffness, Varying::Follows(0)) }));
         }
         _ => {}
     }
@@ -191,7 +194,7 @@ fn a_normal_force_that_touches_zero_lets_go_and_grips_again() {
 fn where_nothing_is_free_the_equilibrium_is_the_start() {
     let punch = contact(FOOT_SLIDER, Profile::flat(1e-5).unwrap(), 0.2, 1.0);
     let mut scene = foot_and_slider(wave("drive", sine(1e-7), 1e-3), 0.01, punch);
-    scene.bodies[1].part.x = Freedom::Fixed;
+    scene.bodies[1].part.x = Coordinate::default();
     let plan = event(1e-8, 1e-3);
     let given = Model::new(&scene).unwrap().start(&plan).unwrap();
     scene.start = Start::Equilibrium;

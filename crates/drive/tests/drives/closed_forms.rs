@@ -4,8 +4,8 @@
 //! (2019), section 4.4.
 
 use crate::parts::{
-    FOOT_SLIDER, column, contact, damper, end, event, follower, foot_and_slider, free, named, plan, push,
-    sine, trace, wave,
+    FOOT_SLIDER, column, contact, damper, end, event, follower, foot_and_slider, free, named, piezo, plan,
+    push, sine, trace, wave,
 };
 use std::f64::consts::{PI, TAU};
 use stickslip_contact::{Material, Pair, Profile};
@@ -235,7 +235,7 @@ fn ruby_drive() {
 fn damped_oscillator_under_a_step_load() {
     let (mass, stiffness, damping, force, preload) = (0.5, 2e4, 12.0, 3.0, 0.7);
     let mut scene = Scene { bodies: vec![named("mass", free(mass))], ..Scene::default() };
-    scene.springs.push(named("spring", Spring { between: GROUND_SLIDER, stiffness, damping, preload }));
+    scene.springs.push(named("spring", Spring { stiffness, preload, ..damper(GROUND_SLIDER, damping) }));
     scene.loads.push(push(0, force));
     // A tenth of it comes from the slope: -m g sin(incline).
     let incline = (-0.1 * force / (mass * 9.81)).asin();
@@ -275,7 +275,7 @@ fn piezo_stack_follows_its_resonance_curve() {
         let stroke_of = Varying::Follows(0);
         scene
             .actuators
-            .push(named("stack", Actuator { between: GROUND_SLIDER, stiffness, damping, stroke: stroke_of }));
+            .push(named("stack", Actuator { damping, ..piezo(GROUND_SLIDER, stiffness, stroke_of) }));
         // e^{-0.05 ω₀ t} has fallen below 1e-13.
         let settled = (100.0 * part).ceil() * TAU / omega;
         let (model, _, rows) = trace(&scene, &event(1e-11, settled + TAU / omega), TAU / omega / 64.0);
@@ -301,9 +301,7 @@ fn equilibrium_of_a_spring_beside_a_contact() {
     let load = stiffness * x + MU * FORCE * (1.0 - 0.6_f64.powf(1.5));
     let mut scene = Scene { bodies: vec![named("slider", free(0.02))], ..Scene::default() };
     scene.contacts.push(named("ball", known.contact));
-    scene
-        .springs
-        .push(named("tie", Spring { between: GROUND_SLIDER, stiffness, damping: 0.0, preload: 0.0 }));
+    scene.springs.push(named("tie", Spring { stiffness, ..damper(GROUND_SLIDER, 0.0) }));
     scene.loads.push(push(0, load));
     scene.start = Start::Equilibrium;
     let model = Model::new(&scene).unwrap();

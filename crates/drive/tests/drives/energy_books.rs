@@ -4,8 +4,8 @@
 //! as integrals over time, the stored parts from the state), so that nothing closes by construction.
 
 use crate::parts::{
-    FOOT_SLIDER, column, contact, damper, event, fitted_order, foot_and_slider, free, named, p1, plan, push,
-    sine, trace, wave,
+    FOOT_SLIDER, column, contact, damper, event, fitted_order, foot_and_slider, free, named, p1, piezo, plan,
+    push, sine, trace, wave,
 };
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Actuator, Normal, Scene, Side, Varying};
@@ -30,10 +30,9 @@ fn stack() -> Scene {
     let mut scene = driven_by(Shape::Cycloid { stroke: 0.5e-6, flyback: 0.1e-3 });
     scene.bodies[0].part = free(5e-3);
     let between = [Side::Ground, Side::Body(0)];
-    scene.actuators.push(named(
-        "stack",
-        Actuator { between, stiffness: 20e6, damping: 30.0, stroke: Varying::Follows(0) },
-    ));
+    scene
+        .actuators
+        .push(named("stack", Actuator { damping: 30.0, ..piezo(between, 20e6, Varying::Follows(0)) }));
     scene
 }
 

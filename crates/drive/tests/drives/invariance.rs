@@ -5,7 +5,7 @@ use crate::parts::{Looker, Nothing, damper, event, named, p1, plan, push, try_en
 use proptest::{prelude::*, test_runner::RngSeed};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
-    ContactStart, EngineChoice, Freedom, Load, Normal, Scene, Side, Spring, Varying,
+    ContactStart, Coordinate, EngineChoice, Load, Normal, Scene, Side, Spring, Varying,
 };
 use stickslip_drive::{
     Event, Limits, Model, Moments, Plan, Record, RunError, SceneError, Shape, State, Stepper, Timing, Trace,
@@ -252,10 +252,10 @@ fn places_that_do_not_exist_are_refused() {
     let nowhere = Side::Body(7);
     assert!(broken(|s| s.contacts[0].part.between = [nowhere, Side::Ground]).is_err());
     let cases: [Change; 5] = [
-        |s| s.bodies[0].part.x = Freedom::Follows(7),
+        |s| s.bodies[0].part.x = Coordinate::follows(7),
         |s| s.contacts[0].part.normal = Normal::Force(Varying::Follows(7)),
         |s| s.loads.push(push(7, 1.0)),
-        |s| s.loads.push(Load { on: 1, x: Varying::Follows(7) }),
+        |s| s.loads.push(Load { on: 1, x: Varying::Follows(7), ..Load::default() }),
         |s| s.springs.push(named("tie", damper([Side::Ground, Side::Body(7)], 1.0))),
     ];
     for change in cases {
@@ -280,8 +280,8 @@ fn numbers_out_of_range_are_refused() {
         ("contacts.ball.start.displacement", |s| {
             s.contacts[0].part.start = ContactStart::Displacement(f64::NAN);
         }),
-        ("bodies.slider.start.x", |s| s.bodies[1].part.start_x = f64::NAN),
-        ("bodies.slider.start.vx", |s| s.bodies[1].part.start_vx = f64::INFINITY),
+        ("bodies.slider.start.x", |s| s.bodies[1].part.x.position = f64::NAN),
+        ("bodies.slider.start.vx", |s| s.bodies[1].part.x.velocity = f64::INFINITY),
         ("loads[0].x", |s| s.loads.push(push(1, f64::NAN))),
         ("gravity.acceleration", |s| s.gravity.acceleration = f64::NAN),
         ("springs.tie.damping", |s| {

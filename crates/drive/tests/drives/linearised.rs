@@ -3,8 +3,8 @@
 use crate::parts::{contact, damper, event, foot_and_slider, free, named, p1, plan, sine, wave};
 use nalgebra::{DMatrix, DVector};
 use stickslip_contact::Profile;
-use stickslip_drive::scene::{Body, Freedom, Normal, Scene, Side, Spring, Varying};
-use stickslip_drive::{Indentations, Model, Shape, Stepper};
+use stickslip_drive::scene::{Body, Coordinate, Normal, Scene, Side, Spring, Varying};
+use stickslip_drive::{Indentations, Linearised, Model, Shape, State, Stepper};
 use stickslip_stepper::{Rk4, System, Verlet};
 
 const FOOT: Side = Side::Body(0);
@@ -29,9 +29,19 @@ fn chain(stiffness: f64, damping: f64) -> Scene {
     Scene {
         bodies: vec![named("foot", free(5e-3)), named("slider", free(20e-3))],
         contacts: vec![named("ball", contact([FOOT, SLIDER], Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0))],
-        springs: vec![named("stack", Spring { between, stiffness, damping, preload: 0.0 })],
+        springs: vec![named("stack", Spring { stiffness, ..damper(between, damping) })],
         ..Scene::default()
     }
+}
+
+/// A model's state at t = 0.
+fn still(model: &Model) -> State {
+    model.start(&event(1e-8, 1.0)).unwrap()
+}
+
+fn about_rest(scene: &Scene) -> Linearised {
+    let model = Model::new(scene).unwrap();
+    model.linearised(&still(&model), |d| d.start)
 }
 
 fn close(got: f64, want: f64, within: f64) {
@@ -42,7 +52,7 @@ fn close(got: f64, want: f64, within: f64) {
 fn a_chain_of_two_masses_has_its_closed_modes() {
     let (k1, k2, m1, m2) = (20e6, stuck(1e-3, 1.0), 5e-3, 20e-3);
     let model = Model::new(&chain(k1, 7.0)).unwrap();
-    let linearised = model.linearised(|d| d.start);
+    let linearised = model.linearised(&still(&model), |d| d.start);
     assert_eq!(linearised.coordinates(), ["foot.x", "slider.x"]);
     assert_eq!(linearised.mass(), &DVector::from_vec(vec![m1, m2]));
     assert_eq!(linearised.damping(), &DMatrix::from_row_slice(2, 2, &[7.0, 0.0, 0.0, 0.0]));
@@ -71,23 +81,23 @@ fn a_chain_of_two_masses_has_its_closed_modes() {
 fn what_nothing_holds_has_no_frequency_and_what_is_never_pressed_no_stiffness() {
     let mut scene = chain(0.0, 0.0);
     scene.contacts[0].part.normal = Normal::Indentation(Varying::Constant(-1e-6));
-    let linearised = Model::new(&scene).unwrap().linearised(|d| d.start);
+    let linearised = about_rest(&scene);
     assert_eq!(linearised.stiffness(), &DMatrix::zeros(2, 2));
     assert!(linearised.modes().iter().all(|mode| mode.frequency == 0.0));
     // One free mass moves, the pair against itself swings with the reduced mass.
-    let modes = Model::new(&chain(0.0, 0.0)).unwrap().linearised(|d| d.start).modes();
+    let modes = about_rest(&chain(0.0, 0.0)).modes();
     assert_eq!(modes[0].frequency, 0.0);
     close(modes[1].frequency, (stuck(1e-3, 1.0) / 4e-3).sqrt(), 1e-12);
     close(modes[0].shape[0], modes[0].shape[1], 1e-8);
     let nothing = Model::new(&Scene::default()).unwrap();
-    assert!(nothing.linearised(|d| d.start).modes().is_empty());
+    assert!(nothing.linearised(&still(&nothing), |d| d.start).modes().is_empty());
     assert_eq!(nothing.longest_step(Stepper::Verlet { step: 1.0 }), Some(f64::INFINITY));
 }
 
 #[test]
 fn a_contact_resounds_with_the_masses_that_are_free_along_it() {
     let model = Model::new(&p1()).unwrap();
-    let d = model.indentations(0).unwrap();
+    let d = model.indentations(&still(&model), 0).unwrap();
     close(model.contact_resonance(0, d.start).unwrap(), (stuck(1e-3, 1.0) / 20e-3).sqrt(), 1e-12);
     let model = Model::new(&chain(20e6, 0.0)).unwrap();
     // 1/m = 1/5 g + 1/20 g = 1/4 g.
@@ -106,13 +116,13 @@ fn a_load_that_varies_gives_the_range_of_indentations() {
     let model = Model::new(&scene).unwrap();
     // F = (4/3)E*√R d^{3/2}.
     let depth = |force: f64| (0.75 * force / (moduli().0 * 1e-3_f64.sqrt())).powf(2.0 / 3.0);
-    let Indentations { least, start, most } = model.indentations(0).unwrap();
+    let Indentations { least, start, most } = model.indentations(&still(&model), 0).unwrap();
     for (got, force) in [(least, 1.0), (start, 1.5), (most, 2.0)] {
         close(got, depth(force), 1e-12);
     }
     let limit = model.longest_step(Stepper::Verlet { step: 1e-6 }).unwrap();
     close(limit, 2.0 / (stuck(1e-3, 2.0) / 0.02).sqrt(), 1e-12);
-    assert!(model.indentations(1).is_none());
+    assert!(model.indentations(&still(&model), 1).is_none());
 }
 
 /// M ẍ + C ẋ + K x = 0.
@@ -169,7 +179,7 @@ fn the_longest_steps_are_where_the_steppers_begin_to_blow_up() {
         let mut scene = chain(20e6, damping);
         scene.springs.push(named("guide", damper([Side::Ground, SLIDER], 0.3 * damping)));
         let model = Model::new(&scene).unwrap();
-        let linear = model.linearised(|d| d.most);
+        let linear = model.linearised(&still(&model), |d| d.most);
         let system = Linear {
             mass: linear.mass().clone(),
             damping: linear.damping().clone(),
@@ -188,7 +198,7 @@ fn the_longest_steps_are_where_the_steppers_begin_to_blow_up() {
 #[test]
 fn one_damped_mode_has_its_closed_limits() {
     let mut scene = chain(20e6, 30.0);
-    scene.bodies[1].part = Body { x: Freedom::Fixed, ..free(1.0) };
+    scene.bodies[1].part = Body { x: Coordinate::default(), ..free(1.0) };
     let model = Model::new(&scene).unwrap();
     let (k, m, c) = (20e6 + stuck(1e-3, 1.0), 5e-3, 30.0);
     let h = model.longest_step(Stepper::Verlet { step: 1.0 }).unwrap();

@@ -1,7 +1,7 @@
 //! Random scenes with a seed: what is in them is dealt out by the seed, so that twenty seeds contain everything;
 //! the numbers are drawn.
 
-use crate::parts::{contact, damper, follower, free, named, push};
+use crate::parts::{contact, damper, follower, free, named, piezo, push};
 use std::f64::consts::TAU;
 use stickslip_contact::{Interface, Profile};
 use stickslip_drive::scene::{
@@ -127,7 +127,7 @@ pub(crate) fn deal(seed: u64) -> Drawn {
     };
     if seed % 5 == 4 {
         ball.start = ContactStart::Displacement(draw.between(-0.8, 0.8) * u_c);
-        scene.bodies[1].part.start_vx = draw.between(-0.5, 0.5) * u_c * TAU * frequency;
+        scene.bodies[1].part.x.velocity = draw.between(-0.5, 0.5) * u_c * TAU * frequency;
     }
     if seed % 6 == 5 {
         let shape = Shape::Sine {
@@ -170,7 +170,7 @@ fn add_parts(draw: &mut Draw, seed: u64, scene: &mut Scene, scales: &Scales, tit
         scene.bodies[0].part = free(foot);
         scene.actuators.push(named(
             "stack",
-            Actuator { between, stiffness, damping: inner, stroke: Varying::Follows(0) },
+            Actuator { damping: inner, ..piezo(between, stiffness, Varying::Follows(0)) },
         ));
         scene.springs.push(named("guide of the foot", damper(between, outer)));
         *title += ", stack";
@@ -178,7 +178,9 @@ fn add_parts(draw: &mut Draw, seed: u64, scene: &mut Scene, scales: &Scales, tit
     if seed % 4 == 2 {
         let (stiffness, ratio) = (stuck * draw.between(0.02, 0.2), draw.between(0.02, 0.5));
         let damping = 2.0 * ratio * (stuck * mass).sqrt();
-        scene.springs.push(named("tie", Spring { between: ground, stiffness, damping, preload: 0.1 * hold }));
+        scene
+            .springs
+            .push(named("tie", Spring { stiffness, preload: 0.1 * hold, ..damper(ground, damping) }));
         *title += ", tie";
     }
     if seed % 3 == 1 {
@@ -189,7 +191,7 @@ fn add_parts(draw: &mut Draw, seed: u64, scene: &mut Scene, scales: &Scales, tit
         let sine = Shape::Sine { amplitude: 0.2 * hold, phase: draw.between(0.0, TAU), offset: 0.0 };
         let timing = Timing::every(scene.waveforms[0].part.period().unwrap_or(1e-3) * draw.between(0.4, 3.0));
         scene.waveforms.push(named("wind", Waveform::new(sine, timing).unwrap()));
-        scene.loads.push(Load { on: 1, x: Varying::Follows(scene.waveforms.len() - 1) });
+        scene.loads.push(Load { on: 1, x: Varying::Follows(scene.waveforms.len() - 1), ..Load::default() });
         *title += ", varying load";
     }
     if seed % 5 == 3 {

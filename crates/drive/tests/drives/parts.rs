@@ -2,7 +2,8 @@
 
 use stickslip_contact::{Material, Memory, Pair, Profile};
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, EngineChoice, Freedom, Load, Named, Normal, Scene, Side, Spring, Varying,
+    Actuator, Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Load, Named, Normal, Point,
+    Scene, Side, Spring, Varying,
 };
 use stickslip_drive::{
     Event, Limits, Model, Moments, Plan, Record, RunError, Schedule, Shape, State, Stepper, Timing, Trace,
@@ -22,11 +23,11 @@ pub(crate) fn sine(amplitude: f64) -> Shape {
 }
 
 pub(crate) fn follower(waveform: usize) -> Body {
-    Body { mass: None, x: Freedom::Follows(waveform), start_x: 0.0, start_vx: 0.0 }
+    Body { x: Coordinate::follows(waveform), ..Body::default() }
 }
 
 pub(crate) fn free(mass: f64) -> Body {
-    Body { mass: Some(mass), x: Freedom::Free, start_x: 0.0, start_vx: 0.0 }
+    Body { mass: Some(mass), x: Coordinate::FREE, ..Body::default() }
 }
 
 /// Steel on steel: E = 210 GPa, ν = 0.3.
@@ -39,10 +40,13 @@ pub(crate) fn steel() -> Pair {
 pub(crate) fn contact(between: [Side; 2], profile: Profile, friction: f64, force: f64) -> Contact {
     Contact {
         between,
+        at: [Point::default(); 2],
         pair: steel(),
         profile,
         friction,
         normal: Normal::Force(Varying::Constant(force)),
+        gap: 0.0,
+        damping: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,
@@ -50,12 +54,19 @@ pub(crate) fn contact(between: [Side; 2], profile: Profile, friction: f64, force
 }
 
 pub(crate) fn damper(between: [Side; 2], damping: f64) -> Spring {
-    Spring { between, stiffness: 0.0, damping, preload: 0.0 }
+    let at = [Point::default(); 2];
+    Spring { between, at, direction: Direction::X, stiffness: 0.0, damping, preload: 0.0 }
+}
+
+/// An undamped actuator along x.
+pub(crate) fn piezo(between: [Side; 2], stiffness: f64, stroke: Varying) -> Actuator {
+    let at = [Point::default(); 2];
+    Actuator { between, at, direction: Direction::X, stiffness, damping: 0.0, stroke }
 }
 
 /// A constant force (N) on a body.
 pub(crate) fn push(on: usize, force: f64) -> Load {
-    Load { on, x: Varying::Constant(force) }
+    Load { on, x: Varying::Constant(force), ..Load::default() }
 }
 
 /// A foot that follows `shape` carries a free slider on one contact: bodies 0 and 1, contact 0.

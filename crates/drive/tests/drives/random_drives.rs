@@ -12,7 +12,7 @@ const PERIODS: f64 = 3.0;
 /// Positions of the free bodies at a number of moments of a run.
 fn positions(scene: &Scene, plan: &Plan) -> Vec<f64> {
     let (model, _, rows) = trace(scene, plan, plan.duration / 16.0);
-    let free = scene.bodies.iter().filter(|b| b.part.x == Freedom::Free);
+    let free = scene.bodies.iter().filter(|b| b.part.x.freedom == Freedom::Free);
     let columns: Vec<usize> = free.map(|b| channel(&model, &format!("{}.x_m", b.name))).collect();
     rows.rows().flat_map(|row| columns.iter().map(|c| row[*c])).collect()
 }

@@ -1,13 +1,14 @@
 //! Contacts.
 
-use super::{Count, Lengths, Moving, Reserved, Two};
-use crate::quantity::{Force, Length, dimension};
-use crate::schema::{above_zero, at_least_zero, never};
+use super::{Count, Lengths, Moving, Points, Reserved, Two};
+use crate::quantity::{Force, Length, Time, dimension};
+use crate::schema::{above_zero, at_least_zero};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A frictional contact: u = x(first) - x(second); friction pulls the second body along with the first.
+/// A frictional contact: u = x(first) - x(second) at the contact point; friction pulls the second body along with the
+/// first.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactForm {
@@ -38,19 +39,32 @@ pub(crate) struct ContactForm {
     #[serde(default)]
     #[schemars(example = &"curve", example = json!({ "springs": { "count": 1024 } }))]
     pub(crate) engine: EngineForm,
-    /// Contact point relative to the bodies' reference points. Not yet in this version.
+    /// Contact point on each body by its name, relative to the body's reference point, which it is by default.
+    #[serde(default, skip_serializing_if = "Points::is_empty")]
+    #[schemars(example = json!({ "slider": { "x": "5 mm", "z": "-3 mm" } }))]
+    pub(crate) at: Points,
+    /// Gap between the bodies in the position drawn, m, 0 by default; negative: pressed. Only of a contact whose normal
+    /// is "coupled".
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) at: Option<Reserved>,
-    /// Gap before the start, m. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) gap: Option<Reserved>,
-    /// Time constant of the stuck springs, s. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) damping: Option<Reserved>,
+    #[schemars(example = &"2 um")]
+    pub(crate) gap: Option<Length>,
+    /// Time constant β of the stuck springs, s, at least 0, 0 by default: they carry βG*ṡ beside G*s, slipping ones
+    /// nothing of it.
+    #[serde(default = "no_time", skip_serializing_if = "is_zero")]
+    #[schemars(example = &"1 us", transform = at_least_zero)]
+    pub(crate) damping: Time,
 }
 
 fn one() -> Count {
     Count(1)
+}
+
+fn no_time() -> Time {
+    Time::new(0.0)
+}
+
+fn is_zero(time: &Time) -> bool {
+    time.si == 0.0
 }
 
 /// Profile of the gap between the undeformed bodies.
@@ -146,8 +160,7 @@ pub(crate) enum NormalForm {
     /// Contact radius, m, at least 0; typical 1 um to 100 um.
     #[schemars(transform = at_least_zero, example = json!({ "radius": "5 um" }))]
     Radius(Moving<dimension::Length>),
-    /// From the bodies' z. Not yet in this version.
-    #[schemars(transform = never)]
+    /// From the bodies' motion: d = z(first) - z(second) - gap at the contact point.
     Coupled,
 }
 

@@ -1,8 +1,8 @@
 //! What else acts on bodies: springs, actuators, loads, gravity.
 
-use super::{Moving, Reserved, Two};
+use super::{Moving, PointForm, Points, Reserved, Two};
 use crate::quantity::{Acceleration, Angle, Damping, Force, Stiffness, dimension};
-use crate::schema::{above_zero, at_least_zero, never, something_to_do, stroke_needed, x_needed};
+use crate::schema::{above_zero, at_least_zero, something_on_it, something_to_do, stroke_needed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -18,12 +18,12 @@ pub(crate) enum DirectionForm {
     /// Along the slide.
     #[default]
     X,
-    /// Normal to the slide. Not yet in this version.
-    #[schemars(transform = never)]
+    /// Normal to the slide.
     Z,
 }
 
-/// Linear spring with a damper: force on the second body preload - k e - c ė, e = x(second) - x(first).
+/// Linear spring with a damper: force on the second body preload - k e - c ė, e = x(second) - x(first) at its ends, or
+/// z(second) - z(first).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = something_to_do)]
@@ -31,10 +31,14 @@ pub(crate) struct SpringForm {
     /// First and second body; `ground` is one too.
     #[schemars(extend("uniqueItems" = true), example = json!(["ground", "slider"]))]
     pub(crate) between: Two,
-    /// Direction; only "x" in this version.
+    /// Along x or z.
     #[serde(default)]
-    #[schemars(example = &"x")]
+    #[schemars(example = &"z")]
     pub(crate) direction: DirectionForm,
+    /// Its end on each body by the body's name, relative to the body's reference point, which it is by default.
+    #[serde(default, skip_serializing_if = "Points::is_empty")]
+    #[schemars(example = json!({ "slider": { "x": "5 mm" } }))]
+    pub(crate) at: Points,
     /// Stiffness k, N/m, at least 0; typical 1 kN/m to 100 N/um.
     #[serde(default = "no_stiffness")]
     #[schemars(example = &"2 N/um", transform = at_least_zero)]
@@ -49,7 +53,8 @@ pub(crate) struct SpringForm {
     pub(crate) preload: Force,
 }
 
-/// Piezo stack: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first), s the free stroke.
+/// Piezo stack: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first) at its ends, or
+/// z(second) - z(first), s the free stroke.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = stroke_needed)]
@@ -57,10 +62,14 @@ pub(crate) struct ActuatorForm {
     /// First and second body; `ground` is one too.
     #[schemars(extend("uniqueItems" = true), example = json!(["ground", "slider"]))]
     pub(crate) between: Two,
-    /// Direction; only "x" in this version.
+    /// Along x or z.
     #[serde(default)]
-    #[schemars(example = &"x")]
+    #[schemars(example = &"z")]
     pub(crate) direction: DirectionForm,
+    /// Its end on each body by the body's name, relative to the body's reference point, which it is by default.
+    #[serde(default, skip_serializing_if = "Points::is_empty")]
+    #[schemars(example = json!({ "slider": { "x": "5 mm" } }))]
+    pub(crate) at: Points,
     /// Stiffness k, N/m, above 0; typical 1 N/um to 500 N/um.
     #[schemars(example = &"20 N/um", transform = above_zero)]
     pub(crate) stiffness: Stiffness,
@@ -92,30 +101,34 @@ pub(crate) struct ActuatorForm {
     pub(crate) creep: Option<Reserved>,
 }
 
-/// Force on a body.
+/// Force and moment on a body; at least one of `x`, `z` and `pitch`.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(transform = x_needed)]
+#[schemars(transform = something_on_it)]
 pub(crate) struct LoadForm {
     /// Name of the body.
     #[schemars(example = &"slider")]
     pub(crate) on: String,
-    /// Force along x, N; needed in this version; typical 1 mN to 10 N.
+    /// Force along x, N, 0 by default; typical 1 mN to 10 N.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(example = &"-0.02 N")]
+    #[schemars(example = &"-0.02 N", example = json!({ "follows": "push" }))]
     pub(crate) x: Option<Moving<dimension::Force>>,
-    /// Force along z, N. Not yet in this version.
+    /// Force along z, N, 0 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) z: Option<Reserved>,
-    /// Moment, N m. Not yet in this version.
+    #[schemars(example = &"-1 N")]
+    pub(crate) z: Option<Moving<dimension::Force>>,
+    /// Moment on the pitch, N m, 0 by default; positive from x towards z.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) pitch: Option<Reserved>,
-    /// Point of attack. Not yet in this version.
+    #[schemars(example = &"0.5 mN m")]
+    pub(crate) pitch: Option<Moving<dimension::Moment>>,
+    /// Where the forces attack, relative to the body's reference point, which it is by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) at: Option<Reserved>,
+    #[schemars(example = json!({ "x": "4 mm", "z": "2 mm" }))]
+    pub(crate) at: Option<PointForm>,
 }
 
-/// Gravity: the force along x is -m g sin(incline).
+/// Gravity: a body of mass m is pulled by -m g sin(incline) along x and by -m g cos(incline) along z. What is not free
+/// is carried by its guide.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GravityForm {

@@ -6,7 +6,7 @@ use crate::form::{BodyForm, BodyStartForm, FreedomForm, RunStartForm};
 use crate::path::At;
 use crate::units::Kind;
 use stickslip_contact::Material;
-use stickslip_drive::scene::{Body, Freedom, Named, Start};
+use stickslip_drive::scene::{Axis, Body, Coordinate, Freedom, Named, Start};
 
 impl Builder<'_> {
     /// Checks all materials, also those that nothing uses.
@@ -41,54 +41,68 @@ impl Builder<'_> {
     }
 
     fn body_of(&mut self, at: &At<'_>, form: &BodyForm) -> Result<Body, Fault> {
-        for (key, freedom) in [("z", &form.z), ("pitch", &form.pitch)] {
-            if !freedom.is_fixed() {
-                return Err(at.key(key).not_yet().help("leave it out: fixed"));
-            }
-        }
-        if form.inertia.is_some() {
-            return Err(at.key("inertia").not_yet().help("leave it out: no body rotates"));
-        }
         let mass = form.mass.map(|mass| range::above_zero(&at.key("mass"), mass)).transpose()?;
-        let x = match &form.x {
-            FreedomForm::Fixed => Freedom::Fixed,
-            FreedomForm::Free if mass.is_none() => {
-                return Err(at.missing("mass").help("x is free: a body that obeys Newton needs a mass"));
-            }
-            FreedomForm::Free => Freedom::Free,
-            FreedomForm::Follows(waveform) => {
-                Freedom::Follows(self.follow(&at.key("x"), waveform, Kind::Length)?)
-            }
-        };
-        let (start_x, start_vx) = match &form.start {
-            Some(start) => self.body_start(&at.key("start"), x, start)?,
-            None => (0.0, 0.0),
-        };
-        Ok(Body { mass, x, start_x, start_vx })
+        let inertia =
+            form.inertia.map(|inertia| range::above_zero(&at.key("inertia"), inertia)).transpose()?;
+        let x = self.coordinate(at, Axis::X, form)?;
+        let z = self.coordinate(at, Axis::Z, form)?;
+        let pitch = self.coordinate(at, Axis::Pitch, form)?;
+        Ok(Body { mass, inertia, x, z, pitch })
     }
 
-    fn body_start(&self, at: &At<'_>, x: Freedom, form: &BodyStartForm) -> Result<(f64, f64), Fault> {
-        let later = [("z", form.z), ("vz", form.vz), ("pitch", form.pitch), ("vpitch", form.vpitch)];
-        if let Some((key, _)) = later.iter().find(|(_, value)| value.is_some()) {
-            return Err(at.key(key).not_yet());
+    fn coordinate(&mut self, at: &At<'_>, axis: Axis, form: &BodyForm) -> Result<Coordinate, Fault> {
+        let (freedom, kind) = match axis {
+            Axis::X => (&form.x, Kind::Length),
+            Axis::Z => (&form.z, Kind::Length),
+            Axis::Pitch => (&form.pitch, Kind::Angle),
+        };
+        let freedom = match freedom {
+            FreedomForm::Fixed => Freedom::Fixed,
+            FreedomForm::Free => {
+                can_be_free(at, axis, form)?;
+                Freedom::Free
+            }
+            FreedomForm::Follows(waveform) => {
+                Freedom::Follows(self.follow(&at.key(axis.key()), waveform, kind)?)
+            }
+        };
+        let Some(start) = form.start else { return Ok(Coordinate { freedom, ..Coordinate::default() }) };
+        let (position, velocity) = self.body_start(&at.key("start"), axis, freedom, start)?;
+        Ok(Coordinate { freedom, position, velocity })
+    }
+
+    fn body_start(
+        &self,
+        at: &At<'_>,
+        axis: Axis,
+        freedom: Freedom,
+        form: BodyStartForm,
+    ) -> Result<(f64, f64), Fault> {
+        let (rate, position, velocity) = match axis {
+            Axis::X => ("vx", form.x.map(|x| x.si), form.vx.map(|v| v.si)),
+            Axis::Z => ("vz", form.z.map(|z| z.si), form.vz.map(|v| v.si)),
+            Axis::Pitch => ("vpitch", form.pitch.map(|p| p.si), form.vpitch.map(|v| v.si)),
+        };
+        let key = axis.key();
+        let refused = |key: &str, message: &str| Err(at.key(key).fault(message).on_key());
+        if position.is_some() && matches!(freedom, Freedom::Follows(_)) {
+            return refused(key, &format!("{key} follows a waveform, which says where it starts"));
         }
-        if let (Freedom::Follows(_), Some(_)) = (x, form.x) {
-            return Err(at.key("x").fault("x follows a waveform, which says where it starts").on_key());
+        if position.is_some() && (axis, freedom) == (Axis::Pitch, Freedom::Fixed) {
+            return refused(key, "pitch is fixed: the body stays as it is drawn")
+                .map_err(|fault| fault.help("make pitch \"free\", or give its points where they are"));
         }
-        if x != Freedom::Free && form.vx.is_some() {
-            return Err(at
-                .key("vx")
-                .fault("only a free coordinate has a velocity of its own at the start")
-                .on_key());
+        if velocity.is_some() && freedom != Freedom::Free {
+            return refused(rate, "only a free coordinate has a velocity of its own at the start");
         }
-        let settled = self.form.run.start == RunStartForm::Equilibrium && x == Freedom::Free;
-        for (key, given) in [("x", form.x.is_some()), ("vx", form.vx.is_some())] {
-            if settled && given {
-                let fault = at.key(key).fault("run.start is \"equilibrium\", which says where it starts");
-                return Err(fault.on_key().help("remove one of the two"));
+        let settled = self.form.run.start == RunStartForm::Equilibrium && freedom == Freedom::Free;
+        for (key, given) in [(key, position), (rate, velocity)] {
+            if settled && given.is_some() {
+                return refused(key, "run.start is \"equilibrium\", which says where it starts")
+                    .map_err(|fault| fault.help("remove one of the two"));
             }
         }
-        Ok((form.x.map_or(0.0, |x| x.si), form.vx.map_or(0.0, |vx| vx.si)))
+        Ok((position.unwrap_or(0.0), velocity.unwrap_or(0.0)))
     }
 
     /// How the free coordinates start.
@@ -98,5 +112,20 @@ impl Builder<'_> {
             RunStartForm::Equilibrium => Start::Equilibrium,
         };
         Ok(())
+    }
+}
+
+/// What obeys Newton needs a mass, what turns a moment of inertia.
+fn can_be_free(at: &At<'_>, axis: Axis, form: &BodyForm) -> Result<(), Fault> {
+    let key = axis.key();
+    match axis {
+        Axis::X | Axis::Z if form.mass.is_none() => {
+            let help = format!("{key} is free: a body that obeys Newton needs a mass");
+            Err(at.missing("mass").help(help))
+        }
+        Axis::Pitch if form.inertia.is_none() => {
+            Err(at.missing("inertia").help("pitch is free: a body that turns needs a moment of inertia"))
+        }
+        Axis::X | Axis::Z | Axis::Pitch => Ok(()),
     }
 }

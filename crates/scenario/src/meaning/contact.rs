@@ -28,11 +28,6 @@ impl Builder<'_> {
     }
 
     fn contact(&mut self, at: &At<'_>, form: &ContactForm) -> Result<Contact, Fault> {
-        for (key, value) in [("at", form.at), ("gap", form.gap), ("damping", form.damping)] {
-            if value.is_some() {
-                return Err(at.key(key).not_yet());
-            }
-        }
         let between = self.between(at, &form.between)?;
         let pair = self.pair(&at.key("materials"), &form.materials.0)?;
         let profile = profile(&at.key("profile"), &form.profile)?;
@@ -46,7 +41,10 @@ impl Builder<'_> {
         let start = self.contact_start(&at.key("start"), &form.start, &interface, normal)?;
         let engine = self.engine(&at.key("engine"), &form.engine)?;
         let count = range::count_between(&at.key("count"), form.count.0, 1, MAX_COUNT)? as u32;
-        Ok(Contact { between, pair, profile, friction, normal, start, engine, count })
+        let damping = range::at_least_zero(&at.key("damping"), form.damping)?;
+        let gap = gap(at, form)?;
+        let at = self.points(at, &form.between, &form.at)?;
+        Ok(Contact { between, at, pair, profile, friction, normal, gap, damping, start, engine, count })
     }
 
     fn pair(&self, at: &At<'_>, names: &[String; 2]) -> Result<Pair, Fault> {
@@ -80,10 +78,7 @@ impl Builder<'_> {
                 }
                 self.varying_at_least_zero(&at, radius).map(Normal::Radius)
             }
-            NormalForm::Coupled => {
-                let fault = at.fault("\"coupled\" is part of the form but not yet in this version");
-                Err(fault.help("give a force, an indentation or a radius"))
-            }
+            NormalForm::Coupled => Ok(Normal::Coupled),
         }
     }
 
@@ -94,6 +89,8 @@ impl Builder<'_> {
             Normal::Force(force) => ("force", force, interface.normal_force(reach), "N"),
             Normal::Indentation(depth) => ("indentation", depth, reach, "m"),
             Normal::Radius(radius) => ("radius", radius, interface.profile().radius(reach), "m"),
+            // How deep the bodies press it is a matter of the whole scene.
+            Normal::Coupled => return Ok(()),
         };
         let (_, high) = self.range(varying);
         if high < most {
@@ -118,7 +115,10 @@ impl Builder<'_> {
             ContactStartForm::Displacement(u) => return Ok(ContactStart::Displacement(u.si)),
             ContactStartForm::Force(force) => force.si,
         };
-        let limit = interface.friction() * self.normal_force_at_start(normal, interface);
+        let Some(normal) = self.normal_force_at_start(normal, interface) else {
+            return Ok(ContactStart::Force(force));
+        };
+        let limit = interface.friction() * normal;
         if force.abs() < limit || force == 0.0 {
             return Ok(ContactStart::Force(force));
         }
@@ -128,14 +128,15 @@ impl Builder<'_> {
             .help("at μF_N the contact slips; this is the force of one contact, whatever \"count\" says"))
     }
 
-    fn normal_force_at_start(&self, normal: Normal, interface: &Interface) -> f64 {
-        match normal {
-            Normal::Force(force) => self.at_start(force),
-            Normal::Indentation(depth) => interface.normal_force(self.at_start(depth)),
-            Normal::Radius(radius) => {
-                interface.normal_force(interface.profile().depth(self.at_start(radius)))
-            }
-        }
+    /// None where the whole scene decides.
+    fn normal_force_at_start(&self, normal: Normal, interface: &Interface) -> Option<f64> {
+        let depth = match normal {
+            Normal::Force(force) => return Some(self.at_start(force)),
+            Normal::Indentation(depth) => self.at_start(depth),
+            Normal::Radius(radius) => interface.profile().depth(self.at_start(radius)),
+            Normal::Coupled => return None,
+        };
+        Some(interface.normal_force(depth))
     }
 
     fn engine(&mut self, at: &At<'_>, form: &EngineForm) -> Result<EngineChoice, Fault> {
@@ -149,6 +150,19 @@ impl Builder<'_> {
         }
         let span = springs.span.map(|span| range::above_zero(&at.key("span"), span)).transpose()?;
         Ok(EngineChoice::Springs { count: count as usize, span })
+    }
+}
+
+/// The gap in the position drawn; only bodies that move along the normal can open or close one.
+fn gap(at: &At<'_>, form: &ContactForm) -> Result<f64, Fault> {
+    match (&form.normal, form.gap) {
+        (NormalForm::Coupled, gap) => Ok(gap.map_or(0.0, |gap| gap.si)),
+        (_, None) => Ok(0.0),
+        (_, Some(_)) => {
+            let message =
+                "only a contact whose normal is \"coupled\" has a gap: here the indentation is given";
+            Err(at.key("gap").fault(message).on_key().help("remove it, or make \"normal\" \"coupled\""))
+        }
     }
 }
 

@@ -1,11 +1,13 @@
 //! Springs, actuators, loads, gravity.
 
+use super::point::point;
 use super::{Builder, range};
 use crate::fault::Fault;
-use crate::form::{DirectionForm, LoadForm};
+use crate::form::{DirectionForm, LoadForm, Moving};
 use crate::path::At;
+use crate::quantity::Dimension;
 use std::f64::consts::PI;
-use stickslip_drive::scene::{Actuator, Gravity, Load, Named, Spring};
+use stickslip_drive::scene::{Actuator, Direction, Gravity, Load, Named, Point, Spring, Varying};
 
 impl Builder<'_> {
     /// All springs, in the order of the file.
@@ -15,9 +17,10 @@ impl Builder<'_> {
         let at = root.key("springs");
         for (name, spring) in form.springs.iter() {
             let at = at.key(name);
-            along_x(&at, spring.direction)?;
             let part = Spring {
                 between: self.between(&at, &spring.between)?,
+                at: self.points(&at, &spring.between, &spring.at)?,
+                direction: direction(spring.direction),
                 stiffness: range::at_least_zero(&at.key("stiffness"), spring.stiffness)?,
                 damping: range::at_least_zero(&at.key("damping"), spring.damping)?,
                 preload: spring.preload.si,
@@ -34,7 +37,6 @@ impl Builder<'_> {
         let at = root.key("actuators");
         for (name, actuator) in form.actuators.iter() {
             let at = at.key(name);
-            along_x(&at, actuator.direction)?;
             let later = [
                 ("voltage", actuator.voltage),
                 ("stroke_per_volt", actuator.stroke_per_volt),
@@ -51,6 +53,8 @@ impl Builder<'_> {
             };
             let part = Actuator {
                 between: self.between(&at, &actuator.between)?,
+                at: self.points(&at, &actuator.between, &actuator.at)?,
+                direction: direction(actuator.direction),
                 stiffness: range::above_zero(&at.key("stiffness"), actuator.stiffness)?,
                 damping: range::at_least_zero(&at.key("damping"), actuator.damping)?,
                 stroke: self.varying(&at.key("stroke"), stroke)?,
@@ -73,16 +77,24 @@ impl Builder<'_> {
     }
 
     fn load(&mut self, at: &At<'_>, form: &LoadForm) -> Result<Load, Fault> {
-        for (key, value) in [("z", form.z), ("pitch", form.pitch), ("at", form.at)] {
-            if value.is_some() {
-                return Err(at.key(key).not_yet());
-            }
-        }
         let on = self.body(&at.key("on"), &form.on)?;
-        let Some(x) = &form.x else {
-            return Err(at.missing("x").help("the force along the slide, such as \"-0.02 N\""));
-        };
-        Ok(Load { on, x: self.varying(&at.key("x"), x)? })
+        if let (None, None, None) = (&form.x, &form.z, &form.pitch) {
+            let fault = at.fault("a load needs a force \"x\" or \"z\", or a moment \"pitch\"");
+            return Err(fault.help("such as { \"on\": \"slider\", \"x\": \"-0.02 N\" }"));
+        }
+        if let (None, None, Some(_)) = (&form.x, &form.z, form.at) {
+            let fault = at.key("at").fault("a moment turns the body alike wherever it attacks").on_key();
+            return Err(fault.help("remove it, or give a force \"x\" or \"z\""));
+        }
+        let x = self.component(&at.key("x"), form.x.as_ref())?;
+        let z = self.component(&at.key("z"), form.z.as_ref())?;
+        let pitch = self.component(&at.key("pitch"), form.pitch.as_ref())?;
+        Ok(Load { on, at: form.at.as_ref().map_or_else(Point::default, point), x, z, pitch })
+    }
+
+    /// A component of a load; nothing by default.
+    fn component<D: Dimension>(&mut self, at: &At<'_>, form: Option<&Moving<D>>) -> Result<Varying, Fault> {
+        form.map_or(Ok(Varying::default()), |form| self.varying(at, form))
     }
 
     /// Gravity, where there is any.
@@ -101,12 +113,9 @@ impl Builder<'_> {
     }
 }
 
-fn along_x(at: &At<'_>, direction: DirectionForm) -> Result<(), Fault> {
-    match direction {
-        DirectionForm::X => Ok(()),
-        DirectionForm::Z => {
-            let fault = at.key("direction").fault("\"z\" is part of the form but not yet in this version");
-            Err(fault.help("leave it out: along x"))
-        }
+fn direction(form: DirectionForm) -> Direction {
+    match form {
+        DirectionForm::X => Direction::X,
+        DirectionForm::Z => Direction::Z,
     }
 }

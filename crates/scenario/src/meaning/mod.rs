@@ -6,6 +6,7 @@ mod coupling;
 mod motion;
 mod names;
 mod output;
+mod point;
 mod range;
 mod run;
 pub(crate) mod warnings;

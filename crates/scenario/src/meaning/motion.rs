@@ -5,7 +5,7 @@ use crate::PlotName;
 use crate::fault::Fault;
 use crate::path::At;
 use stickslip_drive::Scene;
-use stickslip_drive::scene::{Body, Freedom, Named, Side};
+use stickslip_drive::scene::{Body, Coordinate, Freedom, Named, Side};
 
 impl Builder<'_> {
     /// Every free body has something that acts on it, and every spring something to do.
@@ -15,8 +15,8 @@ impl Builder<'_> {
         let gravity = self.scene.gravity;
         let falls = gravity.acceleration * gravity.incline.sin() != 0.0;
         for (body, named) in self.scene.bodies.iter().zip(named_bodies(&self.scene)) {
-            let Body { x, start_vx, .. } = body.part;
-            if x == Freedom::Free && start_vx == 0.0 && !named && !falls {
+            let Coordinate { freedom, velocity, .. } = body.part.x;
+            if freedom == Freedom::Free && velocity == 0.0 && !named && !falls {
                 let at = at.key(&body.name);
                 let fault = at.key("x").fault("nothing acts on this free body: it would never move");
                 return Err(fault.help("name it in a contact, spring, actuator or load"));
@@ -51,7 +51,7 @@ impl Builder<'_> {
 
     /// The body whose motion makes steps does move.
     pub(super) fn moving_body(&self, at: &At<'_>, body: usize) -> Result<usize, Fault> {
-        let moves = |body: &Named<Body>| body.part.x != Freedom::Fixed;
+        let moves = |body: &Named<Body>| body.part.x.freedom != Freedom::Fixed;
         if self.scene.bodies.get(body).is_some_and(moves) {
             return Ok(body);
         }

@@ -48,7 +48,7 @@ impl Builder<'_> {
     /// The only free body, or the only body.
     fn only_body(&self) -> Option<usize> {
         let bodies = &self.scene.bodies;
-        let mut free = (0..bodies.len()).filter(|&i| bodies[i].part.x == Freedom::Free);
+        let mut free = (0..bodies.len()).filter(|&i| bodies[i].part.x.freedom == Freedom::Free);
         match (free.next(), free.next()) {
             (Some(only), None) => Some(only),
             (None, _) if bodies.len() == 1 => Some(0),

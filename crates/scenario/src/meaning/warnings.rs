@@ -7,7 +7,7 @@ use crate::path::{At, KeyPath};
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 use stickslip_drive::Scene;
-use stickslip_drive::scene::{ContactStart, Freedom, Normal, Side, Varying};
+use stickslip_drive::scene::{Axis, Body, ContactStart, Coordinate, Freedom, Named, Normal, Side, Varying};
 
 /// Young's moduli between the softest gels and more than diamond, Pa.
 const MODULUS: (f64, f64) = (1e3, 2e12);
@@ -51,7 +51,7 @@ impl Oddities<'_> {
             used[waveform] = true;
         }
         self.unnamed("waveforms", &form.waveforms, used, "nothing follows this waveform");
-        let moves_alone = scene.bodies.iter().map(|body| body.part.x == Freedom::Free);
+        let moves_alone = scene.bodies.iter().map(|body| body.part.is_free());
         let used = motion::named_bodies(scene).into_iter().zip(moves_alone).map(|(a, b)| a || b).collect();
         self.unnamed("bodies", &form.bodies, used, "no contact, spring, actuator or load names this body");
     }
@@ -88,7 +88,7 @@ impl Oddities<'_> {
         let at = root.key("bodies");
         for (name, body) in self.form.bodies.iter() {
             let at = at.key(name);
-            if let (Some(_), FreedomForm::Fixed) = (body.mass, &body.x)
+            if let (Some(_), FreedomForm::Fixed, FreedomForm::Fixed) = (body.mass, &body.x, &body.z)
                 && !is_written(&at.key("x").path())
             {
                 let fault = at.key("mass").fault("this body has a mass, but x is fixed: it does not move");
@@ -98,8 +98,8 @@ impl Oddities<'_> {
         let at = root.key("loads");
         for (i, load) in self.scene.loads.iter().enumerate() {
             let on = &self.scene.bodies[load.on];
-            if on.part.x != Freedom::Free {
-                let message = format!("this load moves nothing: x of \"{}\" is not free", on.name);
+            if !on.part.is_free() {
+                let message = format!("this load moves nothing: \"{}\" is not free", on.name);
                 self.found.push(at.index(i).key("on").fault(message).help("load a body that is free"));
             }
         }
@@ -120,6 +120,7 @@ impl Oddities<'_> {
                 Normal::Force(value) => ("force", value),
                 Normal::Indentation(value) => ("indentation", value),
                 Normal::Radius(value) => ("radius", value),
+                Normal::Coupled => continue,
             };
             let highest = match value {
                 Varying::Constant(value) => value,
@@ -138,7 +139,7 @@ impl Oddities<'_> {
         let scene = self.scene;
         let springs = scene.springs.iter().map(|spring| ("springs", &spring.name, spring.part.between));
         let actuators = scene.actuators.iter().map(|part| ("actuators", &part.name, part.part.between));
-        let is_free = |side: &Side| matches!(side, Side::Body(i) if scene.bodies[*i].part.x == Freedom::Free);
+        let is_free = |side: &Side| matches!(side, Side::Body(i) if scene.bodies[*i].part.is_free());
         for (key, name, between) in springs.chain(actuators) {
             if !between.iter().any(is_free) {
                 let root = At::ROOT;
@@ -158,13 +159,14 @@ impl Oddities<'_> {
             self.found
                 .push(fault.help("let a body or a load follow a waveform, or let a body start off its rest"));
         }
-        let is_free = scene.bodies.iter().any(|body| body.part.x == Freedom::Free);
+        let is_free = scene.bodies.iter().any(|body| body.part.is_free());
         if self.form.run.start == RunStartForm::Equilibrium && !is_free {
             let fault =
                 root.key("run").key("start").fault("nothing is free: there is no equilibrium to find");
             self.found.push(fault.help("leave it out"));
         }
-        if scene.gravity.acceleration > 0.0 && scene.gravity.incline.sin() == 0.0 {
+        let lifted = scene.bodies.iter().any(|body| body.part.z.freedom == Freedom::Free);
+        if scene.gravity.acceleration > 0.0 && scene.gravity.incline.sin() == 0.0 && !lifted {
             let fault = root.key("gravity").fault("on a level slide gravity has no part along x").on_key();
             let help = "give an \"incline\"; what presses the contacts is given in their \"normal\"";
             self.found.push(fault.help(help));
@@ -222,17 +224,20 @@ impl Oddities<'_> {
 fn varying(scene: &Scene) -> impl Iterator<Item = Varying> {
     let pressed = scene.contacts.iter().map(|contact| match contact.part.normal {
         Normal::Force(value) | Normal::Indentation(value) | Normal::Radius(value) => value,
+        Normal::Coupled => Varying::default(),
     });
     let strokes = scene.actuators.iter().map(|actuator| actuator.part.stroke);
-    pressed.chain(strokes).chain(scene.loads.iter().map(|load| load.x))
+    pressed.chain(strokes).chain(scene.loads.iter().flat_map(|load| [load.x, load.z, load.pitch]))
 }
 
 /// Whether something follows each waveform.
 fn followed(scene: &Scene) -> Vec<bool> {
     let mut followed = vec![false; scene.waveforms.len()];
     for body in &scene.bodies {
-        if let Freedom::Follows(waveform) = body.part.x {
-            followed[waveform] = true;
+        for (_, coordinate) in body.part.coordinates() {
+            if let Freedom::Follows(waveform) = coordinate.freedom {
+                followed[waveform] = true;
+            }
         }
     }
     for value in varying(scene) {
@@ -246,10 +251,13 @@ fn followed(scene: &Scene) -> Vec<bool> {
 /// Whether nothing ever leaves its place: no waveform, no force, no stretched spring.
 fn is_at_rest(scene: &Scene) -> bool {
     let gravity = scene.gravity;
+    let nothing = Varying::Constant(0.0);
+    let lifted = |body: &Named<Body>| gravity.acceleration != 0.0 && body.part.z.freedom == Freedom::Free;
+    let is_still = |(_, c): (Axis, Coordinate)| c.position == 0.0 && c.velocity == 0.0;
     !followed(scene).contains(&true)
-        && scene.loads.iter().all(|load| load.x == Varying::Constant(0.0))
-        && gravity.acceleration * gravity.incline.sin() == 0.0
-        && scene.bodies.iter().all(|body| body.part.start_x == 0.0 && body.part.start_vx == 0.0)
+        && scene.loads.iter().all(|load| [load.x, load.z, load.pitch] == [nothing; 3])
+        && (gravity.acceleration * gravity.incline.sin() == 0.0 && !scene.bodies.iter().any(lifted))
+        && scene.bodies.iter().all(|body| body.part.coordinates().into_iter().all(is_still))
         && scene.springs.iter().all(|spring| spring.part.preload == 0.0)
         && scene.actuators.iter().all(|actuator| actuator.part.stroke == Varying::Constant(0.0))
         && scene.contacts.iter().all(|contact| contact.part.start == ContactStart::Untouched)

@@ -29,11 +29,6 @@ fn bound(schema: &mut Schema, rules: &Value) {
     }
 }
 
-/// Part of the form that this version does not take.
-pub(crate) fn never(schema: &mut Schema) {
-    *schema = schemars::json_schema!({ "not": {} });
-}
-
 /// Names of parts are steps of key paths and heads of columns.
 pub(crate) fn names() -> Value {
     json!({ "pattern": r"^[\p{Alphabetic}\p{N}_+-]([\p{Alphabetic}\p{N}_+ -]*[\p{Alphabetic}\p{N}_+-])?$", "maxLength": 64 })
@@ -77,11 +72,15 @@ pub(crate) fn points_or_file(schema: &mut Schema) {
     schema.insert("oneOf".to_owned(), json!([here, there]));
 }
 
-/// A body that obeys Newton needs a mass.
-pub(crate) fn mass_where_free(schema: &mut Schema) {
-    let free = json!({ "properties": { "x": { "const": "free" } }, "required": ["x"] });
-    schema.insert("if".to_owned(), free);
-    schema.insert("then".to_owned(), json!({ "required": ["mass"] }));
+/// A coordinate that obeys Newton needs a mass, a pitch a moment of inertia.
+pub(crate) fn inertia_where_free(schema: &mut Schema) {
+    let where_free = |axis: &str, needed: &str| {
+        let free = json!({ "properties": { axis: { "const": "free" } }, "required": [axis] });
+        json!({ "if": free, "then": { "required": [needed] } })
+    };
+    let rules =
+        [("x", "mass"), ("z", "mass"), ("pitch", "inertia")].map(|(axis, needed)| where_free(axis, needed));
+    schema.insert("allOf".to_owned(), json!(rules));
 }
 
 /// A spring pulls somehow.
@@ -95,9 +94,10 @@ pub(crate) fn stroke_needed(schema: &mut Schema) {
     needed(schema, "stroke");
 }
 
-/// In this version a load acts along x.
-pub(crate) fn x_needed(schema: &mut Schema) {
-    needed(schema, "x");
+/// A load acts somehow.
+pub(crate) fn something_on_it(schema: &mut Schema) {
+    let keys = ["x", "z", "pitch"].map(|key| json!({ "required": [key] }));
+    schema.insert("anyOf".to_owned(), json!(keys));
 }
 
 fn needed(schema: &mut Schema, key: &str) {

@@ -3,9 +3,9 @@
 use super::Run;
 use crate::equations::Equations;
 use crate::guard::{Guard, NEARNESS};
-use crate::model::{Contact, Motion, Place};
+use crate::model::{Contact, Measure, Motion};
 use crate::state::State;
-use stickslip_stepper::{hermite_dip, root};
+use stickslip_stepper::{Attempt, hermite_dip, root};
 
 /// A guard that falls inside the step just attempted.
 #[derive(Clone, Copy)]
@@ -15,11 +15,10 @@ pub(super) struct Fall {
     guard: Guard,
 }
 
-/// Places inside a step at which the guards of a contact of varying indentation are looked at: their course is no
-/// polynomial of low degree.
+/// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
 
-impl Run<'_> {
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// The earliest fall in the step just attempted, on its dense output.
     pub(super) fn first_fall(&mut self, eq: &Equations<'_>, state: &State) -> Option<Fall> {
         let mut first: Option<Fall> = None;
@@ -34,7 +33,7 @@ impl Run<'_> {
                 let low = if g1 < -dead && g1 < g0 {
                     Some((self.solver.end_time(), g1))
                 } else {
-                    self.dip(eq, state, (c, guard), (g0, g1), dead)
+                    self.dip(eq, state, (c, guard), (&start, &stop), dead)
                 };
                 if let Some((low, below)) = low {
                     let t = self.fall(eq, state, (c, guard), (g0, low, below));
@@ -75,26 +74,38 @@ impl Run<'_> {
         eq: &Equations<'_>,
         state: &State,
         (c, guard): (usize, Guard),
-        (g0, g1): (f64, f64),
+        (start, stop): (&Motion, &Motion),
         dead: f64,
     ) -> Option<(f64, f64)> {
         let contact = &self.model.contacts[c];
         let (t0, h) = (self.solver.time(), self.solver.end_time() - self.solver.time());
+        let value = |at: &Motion| guard.value(contact, state.law(c), at);
+        let (g0, g1) = (value(start), value(stop));
         let look = |run: &mut Self, share: f64| {
             run.solver.dense(eq);
             let t = t0 + share * h;
             (t, run.guard_at(eq, state, (c, guard), t))
         };
-        if !contact.is_constant() {
-            return LOOKS.into_iter().map(|share| look(self, share)).find(|(_, g)| *g < -dead && *g < g0);
+        let looks = |run: &mut Self| {
+            LOOKS.into_iter().map(|share| look(run, share)).find(|(_, g)| *g < -dead && *g < g0)
+        };
+        if contact.press.waveform().is_some() {
+            return looks(self);
         }
-        if guard != Guard::Drag {
-            return None;
+        match guard {
+            // It rises again only after the edge has turned, and then that comes first.
+            Guard::Piece => return None,
+            Guard::Side => {
+                let slope = contact.law.stick_slope();
+                let closes = |at: &Motion| at.dd < 0.0 && at.du.abs() < -slope * at.dd;
+                return if closes(start) || closes(stop) { looks(self) } else { None };
+            }
+            _ => {}
         }
-        let sense = state.modes[c].sense();
-        let (a0, a1) =
-            (sense * self.acceleration(eq, contact, false), sense * self.acceleration(eq, contact, true));
-        let (share, lowest) = hermite_dip(g0, a0, g1, a1, h)?;
+        let rate = |at: &Motion, end: bool| {
+            guard.rate(contact, &state.modes[c], at, self.accelerations(eq, contact, end))
+        };
+        let (share, lowest) = hermite_dip(g0, rate(start, false), g1, rate(stop, true), h)?;
         if lowest > 0.1 * g0.min(g1).max(0.0) {
             return None;
         }
@@ -141,16 +152,16 @@ impl Run<'_> {
         guard.value(contact, state.law(c), &motion)
     }
 
-    /// ü at one end of the step, m/s².
-    pub(super) fn acceleration(&self, eq: &Equations<'_>, contact: &Contact, end: bool) -> f64 {
+    /// Motion of a contact's rates, (d̈, ü), at one end of the step, m/s². What a waveform does to the indentation
+    /// otherwise than by moving a body is left out.
+    pub(super) fn accelerations(&self, eq: &Equations<'_>, contact: &Contact, end: bool) -> (f64, f64) {
         let t = if end { self.solver.end_time() } else { self.solver.time() };
-        let of = |place: Place| match place {
-            Place::Held(_) => 0.0,
-            Place::Free(i) if end => self.solver.end_slope(self.layout.velocity(i)),
-            Place::Free(i) => self.solver.begin_slope(self.layout.velocity(i)),
-            Place::Driven(w) => eq.sample(w, t).acceleration,
+        let free = |i: usize| {
+            let i = self.layout.velocity(i);
+            if end { self.solver.end_slope(i) } else { self.solver.begin_slope(i) }
         };
-        of(contact.first) - of(contact.second)
+        let of = |measure: &Measure| eq.acceleration(measure, t, free);
+        (contact.coupling().map_or(0.0, of), of(&contact.u))
     }
 
     /// The guard that ends the step, by decree, and all others that are down or as good as down there:

@@ -6,11 +6,12 @@ use crate::equations::Equations;
 use crate::model::Motion;
 use crate::state::{Mode, State};
 use stickslip_contact::Segment;
+use stickslip_stepper::Attempt;
 
 /// Most pieces into which a step's path of growth is cut.
 pub(super) const MOST_PIECES: f64 = 256.0;
 
-impl Run<'_> {
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Motions of all contacts at the end of the step, and the segments that lead there: chords, and for a contact that
     /// grew in full stick its path in as many pieces as its bend asks for.
     pub(super) fn trace_segments(&mut self, state: &State, t: f64) {
@@ -47,7 +48,7 @@ impl Run<'_> {
         let at = |share: f64| eq.motion(contact, t0 + share * h, |i| self.solver.value(i, t0 + share * h));
         let (from, middle) = (state.memories[c].apex(), at(0.5));
         let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
-        let bend = (middle.u - chord).abs() / (self.tolerance * contact.natural.0);
+        let bend = (middle.u - chord).abs() / (self.tolerance * contact.natural.displacement);
         let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
         let mut joins = state.grew[c];
         for k in 1..=pieces as u32 {

@@ -2,15 +2,16 @@
 
 use super::{Run, equations};
 use crate::RunError;
+use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
 use crate::guard::Guard;
-use crate::model::{Contact, Motion, Place, Press};
+use crate::model::{Contact, Measure, Motion};
 use crate::record::{self, Record};
 use crate::state::{Mode, State};
 use stickslip_contact::{Course, Memory, Segment};
-use stickslip_stepper::System;
+use stickslip_stepper::{Attempt, System};
 
-impl Run<'_> {
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Moves every waveform whose piece ends now to its next piece, and books jumps. Events are noted when all of it
     /// has happened: the state after them is whole.
     pub(super) fn turn_corners(&mut self, state: &mut State, record: &mut dyn Record) {
@@ -55,13 +56,18 @@ impl Run<'_> {
         state.jumps += self.stored(state) - before + friction;
     }
 
-    /// Tangential and link energy, J, at the committed state.
+    /// Energy of contacts and links, J, at the committed state; without that of a prescribed normal load.
     fn stored(&self, state: &State) -> f64 {
         let eq = equations(self.model, self.layout, state);
         let contacts = self.model.contacts.iter().zip(&state.memories);
-        let tangential = contacts.map(|(c, m)| c.count * m.preview(&c.law, m.apex()).elastic);
+        let energy = |(contact, memory): (&Contact, &Memory)| {
+            let apex = memory.apex();
+            let normal = contact.coupling().map_or(0.0, |_| contact.law.normal_energy(apex.d));
+            contact.count * (normal + memory.preview(&contact.law, apex).elastic)
+        };
+        let contacts = contacts.map(energy);
         let links = self.model.links.iter().map(|l| record::link_energy(&eq, l, state.t, &|i| state.y[i]));
-        tangential.sum::<f64>() + links.sum::<f64>()
+        contacts.sum::<f64>() + links.sum::<f64>()
     }
 
     /// Decrees the next law of every contact whose guard fell; after a corner, of all contacts it moves.
@@ -128,9 +134,8 @@ impl Run<'_> {
         let eq = equations(self.model, self.layout, state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
         let (_, near) = Guard::Drag.bands(contact, self.tolerance);
-        if motion.du.abs() <= near && motion.dd == 0.0 {
-            let sense = self.push(state, contact, &motion);
-            motion.du = if sense == 0.0 { state.modes[c].sense() } else { sense };
+        if motion.du.abs() <= near && contact.law.stick_slope() * motion.dd.abs() <= near {
+            (motion.dd, motion.du) = self.push(state, c, &motion);
         }
         let course = match &state.memories[c] {
             Memory::Curve(curve) => curve.course(&contact.law, motion.dd, motion.du),
@@ -145,24 +150,22 @@ impl Run<'_> {
         }
     }
 
-    /// Sign of ü of a contact at rest; 0 within round-off of equilibrium.
-    fn push(&self, state: &State, contact: &Contact, motion: &Motion) -> f64 {
+    /// Where a contact at rest sets out to, as a direction in (d, u): along its acceleration; within round-off of
+    /// equilibrium along its remaining velocity, and on in its present sense if there is none.
+    fn push(&self, state: &State, c: usize, motion: &Motion) -> (f64, f64) {
+        let contact = &self.model.contacts[c];
         let eq = equations(self.model, self.layout, state);
         let mut slopes = vec![0.0; self.layout.total()];
         eq.slopes(state.t, &state.y, &mut slopes);
-        let of = |place: Place| match place {
-            Place::Held(_) => 0.0,
-            Place::Free(i) => slopes[self.layout.velocity(i)],
-            Place::Driven(w) => eq.sample(w, state.t).acceleration,
-        };
-        let pushed = of(contact.first) - of(contact.second);
-        let noise = 1e-12 * contact.natural_velocity() * contact.natural.1;
-        if pushed.abs() > noise {
-            pushed.signum()
+        let of = |measure: &Measure| eq.acceleration(measure, state.t, |i| slopes[self.layout.velocity(i)]);
+        let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
+        let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;
+        if pull.abs().max(contact.law.stick_slope() * bend.abs()) > noise {
+            (bend, pull)
         } else if motion.du != 0.0 {
-            motion.du.signum()
+            (motion.dd, motion.du)
         } else {
-            0.0
+            (motion.dd, state.modes[c].sense())
         }
     }
 
@@ -205,7 +208,6 @@ impl Run<'_> {
 
 /// Whether a corner of any waveform changes the velocities of this contact directly.
 fn moved_by_waveform(contact: &Contact) -> bool {
-    let driven = |place: Place| matches!(place, Place::Driven(_));
-    let pressed = !matches!(contact.press, Press::Constant { .. });
-    pressed || driven(contact.first) || driven(contact.second)
+    let normal = contact.coupling().is_some_and(|measure| !measure.driven.is_empty());
+    contact.press.waveform().is_some() || normal || !contact.u.driven.is_empty()
 }

@@ -6,8 +6,9 @@ use crate::record::Record;
 use crate::run::output::Grid;
 use crate::state::{Mode, State};
 use stickslip_contact::{ContactError, Memory, Segment};
+use stickslip_stepper::Attempt;
 
-impl Run<'_> {
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Rows and looks that are due up to the end of the step. Kept out of the way of steps without any.
     #[inline(never)]
     pub(super) fn write(&mut self, state: &State, t: f64, grid: &mut Grid, record: &mut dyn Record) {

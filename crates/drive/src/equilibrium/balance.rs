@@ -1,0 +1,129 @@
+//! The search for a balance of forces.
+
+use super::statics::Statics;
+use crate::Model;
+use crate::state::State;
+use nalgebra::DVector;
+
+/// Most iterations.
+const ITERATIONS: u32 = 400;
+/// Iterations without progress after which the rest is rounding.
+const PATIENCE: u32 = 8;
+/// Most halvings of a step that goes too far.
+const HALVINGS: u32 = 40;
+/// Largest imbalance of an equilibrium, in units of what acts on a coordinate.
+const BALANCED: f64 = 1e-9;
+/// A step this long finds nothing that holds a body any more, m or rad.
+const LOST: f64 = 1e3;
+
+/// A place of the free coordinates, and what is left unbalanced there.
+#[derive(Debug, Clone)]
+pub(super) struct Balance {
+    /// Components of the state.
+    pub(super) y: Vec<f64>,
+    /// Forces that are left, N or N m.
+    pub(super) residual: DVector<f64>,
+    /// Whether that is nothing.
+    pub(super) holds: bool,
+    /// Largest of them in parts of what acts on the coordinate.
+    size: f64,
+    statics: Statics,
+}
+
+/// What is to be balanced.
+#[derive(Clone, Copy)]
+pub(super) struct Search<'a> {
+    pub(super) model: &'a Model,
+    pub(super) state: &'a State,
+    /// Forces that are still to be put on, N or N m.
+    pub(super) missing: &'a DVector<f64>,
+    /// Coordinates that stay where they are and ask for no balance.
+    pub(super) held: &'a [bool],
+}
+
+impl Search<'_> {
+    /// Looks for forces = missing from y on, by Newton's method with a pseudo-time: (K + D/τ)·Δq = forces - missing,
+    /// where D is the natural stiffness of each coordinate. A body that nothing holds falls along its load, faster and
+    /// faster, until something does, and the method becomes Newton's.
+    ///
+    /// Where it ends is the best place if all balances there, or else the last.
+    pub(super) fn from(self, y: &[f64]) -> Balance {
+        let mut now = self.at(y.to_vec());
+        let (mut best, mut tau, mut idle) = (now.clone(), 1.0, 0);
+        for _ in 0..ITERATIONS {
+            if best.size == 0.0 || best.holds && idle > PATIENCE {
+                break;
+            }
+            let Some(step) = self.step(&now, tau).filter(|step| step.amax() < LOST) else { break };
+            idle += 1;
+            let (whole, push) = (self.along(&now, &step, 1.0), now.residual.dot(&step));
+            let good = whole.size < now.size || push > 0.0 && !overshoots(&now, &whole, &step);
+            tau = (tau * if good { 3.0 } else { 0.3 }).clamp(1e-6, 1e18);
+            if good {
+                now = whole;
+            } else if push > 0.0 {
+                now = self.shorter(&now, &step);
+            }
+            if now.size < best.size {
+                (best, idle) = (now.clone(), 0);
+            }
+        }
+        if best.holds { best } else { now }
+    }
+
+    /// The step of an iteration; none where the matrix has no inverse.
+    fn step(self, now: &Balance, tau: f64) -> Option<DVector<f64>> {
+        let (mut matrix, mut residual) = (now.statics.stiffness.clone(), now.residual.clone());
+        for (i, free) in self.model.free.iter().enumerate() {
+            matrix[(i, i)] += free.mass * (free.scale.1 / free.scale.0).powi(2) / tau;
+            if self.held[i] {
+                matrix.row_mut(i).fill(0.0);
+                (matrix[(i, i)], residual[i]) = (1.0, 0.0);
+            }
+        }
+        matrix.lu().solve(&residual).filter(|step| step.iter().all(|x| x.is_finite()))
+    }
+
+    /// A step that goes too far is halved towards the place where nothing pushes along it any more. Without friction that
+    /// is the lowest energy along the step, so that the energy falls from iteration to iteration.
+    fn shorter(self, now: &Balance, step: &DVector<f64>) -> Balance {
+        let (mut near, mut far) = (0.0, 1.0);
+        let mut place = now.clone();
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (near + far);
+            place = self.along(now, step, middle);
+            if overshoots(now, &place, step) {
+                far = middle;
+            } else if place.residual.dot(step) > 0.5 * now.residual.dot(step) {
+                near = middle;
+            } else {
+                break;
+            }
+        }
+        place
+    }
+
+    /// Part of a step.
+    fn along(self, now: &Balance, step: &DVector<f64>, share: f64) -> Balance {
+        let mut y = now.y.clone();
+        y.iter_mut().zip(step).for_each(|(y, step)| *y += share * step);
+        self.at(y)
+    }
+
+    fn at(self, y: Vec<f64>) -> Balance {
+        let statics = self.model.statics(self.state, &y);
+        let residual = &statics.net - self.missing;
+        let (mut size, mut holds) = (0.0_f64, true);
+        for i in (0..residual.len()).filter(|i| !self.held[*i] && residual[*i] != 0.0) {
+            let (left, acting) = (residual[i].abs(), statics.acting[i] + self.missing[i].abs());
+            size = size.max(left / acting);
+            holds &= left <= BALANCED * acting + statics.noise[i];
+        }
+        Balance { y, residual, holds, size, statics }
+    }
+}
+
+/// Whether what is left after a step pushes back along it, half as hard as it pushed before.
+fn overshoots(from: &Balance, to: &Balance, step: &DVector<f64>) -> bool {
+    to.residual.dot(step) < -0.5 * from.residual.dot(step)
+}

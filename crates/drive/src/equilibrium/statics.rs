@@ -1,0 +1,112 @@
+//! The static forces on the free coordinates, and how they change.
+
+use crate::Model;
+use crate::model::{Contact, Measure};
+use crate::state::State;
+use nalgebra::{DMatrix, DVector};
+use stickslip_contact::{Apex, Memory, Move};
+
+/// Forces on the free coordinates at rest, N or N m.
+#[derive(Debug, Clone)]
+pub(super) struct Statics {
+    /// Their sum on each coordinate.
+    pub(super) net: DVector<f64>,
+    /// The sum of their magnitudes, friction at its limit: what an imbalance is measured against.
+    pub(super) acting: DVector<f64>,
+    /// What rounding of the coordinates makes of them.
+    pub(super) noise: DVector<f64>,
+    /// -∂F/∂q.
+    pub(super) stiffness: DMatrix<f64>,
+}
+
+impl Statics {
+    /// A force along a measure that could as well have another size.
+    fn push(&mut self, along: &Measure, force: f64, size: f64) {
+        for &(i, a) in &along.free {
+            self.net[i] += a * force;
+            self.acting[i] += (a * size).abs();
+        }
+    }
+
+    /// Forces along a measure that fall by k per metre of another.
+    fn stiffen(&mut self, along: &Measure, with: &Measure, k: f64, y: &[f64]) {
+        let size: f64 = with.constant.abs() + with.free.iter().map(|&(j, b)| (b * y[j]).abs()).sum::<f64>();
+        for &(i, a) in &along.free {
+            self.noise[i] += 4.0 * f64::EPSILON * size * (a * k).abs();
+            with.free.iter().for_each(|&(j, b)| self.stiffness[(i, j)] += a * b * k);
+        }
+    }
+}
+
+impl Model {
+    /// The forces with the free coordinates at y, the contacts on straight paths from where they stand.
+    pub(super) fn statics(&self, state: &State, y: &[f64]) -> Statics {
+        let (n, eq) = (self.free.len(), self.equations(state));
+        let loads = DVector::from_iterator(n, self.free.iter().map(|f| f.force));
+        let (acting, noise) = (loads.abs(), DVector::zeros(n));
+        let mut statics = Statics { net: loads, acting, noise, stiffness: DMatrix::zeros(n, n) };
+        for ((contact, memory), to) in self.contacts.iter().zip(&state.memories).zip(self.apexes(state, y)) {
+            let (count, tangents) = (contact.count, tangents(contact, memory, to));
+            let limit = contact.law.friction().min(1.0) * contact.law.normal_force(to.d);
+            statics.push(&contact.u, -count * tangents.force, count * tangents.force.abs().max(limit));
+            statics.stiffen(&contact.u, &contact.u, count * tangents.along, y);
+            if let Some(normal) = contact.coupling() {
+                let force = count * contact.law.normal_force(to.d);
+                statics.push(normal, -force, force);
+                statics.stiffen(normal, normal, count * contact.law.normal_stiffness(to.d), y);
+                statics.stiffen(&contact.u, normal, count * tangents.across, y);
+            }
+        }
+        for link in &self.links {
+            let elongation = eq.read(&link.elongation, 0.0, |i| y[i]).value;
+            let stretch = eq.stroke(link, 0.0).value - elongation;
+            let force = link.stiffness * stretch;
+            statics.push(&link.elongation, force + link.preload, force.abs() + link.preload.abs());
+            statics.stiffen(&link.elongation, &link.elongation, link.stiffness, y);
+        }
+        for load in &self.loads {
+            let force = load.arm * eq.sample(load.waveform, 0.0).value;
+            statics.net[load.free] += force;
+            statics.acting[load.free] += force.abs();
+        }
+        statics
+    }
+
+    /// Where the contacts are with the free coordinates at y.
+    pub(super) fn apexes(&self, state: &State, y: &[f64]) -> Vec<Apex> {
+        let eq = self.equations(state);
+        self.contacts.iter().map(|c| eq.motion(c, 0.0, |i| y[i]).apex()).collect()
+    }
+}
+
+/// F_x of one contact at the end of a chord (N) and its derivatives with respect to that end (N/m).
+#[derive(Default)]
+struct Tangents {
+    force: f64,
+    /// With u at constant d.
+    along: f64,
+    /// With d at constant u.
+    across: f64,
+}
+
+/// A chord that grows in stick adds G\*(Δu/Δd)ΔM: another end makes another chord, so its tangents are not those of
+/// going on from there. From high above the ground they differ by orders of magnitude.
+fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
+    if contact.inert {
+        return Tangents::default();
+    }
+    let (law, from) = (&contact.law, memory.apex());
+    let response = memory.trial(law, Move::Chord(to));
+    let (rise, shift) = (to.d - from.d, to.u - from.u);
+    let (mut along, mut across) = (response.stiffness, response.coupling);
+    // A short chord is as good as its end, and differences would be rounding.
+    if to.d > 0.0 && shift.abs() <= law.stick_slope() * rise && rise > SHORT * to.d {
+        let profile = law.profile();
+        along = law.tangential_modulus() * (profile.area(to.d) - profile.area(from.d)) / rise;
+        across = shift / rise * (law.stick_stiffness(to.d) - along);
+    }
+    Tangents { force: response.force, along, across }
+}
+
+/// Growth of a contact, in parts of its depth, that is too short to tell a chord from its end.
+const SHORT: f64 = 1e-6;

@@ -1,0 +1,107 @@
+//! Lengths measured between bodies: the constant Jacobians of the scene.
+
+use super::{Body, Place};
+use crate::scene::{Direction, Point, Side};
+
+/// A length as a linear form of the coordinates: constant + Σ coefficient · coordinate. Its coefficients are the row of
+/// the Jacobian by which a force along it acts on the coordinates.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Measure {
+    /// m.
+    pub(crate) constant: f64,
+    /// Free coordinates and their coefficients, 1 or m/rad.
+    pub(crate) free: Vec<(usize, f64)>,
+    /// Waveforms that a coordinate follows, and their coefficients.
+    pub(crate) driven: Vec<(usize, f64)>,
+}
+
+impl Measure {
+    /// The displacement of `ends[0]` less that of `ends[1]`, each a side and a point on it. Small rotations: a point
+    /// at (X, Z) moves by x - Zθ along x and by z + Xθ along z.
+    pub(super) fn between(ends: [(Side, Point); 2], direction: Direction, bodies: &[Body]) -> Self {
+        let mut measure = Self::default();
+        for ((side, point), sign) in ends.into_iter().zip([1.0, -1.0]) {
+            let Side::Body(body) = side else { continue };
+            let [x, z, pitch] = bodies[body].places;
+            let (along, arm) = match direction {
+                Direction::X => (x, -point.z),
+                Direction::Z => (z, point.x),
+            };
+            measure.add(along, sign);
+            measure.add(pitch, sign * arm);
+        }
+        measure
+    }
+
+    /// Adds a multiple of a coordinate.
+    fn add(&mut self, place: Place, coefficient: f64) {
+        if coefficient == 0.0 {
+            return;
+        }
+        let (terms, at) = match place {
+            Place::Held(position) => {
+                self.constant += coefficient * position;
+                return;
+            }
+            Place::Free(i) => (&mut self.free, i),
+            Place::Driven(w) => (&mut self.driven, w),
+        };
+        match terms.iter_mut().find(|(known, _)| *known == at) {
+            Some((_, sum)) => *sum += coefficient,
+            None => terms.push((at, coefficient)),
+        }
+        // Two bodies that follow one waveform do not move against each other.
+        terms.retain(|(_, sum)| *sum != 0.0);
+    }
+
+    /// Whether it never changes.
+    pub(crate) fn is_constant(&self) -> bool {
+        self.free.is_empty() && self.driven.is_empty()
+    }
+
+    /// Its value for given coordinates and waveforms.
+    pub(crate) fn value(&self, free: impl Fn(usize) -> f64, driven: impl Fn(usize) -> f64) -> f64 {
+        let own: f64 = self.free.iter().map(|(i, a)| a * free(*i)).sum();
+        let followed: f64 = self.driven.iter().map(|(w, a)| a * driven(*w)).sum();
+        self.constant + (own + followed)
+    }
+
+    /// Σ over free coordinates of coefficient² · mobility, 1/kg: what a force along it has to move.
+    pub(crate) fn mobility(&self, mobility: impl Fn(usize) -> f64) -> f64 {
+        self.free.iter().map(|(i, a)| a * a * mobility(*i)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn body(places: [Place; 3]) -> Body {
+        Body { name: String::new(), places }
+    }
+
+    #[test]
+    fn a_rolling_point_moves_with_the_pitch_and_a_held_one_counts_once() {
+        let ball = body([Place::Free(0), Place::Free(1), Place::Free(2)]);
+        let below = Point { x: 0.0, z: -2.0 };
+        let ends = [(Side::Ground, Point::default()), (Side::Body(0), below)];
+        let u = Measure::between(ends, Direction::X, std::slice::from_ref(&ball));
+        // u = 0 - (x - Zθ) = -x - 2θ: rolling without slip has x = -2θ.
+        assert_eq!((u.free, u.constant), (vec![(0, -1.0), (2, -2.0)], 0.0));
+        let beside = Point { x: 3.0, z: 0.0 };
+        let ends = [(Side::Body(0), beside), (Side::Body(1), Point::default())];
+        let d = Measure::between(
+            ends,
+            Direction::Z,
+            &[ball, body([Place::Held(1.0), Place::Held(0.5), Place::Held(0.0)])],
+        );
+        assert_eq!((d.free, d.constant), (vec![(1, 1.0), (2, 3.0)], -0.5));
+    }
+
+    #[test]
+    fn what_follows_one_waveform_on_both_sides_does_not_move() {
+        let foot = body([Place::Driven(0), Place::Held(0.0), Place::Held(0.0)]);
+        let ends = [(Side::Body(0), Point::default()), (Side::Body(1), Point::default())];
+        assert!(Measure::between(ends, Direction::X, &[foot.clone(), foot]).is_constant());
+    }
+}

@@ -1,0 +1,65 @@
+//! How deep a coupled contact may be expected to go: its natural scale, and the span of a row of springs.
+
+use super::contact::Surroundings;
+use super::{Measure, Stroke};
+use stickslip_contact::Interface;
+
+/// Indentation taken where nothing that is known at the start presses a contact, m.
+const SHALLOW: f64 = 1e-9;
+/// Room left above what is expected: bodies share loads in ways that the estimate does not see.
+const MARGIN: f64 = 1.2;
+
+/// Largest indentation to be expected of one of `count` contacts, m.
+///
+/// Energy sets it: what moves at the start, ½mḋ², and the work of the loads on the way, F(g + d) with the gap g, are
+/// stored as E\*N(d). m is the mass felt along d, F the largest force that a load, a preload or a stroke puts on it.
+/// Followers press as deep as they go. Bodies that start in equilibrium have neither motion nor a way to fall.
+pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
+    let first = around.at_start(d);
+    let mobility = d.mobility(|i| around.free[i].mobility);
+    let rate: f64 = d.free.iter().map(|(i, a)| a * around.free[*i].start.1).sum::<f64>()
+        + d.driven.iter().map(|(w, a)| a * around.waveforms[*w].first().rate).sum::<f64>();
+    let falls = !around.equilibrium;
+    let kinetic = if falls && mobility > 0.0 { 0.5 * rate * rate / mobility } else { 0.0 };
+    let gap = if falls { (-first).max(0.0) } else { 0.0 };
+    let force = d.free.iter().map(|(i, a)| pressing(*i, around) / a.abs()).fold(0.0, f64::max);
+    let reached = |d: f64| count * law.normal_energy(d) >= kinetic + force * (gap + d);
+    let dynamic = if kinetic + force > 0.0 { bracket(first.max(SHALLOW), reached) } else { 0.0 };
+    let span = |w: usize| around.waveforms[w].range();
+    let driven: f64 = d
+        .driven
+        .iter()
+        .map(|(w, a)| (a * span(*w).0).max(a * span(*w).1) - a * around.waveforms[*w].first().value)
+        .sum();
+    let driven = if d.driven.is_empty() { first } else { first + driven };
+    MARGIN * dynamic.max(driven).max(first).max(SHALLOW)
+}
+
+/// Largest force on a free coordinate, N or N m.
+fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
+    let widest = |w: usize| {
+        let (low, high) = around.waveforms[w].range();
+        low.abs().max(high.abs())
+    };
+    let loads: f64 =
+        around.loads.iter().filter(|l| l.free == i).map(|l| (l.arm * widest(l.waveform)).abs()).sum();
+    let links = around.links.iter().map(|link| {
+        let arm = link.elongation.free.iter().find(|(free, _)| *free == i).map_or(0.0, |(_, a)| a.abs());
+        let stroke = match link.stroke {
+            Stroke::Constant(s) => s.abs(),
+            Stroke::Driven(w) => widest(w),
+        };
+        let driven: f64 = link.elongation.driven.iter().map(|(w, a)| (a * widest(*w)).abs()).sum();
+        arm * (link.preload.abs() + link.stiffness * (stroke + driven))
+    });
+    around.free[i].force.abs() + loads + links.sum::<f64>()
+}
+
+/// The smallest indentation, to a factor of 1.1, at which `reached` holds.
+fn bracket(from: f64, reached: impl Fn(f64) -> bool) -> f64 {
+    let mut d = from;
+    while !reached(d) && d < 1.0 {
+        d *= 1.1;
+    }
+    d
+}

@@ -1,0 +1,181 @@
+//! A body that lands, rolls and leaves: impacts of a sphere on a plane.
+
+use crate::parts::{column, end, event, fitted_order, named, plan, trace};
+use stickslip_contact::{Pair, Profile};
+use stickslip_drive::scene::{
+    Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Normal, Point, Scene, Side,
+};
+use stickslip_drive::{EventKind, Model, State, Stepper};
+
+/// Radius, mass, friction and speed of approach of the ball: the results do not hang on them.
+const RADIUS: f64 = 0.01;
+const MASS: f64 = 0.03;
+const FRICTION: f64 = 0.25;
+const SPEED: f64 = 0.1;
+const MODULUS: f64 = 1e11;
+
+/// A solid ball that comes down on the ground with ψ₁ = (G*/(E*μ)) V_x/V_z, not turning.
+fn ball(ratio: f64, psi: f64) -> Scene {
+    let coordinate = |velocity| Coordinate { freedom: Freedom::Free, position: 0.0, velocity };
+    let body = Body {
+        mass: Some(MASS),
+        inertia: Some(0.4 * MASS * RADIUS * RADIUS),
+        x: coordinate(psi * FRICTION / ratio * SPEED),
+        z: coordinate(-SPEED),
+        pitch: coordinate(0.0),
+    };
+    let contact = Contact {
+        between: [Side::Ground, Side::Body(0)],
+        at: [Point::default(), Point { x: 0.0, z: -RADIUS }],
+        pair: Pair::from_moduli(MODULUS, ratio * MODULUS).unwrap(),
+        profile: Profile::paraboloid(RADIUS).unwrap(),
+        friction: FRICTION,
+        normal: Normal::Coupled,
+        gap: 0.0,
+        damping: 0.0,
+        start: ContactStart::Untouched,
+        engine: EngineChoice::Curve,
+        count: 1,
+    };
+    Scene { bodies: vec![named("ball", body)], contacts: vec![named("foot", contact)], ..Scene::default() }
+}
+
+/// Largest indentation by Hertz, m: (15mv²/(16E\*√R))^{2/5}.
+fn deepest() -> f64 {
+    (15.0 * MASS * SPEED * SPEED / (16.0 * MODULUS * RADIUS.sqrt())).powf(0.4)
+}
+
+/// Contact time by Hertz, s: 2 d_max/v ∫₀¹ dx/√(1-x^{5/2}) = (4√π/5) Γ(2/5)/Γ(9/10) d_max/v.
+fn contact_time() -> f64 {
+    const GAMMA_2_5: f64 = 2.218_159_543_757_688;
+    const GAMMA_9_10: f64 = 1.068_628_702_119_319;
+    0.8 * std::f64::consts::PI.sqrt() * GAMMA_2_5 / GAMMA_9_10 * deepest() / SPEED
+}
+
+fn impact(ratio: f64, psi: f64, stepper: Stepper) -> (Model, State) {
+    end(&ball(ratio, psi), &plan(stepper, 1.2 * contact_time()))
+}
+
+/// ψ₂ = (G\*/(E\*μ)) V_x/V_z of the contact point after the impact.
+fn rebound(ratio: f64, (model, state): &(Model, State)) -> f64 {
+    let rate = |axis| state.coordinate(model, 0, axis).unwrap().1;
+    ratio / FRICTION * (rate(Axis::X) + RADIUS * rate(Axis::Pitch)) / SPEED
+}
+
+/// ψ₂ by the event stepper.
+fn psi_2(ratio: f64, psi: f64, tolerance: f64) -> f64 {
+    rebound(ratio, &impact(ratio, psi, Stepper::Event { tolerance }))
+}
+
+/// G\*/E\* of two bodies of one material: 2(1-ν)/(2-ν).
+fn like(nu: f64) -> f64 {
+    2.0 * (1.0 - nu) / (2.0 - nu)
+}
+
+/// Independent integration in long double with all events located, confirmed by rows of up to 32 000 springs.
+#[test]
+fn oblique_impact_of_a_solid_sphere() {
+    let digits = [
+        (0.5, 0.047831, 5e-7),
+        (1.0, -0.059696704, 1e-8),
+        (1.5, -0.428016532, 1e-8),
+        (2.0, -0.837210007, 1e-8),
+        (3.0, -1.379683, 5e-7),
+        (4.0, -1.436512, 5e-7),
+    ];
+    for (psi, known, digits) in digits {
+        let found = psi_2(like(0.3), psi, 1e-11);
+        assert!((found - known).abs() < digits, "ψ₁ = {psi}: {found} instead of {known}");
+    }
+}
+
+/// Two published solutions of the same problem: ν = 0.23 and ν = 0.
+#[test]
+fn oblique_impact_at_other_poisson_ratios() {
+    for (nu, psi, known) in
+        [(0.23, 1.0, 0.04340), (0.23, 2.0, -0.70723), (0.0, 1.0, 0.28478), (0.0, 2.0, -0.30813)]
+    {
+        let found = psi_2(like(nu), psi, 1e-11);
+        assert!((found - known).abs() < 1e-4, "ν = {nu}, ψ₁ = {psi}: {found} instead of {known}");
+    }
+}
+
+/// ψ₁ ≥ 4χ-1 slips all the way: ψ₂ = ψ₁ - 4χ, χ = (7/4)G\*/E\*.
+#[test]
+fn gross_slip_all_the_way() {
+    for nu in [0.0, 0.23, 0.3] {
+        let ratio = like(nu);
+        for psi in [7.0 * ratio - 0.9, 7.0 * ratio, 7.0, 8.0] {
+            let found = psi_2(ratio, psi, 1e-12);
+            assert!((found - (psi - 7.0 * ratio)).abs() < 1e-10, "ν = {nu}, ψ₁ = {psi}: {found}");
+        }
+    }
+}
+
+/// A central impact: depth, duration, and the speed that comes back.
+#[test]
+fn normal_impact_by_hertz() {
+    let scene = ball(like(0.3), 0.0);
+    let half = end(&scene, &event(1e-12, 0.5 * contact_time()));
+    let depth = -half.1.coordinate(&half.0, 0, Axis::Z).unwrap().0;
+    assert!((depth / deepest() - 1.0).abs() < 1e-9, "{depth} instead of {}", deepest());
+    let (model, state, trace) = trace(&scene, &event(1e-12, 1.2 * contact_time()), contact_time());
+    let lift = trace.events().find(|(event, _)| event.kind == EventKind::LiftOff).unwrap().0.t;
+    assert!((lift / contact_time() - 1.0).abs() < 1e-9, "{lift} instead of {}", contact_time());
+    let speed = state.coordinate(&model, 0, Axis::Z).unwrap().1;
+    assert!((speed / SPEED - 1.0).abs() < 1e-11, "{speed}");
+}
+
+/// Error against evaluations over six tolerances: F_x as a state keeps the order through growth in full stick. The
+/// tightest run stands for the exact value once it has the digits of the independent one.
+#[test]
+fn the_event_stepper_keeps_its_order_through_an_impact() {
+    let ratio = like(0.3);
+    for (psi, known) in [(1.0, -0.059696704), (2.0, -0.837210007)] {
+        let exact = psi_2(ratio, psi, 1e-13);
+        assert!((exact - known).abs() < 1e-9, "ψ₁ = {psi}: {exact}");
+        let points: Vec<(f64, f64)> = (0..6)
+            .map(|k| {
+                let tolerance = 1e-5 * 0.06_f64.powi(k);
+                let run = impact(ratio, psi, Stepper::Event { tolerance });
+                (run.1.counts().evaluations as f64, (rebound(ratio, &run) - exact).abs())
+            })
+            .collect();
+        let order = -fitted_order(&points);
+        assert!(order > 5.0, "ψ₁ = {psi}: order {order}, {points:?}");
+        assert!(points[5].1 < 1e-9, "{points:?}");
+    }
+}
+
+/// What went in is kinetic; what is missing afterwards is friction, in every row and at the end.
+#[test]
+fn the_books_of_an_impact_close() {
+    for psi in [0.5, 1.0, 2.0, 3.0, 8.0] {
+        let plan = event(1e-10, 1.2 * contact_time());
+        let (model, _, trace) = trace(&ball(like(0.3), psi), &plan, 0.01 * contact_time());
+        let kinetic = column(&model, &trace, "energy.kinetic_J");
+        let worst = column(&model, &trace, "energy.error_J").iter().fold(0.0, |w: f64, e| w.max(e.abs()));
+        assert!(worst < 1e-8 * kinetic[0], "ψ₁ = {psi}: {worst} of {}", kinetic[0]);
+        let friction = column(&model, &trace, "energy.friction_J");
+        let lost = kinetic[0] - kinetic.last().unwrap();
+        assert!((lost / friction.last().unwrap() - 1.0).abs() < 1e-6, "ψ₁ = {psi}: {lost}");
+    }
+}
+
+/// The same impact on rows of springs in small fixed steps, an independent solution of the contact and of the motion.
+#[test]
+fn a_row_of_springs_bounces_like_the_curve() {
+    let ratio = like(0.3);
+    for psi in [1.0, 2.0, 4.0] {
+        let exact = psi_2(ratio, psi, 1e-11);
+        let errors = [256.0, 512.0, 1024.0, 2048.0, 4096.0].map(|count: f64| {
+            let mut scene = ball(ratio, psi);
+            scene.contacts[0].part.engine = EngineChoice::Springs { count: count as usize, span: None };
+            let step = contact_time() / (4.0 * count);
+            let run = end(&scene, &plan(Stepper::Verlet { step }, 1.2 * contact_time()));
+            (1.0 / count, (rebound(ratio, &run) - exact).abs())
+        });
+        assert!(errors[4].1 < 1e-7, "ψ₁ = {psi}: {errors:?}");
+        assert!(fitted_order(&errors) > 1.5, "ψ₁ = {psi}: {errors:?}");
+    }
+}

@@ -1,0 +1,85 @@
+//! How far a step may reach before motions that fade or swing begin to grow.
+
+use stickslip_stepper::{Attempt, Conservative, Dop853, Nystrom, System};
+
+/// ẏ = λy, λ = rate e^{i angle}.
+struct Fades {
+    real: f64,
+    imaginary: f64,
+}
+
+impl System for Fades {
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn positions(&self) -> usize {
+        1
+    }
+    fn total(&self) -> usize {
+        2
+    }
+    fn slopes(&self, _: f64, y: &[f64], dy: &mut [f64]) {
+        dy[0] = self.real * y[0] - self.imaginary * y[1];
+        dy[1] = self.imaginary * y[0] + self.real * y[1];
+    }
+}
+
+/// |R(hλ)| of one step.
+fn growth(angle: f64, reach: f64) -> f64 {
+    let system = Fades { real: angle.cos(), imaginary: angle.sin() };
+    let mut stepper = Dop853::new(2, 2);
+    stepper.start(&system, 0.0, &[1.0, 0.0]);
+    stepper.attempt_until(&system, reach, &[1.0; 2]);
+    stepper.end()[0].hypot(stepper.end()[1])
+}
+
+#[test]
+fn in_reach_of_dop853_nothing_grows_that_fades_or_swings() {
+    let reach = Attempt::<Fades>::reach(&Dop853::new(2, 2));
+    for k in 0..=90 {
+        let angle = f64::from(90 + k).to_radians();
+        for part in 1..=50 {
+            let within = growth(angle, reach * f64::from(part) / 50.0);
+            assert!(within < 1.0 + 1e-12, "{angle} {part}: {within}");
+        }
+    }
+    // A swing of the longest step fades by a third, and one a tenth longer grows.
+    assert!(growth(90_f64.to_radians(), reach) < 0.7 && growth(90_f64.to_radians(), 1.1 * reach) > 1.1);
+}
+
+/// ẍ = -x.
+struct Swings;
+
+impl Conservative for Swings {
+    fn positions(&self) -> usize {
+        1
+    }
+    fn accelerations(&self, _: f64, x: &[f64], a: &mut [f64]) {
+        a[0] = -x[0];
+    }
+}
+
+/// Spectral radius of the step's matrix on (x, v).
+fn spectral_radius(reach: f64) -> f64 {
+    let column = |start: [f64; 2]| {
+        let mut stepper = Nystrom::new(1, 0);
+        Attempt::start(&mut stepper, &Swings, 0.0, &start);
+        Attempt::attempt_until(&mut stepper, &Swings, reach, &[1.0; 2]);
+        let end = Attempt::<Swings>::end(&stepper);
+        [end[0], end[1]]
+    };
+    let ([a, c], [b, d]) = (column([1.0, 0.0]), column([0.0, 1.0]));
+    let (half, determinant) = (0.5 * (a + d), a * d - b * c);
+    let root = half * half - determinant;
+    if root < 0.0 { determinant.sqrt() } else { half.abs() + root.sqrt() }
+}
+
+#[test]
+fn in_reach_of_nystrom_no_swing_grows() {
+    let reach = Attempt::<Swings>::reach(&Nystrom::new(1, 0));
+    for part in 1..=100 {
+        let within = spectral_radius(reach * f64::from(part) / 100.0);
+        assert!(within < 1.0 + 1e-12, "{part}: {within}");
+    }
+    assert!(spectral_radius(reach) < 1.0 - 1e-4 && spectral_radius(1.2 * reach) > 1.0);
+}
