@@ -3,6 +3,7 @@
 use crate::frame::FrameError;
 use crate::insides::SPRING_HEAD;
 use crate::rows::Rows;
+use std::collections::HashMap;
 use std::path::Path;
 use stickslip_plot::SpringCondition;
 
@@ -24,10 +25,12 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Springs>, FrameError> {
     let mut rows = Rows::open(path)?;
     rows.check_head(SPRING_HEAD)?;
     let mut contacts: Vec<Springs> = Vec::new();
+    let mut places: HashMap<String, usize> = HashMap::new();
     while rows.advance()? {
         let (t, x) = (rows.number(0, SPRING_HEAD[0])?, rows.number(2, SPRING_HEAD[2])?);
         let contact = rows.text(1);
-        let place = contacts.iter().position(|springs| springs.contact == contact).unwrap_or_else(|| {
+        let place = places.get(contact).copied().unwrap_or_else(|| {
+            places.insert(contact.to_owned(), contacts.len());
             contacts.push(Springs::of(contact));
             contacts.len() - 1
         });

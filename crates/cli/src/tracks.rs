@@ -1,8 +1,14 @@
 //! Moments of the events of a run, by source and kind.
 
+use std::collections::HashMap;
+
 /// All events.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Tracks(Vec<Track>);
+pub(crate) struct Tracks {
+    tracks: Vec<Track>,
+    /// Places of the tracks by source.
+    places: HashMap<String, Vec<usize>>,
+}
 
 /// The events of one kind from one source.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,16 +23,17 @@ pub(crate) struct Track {
 impl Tracks {
     /// Takes the next event.
     pub(crate) fn push(&mut self, [source, kind]: [&str; 2], time: f64) {
-        match self.0.iter_mut().find(|track| track.source == source && track.kind == kind) {
-            Some(track) => track.times.push(time),
-            None => {
-                self.0.push(Track { source: source.to_owned(), kind: kind.to_owned(), times: vec![time] });
-            }
+        let places = self.places.get(source).map_or(&[][..], |places| places);
+        if let Some(place) = places.iter().find(|place| self.tracks[**place].kind == kind) {
+            self.tracks[*place].times.push(time);
+            return;
         }
+        self.places.entry(source.to_owned()).or_default().push(self.tracks.len());
+        self.tracks.push(Track { source: source.to_owned(), kind: kind.to_owned(), times: vec![time] });
     }
 
     /// In the order of the first event of each.
     pub(crate) fn all(&self) -> &[Track] {
-        &self.0
+        &self.tracks
     }
 }

@@ -4,6 +4,7 @@ use crate::job::Job;
 use crate::kept::Kept;
 use crate::look::{Pen, Picture};
 use crate::tracks::Track;
+use std::collections::HashMap;
 use stickslip_plot::{EventTrack, PlotError, events_figure};
 use stickslip_scenario::PlotName;
 
@@ -11,9 +12,9 @@ use stickslip_scenario::PlotName;
 pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     let contacts = job.model.contacts().map(|(name, _)| name);
     let waveforms = job.scenario.scene.waveforms.iter().map(|waveform| waveform.name.as_str());
-    let sources: Vec<&str> = contacts.chain(waveforms).collect();
+    let sources: HashMap<&str, usize> = contacts.chain(waveforms).zip(0..).collect();
     let mut tracks: Vec<&Track> = kept.tracks.iter().flat_map(|tracks| tracks.all()).collect();
-    tracks.sort_by_key(|track| sources.iter().position(|source| *source == track.source));
+    tracks.sort_by_key(|track| sources.get(track.source.as_str()));
     let tracks = tracks.into_iter().map(|Track { source, kind, times }| EventTrack {
         source,
         kind,

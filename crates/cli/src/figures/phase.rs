@@ -34,6 +34,8 @@ fn trail(body: &str, kept: &Kept) -> Trail {
 
 /// Points between two samples of a smooth curve.
 const BETWEEN: u32 = 4;
+/// Samples closer than this share of the mean interval are as good as one.
+const CLOSE: f64 = 0.05;
 /// Samples from which on there are enough of them.
 const MANY: usize = 100_000;
 
@@ -53,10 +55,12 @@ fn smooth(trail: &Trail) -> Trail {
     if trail.t.len() > MANY {
         return trail.clone();
     }
+    let span = trail.t.last().unwrap_or(&0.0) - trail.t.first().unwrap_or(&0.0);
+    // Samples much closer than the others need no points between; divided by next to nothing, rounding would show.
+    let least = CLOSE * span / trail.t.len() as f64;
     let mut fine = Trail::default();
     for i in 0..trail.t.len() {
-        // A row and an event may share a moment.
-        if i > 0 && trail.t[i] > trail.t[i - 1] {
+        if i > 0 && trail.t[i] - trail.t[i - 1] > least {
             let h = trail.t[i] - trail.t[i - 1];
             let (from, rise) = (trail.x[i - 1], trail.x[i] - trail.x[i - 1]);
             // Excess of the velocities at both ends over the mean one, as ways.
@@ -88,7 +92,7 @@ mod tests {
     fn a_cubic_motion_has_its_points_on_the_curve() {
         // x = t³ - 2t has no error in the cubic of positions and velocities.
         let (x, v) = (|t: f64| t.powi(3) - 2.0 * t, |t: f64| 3.0 * t * t - 2.0);
-        let t = [0.0, 0.5, 1.0, 1.0, 1.7];
+        let t = [0.0, 0.5, 1.0, 1.0 + 1e-15, 1.7];
         let trail = Trail { t: t.to_vec(), x: t.map(x).to_vec(), y: t.map(v).to_vec() };
         let fine = smooth(&trail);
         assert_eq!(fine.t.len(), 5 + 3 * 4);
