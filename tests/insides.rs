@@ -230,7 +230,8 @@ fn looking_inside_changes_nothing_else() {
 fn a_plot_asks_for_its_table_and_old_tables_go() {
     let out = tempdir().unwrap();
     let tables = |plots: &str| {
-        let folder = run_example("oblique_loading", out.path(), &[&format!("plots={plots}")]);
+        let set = ["output={\"every\": \"10 ms\"}", &format!("plots={plots}")];
+        let folder = run_example("oblique_loading", out.path(), &set);
         let names = listing(&folder).into_iter().filter(|name| name.ends_with(".csv"));
         (names.collect::<Vec<_>>().join(" "), folder)
     };

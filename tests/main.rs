@@ -5,6 +5,7 @@ mod broken_files;
 mod check;
 mod compare;
 mod endings;
+mod gallery;
 mod golden;
 mod info;
 mod info_tables;

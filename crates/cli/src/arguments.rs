@@ -9,7 +9,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
-pub(crate) use pictures::{PlotArguments, ReproArguments};
+pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 
 /// Exit codes, as every command keeps them.
 const EXIT_CODES: &str = "\
@@ -79,6 +79,13 @@ pub(crate) enum Command {
     /// picture, 3 the results cannot be written, 130 interrupted.
     #[command(after_long_help = pictures::REPRO_EXAMPLES)]
     Repro(ReproArguments),
+    /// Run all scenarios of a folder and draw all their pictures, with a page that shows them
+    ///
+    /// Pictures are PNG, light and dark, and SVG where that is small; tables are not kept. The page, README.md, names the
+    /// scenario and the command of each. Exit codes: 0 done, 2 a scenario is refused, 3 a run stopped itself or something
+    /// cannot be drawn or written, 130 interrupted; the page is written only when everything was done.
+    #[command(after_long_help = pictures::GALLERY_EXAMPLES)]
+    Gallery(GalleryArguments),
     /// Compare two folders of results: channels, events, figures
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),

@@ -7,7 +7,7 @@
 //! (series prepared for the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`],
 //! [`provenance`] and [`fingerprint`] (pictures and what they carry); [`folder`] (how files are written); [`progress`],
 //! [`interrupt`]; [`results`] with [`replay`], [`rows`], [`springs`] and [`curves`] (what is read back from a folder) and
-//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`frame`] (tables read back whole);
+//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`gallery`]; [`frame`] (tables read back whole);
 //! [`compare`] (tells two runs apart).
 
 mod arguments;
@@ -21,6 +21,7 @@ mod figures;
 mod fingerprint;
 mod folder;
 mod frame;
+mod gallery;
 mod info;
 mod insides;
 mod interrupt;
@@ -66,6 +67,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Plot(arguments) => redraw::plot(&arguments),
         Command::Repro(arguments) => repro::repro(&arguments),
+        Command::Gallery(arguments) => gallery::gallery(&arguments),
     };
     ExitCode::from(verdict.code())
 }
