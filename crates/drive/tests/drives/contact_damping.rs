@@ -1,0 +1,142 @@
+//! Damping β of the springs that stick: a force βG\*m(c)u̇ beside the law of the contact.
+
+use crate::parts::{FOOT_SLIDER, column, contact, event, follower, free, named, push, trace};
+use std::f64::consts::TAU;
+use stickslip_contact::{Pair, Profile};
+use stickslip_drive::scene::{Body, Contact, Scene, Side};
+use stickslip_drive::{Shape, Timing, Waveform};
+
+const MU: f64 = 0.2;
+const FORCE: f64 = 1.0;
+/// Effective moduli, Pa.
+const E: f64 = 1.15e11;
+const G: f64 = 0.95e11;
+
+fn known(between: [Side; 2], profile: Profile, damping: f64) -> Contact {
+    Contact { pair: Pair::from_moduli(E, G).unwrap(), damping, ..contact(between, profile, MU, FORCE) }
+}
+
+/// A flat punch of radius b sticks whole, k = 2G\*b: under a step load F the slider is the oscillator
+/// m ẍ + βk ẋ + k x = F, x = X[1 - e^{-δt}(cos ω_d t + (δ/ω_d) sin ω_d t)], δ = βω²/2.
+#[test]
+fn a_stuck_slider_is_a_damped_oscillator() {
+    let (radius, mass, force) = (1e-4, 0.02_f64, 0.3 * MU * FORCE);
+    let stiffness = 2.0 * G * radius;
+    let omega = (stiffness / mass).sqrt();
+    for ratio in [0.02, 0.3, 0.9] {
+        let punch = known([Side::Ground, Side::Body(0)], Profile::flat(radius).unwrap(), 2.0 * ratio / omega);
+        let mut scene = Scene { bodies: vec![named("slider", free(mass))], ..Scene::default() };
+        scene.contacts.push(named("ball", punch));
+        scene.loads.push(push(0, force));
+        let period = TAU / omega;
+        let (model, _, rows) = trace(&scene, &event(1e-12, 5.0 * period), period / 32.0);
+        let column = |name: &str| column(&model, &rows, name);
+        let (t, x, v) = (column("time_s"), column("slider.x_m"), column("slider.vx_m_s"));
+        let (damped, friction) = (column("energy.damping_J"), column("energy.friction_J"));
+        let (rest, delta) = (force / stiffness, ratio * omega);
+        let fast = (omega * omega - delta * delta).sqrt();
+        for i in 0..t.len() {
+            let (decay, phase) = ((-delta * t[i]).exp(), fast * t[i]);
+            let place = rest * (1.0 - decay * (phase.cos() + delta / fast * phase.sin()));
+            let speed = rest * decay * omega * omega / fast * phase.sin();
+            assert!((x[i] - place).abs() < 1e-9 * rest && (v[i] - speed).abs() < 1e-9 * rest * omega);
+            // What the load has done and nothing stores.
+            let lost = force * place - 0.5 * stiffness * place.powi(2) - 0.5 * mass * speed.powi(2);
+            assert!((damped[i] - lost).abs() < 1e-9 * force * rest, "{:e} {lost:e}", damped[i]);
+            assert!(friction[i].abs() < 1e-12 * force * rest);
+        }
+    }
+}
+
+/// A paraboloid under a prescribed motion of corners, all at one speed.
+struct Path {
+    u_c: f64,
+    stiffness: f64,
+    speed: f64,
+    beta: f64,
+    u: Vec<f64>,
+    force: Vec<f64>,
+    damping: Vec<f64>,
+}
+
+impl Path {
+    /// Through the `corners`, in u_c, with β such that βku̇ is `part` of μF_N; 200 rows per u_c.
+    fn along(corners: &[f64], part: f64) -> Self {
+        let radius = 1e-3;
+        let d = (0.75 * FORCE / (E * f64::sqrt(radius))).powf(2.0 / 3.0);
+        let (u_c, stiffness) = (MU * E / G * d, 2.0 * G * (radius * d).sqrt());
+        let speed = u_c / 1e-3;
+        let beta = part * MU * FORCE / (stiffness * speed);
+        let mut points = vec![(0.0, 0.0)];
+        for corner in corners {
+            let (t, u) = points[points.len() - 1];
+            points.push((t + (corner * u_c - u).abs() / speed, corner * u_c));
+        }
+        let end = points[points.len() - 1].0;
+        let mut scene = Scene::default();
+        let path = Waveform::new(Shape::Table { points }, Timing::every(end)).unwrap();
+        scene.waveforms.push(named("path", path));
+        scene.bodies = vec![named("foot", follower(0)), named("wall", Body::default())];
+        scene.contacts.push(named("ball", known(FOOT_SLIDER, Profile::paraboloid(radius).unwrap(), beta)));
+        // Rows beside the corners, where the force jumps.
+        let (model, _, rows) = trace(&scene, &event(1e-10, end), 1e-3 / 199.7);
+        let [u, force, damping] =
+            ["ball.u_m", "ball.fx_N", "energy.damping_J"].map(|name| column(&model, &rows, name));
+        Self { u_c, stiffness, speed, beta, u, force, damping }
+    }
+
+    /// Force in parts of μF_N, after `travel` u_c from the last turn at `turn` with its `elastic` force there: the law of a
+    /// virgin contact (scale 1) or of one that turned (scale 2), and the damped springs of the part c/a that sticks.
+    fn force(&self, (scale, elastic): (f64, f64), travel: f64, sense: f64) -> f64 {
+        let stuck = 1.0 - travel / scale;
+        let damped = self.beta * self.stiffness * self.speed / (MU * FORCE) * stuck.sqrt();
+        elastic + sense * (scale * (1.0 - stuck.powf(1.5)) + damped)
+    }
+}
+
+/// Forward to 0.6 u_c, back to 0.4, forward into gross slip. The damped part exceeds the limit of friction, vanishes in
+/// gross slip, and jumps where the small loop closes.
+#[test]
+fn damping_exceeds_the_limit_of_friction_and_jumps_where_loops_close() {
+    let path = Path::along(&[0.6, 0.4, 1.4], 1.5);
+    let virgin = |u: f64| 1.0 - (1.0 - u).powf(1.5);
+    let back = virgin(0.6) - 2.0 * (1.0 - 0.9_f64.powf(1.5));
+    let (mut travelled, mut before) = (0.0, 0.0);
+    let mut largest: f64 = 0.0;
+    for (i, (u, force)) in path.u.iter().zip(&path.force).enumerate().skip(1).take(path.u.len() - 2) {
+        let u = u / path.u_c;
+        travelled = i as f64 / 199.7;
+        let exact = match travelled {
+            s if s < 0.6 => path.force((1.0, 0.0), u, 1.0),
+            s if s < 0.8 => path.force((2.0, virgin(0.6)), 0.6 - u, -1.0),
+            s if s < 1.0 => path.force((2.0, back), u - 0.4, 1.0),
+            s if s < 1.4 => path.force((1.0, 0.0), u, 1.0),
+            _ => 1.0,
+        };
+        let found = force / (MU * FORCE);
+        assert!((found - exact).abs() < 1e-9, "{travelled} {u}: {found} {exact}");
+        if before < 1.0 && travelled >= 1.0 {
+            let jump = 1.5 * (0.4_f64.sqrt() - 0.9_f64.sqrt());
+            let was = path.force[i - 1] / (MU * FORCE);
+            assert!((found - was - jump).abs() < 0.02, "{was} {found}");
+        }
+        before = travelled;
+        largest = largest.max(found);
+    }
+    assert!(travelled > 1.7 && largest > 1.4, "{travelled} {largest}");
+}
+
+/// Work of the damped springs in a cycle of amplitude U: βkv(8u_c/3)[1-(1-U/u_c)^{3/2}], k(c) integrated along the path.
+#[test]
+fn work_of_damped_springs_in_a_cycle() {
+    for amplitude in [0.3, 0.8, 1.0, 1.5] {
+        let corners = [amplitude, -amplitude, amplitude, -amplitude, amplitude];
+        let path = Path::along(&corners, 0.4);
+        let whole = |path: &Path| path.damping[path.damping.len() - 1];
+        let work = whole(&path) - whole(&Path::along(&corners[..3], 0.4));
+        let exact = path.beta * path.stiffness * path.speed * 8.0 / 3.0
+            * path.u_c
+            * (1.0 - (1.0 - f64::min(amplitude, 1.0)).powf(1.5));
+        assert!((work / exact - 1.0).abs() < 1e-8, "{amplitude}: {}", work / exact - 1.0);
+    }
+}
