@@ -22,6 +22,7 @@ mod linearised;
 mod looks;
 mod lottery;
 mod planar_scenes;
+mod plane_rows;
 mod random_drives;
 mod random_stacks;
 mod ruby;
