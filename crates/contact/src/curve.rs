@@ -21,7 +21,7 @@ mod knot;
 mod stack;
 mod sweep;
 
-pub use branch::{Branch, Course};
+pub use branch::{Branch, Course, SteadyBranch};
 
 use crate::{Apex, ContactError, ContactState, Interface, Move, Outcome, Response, Segment, SpringState};
 use cut::Drag;
@@ -190,7 +190,7 @@ impl Curve {
             Drag::Open => return Outcome { friction, ..Outcome::default() },
             Drag::Rest => (top, self.front),
             Drag::Stick => (top.stick(law, to), Front::STICK),
-            Drag::Slip(edge) => (edge.end(law, &edge.foot(law, knots, to), to), edge.front()),
+            Drag::Slip(edge) => (edge.end(law, &edge.foot(law, knots, to), Some(&top), to), edge.front()),
         };
         let (state, stick_radius) = zone(law, to.d, front);
         Outcome {
@@ -236,19 +236,23 @@ impl Curve {
             self.apex = touch.apex();
             self.cone = Cone::ALL;
         }
-        let friction = if self.knots.is_empty() { 0.0 } else { sweep::work(law, &self.knots, self.apex, to) };
-        match drag(law, &self.knots, to) {
+        let friction = match drag(law, &self.knots, to) {
             Drag::Open => {
+                let from = self.apex;
+                let friction =
+                    if self.knots.is_empty() { 0.0 } else { sweep::work(law, &self.knots, from, to) };
                 self.knots.clear();
                 self.front = Front::STICK;
+                friction
             }
-            Drag::Rest => {}
+            Drag::Rest => 0.0,
             Drag::Stick => {
                 self.front = Front::STICK;
                 self.push_grown(law, to);
+                0.0
             }
             Drag::Slip(edge) => self.push_cut(law, edge, to),
-        }
+        };
         self.apex = to;
         Ok(friction)
     }

@@ -23,7 +23,7 @@ mod profile;
 mod quadrature;
 mod row;
 
-pub use curve::{Branch, Course, Curve, Merged};
+pub use curve::{Branch, Course, Curve, Merged, SteadyBranch};
 pub use engine::{Engine, Memory, Spring};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};

@@ -1,6 +1,7 @@
 //! The equations of motion, evaluated on borrowed memory.
 
-use crate::model::{Contact, Link, Measure, Motion, Place, Press, Stroke};
+use crate::interval::Interval;
+use crate::model::{Contact, Link, Measure, Motion, Place, Press, Stroke, Terms};
 use crate::state::{Layout, Mode, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::{Branch, Memory, Move};
@@ -19,13 +20,15 @@ pub(crate) struct Equations<'a> {
     pub(crate) layout: Layout,
     /// Whether a step may cross corners of waveforms, as fixed steps do.
     pub(crate) crossing: bool,
+    /// What is known to stay the same until the next event.
+    pub(crate) interval: Option<&'a Interval<'a>>,
 }
 
 impl<'a> Equations<'a> {
     /// The equations on a state as it stands.
     pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
         let State { pieces, memories, modes, .. } = state;
-        Self { model, pieces, memories, modes, layout, crossing }
+        Self { model, pieces, memories, modes, layout, crossing, interval: None }
     }
 }
 
@@ -64,22 +67,30 @@ impl Equations<'_> {
         }
     }
 
-    /// A measure at time t; `y` reads a component.
+    /// A measure at one moment.
     #[inline(always)]
-    pub(crate) fn read(&self, measure: &Measure, t: f64, y: impl Fn(usize) -> f64) -> Reading {
+    pub(crate) fn read<V: View>(&self, measure: &Measure, at: &V) -> Reading {
         let (mut own, mut rate) = (0.0, 0.0);
         for &(i, a) in &measure.free {
-            own += a * y(i);
-            rate += a * y(self.layout.velocity(i));
+            own += a * at.component(i);
+            if V::MOVES {
+                rate += a * at.component(self.layout.velocity(i));
+            }
         }
         let (mut followed, mut driven) = (0.0, 0.0);
         for &(w, a) in &measure.driven {
-            let sample = self.sample(w, t);
+            let sample = self.sample(w, at.time());
             followed += a * sample.value;
             driven += a * sample.rate;
         }
         // Two bodies far from their start may be close to each other: their difference first.
         Reading { value: measure.constant + (own + followed), rate: rate + driven, driven }
+    }
+
+    /// The same away from the evaluations that count.
+    #[inline(never)]
+    fn look(&self, measure: &Measure, at: &impl View) -> Reading {
+        self.read(measure, at)
     }
 
     /// Second derivative of a measure, m/s²; `free` gives that of a free coordinate.
@@ -91,10 +102,11 @@ impl Equations<'_> {
     /// Motion of a contact; `y` reads a component.
     #[inline]
     pub(crate) fn motion(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
-        let u = self.read(&contact.u, t, &y);
+        let at = Components { t, y };
+        let u = self.read(&contact.u, &at);
         let (d, dd) = match contact.coupling() {
             Some(measure) => {
-                let d = self.read(measure, t, &y);
+                let d = self.read(measure, &at);
                 (d.value, d.rate)
             }
             None => self.pressed(contact, t),
@@ -194,83 +206,57 @@ impl Equations<'_> {
         extra[self.layout.friction(slot) - from] = friction;
     }
 
-    /// A measure without the rates of free coordinates.
+    /// Forces of all contacts, and the slopes of their extra components.
     #[inline(always)]
-    fn place_of(&self, measure: &Measure, t: f64, x: &[f64]) -> Reading {
-        let own: f64 = measure.free.iter().map(|(i, a)| a * x[*i]).sum();
-        let (mut followed, mut driven) = (0.0, 0.0);
-        for &(w, a) in &measure.driven {
-            let sample = self.sample(w, t);
-            followed += a * sample.value;
-            driven += a * sample.rate;
+    fn contacts(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
+        let Some(interval) = self.interval else {
+            (0..self.model.contacts.len()).for_each(|c| self.contact(c, at, sum, extra));
+            return;
+        };
+        for steady in &interval.steady {
+            let u = steady.own(|i| at.component(i)) + steady.followed(at.time());
+            let force = steady.force(u);
+            sum.apply(&steady.free, steady.driven(), force);
         }
-        Reading { value: measure.constant + (own + followed), rate: driven, driven }
-    }
-
-    /// Forces of all contacts; `read` reads measures, `y` components.
-    #[inline(always)]
-    fn contacts(
-        &self,
-        t: f64,
-        read: impl Fn(&Measure) -> Reading,
-        y: impl Fn(usize) -> f64,
-        sum: &mut Sum<'_>,
-        extra: &mut [f64],
-    ) {
-        for (c, contact) in self.model.contacts.iter().enumerate() {
-            let u = read(&contact.u);
-            let force = match (&self.modes[c], &contact.press) {
-                // What nearly all evaluations of nearly all scenes are.
-                (Mode::Slip(branch), Press::Constant { d, area }) if contact.damping == 0.0 => {
-                    branch.force(&contact.law, *d, u.value, *area)
-                }
-                (_, press) => {
-                    let (d, dd) = match press {
-                        Press::Coupled(measure) => {
-                            let d = read(measure);
-                            sum.apply(measure, &d, -contact.count * contact.law.normal_force(d.value));
-                            (d.value, d.rate)
-                        }
-                        _ => self.pressed(contact, t),
-                    };
-                    self.contact(c, &Motion { d, u: u.value, dd, du: u.rate }, &y, sum, extra)
-                }
-            };
-            sum.apply(&contact.u, &u, -contact.count * force);
+        for &c in &interval.others {
+            self.contact(c, at, sum, extra);
         }
     }
 
-    /// Any contact in any mode: F_x of one, and the slopes of its extra components.
+    /// Any contact in any mode: its forces, and the slopes of its extra components.
     #[inline(never)]
-    fn contact(
-        &self,
-        c: usize,
-        motion: &Motion,
-        y: &impl Fn(usize) -> f64,
-        sum: &mut Sum<'_>,
-        extra: &mut [f64],
-    ) -> f64 {
+    fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
-        let force = self.force(c, motion, y);
+        let u = self.look(&contact.u, at);
+        let (d, dd) = match &contact.press {
+            Press::Coupled(measure) => {
+                let d = self.look(measure, at);
+                sum.apply(&measure.free, d.driven, -contact.count * contact.law.normal_force(d.value));
+                (d.value, d.rate)
+            }
+            _ => self.pressed(contact, at.time()),
+        };
+        let motion = Motion { d, u: u.value, dd, du: u.rate };
+        let mut force = self.force(c, &motion, |i| at.component(i));
         if let (Some(slot), true) = (contact.slot, self.layout.growing > 0) {
-            self.grow(c, slot, motion, force, extra);
+            self.grow(c, slot, &motion, force, extra);
         }
-        if contact.damping == 0.0 {
-            return force;
+        if contact.damping > 0.0 {
+            let damping = contact.damping * self.stuck_stiffness(c, &motion);
+            sum.damping += contact.count * damping * motion.du * motion.du;
+            force += damping * motion.du;
         }
-        let damping = contact.damping * self.stuck_stiffness(c, motion);
-        sum.damping += contact.count * damping * motion.du * motion.du;
-        force + damping * motion.du
+        sum.apply(&contact.u.free, u.driven, -contact.count * force);
     }
 
     #[inline(never)]
-    fn links(&self, t: f64, read: impl Fn(&Measure) -> Reading, sum: &mut Sum<'_>) {
+    fn links(&self, at: &impl View, sum: &mut Sum<'_>) {
         for link in &self.model.links {
-            let elongation = read(&link.elongation);
-            let stroke = self.stroke(link, t);
+            let elongation = self.look(&link.elongation, at);
+            let stroke = self.stroke(link, at.time());
             let (stretch, rate) = (stroke.value - elongation.value, stroke.rate - elongation.rate);
             let force = link.stiffness * stretch + link.damping * rate;
-            sum.apply(&link.elongation, &elongation, force + link.preload);
+            sum.apply(&link.elongation.free, elongation.driven, force + link.preload);
             sum.input += force * stroke.rate;
             sum.damping += link.damping * rate * rate;
         }
@@ -282,6 +268,20 @@ impl Equations<'_> {
             Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },
             Stroke::Driven(w) => self.sample(w, t),
         }
+    }
+}
+
+impl Equations<'_> {
+    /// Accelerations without any velocity, and the power put in, W.
+    #[inline(never)]
+    fn accelerate(&self, at: &Positions<'_>, out: &mut [f64]) {
+        let (dv, input) = out.split_at_mut(self.layout.free);
+        let mut sum = Sum::new(self.model, dv);
+        self.contacts(at, &mut sum, &mut []);
+        if !self.model.links.is_empty() {
+            self.links(at, &mut sum);
+        }
+        (input[0], _) = sum.accelerate(self.model);
     }
 }
 
@@ -304,11 +304,13 @@ impl System for Equations<'_> {
         let (dx, rest) = dy.split_at_mut(layout.free);
         let (dv, extra) = rest.split_at_mut(layout.free);
         dx.copy_from_slice(v);
+        // Contacts that are apart leave theirs alone.
+        extra.fill(0.0);
         let mut sum = Sum::new(self.model, dv);
-        let read = |measure: &Measure| self.read(measure, t, |i| y[i]);
-        self.contacts(t, read, |i| y[i], &mut sum, extra);
+        let at = Components { t, y: |i: usize| y[i] };
+        self.contacts(&at, &mut sum, extra);
         if !self.model.links.is_empty() {
-            self.links(t, read, &mut sum);
+            self.links(&at, &mut sum);
         }
         for load in &self.model.loads {
             let force = load.arm * self.sample(load.waveform, t).value;
@@ -326,16 +328,71 @@ impl Conservative for Equations<'_> {
         self.layout.free
     }
 
+    #[inline(always)]
     fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]) {
-        let (dv, extra) = out.split_at_mut(self.layout.free);
-        let mut sum = Sum::new(self.model, dv);
-        let read = |measure: &Measure| self.place_of(measure, t, x);
-        self.contacts(t, read, |_| 0.0, &mut sum, &mut []);
-        if !self.model.links.is_empty() {
-            self.links(t, read, &mut sum);
+        match (x, out, self.interval) {
+            // One slider, as in most drives: no loop over coordinates is left.
+            ([x], [acceleration, input], Some(Interval { slider: Some(slider), pulls, .. })) => {
+                (*acceleration, *input) = (slider.acceleration, slider.power);
+                for pull in pulls {
+                    let area = pull.area(t, *x);
+                    *acceleration += pull.acceleration * area;
+                    *input += pull.power * area;
+                }
+            }
+            (x, out, _) => self.accelerate(&Positions { t, x }, out),
         }
-        let (input, damping) = sum.accelerate(self.model);
-        (extra[0], extra[1]) = (input, damping);
+    }
+
+    /// Gross slip under constant loads: a parabola.
+    fn is_constant(&self) -> bool {
+        self.interval.is_some_and(|interval| interval.constant)
+    }
+}
+
+/// Where an evaluation finds the moment it is asked about.
+pub(crate) trait View {
+    /// Whether velocities of free coordinates are known; otherwise rates are those of followers alone.
+    const MOVES: bool;
+    /// Time, s.
+    fn time(&self) -> f64;
+    /// Component `i` of the state.
+    fn component(&self, i: usize) -> f64;
+}
+
+/// All components of the state.
+pub(crate) struct Components<Y> {
+    pub(crate) t: f64,
+    pub(crate) y: Y,
+}
+
+impl<Y: Fn(usize) -> f64> View for Components<Y> {
+    const MOVES: bool = true;
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.t
+    }
+    #[inline(always)]
+    fn component(&self, i: usize) -> f64 {
+        (self.y)(i)
+    }
+}
+
+/// Positions alone.
+struct Positions<'a> {
+    t: f64,
+    x: &'a [f64],
+}
+
+impl View for Positions<'_> {
+    const MOVES: bool = false;
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.t
+    }
+    #[inline(always)]
+    fn component(&self, i: usize) -> f64 {
+        self.x[i]
     }
 }
 
@@ -358,6 +415,7 @@ struct Sum<'a> {
 }
 
 impl<'a> Sum<'a> {
+    #[inline(always)]
     fn new(model: &Model, dv: &'a mut [f64]) -> Self {
         for (dv, free) in dv.iter_mut().zip(&model.free) {
             *dv = free.force;
@@ -376,10 +434,10 @@ impl<'a> Sum<'a> {
 
     /// Adds a force along a measure. What drives its followers supplies the opposite force: its power is input.
     #[inline(always)]
-    fn apply(&mut self, measure: &Measure, reading: &Reading, force: f64) {
-        for &(i, a) in &measure.free {
+    fn apply(&mut self, free: &Terms, driven: f64, force: f64) {
+        for &(i, a) in free {
             self.dv[i] += a * force;
         }
-        self.input -= force * reading.driven;
+        self.input -= force * driven;
     }
 }

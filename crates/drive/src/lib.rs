@@ -17,6 +17,7 @@ mod equilibrium;
 mod error;
 mod event;
 mod guard;
+mod interval;
 mod linearised;
 mod model;
 mod plan;

@@ -71,7 +71,7 @@ impl Model {
         let name = |i: usize| format!("{}.{}", self.bodies[self.free[i].body].name, self.free[i].axis.key());
         let mut linearised = Linearised {
             coordinates: (0..n).map(name).collect(),
-            contacts: self.contacts.iter().map(|c| c.u.free.clone()).collect(),
+            contacts: self.contacts.iter().map(|c| c.u.free.to_vec()).collect(),
             mass: DVector::from_iterator(n, self.free.iter().map(|f| f.mass)),
             damping: DMatrix::zeros(n, n),
             stiffness: DMatrix::zeros(n, n),
@@ -129,7 +129,7 @@ impl Model {
 }
 
 /// Adds what a spring or damper along a row does to the coordinates.
-fn add(matrix: &mut DMatrix<f64>, row: &Row, value: f64) {
+fn add(matrix: &mut DMatrix<f64>, row: &[(usize, f64)], value: f64) {
     for (i, a) in row {
         for (j, b) in row {
             matrix[(*i, *j)] += value * a * b;

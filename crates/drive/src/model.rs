@@ -9,7 +9,7 @@ mod measure;
 mod reach;
 mod scale;
 
-pub(crate) use measure::Measure;
+pub(crate) use measure::{Measure, Terms};
 
 use crate::scene::Axis;
 use crate::{Sample, Waveform};
@@ -152,7 +152,7 @@ pub(crate) struct Load {
 }
 
 /// Motion of a contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Motion {
     pub(crate) d: f64,
     pub(crate) u: f64,

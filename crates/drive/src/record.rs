@@ -1,7 +1,7 @@
 //! What is written down: rows on a regular grid, events, and their channels; looks into the contacts.
 
 use crate::Model;
-use crate::equations::Equations;
+use crate::equations::{Components, Equations};
 use crate::event::{Event, Source};
 use crate::model::{Body, Contact, Link, Place};
 use crate::scene::Axis;
@@ -245,6 +245,6 @@ fn contact_columns(
 /// Potential energy of a link, J: ½k(s-e)² less the work its preload has done.
 pub(crate) fn link_energy(equations: &Equations<'_>, link: &Link, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
     let stroke = equations.stroke(link, t).value;
-    let length = equations.read(&link.elongation, t, y).value;
+    let length = equations.read(&link.elongation, &Components { t, y }).value;
     0.5 * link.stiffness * (stroke - length).powi(2) - link.preload * length
 }

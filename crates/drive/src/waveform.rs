@@ -12,6 +12,7 @@ mod sines;
 pub use shape::{Harmonic, Shape, Timing, WaveformError};
 
 use corners::Corners;
+pub(crate) use law::Line;
 use law::{Law, Straight};
 
 /// A prescribed function of time.
@@ -37,6 +38,16 @@ pub struct Piece {
     /// Place in the chain, 0 for what is held before the start.
     pub index: u64,
     law: Law,
+}
+
+impl Piece {
+    /// The line that the value follows, where it moves at a constant rate.
+    pub(crate) fn line(&self) -> Option<Line> {
+        match &self.law {
+            Law::Straight(straight) => Some(straight.line()),
+            _ => None,
+        }
+    }
 }
 
 /// Value of a waveform and its derivatives at one time.

@@ -12,7 +12,8 @@ use crate::{Dop853, System};
 pub trait Attempt<S: ?Sized> {
     /// Largest |hλ| at which a motion e^{λt} that swings or fades does not grow.
     fn reach(&self) -> f64;
-    /// Puts the stepper at time `t` and state `y` and evaluates the slopes there.
+    /// Puts the stepper at time `t` and state `y`, of which it takes as many components as it has, and evaluates the
+    /// slopes there.
     fn start(&mut self, system: &S, t: f64, y: &[f64]);
     /// Evaluates the slopes at the current point again: due after anything that makes them jump.
     fn restart_slopes(&mut self, system: &S);

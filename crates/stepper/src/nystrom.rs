@@ -11,8 +11,8 @@ mod tableau;
 
 use crate::Attempt;
 use tableau::{
-    END, MONOMIALS, NODES, POSITION_ERROR, POSITIONS, REFINED, SAMPLED, SAMPLES, STAGES, VELOCITY,
-    VELOCITY_ERROR,
+    END, INTEGRALS, NODES, POSITION_ERROR, POSITIONS, REFINED, REFINED_POSITIONS, SAMPLED, SAMPLES, STAGES,
+    VELOCITY, VELOCITY_ERROR,
 };
 
 /// Power of the step with which the error estimate falls.
@@ -27,45 +27,164 @@ pub trait Conservative {
 
     /// Accelerations (n) and then the rates of the quadratures at time `t` (s) and positions `x`; all to be filled.
     fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]);
+
+    /// Whether accelerations and rates are the same at all times and positions of the coming step: then they are not
+    /// asked for again.
+    fn is_constant(&self) -> bool {
+        false
+    }
+}
+
+/// How many positions and quadratures there are: the storage of a [`Nystrom`].
+pub trait Lanes {
+    /// A number for each position.
+    type Positions: Lane<f64>;
+    /// A number for each position and quadrature.
+    type Rates: Lane<f64>;
+    /// A number for each position, velocity and quadrature.
+    type State: Lane<f64>;
+    /// A track for each position and quadrature.
+    type Tracks: Lane<Track>;
+}
+
+/// A row of values of one kind.
+pub trait Lane<T>: AsRef<[T]> + AsMut<[T]> + std::fmt::Debug + Clone {
+    /// `count` values to begin with.
+    fn of(count: usize) -> Self;
+}
+
+impl<T: Default + Clone + std::fmt::Debug> Lane<T> for Vec<T> {
+    fn of(count: usize) -> Self {
+        vec![T::default(); count]
+    }
+}
+
+impl<T: Default + Copy + std::fmt::Debug, const N: usize> Lane<T> for [T; N] {
+    /// Those of any other `count` than `N` are left out or too many.
+    fn of(_: usize) -> Self {
+        [T::default(); N]
+    }
+}
+
+/// Any number of positions and quadratures.
+#[derive(Debug, Clone, Copy)]
+pub struct Many;
+
+impl Lanes for Many {
+    type Positions = Vec<f64>;
+    type Rates = Vec<f64>;
+    type State = Vec<f64>;
+    type Tracks = Vec<Track>;
+}
+
+/// One position and one quadrature: all loops fall out at compile time.
+#[derive(Debug, Clone, Copy)]
+pub struct One;
+
+impl Lanes for One {
+    type Positions = [f64; 1];
+    type Rates = [f64; 2];
+    type State = [f64; 3];
+    type Tracks = [Track; 2];
 }
 
 /// One step of RKN8(6)9 at a time, as [`Dop853`](crate::Dop853) does it.
 #[derive(Debug, Clone)]
-pub struct Nystrom {
-    positions: usize,
+pub struct Nystrom<L: Lanes = Many> {
     time: f64,
     end_time: f64,
     step: f64,
-    begin: Vec<f64>,
-    end: Vec<f64>,
-    stage: Vec<f64>,
-    rates: Vec<f64>,
-    /// Accelerations and rates of the quadratures at the stages.
-    k: Vec<[f64; STAGES]>,
-    /// Of the same components: monomials of the fraction of the step.
-    polynomials: Vec<[f64; SAMPLES]>,
+    begin: L::State,
+    end: L::State,
+    stage: L::Positions,
+    rates: L::Rates,
+    /// Of each position and then each quadrature.
+    tracks: L::Tracks,
+    constant: bool,
     first_known: bool,
     last_known: bool,
     dense_known: bool,
     evaluations: u64,
 }
 
+/// One position with its velocity, or one quadrature, in the course of a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Track {
+    /// Position at the start of the step; of no meaning to a quadrature.
+    x: f64,
+    /// Velocity, or quadrature, at the start of the step.
+    v: f64,
+    /// Acceleration, or rate of the quadrature, at the stages.
+    k: [f64; STAGES],
+    /// Positions at which the samples are refined.
+    refined: [f64; REFINED.end - REFINED.start],
+    /// The dense output: v + hθ Σ cθʲ …
+    velocity: [f64; SAMPLES],
+    /// … and x + hθ(v + hθ Σ cθʲ).
+    position: [f64; SAMPLES],
+}
+
+impl Track {
+    /// The polynomials through the samples.
+    fn interpolate(&mut self) {
+        self.velocity = [0.0; SAMPLES];
+        for (column, stage) in INTEGRALS.iter().zip(SAMPLED) {
+            for (to, weight) in self.velocity.iter_mut().zip(column) {
+                *to += weight * self.k[stage];
+            }
+        }
+        for (j, (to, from)) in self.position.iter_mut().zip(&self.velocity).enumerate() {
+            *to = from * (1.0 / (j + 2) as f64);
+        }
+    }
+
+    /// Position at a fraction θ of the step h.
+    #[inline]
+    fn position(&self, h: f64, share: f64) -> f64 {
+        self.x + share * h * (self.v + h * share * horner(&self.position, share))
+    }
+
+    /// Velocity, or quadrature.
+    #[inline]
+    fn velocity(&self, h: f64, share: f64) -> f64 {
+        self.v + h * share * horner(&self.velocity, share)
+    }
+}
+
+#[inline]
+fn horner(coefficients: &[f64; SAMPLES], x: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
+}
+
 impl Nystrom {
     /// Workspace for `positions` positions and `quadratures` quadratures.
     #[must_use]
     pub fn new(positions: usize, quadratures: usize) -> Self {
+        Self::with_room(positions, quadratures)
+    }
+}
+
+impl Nystrom<One> {
+    /// Workspace for one position and one quadrature.
+    #[must_use]
+    pub fn one() -> Self {
+        Self::with_room(1, 1)
+    }
+}
+
+impl<L: Lanes> Nystrom<L> {
+    fn with_room(positions: usize, quadratures: usize) -> Self {
         let (rates, total) = (positions + quadratures, 2 * positions + quadratures);
         Self {
-            positions,
             time: 0.0,
             end_time: 0.0,
             step: 0.0,
-            begin: vec![0.0; total],
-            end: vec![0.0; total],
-            stage: vec![0.0; positions],
-            rates: vec![0.0; rates],
-            k: vec![[0.0; STAGES]; rates],
-            polynomials: vec![[0.0; SAMPLES]; rates],
+            begin: Lane::of(total),
+            end: Lane::of(total),
+            stage: Lane::of(positions),
+            rates: Lane::of(rates),
+            tracks: Lane::of(rates),
+            constant: false,
             first_known: false,
             last_known: false,
             dense_known: false,
@@ -73,76 +192,117 @@ impl Nystrom {
         }
     }
 
+    /// Number of positions.
+    #[inline(always)]
+    fn positions(&self) -> usize {
+        self.stage.as_ref().len()
+    }
+
+    #[inline(always)]
     fn evaluate<S: Conservative + ?Sized>(&mut self, system: &S, t: f64, stage: usize) {
-        system.accelerations(t, &self.stage, &mut self.rates);
+        system.accelerations(t, self.stage.as_ref(), self.rates.as_mut());
         self.evaluations += 1;
-        for (k, rate) in self.k.iter_mut().zip(&self.rates) {
-            k[stage] = *rate;
+        for (track, rate) in self.tracks.as_mut().iter_mut().zip(self.rates.as_ref()) {
+            track.k[stage] = *rate;
         }
     }
 
     /// Positions of stage `J`, and what acts there.
     #[inline(always)]
     fn advance<const J: usize, S: Conservative + ?Sized>(&mut self, system: &S, t: f64) {
-        let (h, n) = (self.step, self.positions);
-        let (x, v) = self.begin.split_at(n);
-        for (((to, x), v), k) in self.stage.iter_mut().zip(x).zip(v).zip(&self.k) {
-            *to = x + h * (NODES[J] * v + h * dot::<J>(&POSITIONS[J], k));
+        let h = self.step;
+        // Of all that a position is made of only the stage before is new: it comes last, and nothing waits for it.
+        let (before, last) = (&POSITIONS[J], J - 1);
+        for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
+            let known = track.x + h * (NODES[J] * track.v + h * dot(before, &track.k, last));
+            *to = if before[last] == 0.0 { known } else { known + h * h * before[last] * track.k[last] };
         }
         self.evaluate(system, t, J);
     }
 
+    /// All stages at once where nothing changes: the end is the parabola's.
+    #[inline(never)]
+    fn advance_constant(&mut self) {
+        let h = self.step;
+        for track in self.tracks.as_mut() {
+            track.k = [track.k[0]; STAGES];
+        }
+        for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
+            *to = track.x + h * (track.v + 0.5 * h * track.k[0]);
+        }
+    }
+
     /// The end of the step by the weights of order 8; the last stage has the end's positions.
+    #[inline]
     fn conclude(&mut self) {
-        let (h, n) = (self.step, self.positions);
-        self.end[..n].copy_from_slice(&self.stage);
-        for ((to, v), k) in self.end[n..].iter_mut().zip(&self.begin[n..]).zip(&self.k) {
-            *to = v + h * dot::<8>(&VELOCITY, k);
+        let (h, n) = (self.step, self.positions());
+        self.end.as_mut()[..n].copy_from_slice(self.stage.as_ref());
+        for (to, track) in self.end.as_mut()[n..].iter_mut().zip(self.tracks.as_ref()) {
+            *to = track.v + h * dot(&VELOCITY, &track.k, 8);
         }
     }
 
     /// Largest difference of the two orders in units of `scale`.
+    #[inline]
     fn error(&self, scale: &[f64]) -> f64 {
-        let (h, n) = (self.step, self.positions);
+        let (h, n) = (self.step, self.positions());
+        let (positions, velocities) = scale.split_at(n);
         let (mut largest, mut sum) = (0.0_f64, 0.0);
-        for (i, k) in self.k.iter().enumerate() {
-            if i < n {
-                let e = h * h * dot::<7>(&POSITION_ERROR, k) / scale[i];
-                largest = largest.max(e.abs());
-            }
-            if let Some(scale) = scale.get(n + i) {
-                let e = h * dot::<STAGES>(&VELOCITY_ERROR, k) / scale;
-                largest = largest.max(e.abs());
-            }
-            // `max` drops NaN, a sum does not.
-            sum += k[END];
+        let mut add = |error: f64, scale: f64| {
+            let error = (error / scale).abs();
+            largest = if error > largest { error } else { largest };
+            // A comparison drops NaN, a sum does not.
+            sum += error;
+        };
+        for (track, scale) in self.tracks.as_ref().iter().zip(positions) {
+            add(h * h * dot(&POSITION_ERROR, &track.k, 7), *scale);
         }
-        sum += self.end.iter().sum::<f64>();
-        if sum.is_finite() && largest.is_finite() { largest } else { f64::INFINITY }
-    }
-
-    /// The polynomials through the samples that there are.
-    fn interpolate(&mut self) {
-        for (polynomial, k) in self.polynomials.iter_mut().zip(&self.k) {
-            for (coefficient, row) in polynomial.iter_mut().zip(&MONOMIALS) {
-                *coefficient = row.iter().zip(SAMPLED).map(|(a, stage)| a * k[stage]).sum();
-            }
+        for (track, scale) in self.tracks.as_ref().iter().zip(velocities) {
+            add(h * dot(&VELOCITY_ERROR, &track.k, STAGES), *scale);
         }
+        sum += self.end.as_ref().iter().sum::<f64>();
+        if sum.is_finite() { largest } else { f64::INFINITY }
     }
 
     /// Component `i` at a fraction of the step.
+    #[inline]
     fn at(&self, i: usize, share: f64) -> f64 {
-        let (h, n) = (self.step, self.positions);
-        if i < n {
-            let sum = (0..SAMPLES).rev().fold(0.0, |sum, j| {
-                let j1 = (j + 1) as f64;
-                sum * share + self.polynomials[i][j] / (j1 * (j1 + 1.0))
-            });
-            return self.begin[i] + share * h * (self.begin[n + i] + h * share * sum);
+        match i.checked_sub(self.positions()) {
+            None => self.tracks.as_ref()[i].position(self.step, share),
+            Some(i) => self.tracks.as_ref()[i].velocity(self.step, share),
         }
-        let polynomial = &self.polynomials[i - n];
-        let sum = (0..SAMPLES).rev().fold(0.0, |sum, j| sum * share + polynomial[j] / (j + 1) as f64);
-        self.begin[i] + h * share * sum
+    }
+
+    /// Evaluates the samples inside the step again: the stages there are of order 4 only.
+    fn refine<S: Conservative + ?Sized>(&mut self, system: &S) {
+        let (h, n) = (self.step, self.positions());
+        for track in &mut self.tracks.as_mut()[..n] {
+            for (r, sample) in REFINED.enumerate() {
+                let node = NODES[SAMPLED[sample]];
+                let bend: f64 =
+                    REFINED_POSITIONS[r].iter().zip(SAMPLED).map(|(w, stage)| w * track.k[stage]).sum();
+                track.refined[r] = track.x + node * h * (track.v + node * h * bend);
+            }
+        }
+        for (r, sample) in REFINED.enumerate() {
+            let stage = SAMPLED[sample];
+            for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
+                *to = track.refined[r];
+            }
+            self.evaluate(system, self.time + NODES[stage] * h, stage);
+        }
+    }
+
+    /// Takes the start of the step over into the tracks.
+    #[inline]
+    fn set_out(&mut self) {
+        let (positions, velocities) = self.begin.as_ref().split_at(self.positions());
+        for (track, v) in self.tracks.as_mut().iter_mut().zip(velocities) {
+            track.v = *v;
+        }
+        for (track, x) in self.tracks.as_mut().iter_mut().zip(positions) {
+            track.x = *x;
+        }
     }
 
     fn forget_step(&mut self) {
@@ -151,11 +311,11 @@ impl Nystrom {
     }
 }
 
-/// Σ over the first `N` stages; stages of weight zero fall out at compile time.
+/// Σ over the first `count` stages; where that is known at compile time, stages of weight zero fall out.
 #[inline(always)]
-fn dot<const N: usize>(weights: &[f64], k: &[f64; STAGES]) -> f64 {
+fn dot(weights: &[f64], k: &[f64; STAGES], count: usize) -> f64 {
     let mut sum = 0.0;
-    for j in 0..N {
+    for j in 0..count {
         if weights[j] != 0.0 {
             sum += weights[j] * k[j];
         }
@@ -163,7 +323,7 @@ fn dot<const N: usize>(weights: &[f64], k: &[f64; STAGES]) -> f64 {
     sum
 }
 
-impl<S: Conservative + ?Sized> Attempt<S> for Nystrom {
+impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
     /// Swings grow from 3.3 on; they fade fastest here.
     fn reach(&self) -> f64 {
         3.0
@@ -171,21 +331,29 @@ impl<S: Conservative + ?Sized> Attempt<S> for Nystrom {
 
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.time = t;
-        self.begin.copy_from_slice(y);
+        let begin = self.begin.as_mut();
+        begin.copy_from_slice(&y[..begin.len()]);
         self.restart_slopes(system);
     }
 
     fn restart_slopes(&mut self, system: &S) {
         self.forget_step();
-        self.stage.copy_from_slice(&self.begin[..self.positions]);
+        self.set_out();
+        let n = self.positions();
+        self.stage.as_mut().copy_from_slice(&self.begin.as_ref()[..n]);
         self.evaluate(system, self.time, 0);
+        self.constant = system.is_constant();
         self.first_known = true;
     }
 
     fn first_step(&mut self, _: &S, longest: f64, scale: &[f64]) -> f64 {
         // A step in which what acts at its start moves a body by its natural scale, or a hundredth of the longest.
-        let n = self.positions;
-        let bend = (0..n).map(|i| self.k[i][0].abs() / scale[n + i]).fold(0.0, f64::max);
+        let n = self.positions();
+        let bend = self.tracks.as_ref()[..n]
+            .iter()
+            .zip(&scale[n..])
+            .map(|(track, scale)| track.k[0].abs() / scale)
+            .fold(0.0, f64::max);
         let step = if bend > 0.0 {
             (1.0 / bend).powf(1.0 / f64::from(ORDER)) * longest.powf(1.0 - 1.0 / f64::from(ORDER))
         } else {
@@ -201,14 +369,18 @@ impl<S: Conservative + ?Sized> Attempt<S> for Nystrom {
         self.forget_step();
         let (t, h) = (self.time, end - self.time);
         (self.step, self.end_time) = (h, end);
-        self.advance::<1, S>(system, t + NODES[1] * h);
-        self.advance::<2, S>(system, t + NODES[2] * h);
-        self.advance::<3, S>(system, t + NODES[3] * h);
-        self.advance::<4, S>(system, t + NODES[4] * h);
-        self.advance::<5, S>(system, t + NODES[5] * h);
-        self.advance::<6, S>(system, t + NODES[6] * h);
-        self.advance::<7, S>(system, end);
-        self.advance::<8, S>(system, end);
+        if self.constant {
+            self.advance_constant();
+        } else {
+            self.advance::<1, S>(system, t + NODES[1] * h);
+            self.advance::<2, S>(system, t + NODES[2] * h);
+            self.advance::<3, S>(system, t + NODES[3] * h);
+            self.advance::<4, S>(system, t + NODES[4] * h);
+            self.advance::<5, S>(system, t + NODES[5] * h);
+            self.advance::<6, S>(system, t + NODES[6] * h);
+            self.advance::<7, S>(system, end);
+            self.advance::<8, S>(system, end);
+        }
         self.conclude();
         self.last_known = true;
         self.error(scale)
@@ -216,7 +388,8 @@ impl<S: Conservative + ?Sized> Attempt<S> for Nystrom {
 
     fn end_slopes(&mut self, system: &S) {
         if !self.last_known {
-            self.stage.copy_from_slice(&self.end[..self.positions]);
+            let n = self.positions();
+            self.stage.as_mut().copy_from_slice(&self.end.as_ref()[..n]);
             self.evaluate(system, self.end_time, END);
             self.last_known = true;
         }
@@ -226,22 +399,17 @@ impl<S: Conservative + ?Sized> Attempt<S> for Nystrom {
         if self.dense_known {
             return;
         }
-        self.interpolate();
-        for sample in REFINED {
-            let stage = SAMPLED[sample];
-            for i in 0..self.positions {
-                self.stage[i] = self.at(i, NODES[stage]);
-            }
-            self.evaluate(system, self.time + NODES[stage] * self.step, stage);
+        if !self.constant {
+            self.refine(system);
         }
-        self.interpolate();
+        self.tracks.as_mut().iter_mut().for_each(Track::interpolate);
         self.dense_known = true;
     }
 
     fn cut(&mut self, t: f64) {
         let share = (t - self.time) / self.step;
-        for i in 0..self.end.len() {
-            self.end[i] = self.at(i, share);
+        for i in 0..self.end.as_ref().len() {
+            self.end.as_mut()[i] = self.at(i, share);
         }
         self.end_time = t;
         self.last_known = false;
@@ -250,9 +418,10 @@ impl<S: Conservative + ?Sized> Attempt<S> for Nystrom {
     fn accept(&mut self) {
         std::mem::swap(&mut self.begin, &mut self.end);
         self.time = self.end_time;
+        self.set_out();
         let known = self.last_known;
         if known {
-            self.k.iter_mut().for_each(|k| k[0] = k[END]);
+            self.tracks.as_mut().iter_mut().for_each(|track| track.k[0] = track.k[END]);
         }
         self.forget_step();
         self.first_known = known;
@@ -271,23 +440,23 @@ impl<S: Conservative + ?Sized> Attempt<S> for Nystrom {
     }
 
     fn begin(&self) -> &[f64] {
-        &self.begin
+        self.begin.as_ref()
     }
 
     fn begin_mut(&mut self) -> &mut [f64] {
-        &mut self.begin
+        self.begin.as_mut()
     }
 
     fn end(&self) -> &[f64] {
-        &self.end
+        self.end.as_ref()
     }
 
     fn begin_slope(&self, i: usize) -> f64 {
-        self.k[i - self.positions][0]
+        self.tracks.as_ref()[i - self.positions()].k[0]
     }
 
     fn end_slope(&self, i: usize) -> f64 {
-        self.k[i - self.positions][END]
+        self.tracks.as_ref()[i - self.positions()].k[END]
     }
 
     fn evaluations(&self) -> u64 {

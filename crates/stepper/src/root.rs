@@ -1,12 +1,43 @@
 //! Zeros inside a step: bracketed search, and the dip that two positive ends hide.
 
+/// Three times the halvings that any bracket of doubles takes.
+const MOST: u32 = 3 * 2200;
+
 /// A zero of `f` between `a` and `b`, `fa = f(a)` and `fb = f(b)` of opposite sign, to within `tolerance` (half the
 /// width of the last bracket, in the unit of `a`; not below the spacing of doubles there).
 ///
 /// Middle of the bracket that [`bracket`] returns, or its end where `f` is exactly zero.
 pub fn root(f: impl FnMut(f64) -> f64, a: f64, b: f64, fa: f64, fb: f64, tolerance: f64) -> f64 {
-    let (left, right) = bracket(f, a, b, fa, fb, tolerance);
+    root_near(f, (a, b), (fa, fb), 0.5, tolerance)
+}
+
+/// The same with the search begun at a `guess`, a fraction of the way from `a` to `b`.
+pub fn root_near(
+    f: impl FnMut(f64) -> f64,
+    (a, b): (f64, f64),
+    (fa, fb): (f64, f64),
+    guess: f64,
+    tolerance: f64,
+) -> f64 {
+    let (left, right) = search(f, (a, b), (fa, fb), guess, tolerance);
     0.5 * (left + right)
+}
+
+/// Where the cubic through the values `y0` > 0 > `y1` with the slopes `dy0`, `dy1` at the ends of a step of length `h`
+/// crosses zero, as a fraction of the step; the chord's crossing where the cubic is not monotone.
+///
+/// A guess for [`root_near`]: two steps of Newton's method from the chord's crossing.
+#[must_use]
+pub fn hermite_root(y0: f64, dy0: f64, y1: f64, dy1: f64, h: f64) -> f64 {
+    let (m0, m1, rise) = (h * dy0, h * dy1, y1 - y0);
+    let (c, e) = (3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise);
+    let chord = y0 / (y0 - y1);
+    let mut x = chord;
+    for _ in 0..2 {
+        let slope = m0 + x * (2.0 * c + 3.0 * x * e);
+        x -= (y0 + x * (m0 + x * (c + x * e))) / slope;
+    }
+    if x > 0.0 && x < 1.0 { x } else { chord }
 }
 
 /// The bracket (left, right) of a zero of `f` with right - left at most 2·`tolerance`: `f(left)` has the sign of `fa`,
@@ -18,12 +49,15 @@ pub fn root(f: impl FnMut(f64) -> f64, a: f64, b: f64, fa: f64, fb: f64, toleran
 ///
 /// A value that is NaN ends the search at its point. Ends of equal sign are no bracket; the result is then the end
 /// with the smaller magnitude, twice.
-pub fn bracket(
+pub fn bracket(f: impl FnMut(f64) -> f64, a: f64, b: f64, fa: f64, fb: f64, tolerance: f64) -> (f64, f64) {
+    search(f, (a, b), (fa, fb), 0.5, tolerance)
+}
+
+fn search(
     mut f: impl FnMut(f64) -> f64,
-    a: f64,
-    b: f64,
-    fa: f64,
-    fb: f64,
+    (a, b): (f64, f64),
+    (fa, fb): (f64, f64),
+    guess: f64,
     tolerance: f64,
 ) -> (f64, f64) {
     if fa == 0.0 {
@@ -39,9 +73,8 @@ pub fn bracket(
     let tolerance = tolerance.max(spacing);
     // `new` is the latest point, `old` the end across the zero, `last` the point before.
     let (mut new, mut old) = ((b, fb), (a, fa));
-    let mut part = 0.5;
-    let halvings = ((b - a).abs() / tolerance).log2().ceil().max(1.0);
-    for _ in 0..(3.0 * halvings.min(2200.0)) as u32 {
+    let mut part = 1.0 - guess;
+    for _ in 0..MOST {
         let x = new.0 + part * (old.0 - new.0);
         let value = f(x);
         if value == 0.0 || value.is_nan() {

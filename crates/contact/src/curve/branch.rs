@@ -9,7 +9,7 @@
 //! sense of sliding changes sign.
 
 use super::{Curve, cut::Edge, knot::Knot};
-use crate::{Apex, Interface};
+use crate::{Apex, Interface, Profile};
 
 /// What a contact is doing, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -94,7 +94,57 @@ impl Branch {
     }
 }
 
+/// A branch at constant indentation: F_x = F₀ + G\*σ(γ-κ) M(h_c), a function of u alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteadyBranch {
+    sense: f64,
+    /// Level of the knot below the piece, over that of the apex at u = 0, m.
+    level: f64,
+    flow: f64,
+    height: f64,
+    /// Force with the slip front in the centre, N.
+    base: f64,
+    /// G\*σ(γ-κ); 0 in gross slip.
+    gain: f64,
+}
+
+impl SteadyBranch {
+    /// The slip front as a straight function of u, h_c = h₀ + su: (h₀ in m, s).
+    pub fn front(&self) -> (f64, f64) {
+        (self.height + self.level * self.flow, -self.sense * self.flow)
+    }
+
+    /// The force as a straight function of M at the slip front, F = F₀ + gM: (F₀ in N, g in N/m²), g = 0 in gross slip.
+    pub fn forces(&self) -> (f64, f64) {
+        (self.base, self.gain)
+    }
+
+    /// F_x at u, N.
+    #[inline(always)]
+    pub fn force(&self, profile: &Profile, u: f64) -> f64 {
+        let front = self.height + (self.level - self.sense * u) * self.flow;
+        self.base + self.gain * profile.area(front)
+    }
+}
+
 impl Branch {
+    /// The branch at a constant indentation d (m), with M(d) at hand.
+    pub fn steady(&self, d: f64, area: f64) -> SteadyBranch {
+        let limit = self.slope * area;
+        if self.is_gross() {
+            let base = self.factor * limit;
+            return SteadyBranch { sense: self.sense, level: 0.0, flow: 0.0, height: 0.0, base, gain: 0.0 };
+        }
+        SteadyBranch {
+            sense: self.sense,
+            level: self.level + self.slope * d,
+            flow: self.flow,
+            height: self.height,
+            base: self.factor * (self.offset + limit),
+            gain: self.factor * self.excess,
+        }
+    }
+
     /// +1 forward, -1 backward.
     pub fn sense(&self) -> f64 {
         self.sense

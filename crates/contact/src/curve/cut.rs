@@ -99,10 +99,14 @@ impl Edge {
         if self.splits { base.point(law, &knots[self.kept], self.height) } else { *base }
     }
 
-    /// The apex at the end of the edge.
+    /// The apex at the end of the edge; `top` is the one before, whose M and N it shares where d stays.
     #[inline]
-    pub(super) fn end(&self, law: &Interface, foot: &Knot, to: Apex) -> Knot {
-        foot.grow(law, to.d, self.sense * law.stick_slope(), to.u)
+    pub(super) fn end(&self, law: &Interface, foot: &Knot, top: Option<&Knot>, to: Apex) -> Knot {
+        let slope = self.sense * law.stick_slope();
+        match top {
+            Some(top) if top.h == to.d => foot.extend(to.d, to.u, slope, slope, top.area, top.volume),
+            _ => foot.grow(law, to.d, slope, to.u),
+        }
     }
 
     /// Force and tangents: with the front at h_c, ∂F/∂u = G\*m(h_c), ∂F/∂d = σκG\*[m(d)-m(h_c)].

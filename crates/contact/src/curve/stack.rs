@@ -2,7 +2,7 @@
 
 use super::cut::Edge;
 use super::knot::Knot;
-use super::{Curve, Front};
+use super::{Curve, Front, sweep};
 use crate::{Apex, Interface};
 
 /// Slopes of the top piece that keep every knot merged into it within round-off of where it was: without this
@@ -68,10 +68,11 @@ impl Curve {
         self.cone = Cone::ALL;
     }
 
-    /// Replaces what was cut by the straight edge of the wedge.
-    pub(super) fn push_cut(&mut self, law: &Interface, edge: Edge, to: Apex) {
+    /// Replaces what was cut by the straight edge of the wedge; gives the friction work, J.
+    pub(super) fn push_cut(&mut self, law: &Interface, edge: Edge, to: Apex) -> f64 {
         let foot = edge.foot(law, &self.knots, to);
-        let end = edge.end(law, &foot, to);
+        let end = edge.end(law, &foot, self.knots.last(), to);
+        let friction = sweep::slipped(law, &self.knots, [self.apex, to], (&edge, &foot));
         self.knots.truncate(edge.kept);
         if edge.splits || edge.is_gross() {
             self.knots.push(foot);
@@ -84,6 +85,7 @@ impl Curve {
         }
         self.front = edge.front();
         self.cone = Cone::NONE;
+        friction
     }
 
     /// Gives up the knot whose loss changes the anchors least, and books the change.

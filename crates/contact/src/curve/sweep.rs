@@ -31,20 +31,21 @@ pub(super) fn work(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f64
     let sweep = Sweep { law, from, to, rise, shift, sense, level: sense * to.u - slope * to.d };
 
     let edge = Edge::find(law, knots, sense, to);
-    let first = edge.kept.max(1);
-    let mut lower = if edge.is_gross() { knots[0] } else { edge.foot(law, knots, to) };
-    // The dragging begins with 0 at the cut; in gross slip the centre is dragged as well.
-    let mut drag = if edge.is_gross() { sweep.level + slope * lower.h - sense * lower.p } else { 0.0 };
-    let mut total = 0.0;
-    for upper in &knots[first.min(knots.len())..] {
-        total += sweep.piece(&lower, upper, drag);
-        drag += sweep.rate(upper) * (upper.h - lower.h);
-        lower = *upper;
-    }
-    if rise > 0.0 {
-        total += sweep.piece(top, &top.grow(law, to.d, shift / rise, to.u), drag);
-    }
-    law.tangential_modulus() * slope * total
+    let foot = edge.foot(law, knots, to);
+    sweep.swept(knots, top, &edge, &foot)
+}
+
+/// Friction work of a chord that stays inside contact, J, its edge and foot known.
+pub(super) fn slipped(
+    law: &Interface,
+    knots: &[Knot],
+    [from, to]: [Apex; 2],
+    (edge, foot): (&Edge, &Knot),
+) -> f64 {
+    let Some(top) = knots.last() else { return 0.0 };
+    let (sense, rise, shift) = (edge.sense, to.d - from.d, to.u - from.u);
+    let sweep = Sweep { law, from, to, rise, shift, sense, level: sense * to.u - law.stick_slope() * to.d };
+    sweep.swept(knots, top, edge, foot)
 }
 
 /// One chord of the apex and the edge that drags at its end.
@@ -59,6 +60,25 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
+    /// Work of everything that is swept, J. `top` is the last of the knots.
+    fn swept(&self, knots: &[Knot], top: &Knot, edge: &Edge, foot: &Knot) -> f64 {
+        let mut lower = if edge.is_gross() { knots[0] } else { *foot };
+        // The dragging begins with 0 at the cut; in gross slip the centre is dragged as well.
+        let slope = self.law.stick_slope();
+        let mut drag =
+            if edge.is_gross() { self.level + slope * lower.h - self.sense * lower.p } else { 0.0 };
+        let mut total = 0.0;
+        for upper in &knots[edge.kept.max(1).min(knots.len())..] {
+            total += self.piece(&lower, upper, drag);
+            drag += self.rate(upper) * (upper.h - lower.h);
+            lower = *upper;
+        }
+        if self.rise > 0.0 {
+            total += self.piece(top, &top.grow(self.law, self.to.d, self.shift / self.rise, self.to.u), drag);
+        }
+        self.law.tangential_modulus() * slope * total
+    }
+
     /// ∫q dm over one piece of the old curve, split where the edge of the contact ends up.
     fn piece(&self, lower: &Knot, upper: &Knot, drag: f64) -> f64 {
         if upper.h <= lower.h {

@@ -76,6 +76,17 @@ impl Power {
     fn radius(&self, h: f64) -> f64 {
         let x = self.scale * h;
         match self.root {
+            Root::Second => x.sqrt(),
+            Root::First => x,
+            Root::Fourth => x.sqrt().sqrt(),
+            _ => self.other_root(x),
+        }
+    }
+
+    /// The roots that cost a call, kept out of the way of those that do not.
+    #[inline(never)]
+    fn other_root(&self, x: f64) -> f64 {
+        match self.root {
             Root::First => x,
             Root::Second => x.sqrt(),
             Root::Third => x.cbrt(),

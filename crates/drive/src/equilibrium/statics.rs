@@ -1,6 +1,7 @@
 //! The static forces on the free coordinates, and how they change.
 
 use crate::Model;
+use crate::equations::Components;
 use crate::model::{Contact, Measure};
 use crate::state::State;
 use nalgebra::{DMatrix, DVector};
@@ -58,7 +59,7 @@ impl Model {
             }
         }
         for link in &self.links {
-            let elongation = eq.read(&link.elongation, 0.0, |i| y[i]).value;
+            let elongation = eq.read(&link.elongation, &Components { t: 0.0, y: |i: usize| y[i] }).value;
             let stretch = eq.stroke(link, 0.0).value - elongation;
             let force = link.stiffness * stretch;
             statics.push(&link.elongation, force + link.preload, force.abs() + link.preload.abs());

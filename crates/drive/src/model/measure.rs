@@ -2,6 +2,11 @@
 
 use super::{Body, Place};
 use crate::scene::{Direction, Point, Side};
+use arrayvec::ArrayVec;
+
+/// Terms of a linear form: what it counts and by how much. Two sides, each along an axis and by its pitch, make four at
+/// most; they lie in the measure itself, since every evaluation reads them.
+pub(crate) type Terms = ArrayVec<(usize, f64), 4>;
 
 /// A length as a linear form of the coordinates: constant + Σ coefficient · coordinate. Its coefficients are the row of
 /// the Jacobian by which a force along it acts on the coordinates.
@@ -10,9 +15,9 @@ pub(crate) struct Measure {
     /// m.
     pub(crate) constant: f64,
     /// Free coordinates and their coefficients, 1 or m/rad.
-    pub(crate) free: Vec<(usize, f64)>,
+    pub(crate) free: Terms,
     /// Waveforms that a coordinate follows, and their coefficients.
-    pub(crate) driven: Vec<(usize, f64)>,
+    pub(crate) driven: Terms,
 }
 
 impl Measure {
@@ -87,7 +92,7 @@ mod tests {
         let ends = [(Side::Ground, Point::default()), (Side::Body(0), below)];
         let u = Measure::between(ends, Direction::X, std::slice::from_ref(&ball));
         // u = 0 - (x - Zθ) = -x - 2θ: rolling without slip has x = -2θ.
-        assert_eq!((u.free, u.constant), (vec![(0, -1.0), (2, -2.0)], 0.0));
+        assert_eq!((&u.free[..], u.constant), (&[(0, -1.0), (2, -2.0)][..], 0.0));
         let beside = Point { x: 3.0, z: 0.0 };
         let ends = [(Side::Body(0), beside), (Side::Body(1), Point::default())];
         let d = Measure::between(
@@ -95,7 +100,7 @@ mod tests {
             Direction::Z,
             &[ball, body([Place::Held(1.0), Place::Held(0.5), Place::Held(0.0)])],
         );
-        assert_eq!((d.free, d.constant), (vec![(1, 1.0), (2, 3.0)], -0.5));
+        assert_eq!((&d.free[..], d.constant), (&[(1, 1.0), (2, 3.0)][..], -0.5));
     }
 
     #[test]

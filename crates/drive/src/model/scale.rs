@@ -34,7 +34,7 @@ pub(super) fn assign(
         f.scale = (length, length * frequency[i]);
     }
     for (c, &d) in contacts.iter_mut().zip(deepest) {
-        let normal = c.coupling().map_or(&[][..], |measure| &measure.free);
+        let normal = c.coupling().map_or(&[][..], |measure| &measure.free[..]);
         let moved = c.u.free.iter().chain(normal);
         let fastest = moved.map(|(i, _)| frequency[*i]).fold(0.0, f64::max);
         c.natural = Natural {

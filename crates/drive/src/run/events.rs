@@ -16,13 +16,16 @@ use super::watch::Watch;
 use crate::equations::Equations;
 use crate::event::EventKind;
 use crate::guard::Guard;
-use crate::model::{Model, Motion};
+use crate::interval::Interval;
+use crate::model::{Contact, Measure, Model, Motion};
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError, Waveform};
 use path::MOST_PIECES;
 use stickslip_contact::{Engine, Segment};
-use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Nystrom, StepControl, StepLimits};
+use stickslip_stepper::{
+    Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Nystrom, StepControl, StepLimits, Verdict,
+};
 
 /// Scratch of one run; all that its future depends on is in the [`State`].
 pub(super) struct Run<'a, A> {
@@ -40,8 +43,14 @@ pub(super) struct Run<'a, A> {
     fastest: f64,
     /// Whether any waveform jumps.
     jumpy: bool,
-    /// Motions of the contacts at the end of the step.
-    motions: Vec<Motion>,
+    /// What stays the same until the next event.
+    interval: Option<Box<Interval<'a>>>,
+    /// Whether memories of steady contacts lag behind the state.
+    lags: bool,
+    /// The contacts at the start of the step.
+    from: Vec<Moving>,
+    /// The contacts at its end.
+    to: Vec<Moving>,
     /// What the contacts commit at the end of the step.
     segments: Vec<(usize, Segment)>,
     /// Guards that fell at the end of the step.
@@ -56,6 +65,14 @@ pub(super) struct Run<'a, A> {
     for_output: u64,
 }
 
+/// A contact at one end of a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Moving {
+    motion: Motion,
+    /// d̈ and ü, m/s²; what a waveform does to the indentation otherwise than by moving a body is left out.
+    second: (f64, f64),
+}
+
 /// Runs by the method that the model allows: where no force hangs on a velocity, one that spares a third of the
 /// evaluations.
 pub(super) fn run(
@@ -67,8 +84,11 @@ pub(super) fn run(
 ) -> Result<(), RunError> {
     let layout = model.layout();
     if model.is_conservative() {
-        let quadratures = layout.total() - layout.dimension();
-        let solver = Nystrom::new(layout.free, quadratures);
+        // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
+        if layout.free == 1 {
+            return Run::new(model, plan, tolerance, Nystrom::one()).go(NYSTROM_ORDER, state, record);
+        }
+        let solver = Nystrom::new(layout.free, 1);
         return Run::new(model, plan, tolerance, solver).go(NYSTROM_ORDER, state, record);
     }
     let solver = Dop853::new(layout.dimension(), layout.total());
@@ -100,12 +120,14 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             layout,
             fastest: model.fastest(),
             solver,
-            // The integrals of work steer the steps as well: energy books close at the tolerance.
-            scale: vec![0.0; layout.total()],
+            scale: scale(model, tolerance),
             watch: Watch::new(model, plan.limits),
             longest: longest(model, plan),
             jumpy: model.waveforms.iter().any(Waveform::has_jumps),
-            motions: Vec::with_capacity(model.contacts.len()),
+            interval: Some(Box::new(Interval::of(model))),
+            lags: false,
+            from: vec![Moving::default(); model.contacts.len()],
+            to: vec![Moving::default(); model.contacts.len()],
             segments: Vec::with_capacity(model.contacts.len() + MOST_PIECES as usize),
             fired: Vec::with_capacity(model.contacts.len()),
             old: Vec::with_capacity(model.contacts.len()),
@@ -128,6 +150,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         while state.t < self.end && outcome.is_ok() {
             outcome = self.step(state, &mut control, &mut grid, record);
         }
+        if self.lags {
+            self.settle(state);
+        }
         state.control = Some(control);
         state.counts.evaluations += self.solver.evaluations() - self.for_output;
         grid.write_now(&equations(self.model, self.layout, state), state, record);
@@ -136,23 +161,26 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
 
     /// Decrees the first laws and proposes a first step, unless the state goes on from an earlier run.
     fn begin(&mut self, state: &mut State) {
-        self.solver.start(&equations(self.model, self.layout, state), state.t, &state.y);
-        if state.step > 0.0 {
+        let fresh = state.step <= 0.0;
+        if fresh {
+            (0..self.model.contacts.len()).for_each(|c| self.decide(state, c));
+            self.set_scale(state);
+        }
+        self.begin_interval(state);
+        self.with_equations(state, |run, eq| {
+            run.solver.start(eq, state.t, &state.y);
+            run.set_out(eq);
+        });
+        if !fresh {
             return;
         }
-        for c in 0..self.model.contacts.len() {
-            self.decide(state, c);
-        }
-        self.set_scale(state);
-        let eq = equations(self.model, self.layout, state);
-        self.solver.start(&eq, state.t, &state.y);
         let natural = self.model.contacts.iter().map(|c| std::f64::consts::TAU / c.natural.frequency);
         let longest = natural.fold(self.longest, f64::min);
         let longest = if longest.is_finite() { longest } else { self.end };
         state.step = if self.layout.dimension() == 0 {
             longest
         } else {
-            self.solver.first_step(&eq, longest, &self.scale)
+            self.with_equations(state, |run, eq| run.solver.first_step(eq, longest, &run.scale))
         };
     }
 
@@ -166,32 +194,32 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
     ) -> Result<(), RunError> {
         self.set_scale(state);
         let corner = state.pieces.iter().map(|p| p.end).fold(self.end, f64::min);
-        let eq = equations(self.model, self.layout, state);
         let longest = self.longest_now(state);
-        let target = aim(state.t, state.step.min(longest).min(self.expected(&eq, state)), corner);
+        let target = aim(state.t, state.step.min(longest).min(self.expected(state)), corner);
         let h = target - state.t;
         if h <= 0.0 {
             return Err(RunError::StepTooSmall { t: state.t, step: state.step });
         }
-        let error = self.solver.attempt_until(&eq, target, &self.scale);
-        let verdict = control.propose(error, h);
+        let verdict = self.with_equations(state, |run, eq| run.attempt(eq, state, control, target));
         if !verdict.accepted {
             return self.reject(state, verdict.next, record);
         }
-        self.solver.end_slopes(&eq);
-        let mut wished = if h < state.step { state.step.max(verdict.next) } else { verdict.next };
-        let mut ending = if target == corner { Ending::Corner } else { Ending::Smooth };
-        self.fired.clear();
-        if let Some(fall) = self.first_fall(&eq, state) {
-            if fall.t < target {
-                self.solver.cut(fall.t);
-                ending = Ending::Event;
-                // The next law has not earned a longer step yet.
-                wished = if h < state.step { state.step } else { h.min(verdict.next) };
-            }
-            self.collect_fallen(&eq, state, fall);
-        }
-        self.accept(state, grid, record)?;
+        let cut = self.solver.end_time() < target;
+        let ending = if cut {
+            Ending::Event
+        } else if target == corner {
+            Ending::Corner
+        } else {
+            Ending::Smooth
+        };
+        let wished = match (cut, h < state.step) {
+            // The next law has not earned a longer step yet.
+            (true, false) => h.min(verdict.next),
+            (true, true) => state.step,
+            (false, false) => verdict.next,
+            (false, true) => state.step.max(verdict.next),
+        };
+        self.accept(state, grid, record, ending == Ending::Smooth && self.fired.is_empty())?;
         state.step = if ending == Ending::Smooth { wished } else { control.after_event(wished) };
         if ending == Ending::Corner {
             self.turn_corners(state, record);
@@ -199,10 +227,39 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         if ending == Ending::Corner || !self.fired.is_empty() {
             self.handle_fallen(state, ending == Ending::Corner, record)?;
             self.restart(state);
-        } else if self.rests(state) {
-            self.stop(state);
+        } else {
+            std::mem::swap(&mut self.from, &mut self.to);
+            if self.rests(state) {
+                self.stop(state);
+            }
         }
         self.watch.step(state, record)
+    }
+
+    /// Tries a step and, if its error allows, looks for the first event in it and ends it there.
+    #[inline(always)]
+    fn attempt(
+        &mut self,
+        eq: &Equations<'_>,
+        state: &State,
+        control: &mut StepControl,
+        target: f64,
+    ) -> Verdict {
+        let error = self.solver.attempt_until(eq, target, &self.scale);
+        let verdict = control.propose(error, target - state.t);
+        if verdict.accepted {
+            self.solver.end_slopes(eq);
+            self.arrive(eq);
+            self.fired.clear();
+            if let Some(fall) = self.first_fall(eq, state) {
+                if fall.t < target {
+                    self.solver.cut(fall.t);
+                    self.arrive(eq);
+                }
+                self.collect_fallen(state, fall);
+            }
+        }
+        verdict
     }
 
     fn reject(&mut self, state: &mut State, next: f64, record: &mut dyn Record) -> Result<(), RunError> {
@@ -214,15 +271,18 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         Err(RunError::StepTooSmall { t: state.t, step: next })
     }
 
-    /// Rows and looks inside the step, then the commit of all contacts, then time moves on.
+    /// Rows and looks inside the step, then the commit of all contacts, then time moves on. `goes_on` says that no event
+    /// ends the step.
     fn accept(
         &mut self,
         state: &mut State,
         grid: &mut Grid,
         record: &mut dyn Record,
+        goes_on: bool,
     ) -> Result<(), RunError> {
         let t = self.solver.end_time();
-        self.trace_segments(state, t);
+        self.trace_segments(state, t, goes_on);
+        self.lags = goes_on;
         if grid.due(t).is_some() || self.looks.due(t).is_some() {
             self.write(state, t, grid, record);
         }
@@ -230,7 +290,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         if let Some(i) = end.iter().position(|y| !y.is_finite()) {
             return Err(self.model.not_finite(t, i));
         }
-        state.y.copy_from_slice(end);
+        state.y[..end.len()].copy_from_slice(end);
         state.t = t;
         state.counts.steps += 1;
         self.solver.accept();
@@ -238,14 +298,13 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
     }
 
     /// About when the first piece of memory will be used up, s from now: a step much longer would only be thrown away.
-    fn expected(&self, eq: &Equations<'_>, state: &State) -> f64 {
+    fn expected(&self, state: &State) -> f64 {
         let mut first = f64::INFINITY;
         for (c, contact) in self.model.contacts.iter().enumerate() {
             let mode = &state.modes[c];
             if let Mode::Slip(branch) = mode {
-                let motion = eq.motion(contact, state.t, |i| state.y[i]);
+                let Moving { motion, second } = self.from[c];
                 let speed = Guard::Drag.value(contact, state.law(c), &motion);
-                let second = self.accelerations(eq, contact, false);
                 let (left, pull) =
                     (branch.margin(motion.d, motion.u), Guard::Drag.rate(contact, mode, &motion, second));
                 // left = speed t + pull t²/2; a slowing edge may never get there.
@@ -260,8 +319,80 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
 
     /// Tells the solver that the laws, and perhaps the forces of growing contacts, have changed.
     fn restart(&mut self, state: &State) {
-        self.solver.begin_mut().copy_from_slice(&state.y);
-        self.solver.restart_slopes(&equations(self.model, self.layout, state));
+        let begin = self.solver.begin_mut();
+        begin.copy_from_slice(&state.y[..begin.len()]);
+        self.begin_interval(state);
+        self.with_equations(state, |run, eq| {
+            run.solver.restart_slopes(eq);
+            run.set_out(eq);
+        });
+    }
+
+    fn begin_interval(&mut self, state: &State) {
+        if let Some(interval) = &mut self.interval {
+            interval.begin(self.model, state);
+        }
+    }
+
+    /// Does something with the equations as they are until the next event.
+    #[inline(always)]
+    fn with_equations<R>(&mut self, state: &State, act: impl FnOnce(&mut Self, &Equations<'_>) -> R) -> R {
+        let interval = self.interval.take();
+        let eq = Equations { interval: interval.as_deref(), ..equations(self.model, self.layout, state) };
+        let result = act(self, &eq);
+        self.interval = interval;
+        result
+    }
+
+    /// The contacts at the start of the next step, after anything that makes slopes jump.
+    fn set_out(&mut self, eq: &Equations<'_>) {
+        let mut from = std::mem::take(&mut self.from);
+        let (t, begin) = (self.solver.time(), self.solver.begin());
+        self.follow(eq, &mut from, t, begin, |i| self.solver.begin_slope(i));
+        self.from = from;
+    }
+
+    /// The contacts at the end of the step.
+    fn arrive(&mut self, eq: &Equations<'_>) {
+        let mut to = std::mem::take(&mut self.to);
+        let (t, end) = (self.solver.end_time(), self.solver.end());
+        self.follow(eq, &mut to, t, end, |i| self.solver.end_slope(i));
+        self.to = to;
+    }
+
+    /// The contacts at time t and state y, with the slopes of its velocities.
+    #[inline(always)]
+    fn follow(
+        &self,
+        eq: &Equations<'_>,
+        contacts: &mut [Moving],
+        t: f64,
+        y: &[f64],
+        slope: impl Fn(usize) -> f64 + Copy,
+    ) {
+        let Some(interval) = eq.interval else { return };
+        let n = self.layout.free;
+        for steady in &interval.steady {
+            let motion = steady.motion(t, |i| y[i], |i| y[n + i]);
+            contacts[steady.contact] = Moving { motion, second: (0.0, steady.own(|i| slope(n + i))) };
+        }
+        for &c in interval.others.iter().chain(&interval.apart) {
+            let contact = &self.model.contacts[c];
+            let motion = eq.motion(contact, t, |i| y[i]);
+            contacts[c] = Moving { motion, second: self.second(eq, contact, t, slope) };
+        }
+    }
+
+    /// d̈ and ü of a contact from the slopes of the velocities.
+    fn second(
+        &self,
+        eq: &Equations<'_>,
+        contact: &Contact,
+        t: f64,
+        slope: impl Fn(usize) -> f64,
+    ) -> (f64, f64) {
+        let of = |measure: &Measure| eq.acceleration(measure, t, |i| slope(self.layout.velocity(i)));
+        (contact.coupling().map_or(0.0, of), of(&contact.u))
     }
 
     /// Absolute error allowed per component: the tolerance times the natural scale, and never below what rounding
@@ -270,20 +401,28 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         let layout = self.layout;
         for (i, free) in self.model.free.iter().enumerate() {
             let (length, speed) = free.scale;
-            let floor = 8.0 * f64::EPSILON * state.y[i].abs() / length;
-            self.scale[i] = (self.tolerance + floor) * length;
-            let floor = floor + 8.0 * f64::EPSILON * state.y[layout.velocity(i)].abs() / speed;
-            self.scale[layout.velocity(i)] = (self.tolerance + floor) * speed;
+            let (x, v) = (
+                8.0 * f64::EPSILON * state.y[i].abs(),
+                8.0 * f64::EPSILON * state.y[layout.velocity(i)].abs(),
+            );
+            self.scale[i] = self.tolerance * length + x;
+            self.scale[layout.velocity(i)] = self.tolerance * speed + x * (speed / length) + v;
         }
-        for contact in &self.model.contacts {
-            if let Some(slot) = contact.slot {
-                let limit = contact.friction_limit();
-                self.scale[layout.force(slot)] = self.tolerance * if limit > 0.0 { limit } else { 1.0 };
-            }
-        }
-        let work = self.tolerance * self.model.work_scale();
-        self.scale.iter_mut().skip(layout.dimension()).for_each(|scale| *scale = work);
     }
+}
+
+/// Absolute error allowed per component, before that of free coordinates is known: forces of growing contacts, and the
+/// integrals of work, which steer the steps as well: energy books close at the tolerance.
+fn scale(model: &Model, tolerance: f64) -> Vec<f64> {
+    let layout = model.layout();
+    let mut scale = vec![tolerance * model.work_scale(); layout.total()];
+    for contact in &model.contacts {
+        if let Some(slot) = contact.slot {
+            let limit = contact.friction_limit();
+            scale[layout.force(slot)] = tolerance * if limit > 0.0 { limit } else { 1.0 };
+        }
+    }
+    scale
 }
 
 /// The equations on the state as it stands.

@@ -25,6 +25,22 @@ pub(super) struct Straight {
     rate: f64,
 }
 
+/// A value that moves at a constant rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Line {
+    pub(crate) time: f64,
+    value: f64,
+    pub(crate) rate: f64,
+}
+
+impl Line {
+    /// Value at a time, s.
+    #[inline]
+    pub(crate) fn at(&self, t: f64) -> f64 {
+        self.value + self.rate * (t - self.time)
+    }
+}
+
 impl Straight {
     /// From one (time, value) to the other; the rate belongs to the rounded times, so that value and rate agree.
     pub(super) fn between(from: (f64, f64), to: (f64, f64)) -> Self {
@@ -39,10 +55,14 @@ impl Straight {
         Self { anchor: (time, value), other: (time, value), rate: 0.0 }
     }
 
+    /// Its line, without the decree for its other end.
+    pub(super) fn line(&self) -> Line {
+        Line { time: self.anchor.0, value: self.anchor.1, rate: self.rate }
+    }
+
     #[inline]
     pub(super) fn at(&self, t: f64) -> Sample {
-        let along = self.anchor.1 + self.rate * (t - self.anchor.0);
-        let value = if t == self.other.0 { self.other.1 } else { along };
+        let value = if t == self.other.0 { self.other.1 } else { self.line().at(t) };
         Sample { value, rate: self.rate, acceleration: 0.0 }
     }
 }

@@ -107,7 +107,7 @@ pub(super) const SAMPLED: [usize; SAMPLES] = [0, 2, 3, 4, 5, 6, END];
 pub(super) const REFINED: std::ops::Range<usize> = 2..6;
 
 /// Monomial coefficients of the polynomial through the samples: inverse of the Vandermonde matrix of its nodes.
-pub(super) const MONOMIALS: [[f64; SAMPLES]; SAMPLES] = [
+const MONOMIALS: [[f64; SAMPLES]; SAMPLES] = [
     [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     [-1189.0 / 63.0, 875.0 / 32.0, -125.0 / 8.0, 189.0 / 16.0, -375.0 / 56.0, 875.0 / 288.0, -1.0],
     [
@@ -156,3 +156,40 @@ pub(super) const MONOMIALS: [[f64; SAMPLES]; SAMPLES] = [
         20000.0 / 189.0,
     ],
 ];
+
+/// Coefficients of the integral of that polynomial over a fraction θ, over θ: column by column, one for each sample.
+pub(super) const INTEGRALS: [[f64; SAMPLES]; SAMPLES] = {
+    let mut columns = [[0.0; SAMPLES]; SAMPLES];
+    let mut j = 0;
+    while j < SAMPLES {
+        let mut sample = 0;
+        while sample < SAMPLES {
+            columns[sample][j] = MONOMIALS[j][sample] / (j + 1) as f64;
+            sample += 1;
+        }
+        j += 1;
+    }
+    columns
+};
+
+/// Its double integral over θ, over θ², at the nodes that are refined: x(θ) = x + θh(v + θh Σ w k).
+pub(super) const REFINED_POSITIONS: [[f64; SAMPLES]; REFINED.end - REFINED.start] = {
+    let mut rows = [[0.0; SAMPLES]; REFINED.end - REFINED.start];
+    let mut r = 0;
+    while r < rows.len() {
+        let node = NODES[SAMPLED[REFINED.start + r]];
+        let mut sample = 0;
+        while sample < SAMPLES {
+            let mut sum = 0.0;
+            let mut j = SAMPLES;
+            while j > 0 {
+                j -= 1;
+                sum = sum * node + INTEGRALS[sample][j] / (j + 2) as f64;
+            }
+            rows[r][sample] = sum;
+            sample += 1;
+        }
+        r += 1;
+    }
+    rows
+};

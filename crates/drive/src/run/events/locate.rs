@@ -1,11 +1,11 @@
 //! Finding the first guard that falls inside a step.
 
-use super::Run;
+use super::{Moving, Run};
 use crate::equations::Equations;
 use crate::guard::{Guard, NEARNESS};
-use crate::model::{Contact, Measure, Motion};
+use crate::model::Motion;
 use crate::state::State;
-use stickslip_stepper::{Attempt, hermite_dip, root};
+use stickslip_stepper::{Attempt, hermite_dip, hermite_root, root, root_near};
 
 /// A guard that falls inside the step just attempted.
 #[derive(Clone, Copy)]
@@ -23,9 +23,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     pub(super) fn first_fall(&mut self, eq: &Equations<'_>, state: &State) -> Option<Fall> {
         let mut first: Option<Fall> = None;
         for (c, contact) in self.model.contacts.iter().enumerate() {
-            let (begin, end) = (self.solver.begin(), self.solver.end());
-            let start = eq.motion(contact, self.solver.time(), |i| begin[i]);
-            let stop = eq.motion(contact, self.solver.end_time(), |i| end[i]);
+            let (start, stop) = (self.from[c].motion, self.to[c].motion);
             for &guard in Guard::of(contact, &state.modes[c]) {
                 let value = |at: &Motion| guard.value(contact, state.law(c), at);
                 let (dead, _) = guard.bands(contact, self.tolerance);
@@ -33,7 +31,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
                 let low = if g1 < -dead && g1 < g0 {
                     Some((self.solver.end_time(), g1))
                 } else {
-                    self.dip(eq, state, (c, guard), (&start, &stop), dead)
+                    self.dip(eq, state, (c, guard), (g0, g1), dead)
                 };
                 if let Some((low, below)) = low {
                     let t = self.fall(eq, state, (c, guard), (g0, low, below));
@@ -56,8 +54,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
                 }
                 let (dead, _) = guard.bands(contact, self.tolerance);
                 let g1 = self.guard_at(eq, state, (c, guard), first.t);
-                let g0 = self.guard_at(eq, state, (c, guard), self.solver.time());
                 if g1 < -dead {
+                    let g0 = guard.value(contact, state.law(c), &self.from[c].motion);
                     let t = self.fall(eq, state, (c, guard), (g0, first.t, g1));
                     if g1 < g0 && t < first.t {
                         first = Fall { t, contact: c, guard };
@@ -74,13 +72,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         eq: &Equations<'_>,
         state: &State,
         (c, guard): (usize, Guard),
-        (start, stop): (&Motion, &Motion),
+        (g0, g1): (f64, f64),
         dead: f64,
     ) -> Option<(f64, f64)> {
         let contact = &self.model.contacts[c];
         let (t0, h) = (self.solver.time(), self.solver.end_time() - self.solver.time());
-        let value = |at: &Motion| guard.value(contact, state.law(c), at);
-        let (g0, g1) = (value(start), value(stop));
         let look = |run: &mut Self, share: f64| {
             run.solver.dense(eq);
             let t = t0 + share * h;
@@ -98,14 +94,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             Guard::Side => {
                 let slope = contact.law.stick_slope();
                 let closes = |at: &Motion| at.dd < 0.0 && at.du.abs() < -slope * at.dd;
-                return if closes(start) || closes(stop) { looks(self) } else { None };
+                let closing = closes(&self.from[c].motion) || closes(&self.to[c].motion);
+                return if closing { looks(self) } else { None };
             }
             _ => {}
         }
-        let rate = |at: &Motion, end: bool| {
-            guard.rate(contact, &state.modes[c], at, self.accelerations(eq, contact, end))
-        };
-        let (share, lowest) = hermite_dip(g0, rate(start, false), g1, rate(stop, true), h)?;
+        let rate = |at: &Moving| guard.rate(contact, &state.modes[c], &at.motion, at.second);
+        let (share, lowest) = hermite_dip(g0, rate(&self.from[c]), g1, rate(&self.to[c]), h)?;
         if lowest > 0.1 * g0.min(g1).max(0.0) {
             return None;
         }
@@ -127,8 +122,25 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         }
         // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.
         let tolerance = (0.1 * NEARNESS * self.tolerance * (low - t0)).max(4.0 * f64::EPSILON * low.abs());
-        let this = &*self;
-        root(|t| this.guard_at(eq, state, guard, t), t0, low, g0, below, tolerance)
+        let guess = self.guess(state, guard, (g0, low, below));
+        let (_, near) = guard.1.bands(&self.model.contacts[guard.0], self.tolerance);
+        let value = |t: f64| {
+            let value = self.guard_at(eq, state, guard, t);
+            // As good as there.
+            if value.abs() < near { 0.0 } else { value }
+        };
+        root_near(value, (t0, low), (g0, below), guess, tolerance)
+    }
+
+    /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
+    /// both ends of the step where its rates are known there.
+    fn guess(&self, state: &State, (c, guard): (usize, Guard), (g0, low, below): (f64, f64, f64)) -> f64 {
+        let contact = &self.model.contacts[c];
+        if low < self.solver.end_time() || contact.press.waveform().is_some() {
+            return 0.5;
+        }
+        let rate = |at: &Moving| guard.rate(contact, &state.modes[c], &at.motion, at.second);
+        hermite_root(g0, rate(&self.from[c]), below, rate(&self.to[c]), low - self.solver.time())
     }
 
     /// A guard that starts within its deadband: it may first rise and then fall.
@@ -148,32 +160,21 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Value of a guard at a time inside the step, on the dense output.
     fn guard_at(&self, eq: &Equations<'_>, state: &State, (c, guard): (usize, Guard), t: f64) -> f64 {
         let contact = &self.model.contacts[c];
-        let motion = eq.motion(contact, t, |i| self.solver.value(i, t));
-        guard.value(contact, state.law(c), &motion)
-    }
-
-    /// Motion of a contact's rates, (d̈, ü), at one end of the step, m/s². What a waveform does to the indentation
-    /// otherwise than by moving a body is left out.
-    pub(super) fn accelerations(&self, eq: &Equations<'_>, contact: &Contact, end: bool) -> (f64, f64) {
-        let t = if end { self.solver.end_time() } else { self.solver.time() };
-        let free = |i: usize| {
-            let i = self.layout.velocity(i);
-            if end { self.solver.end_slope(i) } else { self.solver.begin_slope(i) }
+        let value = |i: usize| self.solver.value(i, t);
+        let motion = match eq.interval.and_then(|interval| interval.steady(c)) {
+            Some(steady) => steady.motion(t, value, |i| value(self.layout.velocity(i))),
+            None => eq.motion(contact, t, value),
         };
-        let of = |measure: &Measure| eq.acceleration(measure, t, free);
-        (contact.coupling().map_or(0.0, of), of(&contact.u))
+        guard.value(contact, state.law(c), &motion)
     }
 
     /// The guard that ends the step, by decree, and all others that are down or as good as down there:
     /// simultaneous events are one.
-    pub(super) fn collect_fallen(&mut self, eq: &Equations<'_>, state: &State, fall: Fall) {
+    pub(super) fn collect_fallen(&mut self, state: &State, fall: Fall) {
         self.fired.push((fall.contact, fall.guard));
-        let t1 = self.solver.end_time();
         let others = self.model.contacts.iter().enumerate().filter(|(c, _)| *c != fall.contact);
         for (c, contact) in others {
-            let (begin, end) = (self.solver.begin(), self.solver.end());
-            let start = eq.motion(contact, self.solver.time(), |i| begin[i]);
-            let stop = eq.motion(contact, t1, |i| end[i]);
+            let (start, stop) = (self.from[c].motion, self.to[c].motion);
             let fallen = Guard::of(contact, &state.modes[c]).iter().find(|guard| {
                 let (_, near) = guard.bands(contact, self.tolerance);
                 let value = |at| guard.value(contact, state.law(c), at);

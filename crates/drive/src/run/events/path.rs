@@ -1,8 +1,9 @@
 //! From an accepted step to the segments that the contacts commit.
 
-use super::{Run, equations};
+use super::Run;
 use crate::RunError;
 use crate::equations::Equations;
+use crate::interval::Steady;
 use crate::model::Motion;
 use crate::state::{Mode, State};
 use stickslip_contact::Segment;
@@ -12,20 +13,24 @@ use stickslip_stepper::Attempt;
 pub(super) const MOST_PIECES: f64 = 256.0;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
-    /// Motions of all contacts at the end of the step, and the segments that lead there: chords, and for a contact that
+    /// The segments of all contacts that lead to the end of the step: chords, and for a contact that
     /// grew in full stick its path in as many pieces as its bend asks for.
-    pub(super) fn trace_segments(&mut self, state: &State, t: f64) {
-        self.motions.clear();
+    ///
+    /// A steady contact drags one edge over one piece of its memory: one chord to the next event is the same as many, and
+    /// a step that `goes_on` leaves its memory where it is.
+    pub(super) fn trace_segments(&mut self, state: &State, t: f64, goes_on: bool) {
         self.segments.clear();
-        let eq = equations(self.model, self.layout, state);
         for (c, contact) in self.model.contacts.iter().enumerate() {
-            let end = self.solver.end();
-            let motion = eq.motion(contact, t, |i| end[i]);
-            self.motions.push(motion);
+            if goes_on && self.interval.as_ref().is_some_and(|interval| interval.steady(c).is_some()) {
+                continue;
+            }
+            let motion = self.to[c].motion;
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
-                self.solver.dense(&eq);
                 let mut segments = std::mem::take(&mut self.segments);
-                self.trace_growth(&eq, state, (c, slot), (t, &motion), |piece| segments.push((c, piece)));
+                self.with_equations(state, |run, eq| {
+                    run.solver.dense(eq);
+                    run.trace_growth(eq, state, (c, slot), (t, &motion), |piece| segments.push((c, piece)));
+                });
                 self.segments = segments;
             } else {
                 self.segments.push((c, Segment::Straight(motion.apex())));
@@ -65,6 +70,24 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     #[inline]
     pub(super) fn component(&self, i: usize, t: f64) -> f64 {
         if t == self.solver.end_time() { self.solver.end()[i] } else { self.solver.value(i, t) }
+    }
+
+    /// The same, with the integrals of the state that this run has no need to integrate.
+    pub(super) fn component_at(&self, state: &State, i: usize, t: f64) -> f64 {
+        if i < self.solver.end().len() { self.solver.value(i, t) } else { state.y[i] }
+    }
+
+    /// Moves the memories of steady contacts to where a run stops short of an event.
+    pub(super) fn settle(&mut self, state: &mut State) {
+        self.segments.clear();
+        if let Some(interval) = &self.interval {
+            let x = |i: usize| state.y[i];
+            let motion = |steady: &Steady<'_>| steady.motion(state.t, x, x).apex();
+            let segment = |steady: &Steady<'_>| (steady.contact, Segment::Straight(motion(steady)));
+            self.segments.extend(interval.steady.iter().map(segment));
+        }
+        // What is not finite has been refused before.
+        let _ = self.commit(state);
     }
 
     /// All contacts move their memory to where the step ended.

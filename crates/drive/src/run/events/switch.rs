@@ -80,7 +80,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         for i in 0..self.fired.len() {
             let (c, guard) = self.fired[i];
             let contact = &self.model.contacts[c];
-            let motion = self.motions[c];
+            let motion = self.to[c].motion;
             let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
             let (_, near) = Guard::Piece.bands(contact, self.tolerance);
             let left = Guard::Piece.value(contact, state.law(c), &motion);

@@ -14,10 +14,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     pub(super) fn write(&mut self, state: &State, t: f64, grid: &mut Grid, record: &mut dyn Record) {
         let eq = equations(self.model, self.layout, state);
         let asked = self.solver.evaluations();
-        self.solver.dense(&eq);
-        let solver = &self.solver;
+        self.with_equations(state, |run, eq| run.solver.dense(eq));
         while let Some(due) = grid.due(t) {
-            grid.write(&eq, state, due, &|i| solver.value(i, due), record);
+            grid.write(&eq, state, due, &|i| self.component_at(state, i, due), record);
         }
         while let Some(due) = self.looks.due(t) {
             let memories = self.memories_at(&eq, state, due);

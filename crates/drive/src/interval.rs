@@ -1,0 +1,214 @@
+//! The smooth interval between two events, with everything worked out that stays the same in it.
+//!
+//! Between events each contact follows one law and each waveform one piece. Most contacts of most scenes are then pressed
+//! at a constant indentation, cut one piece of their memory and are dragged by straight waveforms alone: for these u is
+//! linear in time and coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
+//! not looked at until their gap closes. What is left goes through the general [`Equations`](crate::equations::Equations).
+
+use crate::model::{Contact, Free, Measure, Model, Motion, Press, Terms};
+use crate::state::{Mode, State};
+use stickslip_contact::{Profile, SteadyBranch};
+
+/// What evaluations between two events need. Scratch: made anew after each event.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Interval<'a> {
+    pub(crate) steady: Vec<Steady<'a>>,
+    /// Contacts that go through the general equations.
+    pub(crate) others: Vec<usize>,
+    /// Contacts that are apart.
+    pub(crate) apart: Vec<usize>,
+    /// By contact: its place among the steady ones.
+    places: Vec<Option<usize>>,
+    /// Whether nothing but steady contacts acts.
+    simple: bool,
+    /// The same where a single slider moves among them.
+    pub(crate) slider: Option<Slider>,
+    /// What its contacts make of it.
+    pub(crate) pulls: Vec<Pull<'a>>,
+    /// Whether accelerations and powers are the same throughout.
+    pub(crate) constant: bool,
+}
+
+/// A single slider among steady contacts: its acceleration is a₀ + Σ a M(h_c) and the power put in P₀ + Σ P M(h_c), over
+/// the contacts in partial slip.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Slider {
+    /// a₀, m/s².
+    pub(crate) acceleration: f64,
+    /// P₀, W.
+    pub(crate) power: f64,
+}
+
+/// What a contact in partial slip adds to a single slider. Kept so that as little as can be waits for the position.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pull<'a> {
+    profile: &'a Profile,
+    /// h_c = front + advance (t - start) + lean · x.
+    front: f64,
+    advance: f64,
+    start: f64,
+    lean: f64,
+    /// a, 1/(m s²).
+    pub(crate) acceleration: f64,
+    /// P, W/m².
+    pub(crate) power: f64,
+}
+
+impl Pull<'_> {
+    /// M at the slip front, m².
+    #[inline(always)]
+    pub(crate) fn area(&self, t: f64, x: f64) -> f64 {
+        self.profile.area((self.front + self.advance * (t - self.start)) + self.lean * x)
+    }
+}
+
+/// A contact at constant indentation on one branch.
+#[derive(Debug, Clone)]
+pub(crate) struct Steady<'a> {
+    pub(crate) contact: usize,
+    d: f64,
+    /// u = constant + rate (t - start) + Σ coefficient · coordinate.
+    constant: f64,
+    rate: f64,
+    start: f64,
+    /// Coefficients of the free coordinates.
+    pub(crate) free: Terms,
+    branch: SteadyBranch,
+    profile: &'a Profile,
+    count: f64,
+}
+
+impl Steady<'_> {
+    /// The part of u that does not hang on the free coordinates, m.
+    #[inline(always)]
+    pub(crate) fn followed(&self, t: f64) -> f64 {
+        self.constant + self.rate * (t - self.start)
+    }
+
+    /// Force along u on the coordinates, N: what the contacts exert, less than zero forward.
+    #[inline(always)]
+    pub(crate) fn force(&self, u: f64) -> f64 {
+        -self.count * self.branch.force(self.profile, u)
+    }
+
+    /// Rate of u that followers make, m/s.
+    #[inline(always)]
+    pub(crate) fn driven(&self) -> f64 {
+        self.rate
+    }
+
+    /// Motion at time t, s; `x` and `v` read positions and velocities of free coordinates.
+    #[inline(always)]
+    pub(crate) fn motion(&self, t: f64, x: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64) -> Motion {
+        let u = self.own(x) + self.followed(t);
+        Motion { d: self.d, u, dd: 0.0, du: self.own(v) + self.rate }
+    }
+
+    /// What the free coordinates make of u, or their derivatives of its own.
+    #[inline(always)]
+    pub(crate) fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
+        self.free.iter().map(|(i, a)| a * of(*i)).sum()
+    }
+}
+
+impl<'a> Interval<'a> {
+    /// Room for all contacts of a model.
+    pub(crate) fn of(model: &Model) -> Self {
+        let count = model.contacts.len();
+        Self {
+            steady: Vec::with_capacity(count),
+            others: Vec::with_capacity(count),
+            apart: Vec::with_capacity(count),
+            places: Vec::with_capacity(count),
+            pulls: Vec::with_capacity(count),
+            ..Self::default()
+        }
+    }
+
+    /// Contact `c`, if it is steady.
+    #[inline]
+    pub(crate) fn steady(&self, c: usize) -> Option<&Steady<'a>> {
+        self.places.get(c).copied().flatten().map(|place| &self.steady[place])
+    }
+
+    /// Works out what stays the same from a state on.
+    pub(crate) fn begin(&mut self, model: &'a Model, state: &State) {
+        self.steady.clear();
+        self.others.clear();
+        self.apart.clear();
+        self.places.clear();
+        for (c, (contact, mode)) in model.contacts.iter().zip(&state.modes).enumerate() {
+            let steady = steady(c, contact, mode, state);
+            self.places.push(steady.is_some().then_some(self.steady.len()));
+            match steady {
+                _ if *mode == Mode::Open => self.apart.push(c),
+                Some(steady) => self.steady.push(steady),
+                None => self.others.push(c),
+            }
+        }
+        self.simple = self.others.is_empty() && model.links.is_empty();
+        let gross = state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open);
+        self.constant = gross && self.simple;
+        self.pulls.clear();
+        self.slider = match &model.free[..] {
+            [slider] if self.simple => Some(self.pull(slider)),
+            _ => None,
+        };
+    }
+
+    /// The steady contacts as a single slider feels them.
+    fn pull(&mut self, slider: &Free) -> Slider {
+        let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
+        for steady in &self.steady {
+            let arm: f64 = steady.free.iter().map(|(_, a)| a).sum();
+            let ((front, lean), (force, gain)) = (steady.branch.front(), steady.branch.forces());
+            let (bend, work) = (-slider.mobility * arm * steady.count, steady.count * steady.rate);
+            sum.acceleration += bend * force;
+            sum.power += work * force;
+            if gain != 0.0 {
+                self.pulls.push(Pull {
+                    profile: steady.profile,
+                    front: front + lean * steady.constant,
+                    advance: lean * steady.rate,
+                    start: steady.start,
+                    lean: lean * arm,
+                    acceleration: bend * gain,
+                    power: work * gain,
+                });
+            }
+        }
+        sum
+    }
+}
+
+fn steady<'a>(c: usize, contact: &'a Contact, mode: &Mode, state: &State) -> Option<Steady<'a>> {
+    let (Mode::Slip(branch), Press::Constant { d, area }) = (mode, &contact.press) else { return None };
+    if contact.damping > 0.0 {
+        return None;
+    }
+    let [constant, rate, start] = line(&contact.u, state)?;
+    Some(Steady {
+        contact: c,
+        d: *d,
+        constant,
+        rate,
+        start,
+        free: contact.u.free.clone(),
+        branch: branch.steady(*d, *area),
+        profile: contact.law.profile(),
+        count: contact.count,
+    })
+}
+
+/// What constants and followers make of a measure, [value at the start, rate, start]; none where a waveform is curved.
+fn line(measure: &Measure, state: &State) -> Option<[f64; 3]> {
+    let mut start = None;
+    let (mut constant, mut rate) = (measure.constant, 0.0);
+    for &(w, a) in &measure.driven {
+        let line = state.pieces[w].line()?;
+        let from = *start.get_or_insert(line.time);
+        constant += a * line.at(from);
+        rate += a * line.rate;
+    }
+    Some([constant, rate, start.unwrap_or(0.0)])
+}

@@ -1,0 +1,71 @@
+//! Runs one benchmark once, for an instruction counter to look at: see `.ci/instructions`.
+//!
+//! `instructions NAME` runs the scenario of that name at its benchmark's tolerance with nothing written and prints what
+//! the run took; only the function `measured` is to be counted, so that reading the file is not.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
+
+use stickslip_drive::{Event, Model, Plan, Record, State, run};
+use stickslip_scenario::Scenario;
+
+/// A key and what it is set to.
+type Setting = (&'static str, &'static str);
+
+/// Benchmarks: name, file, and what is set in it.
+const BENCHMARKS: [(&str, &str, &[Setting]); 6] = [
+    ("p1", "p1", &[("run.stepper.event.tolerance", "1e-4"), ("run.cycles", "200")]),
+    ("p1-fine", "p1", &[("run.stepper.event.tolerance", "1e-8"), ("run.cycles", "200")]),
+    ("ruby", "ruby_drive", &[("run.stepper.event.tolerance", "1e-6")]),
+    ("stage", "three_ball_stage", &[("run.stepper.event.tolerance", "1e-6")]),
+    ("ball", "bouncing_ball", &[("run.stepper.event.tolerance", "1e-6")]),
+    ("vibration", "vibrated_slider", &[("run.stepper.event.tolerance", "1e-6")]),
+];
+
+/// Takes everything and wants nothing.
+struct Nothing;
+
+impl Record for Nothing {
+    fn row(&mut self, _: &[f64]) {}
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+    fn wants_events(&self) -> bool {
+        false
+    }
+}
+
+#[inline(never)]
+fn measured(model: &Model, plan: &Plan, state: &mut State) {
+    run(model, plan, state, &mut Nothing).unwrap();
+}
+
+fn main() {
+    // Cargo's own arguments begin with dashes.
+    let mut asked = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
+    let name = asked.next();
+    let sets: Vec<(String, String)> =
+        asked.filter_map(|set| set.split_once('=').map(|(a, b)| (a.to_owned(), b.to_owned()))).collect();
+    for (benchmark, file, set) in BENCHMARKS {
+        if name.as_deref().is_some_and(|name| name != benchmark) {
+            continue;
+        }
+        let file = format!("{}/../../scenarios/{file}.json", env!("CARGO_MANIFEST_DIR"));
+        let set: Vec<(&str, &str)> =
+            set.iter().copied().chain(sets.iter().map(|(a, b)| (a.as_str(), b.as_str()))).collect();
+        let mut scenario = Scenario::load_with(&file, &set).unwrap();
+        scenario.plan.every = None;
+        let model = Model::new(&scenario.scene).unwrap();
+        let mut state = model.start(&scenario.plan).unwrap();
+        let begun = std::time::Instant::now();
+        measured(&model, &scenario.plan, &mut state);
+        let took = begun.elapsed().as_secs_f64();
+        let counts = state.counts();
+        println!(
+            "{benchmark}: {} evaluations, {} steps, {} rejected, {} events, {:.3} ms, ends at {:?}",
+            counts.evaluations,
+            counts.steps,
+            counts.rejected,
+            counts.events,
+            1e3 * took,
+            (0..3).filter_map(|body| state.body(&model, body)).map(|(x, _)| x).collect::<Vec<_>>(),
+        );
+    }
+}
