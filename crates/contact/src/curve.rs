@@ -91,6 +91,13 @@ impl Curve {
         self.apex
     }
 
+    /// Counts displacements from another place, `by` further on: u and anchors grow by as much. Nothing else changes; a
+    /// shift by which no digit is lost leaves forces and energies as they are to the last bit.
+    pub fn shift(&mut self, by: f64) {
+        self.apex.u += by;
+        self.knots.iter_mut().for_each(|knot| knot.p += by);
+    }
+
     /// Number of knots in the stack.
     pub fn depth(&self) -> usize {
         self.knots.len()

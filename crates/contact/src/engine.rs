@@ -59,6 +59,14 @@ impl Memory {
         }
     }
 
+    /// Counts displacements from another place, `by` further on.
+    pub fn shift(&mut self, by: f64) {
+        match self {
+            Self::Curve(curve) => curve.shift(by),
+            Self::Row { row, .. } => row.shift(by),
+        }
+    }
+
     /// Force and tangents that a move would give.
     #[inline]
     pub fn trial(&self, law: &Interface, to: Move) -> Response {

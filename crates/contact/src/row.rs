@@ -46,6 +46,12 @@ impl Row {
         self.apex
     }
 
+    /// Counts displacements from another place, `by` further on: u and anchors grow by as much. Nothing else changes.
+    pub fn shift(&mut self, by: f64) {
+        self.apex.u += by;
+        self.anchors[..self.touching].iter_mut().for_each(|anchor| *anchor += by);
+    }
+
     /// Number of distinct springs that touch once the indentation is d.
     #[inline]
     fn touching_at(&self, springs: &Springs, d: f64) -> usize {

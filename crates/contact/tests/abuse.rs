@@ -35,6 +35,26 @@ fn profile(kind: usize, scale: f64) -> Profile {
     .unwrap()
 }
 
+/// A shift by a power of two just below u rounds nothing: forces, energies and what comes after are the same to the bit.
+#[test]
+fn a_shift_of_the_origin_changes_nothing() {
+    for kind in 0..6 {
+        let law = law(profile(kind, 1e-6), 0.15);
+        let mut here = Curve::new(&law, Apex { d: 1e-6, u: 0.0 });
+        for (d, u) in [(1e-6, 9.0e-6), (1.2e-6, 8.9e-6), (1.1e-6, 9.0e-6), (1.1e-6, 8.95e-6)] {
+            here.commit(&law, to(d, u)).unwrap();
+        }
+        let by = -(2.0_f64).powi(-17);
+        let mut there = here.clone();
+        there.shift(by);
+        assert_eq!(there.apex().u, here.apex().u + by);
+        assert_eq!((there.force(&law), there.elastic(&law)), (here.force(&law), here.elastic(&law)));
+        let (a, b) = (here.commit(&law, to(1.1e-6, 8.97e-6)), there.commit(&law, to(1.1e-6, 8.97e-6 + by)));
+        assert!((a.unwrap() - b.unwrap()).abs() <= 1e-9 * law.normal_force(1e-6) * 1e-8);
+        assert!((there.force(&law) / here.force(&law) - 1.0).abs() < 1e-9);
+    }
+}
+
 /// A move before it knows where the contact stands.
 #[derive(Debug, Clone, Copy)]
 struct Throw {

@@ -8,6 +8,7 @@ mod held;
 mod measure;
 mod reach;
 mod scale;
+mod used;
 
 pub(crate) use measure::{Measure, Terms};
 
@@ -61,6 +62,8 @@ pub(crate) struct Free {
     pub(crate) force: f64,
     /// Where it starts and how fast.
     pub(crate) start: (f64, f64),
+    /// Whether it only ever counts against another place of its contacts, so that its origin may move with it.
+    pub(crate) travels: bool,
     /// Natural scales of position and velocity, m and m/s or rad and rad/s.
     pub(crate) scale: (f64, f64),
 }

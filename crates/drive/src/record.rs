@@ -172,10 +172,11 @@ pub(crate) fn fill(
     row.clear();
     row.push(t);
     let (model, layout) = (equations.model, equations.layout);
-    let input = y(layout.input()) + model.lifted(y) + state.jumps;
+    let input = y(layout.input()) + model.lifted(|i| state.shifts[i] + y(i)) + state.jumps;
     let mut books = Books { input, ..Books::default() };
     for (_, _, place) in model.moving() {
-        row.extend(equations.place(place, t, y));
+        let [position, rate] = equations.place(place, t, y);
+        row.extend([position + if let Place::Free(i) = place { state.shifts[i] } else { 0.0 }, rate]);
     }
     for (c, contact) in model.contacts.iter().enumerate() {
         contact_columns(equations, state, (c, contact), t, y, row, &mut books);
@@ -231,7 +232,7 @@ fn contact_columns(
     books.elastic += normal + count * outcome.elastic;
     books.friction += friction;
     row.extend([
-        motion.u,
+        motion.u + state.shift(contact),
         motion.d,
         count * (outcome.force + damping),
         count * contact.law.normal_force(motion.d),

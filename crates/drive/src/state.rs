@@ -11,8 +11,10 @@ use stickslip_stepper::StepControl;
 pub struct State {
     /// Time, s.
     pub(crate) t: f64,
-    /// Components in the order of [`Layout`].
+    /// Components in the order of [`Layout`]; positions without their shifts.
     pub(crate) y: Vec<f64>,
+    /// By how much the origin of each free coordinate has moved, m: what travels far is counted from near by.
+    pub(crate) shifts: Vec<f64>,
     pub(crate) memories: Vec<Memory>,
     pub(crate) modes: Vec<Mode>,
     /// Whether the last segment of each contact was growth that may go on smoothly.
@@ -153,6 +155,7 @@ impl Model {
         State {
             t: 0.0,
             y,
+            shifts: vec![0.0; layout.free],
             modes: memories.iter().map(|_| Mode::Whole { sense: 0.0 }).collect(),
             grew: vec![false; memories.len()],
             memories,
@@ -184,6 +187,26 @@ impl State {
         self.t
     }
 
+    /// By how much u of a contact is counted from another place, m.
+    pub(crate) fn shift(&self, contact: &Contact) -> f64 {
+        contact.u.free.iter().map(|(i, a)| a * self.shifts[*i]).sum()
+    }
+
+    /// The memories with displacements counted from where the bodies started.
+    pub(crate) fn shifted_back(&self, model: &Model) -> Vec<Memory> {
+        let mut memories = self.memories.clone();
+        for (memory, contact) in memories.iter_mut().zip(&model.contacts) {
+            memory.shift(self.shift(contact));
+        }
+        memories
+    }
+
+    /// Counts all positions from where they started.
+    pub(crate) fn come_back(&mut self, model: &Model) {
+        self.memories = self.shifted_back(model);
+        self.y.iter_mut().zip(&mut self.shifts).for_each(|(x, shift)| *x += std::mem::take(shift));
+    }
+
     /// Takes over a state of another stepper's run, which carried other extra components.
     pub(crate) fn carry_over(&mut self, model: &Model, to: Layout) {
         if self.y.len() == to.total() {
@@ -213,7 +236,8 @@ impl State {
         self.counts
     }
 
-    /// Memories of the contacts, in the scene's order.
+    /// Memories of the contacts, in the scene's order. Displacements are counted from near by: of a body that has travelled
+    /// far they are not u of the rows.
     pub fn memories(&self) -> &[Memory] {
         &self.memories
     }
@@ -227,7 +251,7 @@ impl State {
     pub fn coordinate(&self, model: &Model, index: usize, axis: Axis) -> Option<(f64, f64)> {
         Some(match model.bodies.get(index)?.places[axis as usize] {
             Place::Held(x) => (x, 0.0),
-            Place::Free(i) => (self.y[i], self.y[model.layout().velocity(i)]),
+            Place::Free(i) => (self.shifts[i] + self.y[i], self.y[model.layout().velocity(i)]),
             Place::Driven(w) => {
                 let sample = model.waveforms[w].sample(&self.pieces[w], self.t);
                 (sample.value, sample.rate)

@@ -87,6 +87,13 @@ impl Waveform {
         Ok(waveform)
     }
 
+    /// Zero for ever, without a corner.
+    pub(crate) fn held() -> Self {
+        let shape = Shape::Table { points: vec![(0.0, 0.0)] };
+        let (held, window, range) = ((0.0, 0.0), (0.0, 0.0), (0.0, 0.0));
+        Self { shape, timing: Timing::every(1.0), corners: None, held, window, range }
+    }
+
     /// The piece that holds at `t` (s).
     #[must_use]
     pub fn piece_at(&self, t: f64) -> Piece {

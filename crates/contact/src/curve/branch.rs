@@ -145,6 +145,12 @@ impl Branch {
         }
     }
 
+    /// Counts displacements from another place, `by` further on.
+    pub fn shift(&mut self, by: f64) {
+        self.level += self.sense * by;
+        self.entry += self.sense * by;
+    }
+
     /// +1 forward, -1 backward.
     pub fn sense(&self) -> f64 {
         self.sense

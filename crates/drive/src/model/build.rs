@@ -1,7 +1,7 @@
 //! From a scene to a model: bodies, links and loads.
 
 use super::contact::{self, Surroundings};
-use super::{Body, Free, Link, Load, Measure, Model, Place, Stroke, check, dampers, held, scale};
+use super::{Body, Free, Link, Load, Measure, Model, Place, Stroke, check, dampers, held, scale, used};
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{SceneError, Waveform};
 
@@ -9,7 +9,7 @@ impl Model {
     /// Checks a scene and assembles its constants. Errors name the key path of what is wrong.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         check::check(scene)?;
-        let waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();
+        let mut waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();
         let (bodies, mut free) = bodies(scene)?;
         let links = links(scene, &bodies)?;
         let loads = loads(scene, &bodies, &mut free);
@@ -37,6 +37,10 @@ impl Model {
         }
         dampers::check(scene, &links, &contacts, &waveforms)?;
         held::check(&bodies, &free, &contacts, &links)?;
+        for link in &links {
+            link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
+        }
+        used::hold_the_others(&mut waveforms, &bodies, &contacts, &links, &loads);
         scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
         Ok(Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium })
     }
@@ -73,7 +77,7 @@ fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
 
 fn free_coordinate(body: usize, axis: Axis, mass: f64, force: f64, coordinate: Coordinate) -> Free {
     let start = (coordinate.position, coordinate.velocity);
-    Free { body, axis, mass, mobility: 1.0 / mass, force, start, scale: (0.0, 0.0) }
+    Free { body, axis, mass, mobility: 1.0 / mass, force, start, travels: axis == Axis::X, scale: (0.0, 0.0) }
 }
 
 /// Mass or moment of inertia of a free coordinate.

@@ -34,11 +34,12 @@ impl<'a> Chords<'a> {
     ) -> Self {
         let layout = Layout { free: model.free.len(), growing: 0 };
         state.carry_over(model, layout);
+        state.come_back(model);
         for mode in &mut state.modes {
             *mode = Mode::Whole { sense: 0.0 };
         }
         let grid = Grid::new(plan.every, state.t, plan.duration);
-        let looks = Looks::begin(state, record);
+        let looks = Looks::begin(model, state, record);
         let watch = Watch::new(model, plan.limits);
         let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
         Self { model, state, layout, grid, looks, watch, record, standings, row: Vec::new() }

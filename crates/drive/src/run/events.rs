@@ -8,6 +8,7 @@
 mod locate;
 mod path;
 mod rest;
+mod shift;
 mod switch;
 mod write;
 
@@ -60,6 +61,8 @@ pub(super) struct Run<'a, A> {
     /// Waveforms that turned a corner at the end of the step.
     turned: Vec<(usize, EventKind)>,
     row: Vec<f64>,
+    /// Slopes of a moment between two steps.
+    slopes: Vec<f64>,
     looks: Looks,
     /// Evaluations made for rows and looks only.
     for_output: u64,
@@ -133,6 +136,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             old: Vec::with_capacity(model.contacts.len()),
             turned: Vec::with_capacity(model.waveforms.len()),
             row: Vec::new(),
+            slopes: vec![0.0; layout.total()],
             looks: Looks::NONE,
             for_output: 0,
         }
@@ -145,7 +149,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(order, limits));
         self.begin(state);
         grid.write_now(&equations(self.model, self.layout, state), state, record);
-        self.looks = Looks::begin(state, record);
+        self.looks = Looks::begin(self.model, state, record);
         let mut outcome = Ok(());
         while state.t < self.end && outcome.is_ok() {
             outcome = self.step(state, &mut control, &mut grid, record);
@@ -226,6 +230,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         }
         if ending == Ending::Corner || !self.fired.is_empty() {
             self.handle_fallen(state, ending == Ending::Corner, record)?;
+            self.shift(state);
             self.restart(state);
         } else {
             std::mem::swap(&mut self.from, &mut self.to);

@@ -3,7 +3,7 @@
 use crate::equations::Equations;
 use crate::record::{self, Record};
 use crate::state::State;
-use crate::{Moments, Schedule};
+use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
 
 /// Rows due at multiples of an interval. The first and the last row are written by the run itself.
@@ -62,14 +62,14 @@ impl Looks {
     pub(super) const NONE: Self = Self { due: f64::INFINITY };
 
     /// Asks for the first moment after the run's beginning; a look at the beginning itself is taken at once.
-    pub(super) fn begin(state: &State, record: &mut dyn Record) -> Self {
+    pub(super) fn begin(model: &Model, state: &State, record: &mut dyn Record) -> Self {
         let mut looks = Self { due: f64::NEG_INFINITY };
         looks.ask(record);
         while looks.due < state.t {
             looks.ask(record);
         }
         if looks.due == state.t {
-            record.look(state.t, &state.memories);
+            record.look(state.t, &state.shifted_back(model));
             looks.ask(record);
         }
         looks

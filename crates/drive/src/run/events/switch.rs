@@ -129,7 +129,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     }
 
     /// Decides from velocities what a contact does, and from accelerations where it is at rest.
-    pub(super) fn decide(&self, state: &mut State, c: usize) {
+    pub(super) fn decide(&mut self, state: &mut State, c: usize) {
         let contact = &self.model.contacts[c];
         let eq = equations(self.model, self.layout, state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
@@ -152,11 +152,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Where a contact at rest sets out to, as a direction in (d, u): along its acceleration; within round-off of
     /// equilibrium along its remaining velocity, and on in its present sense if there is none.
-    fn push(&self, state: &State, c: usize, motion: &Motion) -> (f64, f64) {
+    fn push(&mut self, state: &State, c: usize, motion: &Motion) -> (f64, f64) {
         let contact = &self.model.contacts[c];
         let eq = equations(self.model, self.layout, state);
-        let mut slopes = vec![0.0; self.layout.total()];
-        eq.slopes(state.t, &state.y, &mut slopes);
+        let slopes = &mut self.slopes;
+        eq.slopes(state.t, &state.y, slopes);
         let of = |measure: &Measure| eq.acceleration(measure, state.t, |i| slopes[self.layout.velocity(i)]);
         let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
         let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;

@@ -40,6 +40,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             }
             let mut memory = memory.clone();
             path.drain(..).try_for_each(|piece| memory.commit(&contact.law, piece).map(drop))?;
+            memory.shift(state.shift(contact));
             Ok(memory)
         });
         memories.collect()

@@ -1,0 +1,60 @@
+//! Long runs: what a drive does far from its start is what it did near to it.
+
+use crate::parts::{column, contact, end, event, fitted_order, foot_and_slider, p1, push, trace, wave};
+use stickslip_contact::Profile;
+use stickslip_drive::Shape;
+
+const PERIOD: f64 = 1e-3;
+
+/// 5 000 periods of P1 carry it 40 000 u_c away. Known: its steps stay what they are from the tenth on, 502.996042090 nm
+/// (`tests/data/drive_p1.json`); rounding of a position of 2.5 mm alone is 4e-19 m, 1e-12 of a step.
+#[test]
+fn steps_far_away_are_those_near_by() {
+    let periods = 5000.0;
+    let (model, state, rows) = trace(&p1(), &event(1e-11, periods * PERIOD), PERIOD);
+    let x = column(&model, &rows, "slider.x_m");
+    let known = 502.996_042_090e-9;
+    let worst = x.windows(2).skip(10).map(|w| ((w[1] - w[0]) / known - 1.0).abs()).fold(0.0, f64::max);
+    println!("x = {:e} m, steps within {worst:.1e}", state.body(&model, 1).unwrap().0);
+    assert!(x[5000] > 2.5e-3 && worst < 2e-11, "{worst:e}");
+    // Rows speak of the places of the start: u is the foot less the slider.
+    let [foot, u] = ["foot.x_m", "ball.u_m"].map(|name| column(&model, &rows, name));
+    for ((u, foot), x) in u.iter().zip(&foot).zip(&x) {
+        assert!((u - (foot - x)).abs() < 1e-18, "{u:e} {foot:e} {x:e}");
+    }
+}
+
+/// A load does work over the whole way, and friction takes it: the books close far away, too.
+#[test]
+fn energy_books_close_far_away() {
+    let ball = contact(crate::parts::FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
+    let drive = wave("drive", Shape::Sawtooth { stroke: 0.5e-6, flyback: 1e-4 }, PERIOD);
+    let mut scene = foot_and_slider(drive, 0.02, ball);
+    scene.loads.push(push(1, 0.03));
+    let (model, state, rows) = trace(&scene, &event(1e-10, 1.0), 0.1);
+    let [input, error] = ["energy.input_J", "energy.error_J"].map(|name| column(&model, &rows, name));
+    println!(
+        "x = {:e} m, input {:e} J, missing {:e} J",
+        state.body(&model, 1).unwrap().0,
+        input[10],
+        error[10]
+    );
+    assert!(input[10] > 1e-6);
+    assert!(error.iter().all(|error| error.abs() < 1e-9 * input[10]), "{error:?}");
+}
+
+/// Under constant load the stepper keeps the order of its method, 8, through all events.
+#[test]
+fn order_through_the_events_of_p1() {
+    let known = 1.008_428_628_032_075e-5;
+    let points: Vec<(f64, f64)> = (5..=10)
+        .map(|exponent| {
+            let (model, state) = end(&p1(), &event(10_f64.powi(-exponent), 20.0 * PERIOD));
+            let error = (state.body(&model, 1).unwrap().0 - known).abs();
+            (1.0 / state.counts().evaluations as f64, error)
+        })
+        .collect();
+    let order = fitted_order(&points);
+    println!("order {order:.1}, {points:?}");
+    assert!(order > 7.0);
+}
