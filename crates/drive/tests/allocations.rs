@@ -1,6 +1,10 @@
 //! Once a model is built and its start made, stepping allocates nothing.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and prints what it measured"
+)]
 
 #[path = "drives/parts.rs"]
 #[allow(dead_code, reason = "shared with the tests of drives")]
