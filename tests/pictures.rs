@@ -18,18 +18,19 @@ fn pictures(folder: &Path) -> Vec<String> {
 
 /// All pictures, with few springs.
 const ALL: [&str; 2] = [
-    r#"plots=["loop", "trajectory", "energy", "phase", "events", "state", "memory"]"#,
+    r#"plots=["layout", "loop", "trajectory", "energy", "phase", "events", "state", "memory"]"#,
     "output.springs.count=40",
 ];
 
 #[test]
 fn plot_draws_what_run_drew_to_the_bit() {
     let verlet = "run.stepper={\"verlet\":{\"step\":\"1 us\"}}";
-    let cases: [(&str, &[&str]); 4] = [
+    let cases: [(&str, &[&str]); 5] = [
         // Corners, jumps and rows at the same moments.
         ("p1", &["run.cycles=3", "output.every=0.1 ms", "waveforms.drive.sawtooth.flyback=0"]),
         ("piezo_stack", &["title=", "run.limits.steps=3000", verlet, "output.memory.every=20 us"]),
         ("oblique_loading", &[]),
+        ("rocking_slider", &["run.cycles=2"]),
         ("fretting_sphere", &["run.duration=1 s", "output.every=20 ms"]),
     ];
     for (name, set) in cases {
@@ -40,7 +41,7 @@ fn plot_draws_what_run_drew_to_the_bit() {
         let drawn = plot(&folder, &["--out", again.path().to_str().unwrap()]);
         assert_eq!((code(&drawn), stderr(&drawn)), (0, String::new()), "{name} {set:?}");
         let again = again.path().join(name);
-        assert_eq!((pictures(&folder).len(), pictures(&folder)), (7, pictures(&again)));
+        assert_eq!((pictures(&folder).len(), pictures(&folder)), (8, pictures(&again)));
         for picture in pictures(&folder) {
             let [first, second] = [&folder, &again].map(|f| std::fs::read(f.join(&picture)).unwrap());
             assert!(first == second, "{name} {set:?}: {picture}");
@@ -105,6 +106,24 @@ fn columns_left_out_are_named() {
 }
 
 #[test]
+fn the_layout_shows_the_scene_of_the_file() {
+    let out = tempdir().unwrap();
+    let folder = run_example("three_ball_stage", out.path(), &["run.cycles=1", "plots=[\"layout\"]"]);
+    assert_eq!(code(&plot(&folder, &["--format", "svg"])), 0);
+    let svg = std::fs::read_to_string(folder.join("layout.svg")).unwrap();
+    for text in
+        ["foot", "x: drive", "stage", "50 g", "front", "rear × 2", "600 mN", "300 mN", "g = 9.807 m/s²"]
+    {
+        assert!(svg.contains(&format!(">\n{text}\n</text>")), "{text}");
+    }
+    let nothing = out.path().join("nothing.json");
+    std::fs::write(&nothing, r#"{ "stickslip": 1, "run": { "duration": 1 }, "plots": ["layout"] }"#).unwrap();
+    let checked = stickslip().arg("check").arg(&nothing).output().unwrap();
+    assert_eq!(code(&checked), 2);
+    assert!(stderr(&checked).contains("plots[0]: there is no body to draw"), "{}", stderr(&checked));
+}
+
+#[test]
 fn a_picture_without_its_columns_or_its_table_says_what_to_run() {
     let out = tempdir().unwrap();
     let set = ["run.duration=20 ms", "plots=[]", "output.channels=[\"energy.input_J\"]"];
@@ -130,8 +149,15 @@ fn a_picture_without_its_columns_or_its_table_says_what_to_run() {
             stderr(&drawn)
         );
     }
-    // The events are in a table of their own, whatever its channels.
-    assert_eq!(code(&plot(&folder, &["--plots", "events"])), 0);
+    let set =
+        ["run.cycles=1", "plots=[]", "output.channels=[\"slider.x_m\", \"slider.vx_m_s\", \"slider.z_m\"]"];
+    let planar = run_example("rocking_slider", out.path(), &set);
+    let said = stderr(&plot(&planar, &["--plots", "phase"]));
+    let rest = "needs slider.vz_m_s, slider.pitch_rad, slider.vpitch_rad_s, which";
+    assert!(said.contains(rest), "{said}");
+    // The events are in a table of their own, whatever its channels; the scene needs none.
+    assert_eq!(code(&plot(&folder, &["--plots", "events,layout"])), 0);
+    assert_eq!(pictures(&folder), ["events.png", "layout.png"]);
 }
 
 #[test]
@@ -313,7 +339,7 @@ fn several_folders_are_drawn_whatever_is_wrong_with_one() {
     let second = run_example("fretting_sphere", out.path(), &["plots=[]", "run.duration=1 s"]);
     let output = stickslip().arg("plot").args([&second, &first]).output().unwrap();
     assert_eq!(code(&output), 2);
-    let help = "its scenario names no pictures\n   help: name some with --plots, such as --plots loop,trajectory,energy,phase,events,state,memory";
+    let help = "its scenario names no pictures\n   help: name some with --plots, such as --plots layout,loop,trajectory,energy,phase,events,state,memory";
     assert!(stderr(&output).contains(help), "{}", stderr(&output));
     assert!(stdout(&output).contains("oblique_loading: loop.png"));
     let unknown = plot(&first, &["--plots", "lop"]);

@@ -3,6 +3,7 @@
 mod energy;
 mod events;
 mod hysteresis;
+mod layout;
 mod memory;
 mod phase;
 mod state;
@@ -18,7 +19,6 @@ use crate::provenance::provenance;
 use crate::series::ENERGY;
 use crate::springs;
 use std::path::{Path, PathBuf};
-use stickslip_drive::scene::Freedom;
 use stickslip_plot::PlotError;
 use stickslip_scenario::PlotName;
 use thiserror::Error;
@@ -70,6 +70,7 @@ fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<P
     }
     let table = |source| FigureError::Table { plot: plot.name(), source };
     let pictures = match plot {
+        PlotName::Layout => layout::draw(job, pen),
         PlotName::Loop => hysteresis::draw(job, kept, pen),
         PlotName::Trajectory => trajectory::draw(job, kept, pen),
         PlotName::Energy => energy::draw(job, kept, pen),
@@ -97,23 +98,11 @@ fn needs(job: &Job, plot: PlotName) -> Vec<String> {
         let names = job.model.contacts().map(|(name, _)| name);
         names.flat_map(|name| quantities.iter().map(move |quantity| format!("{name}.{quantity}"))).collect()
     };
-    let bodies = |bodies: Vec<&str>, quantities: &[&str]| -> Vec<String> {
-        bodies
-            .iter()
-            .flat_map(|body| quantities.iter().map(move |quantity| format!("{body}.{quantity}")))
-            .collect()
-    };
     match plot {
         PlotName::Loop => contacts(&["u_m", "d_m", "fx_N"]),
         PlotName::Trajectory => [trajectory::needs(job), contacts(&["u_m"])].concat(),
         PlotName::Energy => energy::COLUMNS.map(|quantity| format!("{ENERGY}.{quantity}")).to_vec(),
-        PlotName::Phase => bodies(phase::bodies(job), &["x_m", "vx_m_s"]),
-        PlotName::Events | PlotName::State | PlotName::Memory => Vec::new(),
+        PlotName::Phase => phase::needs(job),
+        PlotName::Layout | PlotName::Events | PlotName::State | PlotName::Memory => Vec::new(),
     }
-}
-
-/// Names of the bodies that move.
-fn moving(job: &Job) -> Vec<&str> {
-    let moving = job.scenario.scene.bodies.iter().filter(|body| body.part.x.freedom != Freedom::Fixed);
-    moving.map(|body| body.name.as_str()).collect()
 }

@@ -1,6 +1,7 @@
 //! Profiles of the gap, as what the foundation makes of them: three functions of one number.
 
 mod foundation;
+mod gap;
 mod kappa;
 mod power;
 mod sphere;

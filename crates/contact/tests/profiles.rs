@@ -170,6 +170,30 @@ fn the_slope_of_the_depth_is_its_derivative() {
 }
 
 #[test]
+fn a_gap_has_its_foundation() {
+    // (4.20): g(x) = |x| ∫₀ˣ f'(r)/√(x²-r²) dr = x ∫₀^{π/2} f'(x sin φ) dφ, f' by differences.
+    let half_pi = std::f64::consts::FRAC_PI_2;
+    for (name, profile) in profiles().into_iter().filter(|(name, _)| !["flat", "list"].contains(name)) {
+        let slope = |r: f64| {
+            let step = 1e-4 * r;
+            (profile.gap(r + step).unwrap() - profile.gap(r - step).unwrap()) / (2.0 * step)
+        };
+        for x in [1e-5, 1e-4, 7e-4] {
+            let foundation = x * integral(|phi| slope(x * phi.sin().max(1e-30)), half_pi);
+            assert_relative_eq!(foundation, profile.depth(x), max_relative = 1e-7);
+        }
+        assert_eq!((profile.gap(0.0), profile.gap(-1e-6)), (Some(0.0), None), "{name}");
+    }
+    let gap = |profile: Profile, r: f64| profile.gap(r);
+    assert_relative_eq!(gap(Profile::paraboloid(2e-3).unwrap(), 1e-4).unwrap(), 2.5e-6, max_relative = 1e-15);
+    assert_eq!(gap(Profile::sphere(2e-3).unwrap(), 2e-3), Some(2e-3));
+    assert_eq!(gap(Profile::sphere(2e-3).unwrap(), 2.01e-3), None);
+    let flat = Profile::flat(2e-3).unwrap();
+    assert_eq!((flat.gap(2e-3), flat.gap(2.1e-3)), (Some(0.0), None));
+    assert_eq!(gap(Profile::foundation(&[0.0], &[1e-6]).unwrap(), 0.0), None);
+}
+
+#[test]
 fn a_list_counts_its_springs_by_hand() {
     let list = &profiles()[8].1;
     // Ascending: 0 (2 µm), 10 nm (3), 200 nm (4), 300 nm (1 + 1). A spring at h = g(x) does not touch yet.

@@ -4,6 +4,7 @@ use crate::PlotError;
 use crate::canvas::Anchor;
 use crate::label::Label;
 use crate::layout::{Area, Placed};
+use crate::notes::PlacedNote;
 use crate::paint::{DOT, Painter};
 use crate::panel::{Band, Lane, Mark, Reference, Series, is_drawable};
 use crate::theme::{Dash, Stroke};
@@ -29,9 +30,22 @@ impl<B: DrawingBackend> Painter<'_, B> {
             return self.canvas.text(&words, self.sizes.label, at, Anchor::Centre);
         }
         panel.bands.iter().try_for_each(|band| self.band(place, band))?;
+        for shape in &panel.shapes {
+            let corners: Vec<Point> = shape.drawable().map(|corner| place.pixel(corner)).collect();
+            self.canvas.polygon(&corners, self.theme.colour(shape.ink))?;
+        }
         panel.references.iter().try_for_each(|reference| self.reference(place, reference))?;
         panel.series.iter().enumerate().try_for_each(|(i, series)| self.series(place, series, i))?;
-        panel.lanes.iter().enumerate().try_for_each(|(i, lane)| self.lane(place, lane, i))
+        panel.lanes.iter().enumerate().try_for_each(|(i, lane)| self.lane(place, lane, i))?;
+        place.notes.iter().try_for_each(|note| self.note(note))
+    }
+
+    fn note(&mut self, note: &PlacedNote) -> Result<(), PlotError> {
+        if let Some(pointer) = &note.pointer {
+            let stroke = Stroke { colour: self.theme.muted, dash: Dash::Solid, width: 1.5 };
+            self.canvas.line(pointer, stroke)?;
+        }
+        note.lines.iter().try_for_each(|(line, at)| self.canvas.text(line, note.em, *at, Anchor::Centre))
     }
 
     fn band(&mut self, place: &Placed<'_, '_>, band: &Band<'_>) -> Result<(), PlotError> {
@@ -112,7 +126,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
 
 impl Placed<'_, '_> {
     /// The place of a point in the picture.
-    fn pixel(&self, (x, y): Point) -> Point {
+    pub(crate) fn pixel(&self, (x, y): Point) -> Point {
         let frame = self.frame;
         (frame.left + frame.width * self.x.place(x), frame.top + frame.height * (1.0 - self.y.place(y)))
     }

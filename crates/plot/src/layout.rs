@@ -5,6 +5,7 @@ use crate::figure::Figure;
 use crate::label::Label;
 use crate::lanes::Names;
 use crate::legend::{Entry, Legend, ROW, entries};
+use crate::notes::{self, PlacedNote};
 use crate::panel::Panel;
 use crate::place::{self, Request};
 use crate::scale::Scale;
@@ -39,6 +40,8 @@ pub(crate) struct Placed<'f, 'a> {
     pub(crate) legend: (Legend, Point),
     /// Whether the x and the y axis carry numbers and a label.
     pub(crate) numbered: (bool, bool),
+    /// Texts inside the frame.
+    pub(crate) notes: Vec<PlacedNote>,
     /// Whether there is nothing to show.
     pub(crate) empty: bool,
 }
@@ -119,7 +122,10 @@ impl<'f, 'a> Layout<'f, 'a> {
             let heading = panel.heading.wrapped(sizes.tick, width_above(figure, sizes, i), HEADING_LINES)?;
             requests.push(Request { panel, heading, legend });
         }
-        let panels = place::panels(requests, figure, sizes, body)?;
+        let mut panels = place::panels(requests, figure, sizes, body)?;
+        for panel in &mut panels {
+            panel.notes = notes::place(panel, sizes)?;
+        }
         Ok(Self { title, legend: (legend, legend_at), panels, sizes })
     }
 }

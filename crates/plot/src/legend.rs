@@ -49,13 +49,14 @@ pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
     let classes = panel.mosaic.iter().flat_map(|mosaic| &mosaic.classes);
     let classes = classes.map(|(label, ink)| (label, swatch(*ink)));
     let bands = panel.bands.iter().map(|band| (&band.label, swatch(band.ink)));
+    let shapes = panel.shapes.iter().map(|shape| (&shape.label, swatch(shape.ink)));
     let lines = panel.references.iter().map(|reference| match reference {
         Reference::Horizontal { label, .. } | Reference::Vertical { label, .. } => {
             (label, Sample::Line(theme.reference()))
         }
     });
     let mut entries: Vec<Entry> = Vec::new();
-    for (label, sample) in curves.chain(classes).chain(bands).chain(lines) {
+    for (label, sample) in curves.chain(classes).chain(bands).chain(shapes).chain(lines) {
         let entry = Entry { label: label.clone(), sample };
         if !label.is_empty() && !entries.contains(&entry) {
             entries.push(entry);

@@ -10,9 +10,9 @@
 //! * [`label`] – texts, plain or with subscripts;
 //! * the builders: [`hysteresis`] (force over displacement), [`trajectory`] (motion over time), [`phase`] (velocity
 //!   over displacement), [`energy`] (the energy book), [`events`] (what happened when), [`state`] (springs over time),
-//!   [`memory`] (the curve a contact remembers by), [`compare`] (two runs and their difference);
+//!   [`memory`] (the curve a contact remembers by), [`scene`] (what there is, to scale), [`compare`] (two runs and their difference);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
-//! * `legend`, `lanes`, `layout`, `place` – where everything goes;
+//! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
 //! * `paint`, `content` – the figure in strokes, areas and texts, which `canvas` hands to any backend of plotters;
 //! * `font`, `raster` – the backend for pictures: coverage-exact strokes and glyphs;
@@ -37,6 +37,7 @@ mod layout;
 mod legend;
 pub mod memory;
 mod mosaic;
+mod notes;
 mod paint;
 pub mod panel;
 pub mod phase;
@@ -45,6 +46,7 @@ pub mod png;
 mod range;
 mod raster;
 mod scale;
+pub mod scene;
 pub mod state;
 pub mod svg;
 pub mod theme;
@@ -60,9 +62,13 @@ pub use figure::{Arrangement, Figure};
 pub use hysteresis::{HysteresisLoop, loop_figure};
 pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
-pub use panel::{Axis, Band, Lane, Mark, Mosaic, Panel, Reference, Series};
+pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Series, Shape};
 pub use phase::{PhasePath, phase_figure};
 pub use png::draw_png;
+pub use scene::{
+    Amount, Fixture, LinkKind, Mobility, Press, Scene, SceneBody, SceneContact, SceneGravity, SceneLink,
+    SceneLoad, layout_figure,
+};
 pub use state::{SpringCondition, SpringMap, state_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};

@@ -8,6 +8,7 @@ use crate::lanes::LINE;
 use crate::layout::{Area, Layout, Placed, Sizes};
 use crate::legend::{Legend, ROW, Sample};
 use crate::mosaic::Image;
+use crate::panel::Panel;
 use crate::place::{HEADING_LINE, NOTE_GAP};
 use crate::theme::{Dash, Stroke, Theme};
 use crate::thin::Point;
@@ -78,7 +79,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         let bottom = frame.top + frame.height;
         for (at, text) in &place.x.ticks {
             let x = (frame.left + at * frame.width).round();
-            if place.panel.mosaic.is_none() {
+            if has_grid(place.panel) {
                 self.canvas.line(&[(x, frame.top), (x, bottom)], self.grid())?;
             }
             self.canvas.line(&[(x, bottom), (x, bottom + sizes.mark)], self.mark())?;
@@ -103,7 +104,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         let (right, bottom) = (frame.left + frame.width, frame.top + frame.height);
         for (at, text) in &place.y.ticks {
             let y = (bottom - at * frame.height).round();
-            if place.panel.mosaic.is_none() {
+            if has_grid(place.panel) {
                 self.canvas.line(&[(frame.left, y), (right, y)], self.grid())?;
             }
             self.canvas.line(&[(frame.left - sizes.mark, y), (frame.left, y)], self.mark())?;
@@ -190,6 +191,11 @@ impl<B: DrawingBackend> Painter<'_, B> {
     fn mark(&self) -> Stroke {
         Stroke { colour: self.theme.foreground, dash: Dash::Solid, width: 2.0 }
     }
+}
+
+/// Cells hide a grid, and texts are read better without.
+fn has_grid(panel: &Panel<'_>) -> bool {
+    panel.mosaic.is_none() && panel.notes.is_empty()
 }
 
 /// Radius of a point that is a series of its own, in widths of its line.

@@ -3,7 +3,8 @@
 use crate::{Ink, Label, PlotError, Style};
 use std::borrow::Cow;
 
-/// One pair of axes and what lies between them, from the bottom up: mosaic, grid, bands, reference lines, series.
+/// One pair of axes and what lies between them, from the bottom up: mosaic, grid, bands, shapes, reference lines,
+/// series, notes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel<'a> {
     /// Heading above the frame; none where empty.
@@ -16,10 +17,15 @@ pub struct Panel<'a> {
     pub mosaic: Option<Mosaic<'a>>,
     /// Filled areas, the later over the earlier.
     pub bands: Vec<Band<'a>>,
+    /// Filled polygons, the later over the earlier.
+    pub shapes: Vec<Shape>,
     /// Series, the later over the earlier.
     pub series: Vec<Series<'a>>,
     /// Reference lines, below the series and always inside the range.
     pub references: Vec<Reference>,
+    /// Texts inside the frame, the more important first. Where there are any there is no grid, and the later of two
+    /// notes gives way.
+    pub notes: Vec<Note>,
     /// Lanes of marks, from the top down. Where there are any, their labels take the place of the y axis, and
     /// nothing else is drawn but vertical reference lines.
     pub lanes: Vec<Lane>,
@@ -42,6 +48,8 @@ pub struct Axis {
     pub tight: bool,
     /// Two values that are shown whatever the data are.
     pub covers: Option<(f64, f64)>,
+    /// Neither ticks nor numbers, for what is not to scale.
+    pub unnumbered: bool,
 }
 
 /// One curve.
@@ -70,6 +78,30 @@ pub struct Band<'a> {
     pub high: Cow<'a, [f64]>,
     /// Colour.
     pub ink: Ink,
+}
+
+/// A filled polygon.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Name in the legend; none where empty.
+    pub label: Label,
+    /// Corners in the axes' units; those that are not finite or beyond ±1e150 are left out.
+    pub corners: Vec<(f64, f64)>,
+    /// Colour.
+    pub ink: Ink,
+}
+
+/// A text beside or on what it names: it takes the nearest place at which it covers no line and no other text and
+/// lies on no foreign shape if it can, and points to the thing from further away. Where there is none it is left out,
+/// and counted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Note {
+    /// Lines of the text.
+    pub lines: Vec<Label>,
+    /// Two opposite corners of what it names, in the axes' units.
+    pub about: [(f64, f64); 2],
+    /// Place in the panel's list of a shape that it may well lie on.
+    pub on: Option<usize>,
 }
 
 /// Cells of few classes, such as the states of springs over time. A cell reaches half way to its neighbours; the
@@ -143,7 +175,7 @@ impl Panel<'_> {
         let series = self.series.iter().all(|series| series.points().flatten().next().is_none());
         let bands = self.bands.iter().all(|band| band.columns().flatten().next().is_none());
         let mosaic = self.mosaic.as_ref().is_none_or(|mosaic| mosaic.cells.is_empty());
-        series && bands && mosaic && self.lanes.is_empty()
+        series && bands && mosaic && self.shapes.is_empty() && self.lanes.is_empty()
     }
 
     /// Checks what the types do not; `panel` is the place of this one.
@@ -175,6 +207,13 @@ impl Band<'_> {
             [x, low, high].into_iter().all(is_drawable).then_some((x, low, high))
         };
         self.xs.iter().zip(edges).map(column)
+    }
+}
+
+impl Shape {
+    /// The corners that can be drawn.
+    pub(crate) fn drawable(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.corners.iter().copied().filter(|(x, y)| is_drawable(*x) && is_drawable(*y))
     }
 }
 

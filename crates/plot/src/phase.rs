@@ -1,19 +1,21 @@
 //! Phase pictures: velocity over displacement.
 
-use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
+use crate::{Coordinate, Label};
 use std::ops::Range;
 
-/// The path of a body.
+/// The path of a body in one of its coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhasePath<'a> {
     /// Name of the body.
     pub name: &'a str,
-    /// Displacement, m.
+    /// Which coordinate; none: along the slide.
+    pub coordinate: Option<Coordinate>,
+    /// Displacement, m or rad.
     pub displacement: &'a [f64],
-    /// Velocity, m/s, as many.
+    /// Velocity, m/s or rad/s, as many.
     pub velocity: &'a [f64],
 }
 
@@ -26,11 +28,19 @@ const SWING: f64 = 0.25;
 
 const NOTHING: &str = "nothing moves";
 
-/// Velocity over displacement, one curve per body; bodies of different reach have panels of their own. Where a body
-/// goes round and round in one place, all but its last cycle is pale and lies behind.
+/// Velocity over displacement, one curve per body and coordinate; coordinates and bodies of different reach have panels
+/// of their own. A body has its colour in all of them. Where it goes round and round in one place, all but its last
+/// cycle is pale and lies behind.
 pub fn phase_figure<'a>(title: &str, paths: &[PhasePath<'a>]) -> Figure<'a> {
+    let mut names: Vec<&str> = Vec::new();
+    for path in paths {
+        if !names.contains(&path.name) {
+            names.push(path.name);
+        }
+    }
     let mut groups: Vec<Vec<(usize, &PhasePath<'a>)>> = Vec::new();
-    for (place, path) in paths.iter().enumerate() {
+    for path in paths {
+        let place = names.iter().position(|name| *name == path.name).unwrap_or(0);
         match groups.iter_mut().find(|group| group.iter().all(|(_, other)| is_comparable(path, other))) {
             Some(group) => group.push((place, path)),
             None => groups.push(vec![(place, path)]),
@@ -39,6 +49,7 @@ pub fn phase_figure<'a>(title: &str, paths: &[PhasePath<'a>]) -> Figure<'a> {
     if groups.is_empty() {
         return Figure::without_data(title, NOTHING);
     }
+    groups.sort_by_key(|group| group.first().and_then(|(_, path)| path.coordinate));
     let panels: Vec<Panel<'a>> = groups.iter().map(|group| panel(group)).collect();
     let each = if panels.len() == 1 { 760 } else { 440 };
     Figure {
@@ -64,13 +75,13 @@ fn panel<'a>(group: &[(usize, &PhasePath<'a>)]) -> Panel<'a> {
         // No points: a name at the end of the legend for what is drawn first.
         series.push(curve("earlier cycles", path, 0..0, Ink::Pale(*place)));
     }
-    Panel {
-        x: Axis::new(Label::plain("displacement x"), "m"),
-        y: Axis::new(Label::plain("velocity v"), "m/s"),
-        series,
-        absence: Label::plain(NOTHING),
-        ..Panel::default()
+    let [x, y] = match group.first().and_then(|(_, path)| path.coordinate) {
+        None => [("displacement x", "m"), ("velocity v", "m/s")],
+        Some(Coordinate::Height) => [("height z", "m"), ("velocity dz/dt", "m/s")],
+        Some(Coordinate::Pitch) => [("pitch θ", "rad"), ("rate dθ/dt", "rad/s")],
     }
+    .map(|(label, unit)| Axis::new(Label::plain(label), unit));
+    Panel { x, y, series, absence: Label::plain(NOTHING), ..Panel::default() }
 }
 
 fn curve<'a>(name: &str, path: &PhasePath<'a>, part: Range<usize>, ink: Ink) -> Series<'a> {
@@ -85,7 +96,7 @@ fn is_comparable(a: &PhasePath<'_>, b: &PhasePath<'_>) -> bool {
         let (a, b) = (a.1 - a.0, b.1 - b.0);
         a == b || a.max(b) < COMPARABLE * a.min(b)
     };
-    ratio(a.displacement, b.displacement) && ratio(a.velocity, b.velocity)
+    a.coordinate == b.coordinate && ratio(a.displacement, b.displacement) && ratio(a.velocity, b.velocity)
 }
 
 /// Smallest and largest finite value.
@@ -125,13 +136,19 @@ mod tests {
         // Ten rounds of 100 points: high velocity is reached 17 points (60 degrees) after zero, rising.
         let angle = |i: usize| std::f64::consts::TAU * i as f64 / 100.0;
         let (x, v): (Vec<f64>, Vec<f64>) = (0..1000).map(|i| (-angle(i).cos(), angle(i).sin())).unzip();
-        let start = last_cycle(&PhasePath { name: "", displacement: &x, velocity: &v });
+        let start = last_cycle(&PhasePath { name: "", coordinate: None, displacement: &x, velocity: &v });
         assert!(start == 800 + 9 || start == 800 + 8, "{start}");
         let journey: Vec<f64> = x.iter().enumerate().map(|(i, x)| x + 0.1 * i as f64).collect();
-        assert_eq!(last_cycle(&PhasePath { name: "", displacement: &journey, velocity: &v }), 0);
-        let few = PhasePath { name: "", displacement: &x[..250], velocity: &v[..250] };
+        assert_eq!(
+            last_cycle(&PhasePath { name: "", coordinate: None, displacement: &journey, velocity: &v }),
+            0
+        );
+        let few = PhasePath { name: "", coordinate: None, displacement: &x[..250], velocity: &v[..250] };
         assert_eq!(last_cycle(&few), 0);
         let gaps = [f64::NAN; 5];
-        assert_eq!(last_cycle(&PhasePath { name: "", displacement: &gaps, velocity: &gaps }), 0);
+        assert_eq!(
+            last_cycle(&PhasePath { name: "", coordinate: None, displacement: &gaps, velocity: &gaps }),
+            0
+        );
     }
 }

@@ -80,6 +80,7 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
             numbers_left: 0.0,
             heading: (request.heading, (0.0, 0.0)),
             legend: (request.legend, (0.0, 0.0)),
+            notes: Vec::new(),
             numbered: (!share_x || i >= last_row, !share_y || i % columns == 0),
             empty: panel.is_empty(),
         }

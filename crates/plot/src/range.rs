@@ -1,6 +1,6 @@
 //! The range of values an axis has to show.
 
-use crate::panel::{Panel, Reference, is_drawable};
+use crate::panel::{Panel, Reference, Shape, is_drawable};
 
 /// Largest magnitude that is drawn: differences and squares of such values are still finite.
 pub(crate) const LARGEST: f64 = 1e150;
@@ -47,6 +47,10 @@ pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
     for point in panel.series.iter().flat_map(|series| series.points().flatten()) {
         x.include(point.0);
         y.include(point.1);
+    }
+    for corner in panel.shapes.iter().flat_map(Shape::drawable) {
+        x.include(corner.0);
+        y.include(corner.1);
     }
     for (place, low, high) in panel.bands.iter().flat_map(|band| band.columns().flatten()) {
         x.include(place);

@@ -12,6 +12,8 @@ pub(crate) struct Scale {
     /// Ends of the axis, less the offset.
     low: f64,
     high: f64,
+    /// Whether there are ticks.
+    numbered: bool,
     /// The same ends in the unit shown; none of an empty axis.
     shown: Option<(f64, f64)>,
     /// Places (0 to 1) and numbers of the ticks.
@@ -39,10 +41,11 @@ const OFFSET_BELOW: f64 = 5e-4;
 impl Scale {
     /// The scale of a range (none: an empty axis), without ticks yet.
     pub(crate) fn new(axis: &Axis, range: Option<(f64, f64)>) -> Self {
-        let label = axis.label.clone();
+        let (label, numbered) = (axis.label.clone(), !axis.unnumbered);
         let Some((from, to)) = range else {
             let unit = unit_text(&label, "", &axis.unit);
-            return Self { offset: 0.0, low: 0.0, high: 1.0, shown: None, ticks: Vec::new(), label, unit };
+            let (offset, low, high, ticks) = (0.0, 0.0, 1.0, Vec::new());
+            return Self { offset, low, high, numbered, shown: None, ticks, label, unit };
         };
         let offset = offset(from, to);
         let (low, high) = (from - offset, to - offset);
@@ -54,18 +57,24 @@ impl Scale {
         };
         let unit = unit_text(&label, &less, &multiple.unit);
         let shown = Some((multiple.apply(low), multiple.apply(high)));
-        Self { offset, low, high, shown, ticks: Vec::new(), label, unit }
+        Self { offset, low, high, numbered, shown, ticks: Vec::new(), label, unit }
     }
 
     /// Gives the axis as many ticks as fit at a size of `em` px.
     pub(crate) fn set_ticks(&mut self, along: Along, em: f64) -> Result<(), PlotError> {
-        self.ticks = self.shown.map_or(Ok(Vec::new()), |shown| ticks(shown, along, em))?;
+        let shown = self.shown.filter(|_| self.numbered);
+        self.ticks = shown.map_or(Ok(Vec::new()), |shown| ticks(shown, along, em))?;
         Ok(())
     }
 
     /// Place of a value along the axis, 0 to 1.
     pub(crate) fn place(&self, value: f64) -> f64 {
         (value - self.offset - self.low) / (self.high - self.low)
+    }
+
+    /// The value at the end of the axis.
+    pub(crate) fn end(&self) -> f64 {
+        self.offset + self.high
     }
 
     /// Width of the widest tick label, px.

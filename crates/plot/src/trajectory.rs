@@ -18,7 +18,7 @@ pub struct Track<'a> {
 }
 
 /// A coordinate beside the position along the slide.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Coordinate {
     /// Position normal to the slide, m.
     Height,

@@ -9,9 +9,9 @@ use data_encoding::BASE64;
 use drawn::{Picture, decode, draw_everywhere, hex, polygons, polylines, rectangles, texts, value};
 use proptest::prelude::*;
 use stickslip_plot::{
-    Colour, ComparedChannel, EnergyBook, EventTrack, Figure, HysteresisLoop, MemoryMoment, PhasePath,
-    SpringCondition, SpringMap, Theme, compare_figure, draw_png, draw_svg, energy_figure, events_figure,
-    loop_figure, memory_figure, phase_figure, state_figure,
+    Colour, ComparedChannel, Coordinate, EnergyBook, EventTrack, Figure, HysteresisLoop, MemoryMoment,
+    PhasePath, SpringCondition, SpringMap, Theme, compare_figure, draw_png, draw_svg, energy_figure,
+    events_figure, loop_figure, memory_figure, phase_figure, state_figure,
 };
 
 /// The handbook's row of springs: n springs over ±1.2 a under a paraboloid, d and u given, heights in units of d₀.
@@ -141,8 +141,8 @@ fn phases() {
     let (x, v): (Vec<f64>, Vec<f64>) = (0..15_000).map(cycle).unzip();
     let other: Vec<f64> = x.iter().map(|x| 0.6 * x + 0.3e-6).collect();
     let paths = [
-        PhasePath { name: "slider", displacement: &x, velocity: &v },
-        PhasePath { name: "stage", displacement: &other, velocity: &v },
+        PhasePath { name: "slider", coordinate: None, displacement: &x, velocity: &v },
+        PhasePath { name: "stage", coordinate: None, displacement: &other, velocity: &v },
     ];
     let figure = phase_figure("Running into a limit cycle", &paths);
     draw_everywhere("phase", &figure);
@@ -157,8 +157,15 @@ fn phases() {
     };
     assert!(ends(&last) > 1200.0, "{}", ends(&last));
     let walk: Vec<f64> = (0..15_000).map(|i| 2e-9 * i as f64).collect();
-    let paths = [PhasePath { name: "walker", displacement: &walk, velocity: &v }, paths[0]];
+    let paths = [PhasePath { name: "walker", coordinate: None, displacement: &walk, velocity: &v }, paths[0]];
     draw_everywhere("phase-walk", &phase_figure("Two bodies of different reach", &paths));
+    // The same motion in three coordinates: each has a panel and its own units.
+    let coordinates = [None, Some(Coordinate::Height), Some(Coordinate::Pitch)];
+    let paths = coordinates.map(|coordinate| PhasePath { coordinate, ..paths[1] });
+    let figure = phase_figure("Three coordinates", &paths);
+    draw_everywhere("phase-plane", &figure);
+    let axes = figure.panels.iter().map(|panel| (panel.x.unit.as_str(), panel.y.unit.as_str()));
+    assert_eq!(axes.collect::<Vec<_>>(), [("m", "m/s"), ("m", "m/s"), ("rad", "rad/s")]);
 }
 
 /// The curve p(h) of a contact at constant d after a history of u: play operators of half-width κ(d - h).
@@ -362,7 +369,7 @@ proptest! {
         assert_no_panic(&state_figure(&name, &[map]));
         let book = EnergyBook { time: &a, input: &b, kinetic: &a, elastic: &c, friction: &a, damping: &b, error: &a };
         assert_no_panic(&energy_figure(&name, &book));
-        let path = |displacement, velocity| PhasePath { name: &name, displacement, velocity };
+        let path = |displacement, velocity| PhasePath { name: &name, coordinate: None, displacement, velocity };
         assert_no_panic(&phase_figure(&name, &[path(&a, &b), path(&a, &a), path(&c, &c)]));
         let moment = |i: usize| MemoryMoment { contact: &name, time: at(i), d: at(i + 1), u: at(i + 2), slope: at(i + 3), h: &a, p: &a };
         assert_no_panic(&memory_figure(&name, &[moment(0), moment(3), moment(5)]));

@@ -23,13 +23,15 @@ const MAX_WARNINGS: usize = 20;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PlotName {
+    /// The scene to scale: bodies, contacts, springs, forces, and what is free or follows a waveform.
+    Layout,
     /// Tangential force over displacement of each contact.
     Loop,
     /// Positions over time.
     Trajectory,
     /// Energies over time, and what their books miss.
     Energy,
-    /// Velocity over displacement.
+    /// Velocity over displacement, of every free coordinate.
     Phase,
     /// Events over time.
     Events,
@@ -41,12 +43,21 @@ pub enum PlotName {
 
 impl PlotName {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Loop, Self::Trajectory, Self::Energy, Self::Phase, Self::Events, Self::State, Self::Memory];
+    pub const ALL: [Self; 8] = [
+        Self::Layout,
+        Self::Loop,
+        Self::Trajectory,
+        Self::Energy,
+        Self::Phase,
+        Self::Events,
+        Self::State,
+        Self::Memory,
+    ];
 
     /// The name in the file.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Layout => "layout",
             Self::Loop => "loop",
             Self::Trajectory => "trajectory",
             Self::Energy => "energy",

@@ -5,31 +5,89 @@ use crate::kept::Kept;
 use crate::look::{Pen, Picture};
 use crate::periods::Periods;
 use crate::trail::Trail;
-use stickslip_drive::scene::Freedom;
-use stickslip_plot::{PhasePath, PlotError, phase_figure};
+use stickslip_drive::scene::{Axis, Freedom};
+use stickslip_plot::{Coordinate, PhasePath, PlotError, phase_figure};
 use stickslip_scenario::PlotName;
 
-/// A body whose stroke is a smaller share of the largest one is at rest: what moves it is rounding.
+/// A body whose stroke is a smaller share of the largest one in a coordinate is at rest: what moves it is rounding.
 const REST: f64 = 1e-9;
 
-/// The free bodies, or else all that move. A body that comes back to its start in the last period is shown all the way;
-/// of one that travels on that period alone, counted from its start, as in the picture of loops.
+/// A body in one of its coordinates.
+struct Mover<'a> {
+    body: &'a str,
+    axis: Axis,
+}
+
+/// The free coordinates, or else all that move. A body that comes back to its start in the last period is shown all the
+/// way; of one that travels on that period alone, in all its coordinates, x counted from its start, as in the picture
+/// of loops.
 pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+    let trails: Vec<(Mover<'_>, Trail)> = movers(job)
+        .into_iter()
+        .map(|mover| {
+            let trail = trail(&mover, kept);
+            (mover, trail)
+        })
+        .collect();
+    let largest = |axis: Axis| {
+        let strokes = trails.iter().filter(|(mover, _)| mover.axis == axis).map(|(_, trail)| trail.stroke());
+        strokes.fold(0.0, f64::max)
+    };
+    let is_moving = |(mover, trail): &&(Mover<'_>, Trail)| trail.stroke() > REST * largest(mover.axis);
+    let moving: Vec<&(Mover<'_>, Trail)> = trails.iter().filter(is_moving).collect();
     let waveform = job.scenario.figures.waveform.and_then(|place| job.scenario.scene.waveforms.get(place));
     let periods = waveform.and_then(|waveform| Periods::until(&waveform.part, kept.end()));
-    let trails: Vec<(&str, Trail)> = bodies(job).into_iter().map(|name| (name, trail(name, kept))).collect();
-    let largest = trails.iter().map(|(_, trail)| trail.stroke()).fold(0.0, f64::max);
-    let moving = trails.into_iter().filter(|(_, trail)| trail.stroke() > REST * largest);
-    let shown: Vec<(String, Trail)> = moving.map(|(name, trail)| shown(name, trail, periods)).collect();
-    let paths =
-        shown.iter().map(|(name, Trail { x, y, .. })| PhasePath { name, displacement: x, velocity: y });
+    let travels = |body: &str, periods: Periods| {
+        let mut trails = moving.iter().filter(|(mover, _)| mover.body == body);
+        trails.any(|(_, trail)| !trail.part(periods.last()).is_closed())
+    };
+    let shown = moving.iter().map(|(mover, trail)| match periods {
+        Some(periods) if travels(mover.body, periods) => (
+            mover.axis,
+            format!("{}, period {}", mover.body, periods.count),
+            last(mover.axis, trail, periods),
+        ),
+        _ => (mover.axis, mover.body.to_owned(), trail.clone()),
+    });
+    let shown: Vec<(Axis, String, Trail)> = shown.collect();
+    let paths = shown.iter().map(|(axis, name, Trail { x, y, .. })| PhasePath {
+        name,
+        coordinate: beside(*axis),
+        displacement: x,
+        velocity: y,
+    });
     let paths: Vec<PhasePath<'_>> = paths.collect();
     pen.draw(PlotName::Phase, phase_figure(job.title(), &paths))
 }
 
-fn trail(body: &str, kept: &Kept) -> Trail {
-    let [x, v] = ["x_m", "vx_m_s"].map(|quantity| kept.series.column(body, quantity).to_vec());
+fn trail(mover: &Mover<'_>, kept: &Kept) -> Trail {
+    let [x, v] = quantities(mover.axis).map(|quantity| kept.series.column(mover.body, quantity).to_vec());
     Trail { t: kept.series.time().to_vec(), x, y: v }
+}
+
+/// Columns that it is drawn from.
+pub(super) fn needs(job: &Job) -> Vec<String> {
+    let columns =
+        |mover: Mover<'_>| quantities(mover.axis).map(|quantity| format!("{}.{quantity}", mover.body));
+    movers(job).into_iter().flat_map(columns).collect()
+}
+
+/// Quantities of a coordinate and its rate.
+fn quantities(axis: Axis) -> [&'static str; 2] {
+    match axis {
+        Axis::X => ["x_m", "vx_m_s"],
+        Axis::Z => ["z_m", "vz_m_s"],
+        Axis::Pitch => ["pitch_rad", "vpitch_rad_s"],
+    }
+}
+
+/// The coordinate of a picture; none: along the slide.
+fn beside(axis: Axis) -> Option<Coordinate> {
+    match axis {
+        Axis::X => None,
+        Axis::Z => Some(Coordinate::Height),
+        Axis::Pitch => Some(Coordinate::Pitch),
+    }
 }
 
 /// Points between two samples of a smooth curve.
@@ -39,15 +97,10 @@ const CLOSE: f64 = 0.05;
 /// Samples from which on there are enough of them.
 const MANY: usize = 100_000;
 
-/// What is shown of a body, and under what name.
-fn shown(body: &str, whole: Trail, periods: Option<Periods>) -> (String, Trail) {
-    if let Some(periods) = periods {
-        let last = whole.part(periods.last());
-        if !last.is_closed() {
-            return (format!("{body}, period {}", periods.count), smooth(&last.counted_from_start()));
-        }
-    }
-    (body.to_owned(), whole)
+/// The last period; the way along the slide is counted from its start where it does not end there.
+fn last(axis: Axis, whole: &Trail, periods: Periods) -> Trail {
+    let last = whole.part(periods.last());
+    smooth(&if axis == Axis::X && !last.is_closed() { last.counted_from_start() } else { last })
 }
 
 /// A trail of positions and velocities with points between its samples, on the cubics through both.
@@ -77,11 +130,18 @@ fn smooth(trail: &Trail) -> Trail {
     fine
 }
 
-/// Names of the bodies that are shown.
-pub(super) fn bodies(job: &Job) -> Vec<&str> {
-    let free = job.scenario.scene.bodies.iter().filter(|body| body.part.x.freedom == Freedom::Free);
-    let free: Vec<&str> = free.map(|body| body.name.as_str()).collect();
-    if free.is_empty() { super::moving(job) } else { free }
+/// The free coordinates of all bodies; where none is free, those that follow a waveform.
+fn movers(job: &Job) -> Vec<Mover<'_>> {
+    let of = |wanted: fn(&Freedom) -> bool| -> Vec<Mover<'_>> {
+        let bodies = job.scenario.scene.bodies.iter();
+        let moving = bodies.flat_map(|body| {
+            let coordinates = body.part.coordinates().into_iter().filter(move |(_, c)| wanted(&c.freedom));
+            coordinates.map(|(axis, _)| Mover { body: &body.name, axis })
+        });
+        moving.collect()
+    };
+    let free = of(|freedom| *freedom == Freedom::Free);
+    if free.is_empty() { of(|freedom| *freedom != Freedom::Fixed) } else { free }
 }
 
 #[cfg(test)]

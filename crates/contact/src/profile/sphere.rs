@@ -112,6 +112,12 @@ impl Sphere {
         Self { radius }
     }
 
+    /// R-√(R²-r²), without its cancellation; none beyond the sphere.
+    pub(super) fn gap(&self, r: f64) -> Option<f64> {
+        let rest = (self.radius - r) * (self.radius + r);
+        (rest >= 0.0).then(|| r * r / (self.radius + rest.sqrt()))
+    }
+
     pub(super) fn reach(&self) -> f64 {
         self.depth(Self::LARGEST_RATIO * self.radius)
     }

@@ -40,7 +40,7 @@ impl Builder<'_> {
         for (i, plot) in self.form.plots.iter().enumerate() {
             let lacks = match plot {
                 PlotName::Loop if self.scene.contacts.is_empty() => "contact",
-                PlotName::Trajectory if self.scene.bodies.is_empty() => "body",
+                PlotName::Layout | PlotName::Trajectory if self.scene.bodies.is_empty() => "body",
                 _ => continue,
             };
             let fault = at.index(i).fault(format!("there is no {lacks} to draw"));

@@ -1,0 +1,292 @@
+//! Texts inside a frame, where they cover nothing.
+
+use crate::PlotError;
+use crate::label::Label;
+use crate::layout::{Area, Placed, Sizes};
+use crate::panel::Note;
+use crate::thin::Point;
+
+/// A note with its place.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PlacedNote {
+    /// Size of the text, px per em.
+    pub(crate) em: f64,
+    /// Lines with the middles of their baselines.
+    pub(crate) lines: Vec<(Label, Point)>,
+    /// A line from the text to what it names, where that is far.
+    pub(crate) pointer: Option<[Point; 2]>,
+}
+
+/// Cells of the board per em: places are tried one cell apart.
+const FINENESS: f64 = 10.0;
+/// Height of a line, em.
+const LINE: f64 = 1.25;
+/// Free around a text, em.
+const CLEAR: f64 = 0.32;
+/// From this distance on a note points to what it names, em.
+const FAR: f64 = 0.9;
+/// Distance that lying on a foreign shape and having to point are worth, em.
+const FOREIGN: f64 = 3.0;
+const POINTING: f64 = 1.5;
+/// What a pointer costs for each line that it crosses, as a distance, em.
+const CROSSING: f64 = 1.0;
+/// Of places as near to the rim of a thing, the one nearer to its middle: share of that distance.
+const CENTRED: f64 = 0.1;
+/// Widest line as a share of the frame, and lines that a longer one is broken into.
+const WIDEST: f64 = 0.3;
+const BROKEN: usize = 3;
+/// More notes than this are only counted: each is tried all over the frame.
+const MOST: usize = 200;
+
+/// Gives the notes of a panel their places.
+pub(crate) fn place(panel: &Placed<'_, '_>, sizes: Sizes) -> Result<Vec<PlacedNote>, PlotError> {
+    let notes = &panel.panel.notes;
+    let mut placed = Vec::new();
+    if notes.is_empty() || panel.empty {
+        return Ok(placed);
+    }
+    let mut board = Board::new(panel, sizes.tick);
+    for note in notes.iter().take(MOST) {
+        placed.extend(board.set(panel, note)?);
+    }
+    let left_out = notes.len() - placed.len();
+    if left_out > 0 {
+        let corner = (panel.x.end(), panel.y.end());
+        let words = Label::plain(&format!("and {left_out} more"));
+        placed.extend(board.set(panel, &Note { lines: vec![words], about: [corner; 2], on: None })?);
+    }
+    Ok(placed)
+}
+
+/// The frame in cells, and what lies on them.
+struct Board {
+    frame: Area,
+    em: f64,
+    columns: usize,
+    rows: usize,
+    /// Whether a line or a text lies on a cell.
+    taken: Vec<bool>,
+    /// Whether a text does.
+    texts: Vec<bool>,
+    /// The topmost shape on a cell, counted from 1; 0: none.
+    shapes: Vec<usize>,
+}
+
+/// A text on its way to a place, cells.
+struct Text {
+    width: usize,
+    height: usize,
+    /// What it names, px.
+    about: Area,
+}
+
+impl Board {
+    fn new(panel: &Placed<'_, '_>, em: f64) -> Self {
+        let frame = panel.frame;
+        let count = |length: f64| (length * FINENESS / em).floor().max(1.0) as usize;
+        let (columns, rows) = (count(frame.width), count(frame.height));
+        let cells = columns * rows;
+        let (taken, texts, shapes) = (vec![false; cells], vec![false; cells], vec![0; cells]);
+        let mut board = Self { frame, em, columns, rows, taken, texts, shapes };
+        for (place, shape) in panel.panel.shapes.iter().enumerate() {
+            let corners: Vec<Point> = shape.drawable().map(|corner| panel.pixel(corner)).collect();
+            board.pave(&corners, place + 1);
+        }
+        for series in &panel.panel.series {
+            let points: Vec<Option<Point>> =
+                series.points().map(|point| point.map(|p| panel.pixel(p))).collect();
+            match points[..] {
+                [Some(only)] => board.stroke([only, only]),
+                _ => points.windows(2).for_each(|pair| {
+                    if let [Some(from), Some(to)] = *pair {
+                        board.stroke([from, to]);
+                    }
+                }),
+            }
+        }
+        board
+    }
+
+    /// Finds the best place of a note and takes it; none where there is none.
+    fn set(&mut self, panel: &Placed<'_, '_>, note: &Note) -> Result<Option<PlacedNote>, PlotError> {
+        let em = self.em;
+        let mut lines = Vec::new();
+        for line in &note.lines {
+            lines.extend(line.wrapped(em, WIDEST * self.frame.width, BROKEN)?);
+        }
+        let width = lines.iter().map(|line| line.width(em)).collect::<Result<Vec<_>, _>>()?;
+        let width = width.into_iter().fold(0.0, f64::max);
+        let cells = |ems: f64| (ems * FINENESS).ceil() as usize;
+        let height = cells(LINE * lines.len() as f64 + 2.0 * CLEAR);
+        let [a, b] = note.about.map(|corner| panel.pixel(corner));
+        let (left, top) = (a.0.min(b.0), a.1.min(b.1));
+        let about = Area { left, top, width: (a.0 - b.0).abs(), height: (a.1 - b.1).abs() };
+        let text = Text { width: cells(width / em + 2.0 * CLEAR), height, about };
+        let Some((column, row)) = self.search(&text, note.on) else { return Ok(None) };
+        let area = self.area(&text, (column, row));
+        let pointer = self.pointer(area, about);
+        if let Some(pointer) = pointer {
+            self.stroke(pointer);
+        }
+        for row in row..row + text.height {
+            let cells = row * self.columns + column..row * self.columns + column + text.width;
+            self.taken[cells.clone()].fill(true);
+            self.texts[cells].fill(true);
+        }
+        let middle = area.left + area.width / 2.0;
+        let baseline = |i: usize| area.top + ((i as f64 + 0.5) * LINE + CLEAR + 0.36) * em;
+        let lines = lines.into_iter().enumerate().map(|(i, line)| (line, (middle, baseline(i))));
+        Ok(Some(PlacedNote { em, lines: lines.collect(), pointer }))
+    }
+
+    /// The cheapest place at which nothing is covered: column and row of the top left cell.
+    fn search(&self, text: &Text, on: Option<usize>) -> Option<(usize, usize)> {
+        let own = on.map_or(0, |place| place + 1);
+        let taken = Sums::new(self, |cell| self.taken[cell]);
+        let foreign = Sums::new(self, |cell| self.shapes[cell] != 0 && self.shapes[cell] != own);
+        let size = (text.width, text.height);
+        let columns = 0..(self.columns + 1).saturating_sub(text.width);
+        let rows = 0..(self.rows + 1).saturating_sub(text.height);
+        let places = rows.flat_map(|row| columns.clone().map(move |column| (column, row)));
+        let free = places.filter(|&at| taken.count(at, size) == 0);
+        let mut places: Vec<(f64, (usize, usize))> = free
+            .map(|at| {
+                let share = f64::from(foreign.count(at, size)) / (text.width * text.height) as f64;
+                (self.cost(text, at) + FOREIGN * share, at)
+            })
+            .collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut best: Option<(f64, (usize, usize))> = None;
+        for (cost, at) in places {
+            if best.is_some_and(|(least, _)| cost >= least) {
+                break;
+            }
+            let pointer = self.pointer(self.area(text, at), text.about);
+            let Some(crossed) = pointer.map_or(Some(0), |pointer| self.crossed(pointer)) else { continue };
+            let cost = cost + CROSSING * crossed as f64;
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, at));
+            }
+        }
+        best.map(|(_, at)| at)
+    }
+
+    /// What a place costs for its distance, em.
+    fn cost(&self, text: &Text, at: (usize, usize)) -> f64 {
+        let area = self.area(text, at);
+        let away = distance(area, text.about) / self.em;
+        let (here, there) = (centre(area), centre(text.about));
+        let off = (here.0 - there.0).hypot(here.1 - there.1) / self.em;
+        away + CENTRED * off + if away > FAR { POINTING } else { 0.0 }
+    }
+
+    /// The rectangle of a text, px.
+    fn area(&self, text: &Text, (column, row): (usize, usize)) -> Area {
+        let cell = self.em / FINENESS;
+        let (left, top) = (self.frame.left + column as f64 * cell, self.frame.top + row as f64 * cell);
+        Area { left, top, width: text.width as f64 * cell, height: text.height as f64 * cell }
+    }
+
+    /// From a text to what it names, where that is far.
+    fn pointer(&self, text: Area, about: Area) -> Option<[Point; 2]> {
+        let end = nearest(about, centre(text));
+        let inner = CLEAR * self.em;
+        let (width, height) = (text.width - 2.0 * inner, text.height - 2.0 * inner);
+        let text_alone = Area { left: text.left + inner, top: text.top + inner, width, height };
+        (distance(text, about) > FAR * self.em).then(|| [nearest(text_alone, end), end])
+    }
+
+    /// How many lines a pointer crosses or meets; none if it crosses a text.
+    fn crossed(&self, pointer: [Point; 2]) -> Option<usize> {
+        let (mut crossed, mut was_taken) = (0, false);
+        for cell in self.cells(pointer) {
+            if self.texts[cell] {
+                return None;
+            }
+            crossed += usize::from(self.taken[cell] && !was_taken);
+            was_taken = self.taken[cell];
+        }
+        Some(crossed)
+    }
+
+    fn stroke(&mut self, line: [Point; 2]) {
+        let cells: Vec<usize> = self.cells(line).collect();
+        cells.into_iter().for_each(|cell| self.taken[cell] = true);
+    }
+
+    /// The cells along a line, inside the frame.
+    fn cells(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = usize> + '_ {
+        let cell = self.em / FINENESS;
+        // No line that can be seen is longer than both sides of the frame together.
+        let most = 4.0 * (self.columns + self.rows) as f64;
+        let steps = (2.0 * (to.0 - from.0).hypot(to.1 - from.1) / cell).ceil().clamp(1.0, most) as usize;
+        (0..=steps).filter_map(move |k| {
+            let share = k as f64 / steps as f64;
+            let x = (from.0 + share * (to.0 - from.0) - self.frame.left) / cell;
+            let y = (from.1 + share * (to.1 - from.1) - self.frame.top) / cell;
+            let is_inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;
+            is_inside.then(|| y as usize * self.columns + x as usize)
+        })
+    }
+
+    /// Marks the cells whose middles lie inside a polygon, by the even-odd rule.
+    fn pave(&mut self, corners: &[Point], mark: usize) {
+        let cell = self.em / FINENESS;
+        for row in 0..self.rows {
+            let y = self.frame.top + (row as f64 + 0.5) * cell;
+            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+            let mut cuts: Vec<f64> = edges
+                .filter(|(a, b)| (a.1 <= y) != (b.1 <= y))
+                .map(|(a, b)| a.0 + (y - a.1) / (b.1 - a.1) * (b.0 - a.0))
+                .collect();
+            cuts.sort_by(f64::total_cmp);
+            for pair in cuts.chunks_exact(2) {
+                let column = |x: f64| ((x - self.frame.left) / cell - 0.5).ceil().max(0.0) as usize;
+                let (from, to) = (column(pair[0]).min(self.columns), column(pair[1]).min(self.columns));
+                self.shapes[row * self.columns + from..row * self.columns + to].fill(mark);
+            }
+        }
+    }
+}
+
+/// Numbers of marked cells in all rectangles that begin at the first cell.
+struct Sums {
+    width: usize,
+    sums: Vec<u32>,
+}
+
+impl Sums {
+    fn new(board: &Board, is_marked: impl Fn(usize) -> bool) -> Self {
+        let width = board.columns + 1;
+        let mut sums = vec![0; width * (board.rows + 1)];
+        for row in 0..board.rows {
+            let mut along = 0;
+            for column in 0..board.columns {
+                along += u32::from(is_marked(row * board.columns + column));
+                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + along;
+            }
+        }
+        Self { width, sums }
+    }
+
+    fn count(&self, (column, row): (usize, usize), (width, height): (usize, usize)) -> u32 {
+        let sum = |column: usize, row: usize| self.sums[row * self.width + column];
+        let (right, bottom) = (column + width, row + height);
+        sum(right, bottom) + sum(column, row) - sum(column, bottom) - sum(right, row)
+    }
+}
+
+fn centre(area: Area) -> Point {
+    (area.left + area.width / 2.0, area.top + area.height / 2.0)
+}
+
+/// The point of a rectangle nearest to another point.
+fn nearest(area: Area, (x, y): Point) -> Point {
+    (x.max(area.left).min(area.left + area.width), y.max(area.top).min(area.top + area.height))
+}
+
+/// How far two rectangles are apart.
+fn distance(a: Area, b: Area) -> f64 {
+    let gap = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0 - b.1).max(b.0 - a.0 - a.1).max(0.0);
+    gap((a.left, a.width), (b.left, b.width)).hypot(gap((a.top, a.height), (b.top, b.height)))
+}

@@ -1,0 +1,151 @@
+//! Scale and frame of a scene.
+
+use super::Scene;
+use super::arrange::arrange;
+use super::draw::sheet;
+use super::outline::{Draft, Rect};
+use super::sheet::Sheet;
+use crate::figure::Figure;
+use crate::panel::{Axis, Panel};
+use crate::thin::Point;
+use crate::{Arrangement, Label};
+
+/// Width of the frame, px of a figure of the default width, and least height.
+const WIDTH: f64 = 1400.0;
+const LEAST_HEIGHT: f64 = 360.0;
+/// Most of width and height that is drawn on; the rest is for names.
+const DRAWN: Point = (1100.0, 740.0);
+const NAMES: f64 = 75.0;
+/// Title, legend and axis above and below the frame.
+const AROUND: f64 = 255.0;
+/// Largest distance of a point from its body's reference point along x and z, and largest radius of a profile where no
+/// points set the scale.
+const REACH: Point = (420.0, 230.0);
+const PROFILE: f64 = 70.0;
+/// A scene this many times longer than high, or higher than long, is a sliver; it is drawn so that it is about this many
+/// times longer, unless that takes more than the last number.
+const SLIVER: f64 = 12.0;
+const STOUT: f64 = 4.0;
+const MOST_STRETCH: f64 = 1e3;
+/// Largest distance that is drawn, m.
+const FARTHEST: f64 = 1e9;
+/// By how much symbols shrink at a time, and their least size.
+const SHRINK: f64 = 0.85;
+const LEAST_UNIT: f64 = 0.01;
+/// Points this much nearer to each other than they could be are as good as one: symbols have to shrink first.
+const SMALLEST: f64 = 0.2;
+/// How often the range of scales is halved.
+const HALVINGS: usize = 16;
+
+/// The picture of a scene.
+pub(super) fn figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
+    let reach = reach(scene);
+    if reach.0.max(reach.1) > FARTHEST {
+        return Figure::without_data(title, "points too far apart to be drawn");
+    }
+    let stretch = stretch(reach);
+    let most = most(scene, reach, stretch);
+    let scaled = |scale: f64, unit: f64| {
+        let draft = Draft { scene, scale: (scale * stretch.0, scale * stretch.1), unit };
+        (draft.scale, drawn(&draft))
+    };
+    let fits = |scale: f64, unit: f64| {
+        let bounds = bounds(&scaled(scale, unit).1);
+        bounds.right - bounds.left <= DRAWN.0 && bounds.top - bounds.bottom <= DRAWN.1
+    };
+    let largest = most.unwrap_or(1.0);
+    let has_points = reach.0 > 0.0 || reach.1 > 0.0;
+    let least = |unit: f64| largest * if has_points { SMALLEST } else { unit };
+    let mut unit = 1.0;
+    while unit > LEAST_UNIT && !fits(least(unit), unit) {
+        unit *= SHRINK;
+    }
+    let (mut low, mut high) = (least(unit), largest);
+    if fits(high, unit) {
+        low = high;
+    }
+    // Without points nothing but symbols has a size, and the profiles keep theirs beside them.
+    for _ in 0..if has_points { HALVINGS } else { 0 } {
+        let middle = f64::midpoint(low, high);
+        if fits(middle, unit) { low = middle } else { high = middle }
+    }
+    let (scale, sheet) = scaled(low, unit);
+    framed(title, sheet, scale, (stretch, most.is_some()))
+}
+
+fn drawn(draft: &Draft<'_, '_>) -> Sheet {
+    sheet(draft, &arrange(draft))
+}
+
+fn bounds(sheet: &Sheet) -> Rect {
+    sheet.bounds().unwrap_or(Rect::of((0.0, 0.0)))
+}
+
+/// Largest distances of points from their reference points, m.
+fn reach(scene: &Scene<'_>) -> Point {
+    let contacts = scene.contacts.iter().flat_map(|contact| contact.between);
+    let links = scene.links.iter().flat_map(|link| link.between);
+    let fixtures = contacts.chain(links).filter(|fixture| fixture.body.is_some()).map(|fixture| fixture.at);
+    let points = fixtures.chain(scene.loads.iter().map(|load| load.at));
+    points.fold((0.0, 0.0), |(x, z): Point, at| (x.max(at.0.abs()), z.max(at.1.abs())))
+}
+
+/// By how much x and z are drawn larger than they are beside each other.
+fn stretch((x, z): Point) -> Point {
+    let factor =
+        |ratio: f64| if ratio > SLIVER { round_down((ratio / STOUT).min(MOST_STRETCH)) } else { 1.0 };
+    if x > 0.0 && z > 0.0 { (factor(z / x), factor(x / z)) } else { (1.0, 1.0) }
+}
+
+/// The next of 1, 2, 5, 10, 20 and so on below a number.
+fn round_down(number: f64) -> f64 {
+    let decade = 10_f64.powf(number.log10().floor());
+    [5.0, 2.0].into_iter().map(|digit| digit * decade).find(|round| *round <= number).unwrap_or(decade)
+}
+
+/// Largest scale, px per metre; none where nothing has a length.
+fn most(scene: &Scene<'_>, reach: Point, stretch: Point) -> Option<f64> {
+    let limit = |px: f64, length: f64| (length > 0.0).then(|| px / length);
+    let points = [limit(REACH.0, reach.0 * stretch.0), limit(REACH.1, reach.1 * stretch.1)];
+    let ends = scene.contacts.iter().filter_map(|contact| contact.profile.last());
+    let profile = limit(PROFILE, ends.map(|end| end.0).fold(0.0, f64::max));
+    points.into_iter().flatten().reduce(f64::min).or(profile).filter(|scale| scale.is_finite())
+}
+
+/// The drawing in its frame.
+fn framed(title: &str, sheet: Sheet, scale: Point, (stretch, is_to_scale): (Point, bool)) -> Figure<'static> {
+    let bounds = bounds(&sheet);
+    let (middle, centre) = bounds.centre();
+    // More than the width holds what no symbols are small enough for.
+    let width = (bounds.right - bounds.left + 2.0 * NAMES).max(WIDTH);
+    let height = (bounds.top - bounds.bottom + 2.0 * NAMES).max(LEAST_HEIGHT);
+    let axis = |name: &str, stretch: f64, (centre, length, scale): (f64, f64, f64)| {
+        let label = if is_to_scale && stretch > 1.0 {
+            format!("{name}, enlarged {stretch} times")
+        } else if is_to_scale {
+            name.to_owned()
+        } else {
+            format!("{name}, not to scale")
+        };
+        Axis {
+            tight: true,
+            covers: Some(((centre - length / 2.0) / scale, (centre + length / 2.0) / scale)),
+            unnumbered: !is_to_scale,
+            ..Axis::new(Label::plain(&label), if is_to_scale { "m" } else { "" })
+        }
+    };
+    let (x, y) = (
+        axis("x along the slide", stretch.0, (middle, width, scale.0)),
+        axis("height z", stretch.1, (centre, height, scale.1)),
+    );
+    let (shapes, series, notes) = sheet.unrolled(scale);
+    let aspect = Some(width / height);
+    let panel = Panel { x, y, shapes, series, notes, aspect, ..Panel::default() };
+    Figure {
+        title: Label::plain(title),
+        panels: vec![panel],
+        arrangement: Arrangement::Row,
+        size: (Figure::DEFAULT_SIZE.0, (height * WIDTH / width + AROUND) as u32),
+        ..Figure::default()
+    }
+}

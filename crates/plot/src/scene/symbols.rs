@@ -1,0 +1,170 @@
+//! Symbols of mechanics as lines, in px of the drawing, y up.
+
+use crate::thin::Point;
+
+/// Lines of a symbol.
+pub(super) type Lines = Vec<Vec<Point>>;
+
+/// A straight way with places along and across it (to the left).
+struct Way {
+    from: Point,
+    ahead: Point,
+    length: f64,
+}
+
+impl Way {
+    fn new(from: Point, to: Point) -> Self {
+        let (x, y) = (to.0 - from.0, to.1 - from.1);
+        let length = x.hypot(y);
+        let ahead = if length > 0.0 { (x / length, y / length) } else { (1.0, 0.0) };
+        Self { from, ahead, length }
+    }
+
+    fn at(&self, (along, across): Point) -> Point {
+        let (x, y) = self.ahead;
+        (self.from.0 + along * x - across * y, self.from.1 + along * y + across * x)
+    }
+
+    fn line(&self, points: &[Point]) -> Vec<Point> {
+        points.iter().map(|&point| self.at(point)).collect()
+    }
+}
+
+/// Share of the way that a lead takes at either end of a symbol.
+const LEAD: f64 = 0.16;
+/// Turns of a spring and half its width.
+const TURNS: usize = 5;
+const COIL: f64 = 15.0;
+/// Half the width of a stack, and its plates.
+const STACK: f64 = 20.0;
+const PLATES: usize = 7;
+/// Length and half width of an arrow's head.
+const HEAD: Point = (15.0, 7.5);
+/// Half the width of a wall, depth and distance of its hatches.
+const WALL: f64 = 42.0;
+pub(super) const HATCH: f64 = 15.0;
+
+/// A spring, a damper, or both side by side.
+pub(super) fn spring(from: Point, to: Point, (is_stiff, is_damped): (bool, bool), unit: f64) -> Lines {
+    let way = Way::new(from, to);
+    let (start, end) = (LEAD * way.length, (1.0 - LEAD) * way.length);
+    let mut lines = vec![way.line(&[(0.0, 0.0), (start, 0.0)]), way.line(&[(end, 0.0), (way.length, 0.0)])];
+    let aside = if is_stiff && is_damped { 24.0 * unit } else { 0.0 };
+    if aside > 0.0 {
+        lines.push(way.line(&[(start, -aside), (start, aside)]));
+        lines.push(way.line(&[(end, -aside), (end, aside)]));
+    }
+    if is_stiff {
+        let turn = (end - start) / TURNS as f64;
+        let coil = COIL * unit;
+        let zigzag = (0..TURNS).flat_map(|k| {
+            let at = start + k as f64 * turn;
+            [(at + 0.25 * turn, aside + coil), (at + 0.75 * turn, aside - coil)]
+        });
+        let points: Vec<Point> =
+            std::iter::once((start, aside)).chain(zigzag).chain([(end, aside)]).collect();
+        lines.push(way.line(&points));
+    }
+    if is_damped {
+        lines.extend(damper(&way, (start, end), -aside, 13.0 * unit));
+    }
+    if !is_stiff && !is_damped {
+        lines.push(way.line(&[(start, 0.0), (end, 0.0)]));
+    }
+    lines
+}
+
+/// A cup and a piston in it.
+fn damper(way: &Way, (start, end): Point, aside: f64, half: f64) -> Lines {
+    let along = |share: f64| start + share * (end - start);
+    let (back, rim, piston) = (along(0.3), along(0.8), along(0.55));
+    let cup = [(rim, aside + half), (back, aside + half), (back, aside - half), (rim, aside - half)];
+    vec![
+        way.line(&[(start, aside), (back, aside)]),
+        way.line(&cup),
+        way.line(&[(piston, aside + 0.7 * half), (piston, aside - 0.7 * half)]),
+        way.line(&[(piston, aside), (end, aside)]),
+    ]
+}
+
+/// A piezo stack.
+pub(super) fn stack(from: Point, to: Point, unit: f64) -> Lines {
+    let way = Way::new(from, to);
+    let (start, end) = (LEAD * way.length, (1.0 - LEAD) * way.length);
+    let half = STACK * unit;
+    let corners = [(start, -half), (end, -half), (end, half), (start, half), (start, -half)];
+    let mut lines = vec![
+        way.line(&[(0.0, 0.0), (start, 0.0)]),
+        way.line(&[(end, 0.0), (way.length, 0.0)]),
+        way.line(&corners),
+    ];
+    for k in 1..PLATES {
+        let at = start + k as f64 / PLATES as f64 * (end - start);
+        lines.push(way.line(&[(at, -half), (at, half)]));
+    }
+    lines
+}
+
+/// The arrow of a piezo stack that follows a waveform, beside it.
+pub(super) fn stroke(from: Point, to: Point, unit: f64) -> Lines {
+    let way = Way::new(from, to);
+    let beside = -(STACK + HEAD.0) * unit;
+    let ends = [LEAD, 1.0 - LEAD].map(|share| way.at((share * way.length, beside)));
+    arrow(ends[0], ends[1], true, unit)
+}
+
+/// An arrow; with a head at either end, if need be.
+pub(super) fn arrow(from: Point, to: Point, is_double: bool, unit: f64) -> Lines {
+    let mut lines = vec![vec![from, to], head(from, to, unit)];
+    if is_double {
+        lines.push(head(to, from, unit));
+    }
+    lines
+}
+
+fn head(from: Point, to: Point, unit: f64) -> Vec<Point> {
+    let way = Way::new(from, to);
+    let (back, half) = (way.length - HEAD.0 * unit, HEAD.1 * unit);
+    way.line(&[(back, half), (way.length, 0.0), (back, -half)])
+}
+
+/// An arrow along a circle from one angle to another, rad, counter-clockwise from the x axis.
+pub(super) fn turn(centre: Point, radius: f64, (from, to): (f64, f64), is_double: bool, unit: f64) -> Lines {
+    let on = |angle: f64| (centre.0 + radius * angle.cos(), centre.1 + radius * angle.sin());
+    let arc = (0..=32).map(|k| on(from + (to - from) * f64::from(k) / 32.0));
+    // A head's axis is a chord: along the tangent it would stand off the arc.
+    let back = HEAD.0 * unit / radius * (to - from).signum();
+    let mut lines = vec![arc.collect(), head(on(to - back), on(to), unit)];
+    if is_double {
+        lines.push(head(on(from + back), on(from), unit));
+    }
+    lines
+}
+
+/// A wall at the end of a lead that comes from a point.
+pub(super) fn wall(from: Point, at: Point, unit: f64) -> Lines {
+    let way = Way::new(from, at);
+    hatched(way.at((way.length, WALL * unit)), way.at((way.length, -WALL * unit)), unit)
+}
+
+/// A line with the hatches of what does not move, on its left.
+pub(super) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
+    let way = Way::new(from, to);
+    let step = HATCH * unit;
+    let mut lines = vec![vec![from, to]];
+    let count = (way.length / step).floor().max(1.0) as usize;
+    for k in 0..count {
+        let at = (k as f64 + 0.5) / count as f64 * way.length;
+        lines.push(way.line(&[(at + 0.5 * step, 0.0), (at - 0.5 * step, step)]));
+    }
+    lines
+}
+
+/// A circle in so many corners.
+pub(super) fn ellipse((x, y): Point, (wide, high): Point) -> Vec<Point> {
+    let corner = |k: u32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
+        (x + wide * angle.cos(), y + high * angle.sin())
+    };
+    (0..=96).map(corner).collect()
+}
