@@ -244,6 +244,11 @@ impl Profile {
         }
     }
 
+    /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
+    pub fn has_kinks(&self) -> bool {
+        matches!(self.law, Law::Foundation(_))
+    }
+
     /// Whether each contact radius belongs to one indentation only.
     pub fn is_strictly_convex(&self) -> bool {
         matches!(self.law, Law::Power(_) | Law::Sphere(_))

@@ -178,3 +178,41 @@ fn both_engines_see_the_same_springs_stick_and_slip() {
         assert_eq!(differing, 0, "history {i}: {differing} of {compared} springs");
     }
 }
+
+/// An edge's law on the other side of the old curve, where a shrinking contact may be before its stepper knows: it has to
+/// go on with the same slope, G\*m(d). Held at the curve instead, it has no stiffness there.
+#[test]
+fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
+    let pair = Pair::from_moduli(1.15e11, 0.95e11).unwrap();
+    let law = Interface::new(pair, Profile::paraboloid(1e-3).unwrap(), 0.2).unwrap();
+    // A path of growth in three pieces, each steeper: a branch that starts on it is found on the curve itself.
+    let mut curve = Curve::new(&law, Apex::default());
+    let (mut force, mut energy, mut at) = (0.0, 0.0, Apex::default());
+    for (d, slope) in [(1e-7, 0.02), (2e-7, 0.05), (3e-7, 0.1)] {
+        let end = Apex { d, u: at.u + slope * (d - at.d) };
+        let more = law.tangential_modulus() * slope * (law.profile().area(d) - law.profile().area(at.d));
+        // ½∫F du over the piece, F linear in M: near enough, since energies enter no force.
+        energy += (force + 0.5 * more) * (end.u - at.u);
+        force += more;
+        curve.commit(&law, Segment::Grown { to: end, force, energy, joins: at.d > 0.0 }).unwrap();
+        at = end;
+    }
+    let (d, u) = (2.5e-7, 2.0e-9 + 0.05 * 1e-7 + 0.1 * 0.5e-7);
+    let stiffness = law.stick_stiffness(d);
+    for sense in [1.0, -1.0] {
+        let at = |beside: f64| curve.dragged(&law, sense, Apex { d, u: u + beside });
+        let (here, front) = at(0.0);
+        assert!((front / d - 1.0).abs() < 1e-9);
+        for beside in [1e-12, -1e-12] {
+            let slope = (at(beside).0 - here) / beside;
+            assert!((slope / stiffness - 1.0).abs() < 1e-3, "{sense} {beside:e}: {}", slope / stiffness);
+        }
+        // To second order, on the law's own piece: F + G\*m δ - σ G\*m'δ²/2(κ-σk).
+        let bend = law.tangential_modulus() * law.profile().length(d)
+            / (2.0 * d)
+            / (law.stick_slope() - sense * 0.1);
+        let beside = -sense * 1e-9;
+        let known = here + stiffness * beside - 0.5 * sense * bend * beside * beside;
+        assert!(((at(beside).0 - known) / (known - here - stiffness * beside)).abs() < 0.02);
+    }
+}

@@ -87,14 +87,23 @@ impl Guard {
         }
     }
 
-    /// How far below zero a guard must fall to count, and how near to zero it counts as there.
-    pub(crate) fn bands(self, contact: &Contact, tolerance: f64) -> (f64, f64) {
-        let unit = match self {
-            Self::Drag | Self::Lower | Self::Upper => contact.natural_velocity(),
-            Self::Piece | Self::Side => contact.natural.displacement,
-            Self::Contact | Self::Gap => contact.natural.depth,
+    /// How far below zero a guard must fall to count, and how near to zero it counts as there. Both hold what rounding
+    /// leaves of a difference of displacements that have travelled far, and of the velocities that it makes.
+    pub(crate) fn bands(self, contact: &Contact, tolerance: f64, at: &Motion) -> (f64, f64) {
+        let rounding = 4.0 * f64::EPSILON * at.u.abs();
+        let (unit, rounding) = match self {
+            Self::Drag | Self::Lower | Self::Upper => {
+                (contact.natural_velocity(), rounding * contact.natural.frequency)
+            }
+            Self::Piece | Self::Side => (contact.natural.displacement, rounding),
+            Self::Contact | Self::Gap => (contact.natural.depth, 0.0),
         };
-        (DEADBAND * unit, (NEARNESS * tolerance).max(2.0 * DEADBAND) * unit)
+        // The laws on the two sides of the old curve differ by the square of the distance δ from it only, by about
+        // (δ/u_c)²μF_N. A contact that shrinks along the line on which it grew slips nowhere and rides on that line but for
+        // rounding, the chords of the line and its own ringing: what the square cannot tell from the line is on it.
+        let dead = if self == Self::Side { (NEARNESS * tolerance).sqrt() } else { DEADBAND };
+        let near = (NEARNESS * tolerance).max(2.0 * DEADBAND);
+        (dead * unit + rounding, near * unit + 2.0 * rounding)
     }
 
     /// What it means that this guard fell: the event and the course after it.

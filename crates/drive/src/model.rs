@@ -97,6 +97,8 @@ pub(crate) struct Natural {
     pub(crate) depth: f64,
     /// u_c, m.
     pub(crate) displacement: f64,
+    /// μF_N, N.
+    pub(crate) force: f64,
     /// Angular frequency of what the contact holds, rad/s.
     pub(crate) frequency: f64,
 }
@@ -207,7 +209,7 @@ impl Contact {
 
     /// μF_N at the natural indentation, N.
     pub(crate) fn friction_limit(&self) -> f64 {
-        self.law.friction() * self.law.normal_force(self.natural.depth)
+        self.natural.force
     }
 
     /// Whether the indentation never changes.

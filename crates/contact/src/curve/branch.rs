@@ -220,8 +220,11 @@ impl Curve {
     }
 
     /// F_x (N) and height of the slip front (m) of a chord to an apex inside contact, dragged by the edge of a sense.
+    /// Where the apex of a shrinking contact lies on the other side of the old curve the law goes on smoothly, with a
+    /// front above d, as that of a branch does.
     pub fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64) {
         let edge = Edge::find(law, &self.knots, sense, to);
-        (law.tangential_modulus() * edge.shear(law, &self.knots, to), edge.height)
+        let height = edge.onward(law, &self.knots, to);
+        (law.tangential_modulus() * edge.shear(law, &self.knots, height, to), height)
     }
 }

@@ -73,11 +73,29 @@ impl Edge {
         let Some(end) = knots.get(kept) else {
             return Self { sense, kept, height: base.h, splits: false };
         };
+        let height = Self::crossing(slope, sense, (base, end), level).min(end.h).min(to.d);
+        Self { sense, kept, height: height.max(base.h), splits: height > base.h }
+    }
+
+    /// Height at which an edge of a level meets a piece, or the straight line on which it lies.
+    #[inline]
+    fn crossing(slope: f64, sense: f64, (base, end): (&Knot, &Knot), level: f64) -> f64 {
         let steep = slope - sense * end.slope;
         // A piece along the edge itself has no crossing: it is cut at its foot.
-        let rise = if steep > 4.0 * f64::EPSILON * slope { (reach(base) - level) / steep } else { 0.0 };
-        let height = (base.h + rise).min(end.h).min(to.d);
-        Self { sense, kept, height: height.max(base.h), splits: height > base.h }
+        let rise = sense * base.p - slope * base.h - level;
+        base.h + if steep > 4.0 * f64::EPSILON * slope { rise / steep } else { 0.0 }
+    }
+
+    /// Height at which the edge begins, on the straight line of the piece below the apex where it does not meet that
+    /// piece itself.
+    pub(super) fn onward(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
+        match self.kept.checked_sub(1).map(|i| (&knots[i], knots.get(self.kept))) {
+            Some((base, Some(end))) if self.height >= to.d => {
+                let slope = law.stick_slope();
+                Self::crossing(slope, self.sense, (base, end), self.sense * to.u - slope * to.d)
+            }
+            _ => self.height,
+        }
     }
 
     /// Whether the whole curve is dragged.
@@ -113,7 +131,7 @@ impl Edge {
     #[inline]
     pub(super) fn response(&self, law: &Interface, knots: &[Knot], to: Apex) -> Response {
         let (modulus, edge) = (law.tangential_modulus(), self.sense * law.stick_slope());
-        let shear = self.shear(law, knots, to);
+        let shear = self.shear(law, knots, self.height, to);
         let stiffness = if self.is_gross() { 0.0 } else { law.stick_stiffness(self.height) };
         Response {
             force: modulus * shear,
@@ -122,9 +140,9 @@ impl Edge {
         }
     }
 
-    /// Force over G\*, m², at the end of the edge.
+    /// Force over G\*, m², at the end of the edge, if it begins at a height.
     #[inline]
-    pub(super) fn shear(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
+    pub(super) fn shear(&self, law: &Interface, knots: &[Knot], height: f64, to: Apex) -> f64 {
         let edge = self.sense * law.stick_slope();
         let whole = match knots.last() {
             Some(top) if top.h == to.d => top.area,
@@ -134,7 +152,7 @@ impl Edge {
         if !self.splits {
             return base.shear + edge * (whole - base.area);
         }
-        let area = law.profile().area(self.height);
+        let area = law.profile().area(height);
         base.shear + knots[self.kept].gain * (area - base.area) + edge * (whole - area)
     }
 }

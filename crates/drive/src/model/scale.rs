@@ -40,6 +40,7 @@ pub(super) fn assign(
         c.natural = Natural {
             depth: d.max(0.0),
             displacement: c.law.gross_slip_displacement(d),
+            force: c.law.friction() * c.law.normal_force(d.max(0.0)),
             frequency: if fastest > 0.0 { fastest } else { slow },
         };
     }

@@ -2,7 +2,7 @@
 
 use crate::model::Contact;
 use crate::record::Record;
-use crate::{Limits, Model, RunError, State};
+use crate::{EventKind, Limits, Model, RunError, State};
 use std::time::Instant;
 use stickslip_contact::Engine;
 
@@ -50,10 +50,18 @@ impl Watch {
         if record.goes_on(state.t) { Ok(()) } else { Err(RunError::Interrupted { t: state.t }) }
     }
 
-    /// Called after every event of contact `c`.
-    pub(super) fn event(&mut self, model: &Model, state: &State, c: usize) -> Result<(), RunError> {
+    /// Called after every event of a contact. Many loops may close at once: they do not count as accumulating.
+    pub(super) fn event(
+        &mut self,
+        model: &Model,
+        state: &State,
+        (c, kind): (usize, EventKind),
+    ) -> Result<(), RunError> {
         if state.counts.events >= self.limits.events {
             return Err(RunError::TooManyEvents { t: state.t, limit: self.limits.events });
+        }
+        if kind == EventKind::LoopClosed {
+            return Ok(());
         }
         let contact = &model.contacts[c];
         let window = ZENO_WINDOW * std::f64::consts::TAU / contact.natural.frequency;

@@ -98,7 +98,7 @@ fn ideal_inertia_drive_advances_by_the_stroke_less_the_zero_step_stroke() {
             let step = (state.body(&model, 1).unwrap().0 - earlier.body(&model, 1).unwrap().0) / u_c;
             let ideal = (stroke - zero_step_stroke(n, load)).max(0.0);
             println!("n = {n}, λ = {load}: {step:.5} u_c, ideal {ideal:.5}, {:?}", state.counts());
-            assert!((step - ideal).abs() < 2e-3);
+            assert!((step - ideal).abs() < 1e-3);
         }
     }
 }
@@ -178,7 +178,7 @@ fn heavy_slider_on_two_harmonics() {
     let x = column(&model, &rows, "slider.x_m");
     let speed = (x[40] - x[35]) / 0.05;
     println!("{:.5} of -2bAω, u_c/A = {:.4}", speed / (-2.0 * b * amplitude * omega), known.u_c / amplitude);
-    assert!((speed / (-2.0 * b * amplitude * omega) - 1.0).abs() < 2e-3);
+    assert!((speed / (-2.0 * b * amplitude * omega) - 1.0).abs() < 1e-3);
 }
 
 /// Mean friction of a rigid contact sliding at v₀ on a foot that vibrates along the motion: (2/π)asin(v₀/v₁) μF_N.
@@ -202,8 +202,8 @@ fn friction_under_tangential_vibration() {
         let mean = second.iter().sum::<f64>() / f64::from(rows_per_period) / (MU * FORCE);
         let rigid = 2.0 / PI * ratio.asin();
         println!("v₀/v₁ = {ratio}: {mean:.5}, rigid {rigid:.5}, u_c/A = {:.5}", known.u_c / amplitude);
-        // The contact answers a reversal after a travel of 2u_c, of 4A per period.
-        assert!((mean - rigid).abs() < 2.0 * known.u_c / amplitude);
+        // Limit: u_c small against the amplitude.
+        assert!((mean - rigid).abs() < 1e-3);
     }
 }
 

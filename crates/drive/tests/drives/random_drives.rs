@@ -65,12 +65,13 @@ fn a_hundred_times_tighter_tolerance_changes_little() {
     for seed in 0..SEEDS {
         let drawn = deal(seed);
         let duration = PERIODS * drawn.period;
-        let [loose, tight] =
-            [1e-11, 1e-13].map(|tolerance| positions(&drawn.scene, &event(tolerance, duration)));
-        let off = largest_difference(&loose, &tight) / scale(&drawn, &tight);
-        println!("{}: 1e-11 and 1e-13 differ by {off:.1e}", drawn.title);
-        // A list of springs is a law with a kink at every spring, and those are no events.
-        let allowed = if drawn.title.contains("list") { 1e-8 } else { 1e-9 };
-        assert!(off < allowed, "{}: {off:e}", drawn.title);
+        // A list of springs is a law with a kink at every spring, and those are no events: 1e-9 asks as much of its error
+        // estimates as 1e-12 does elsewhere.
+        let loose = if drawn.title.contains("list") { 1e-9 } else { 1e-11 };
+        let [near, tight] =
+            [loose, 1e-13].map(|tolerance| positions(&drawn.scene, &event(tolerance, duration)));
+        let off = largest_difference(&near, &tight) / scale(&drawn, &tight);
+        println!("{}: {loose:e} and 1e-13 differ by {off:.1e}", drawn.title);
+        assert!(off < 1e-9, "{}: {off:e}", drawn.title);
     }
 }

@@ -1,7 +1,7 @@
 //! A drive of three ruby balls on steel, a design with real materials: its steady steps, the stroke at which it starts
 //! to step, and what the damping of its contacts does to the ringing that follows every flyback.
 
-use crate::parts::{FOOT_SLIDER, channel, contact, event, foot_and_slider, plan, push, trace, wave};
+use crate::parts::{FOOT_SLIDER, channel, contact, end, event, foot_and_slider, plan, push, trace, wave};
 use std::f64::consts::TAU;
 use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{EngineChoice, Scene};
@@ -45,10 +45,10 @@ impl Motion {
         assert!((model.contact_frequency(0).unwrap() / TAU - RESONANCE).abs() < 0.5);
         let (x, u) = (channel(&model, "slider.x_m"), channel(&model, "ball.u_m"));
         let at: Vec<f64> = rows.rows().step_by(ROWS).map(|row| row[x]).collect();
-        let end = rows.rows().count() - 1 - (FLYBACK / every).ceil() as usize;
+        let last = rows.rows().count() - 1 - (FLYBACK / every).ceil() as usize;
         let swings = (1.0 / (RESONANCE * every)).ceil() as usize;
-        let last = rows.rows().skip(end - swings).take(swings).map(|row| row[u]);
-        let (low, high) = last.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), u| (l.min(u), h.max(u)));
+        let ringing = rows.rows().skip(last - swings).take(swings).map(|row| row[u]);
+        let (low, high) = ringing.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), u| (l.min(u), h.max(u)));
         Self { steps: at.windows(2).map(|w| w[1] - w[0]).collect(), ringing: 0.5 * (high - low) }
     }
 
@@ -129,4 +129,30 @@ fn a_fast_flyback_and_much_damping_make_the_drive_ideal() {
         short
     });
     assert!(short.windows(2).all(|w| w[1] < w[0]) && short[3].abs() < 3e-3);
+}
+
+/// In so fast a flyback the rounding of time is worth more of the foot's way, and of its work, than a tight tolerance
+/// allows: steps shrank until none was left. The drive moves as with a jump, but for parts of the flyback's time.
+#[test]
+fn a_flyback_of_a_tenth_of_a_nanosecond_does_not_stop_the_run() {
+    let place = |flyback: f64| {
+        let (model, state) = end(&drive(100e-9, flyback, 0.0, 0.0), &event(1e-12, 30.5 * PERIOD));
+        state.body(&model, 1).unwrap().0
+    };
+    let off = (place(1e-10) - place(0.0)) / 100e-9;
+    println!("{off:.1e} of the stroke from the jump");
+    assert!(off.abs() < 1e-6);
+}
+
+/// The same where damping makes much work of it.
+#[test]
+fn a_damped_drive_with_a_flyback_of_a_nanosecond_runs() {
+    let place = |flyback: f64| {
+        let (model, state) = end(&drive(100e-9, flyback, 0.0, 4e-5), &event(1e-9, 8.5 * PERIOD));
+        state.body(&model, 1).unwrap().0
+    };
+    let [one, two, four] = [1e-9, 2e-9, 4e-9].map(place);
+    println!("{:.2e}, {:.2e} of the stroke", (two - one) / 100e-9, (four - two) / 100e-9);
+    // What the flyback's time changes is in proportion to it.
+    assert!(((four - two) / (two - one) - 2.0).abs() < 1e-2);
 }

@@ -26,7 +26,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             let (start, stop) = (self.from[c].motion, self.to[c].motion);
             for &guard in Guard::of(contact, &state.modes[c]) {
                 let value = |at: &Motion| guard.value(contact, state.law(c), at);
-                let (dead, _) = guard.bands(contact, self.tolerance);
+                let (dead, _) = guard.bands(contact, self.tolerance, &start);
                 let (g0, g1) = (value(&start), value(&stop));
                 let low = if g1 < -dead && g1 < g0 {
                     Some((self.solver.end_time(), g1))
@@ -52,10 +52,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
                 if (c, guard) == (first.contact, first.guard) {
                     continue;
                 }
-                let (dead, _) = guard.bands(contact, self.tolerance);
+                let start = self.from[c].motion;
+                let (dead, _) = guard.bands(contact, self.tolerance, &start);
                 let g1 = self.guard_at(eq, state, (c, guard), first.t);
                 if g1 < -dead {
-                    let g0 = guard.value(contact, state.law(c), &self.from[c].motion);
+                    let g0 = guard.value(contact, state.law(c), &start);
                     let t = self.fall(eq, state, (c, guard), (g0, first.t, g1));
                     if g1 < g0 && t < first.t {
                         first = Fall { t, contact: c, guard };
@@ -123,7 +124,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.
         let tolerance = (0.1 * NEARNESS * self.tolerance * (low - t0)).max(4.0 * f64::EPSILON * low.abs());
         let guess = self.guess(state, guard, (g0, low, below));
-        let (_, near) = guard.1.bands(&self.model.contacts[guard.0], self.tolerance);
+        let (_, near) =
+            guard.1.bands(&self.model.contacts[guard.0], self.tolerance, &self.from[guard.0].motion);
         let value = |t: f64| {
             let value = self.guard_at(eq, state, guard, t);
             // As good as there.
@@ -176,7 +178,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         for (c, contact) in others {
             let (start, stop) = (self.from[c].motion, self.to[c].motion);
             let fallen = Guard::of(contact, &state.modes[c]).iter().find(|guard| {
-                let (_, near) = guard.bands(contact, self.tolerance);
+                let (_, near) = guard.bands(contact, self.tolerance, &stop);
                 let value = |at| guard.value(contact, state.law(c), at);
                 value(&stop) < near && value(&stop) < value(&start)
             });

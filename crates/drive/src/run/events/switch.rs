@@ -82,18 +82,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             let contact = &self.model.contacts[c];
             let motion = self.to[c].motion;
             let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
-            let (_, near) = Guard::Piece.bands(contact, self.tolerance);
+            let (_, near) = Guard::Piece.bands(contact, self.tolerance, &motion);
             let left = Guard::Piece.value(contact, state.law(c), &motion);
-            // Where rounding of time stops short of the end of the piece, the end is reached by decree.
+            // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
+            // end is reached by decree.
             let slack = if guard == Guard::Piece { near + left.max(0.0) } else { 0.0 };
             self.decree(state, c, course, slack);
             if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
                 kind = EventKind::GrossSlip;
             }
             self.note(state, Source::Contact(c), kind, record);
-            if kind != EventKind::LoopClosed {
-                self.watch.event(self.model, state, c)?;
-            }
+            self.watch.event(self.model, state, (c, kind))?;
         }
         if corner {
             for c in 0..self.model.contacts.len() {
@@ -125,7 +124,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             _ => EventKind::Reversal,
         };
         self.note(state, Source::Contact(c), kind, record);
-        self.watch.event(self.model, state, c)
+        self.watch.event(self.model, state, (c, kind))
     }
 
     /// Decides from velocities what a contact does, and from accelerations where it is at rest.
@@ -133,7 +132,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let contact = &self.model.contacts[c];
         let eq = equations(self.model, self.layout, state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
-        let (_, near) = Guard::Drag.bands(contact, self.tolerance);
+        let (_, near) = Guard::Drag.bands(contact, self.tolerance, &motion);
         if motion.du.abs() <= near && contact.law.stick_slope() * motion.dd.abs() <= near {
             (motion.dd, motion.du) = self.push(state, c, &motion);
         }

@@ -1,0 +1,51 @@
+//! Contacts far from where they started: what rounding leaves of u there must set off nothing.
+
+use crate::parts::{FOOT_SLIDER, channel, contact, damper, event, follower, free, named, trace};
+use stickslip_contact::Profile;
+use stickslip_drive::scene::{Scene, Side, Spring};
+use stickslip_drive::{Shape, Timing, Waveform};
+
+/// A foot goes far, and then to and fro in turns of the gross-slip displacement; the slider is held by a spring.
+fn far_and_to_and_fro(far: f64, u_c: f64) -> (Scene, f64) {
+    let turns = [0.0, 0.9, 0.3, 0.8, 0.4, 0.7, 0.5, 0.65, 0.55, 0.95, -0.2, 0.9];
+    let time = |k: usize| 1e-3 * k as f64;
+    let way = turns.iter().enumerate().map(|(k, turn)| (time(k + 2), (far - turn) * u_c));
+    let points = [(0.0, 0.0), (time(1), far * u_c)].into_iter().chain(way).collect();
+    let duration = time(turns.len() + 1);
+    let wave = Waveform::new(Shape::Table { points }, Timing::every(duration)).unwrap();
+    let hold = Spring { stiffness: 1e8, ..damper([Side::Ground, Side::Body(1)], 100.0) };
+    let scene = Scene {
+        waveforms: vec![named("way", wave)],
+        bodies: vec![named("foot", follower(0)), named("slider", free(1e-3))],
+        contacts: vec![named("ball", contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.2, 1.0))],
+        springs: vec![named("hold", hold)],
+        ..Scene::default()
+    };
+    (scene, duration)
+}
+
+/// The contact remembers no more of a travel than that it slipped: forces are those of a short one, to what an ulp of u
+/// makes of them. Between rounded places the slider swung by parts of an ulp, and each swing was taken for a reversal.
+#[test]
+fn loops_far_from_the_start_are_those_near_it() {
+    let (scene, duration) = far_and_to_and_fro(1.0, 0.0);
+    let (model, _, _) = trace(&scene, &event(1e-9, duration), duration);
+    let u_c = model.contact_natural(0).unwrap().displacement;
+    let forces = |far: f64| {
+        let (scene, duration) = far_and_to_and_fro(far, u_c);
+        let (model, state, rows) = trace(&scene, &event(1e-9, duration), 0.5e-3);
+        let limit = model.contact_natural(0).unwrap().force;
+        println!("{far:e} u_c: {:?}", state.counts());
+        assert!(state.counts().events < 60);
+        let (force, u) = (channel(&model, "ball.fx_N"), channel(&model, "ball.u_m"));
+        let rows: Vec<&[f64]> = rows.rows().collect();
+        assert!((rows[2][u] / (far * u_c) - 1.0).abs() < 1e-3 + 2.0 / far);
+        rows[3..].iter().map(|row| row[force] / limit).collect::<Vec<f64>>()
+    };
+    let near = forces(100.0);
+    for far in [1e5, 1e6, 1e7] {
+        let off = forces(far).iter().zip(&near).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("off by {off:.1e} of μF_N");
+        assert!(off < 1e-8_f64.max(10.0 * far * f64::EPSILON), "{off:e}");
+    }
+}
