@@ -1,11 +1,16 @@
 //! The equations of motion, evaluated on borrowed memory.
 
+mod sum;
+
+pub(crate) use sum::{Components, Reading, View};
+
 use crate::interval::Interval;
-use crate::model::{Contact, Link, Measure, Motion, Place, Press, Stroke, Terms};
+use crate::model::{Contact, Link, Measure, Motion, Place, Press, Stroke};
 use crate::state::{Layout, Mode, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::{Branch, Memory, Move};
 use stickslip_stepper::{Conservative, System};
+use sum::{Positions, Sum};
 
 /// How far beyond a piece, in its lengths, a step that may cross corners still counts as on it.
 const CORNER_SLACK: f64 = 1e-9;
@@ -347,97 +352,5 @@ impl Conservative for Equations<'_> {
     /// Gross slip under constant loads: a parabola.
     fn is_constant(&self) -> bool {
         self.interval.is_some_and(|interval| interval.constant)
-    }
-}
-
-/// Where an evaluation finds the moment it is asked about.
-pub(crate) trait View {
-    /// Whether velocities of free coordinates are known; otherwise rates are those of followers alone.
-    const MOVES: bool;
-    /// Time, s.
-    fn time(&self) -> f64;
-    /// Component `i` of the state.
-    fn component(&self, i: usize) -> f64;
-}
-
-/// All components of the state.
-pub(crate) struct Components<Y> {
-    pub(crate) t: f64,
-    pub(crate) y: Y,
-}
-
-impl<Y: Fn(usize) -> f64> View for Components<Y> {
-    const MOVES: bool = true;
-    #[inline(always)]
-    fn time(&self) -> f64 {
-        self.t
-    }
-    #[inline(always)]
-    fn component(&self, i: usize) -> f64 {
-        (self.y)(i)
-    }
-}
-
-/// Positions alone.
-struct Positions<'a> {
-    t: f64,
-    x: &'a [f64],
-}
-
-impl View for Positions<'_> {
-    const MOVES: bool = false;
-    #[inline(always)]
-    fn time(&self) -> f64 {
-        self.t
-    }
-    #[inline(always)]
-    fn component(&self, i: usize) -> f64 {
-        self.x[i]
-    }
-}
-
-/// A measure at one moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Reading {
-    /// m.
-    pub(crate) value: f64,
-    /// m/s.
-    pub(crate) rate: f64,
-    /// The part of the rate that followers make, m/s.
-    driven: f64,
-}
-
-/// Forces on the free coordinates, and powers, as they add up.
-struct Sum<'a> {
-    dv: &'a mut [f64],
-    input: f64,
-    damping: f64,
-}
-
-impl<'a> Sum<'a> {
-    #[inline(always)]
-    fn new(model: &Model, dv: &'a mut [f64]) -> Self {
-        for (dv, free) in dv.iter_mut().zip(&model.free) {
-            *dv = free.force;
-        }
-        Self { dv, input: 0.0, damping: 0.0 }
-    }
-
-    /// From forces to accelerations; gives the powers.
-    #[inline(always)]
-    fn accelerate(self, model: &Model) -> (f64, f64) {
-        for (dv, free) in self.dv.iter_mut().zip(&model.free) {
-            *dv *= free.mobility;
-        }
-        (self.input, self.damping)
-    }
-
-    /// Adds a force along a measure. What drives its followers supplies the opposite force: its power is input.
-    #[inline(always)]
-    fn apply(&mut self, free: &Terms, driven: f64, force: f64) {
-        for &(i, a) in free {
-            self.dv[i] += a * force;
-        }
-        self.input -= force * driven;
     }
 }

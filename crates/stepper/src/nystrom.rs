@@ -7,13 +7,19 @@
 //! IMA Journal of Numerical Analysis 7 (1987) 423–430. The dense output is Hermite–Birkhoff: accelerations at seven
 //! nodes of the step, those inside evaluated again on the interpolant of the stages.
 
+mod lanes;
 mod tableau;
+mod track;
+
+pub use lanes::{Lane, Lanes, Many, One};
+pub use track::Track;
 
 use crate::Attempt;
 use tableau::{
-    END, INTEGRALS, NODES, POSITION_ERROR, POSITIONS, REFINED, REFINED_POSITIONS, SAMPLED, SAMPLES, STAGES,
-    VELOCITY, VELOCITY_ERROR,
+    END, NODES, POSITION_ERROR, POSITIONS, REFINED, REFINED_POSITIONS, SAMPLED, STAGES, VELOCITY,
+    VELOCITY_ERROR,
 };
+use track::dot;
 
 /// Power of the step with which the error estimate falls.
 pub const ORDER: u32 = 7;
@@ -35,59 +41,6 @@ pub trait Conservative {
     }
 }
 
-/// How many positions and quadratures there are: the storage of a [`Nystrom`].
-pub trait Lanes {
-    /// A number for each position.
-    type Positions: Lane<f64>;
-    /// A number for each position and quadrature.
-    type Rates: Lane<f64>;
-    /// A number for each position, velocity and quadrature.
-    type State: Lane<f64>;
-    /// A track for each position and quadrature.
-    type Tracks: Lane<Track>;
-}
-
-/// A row of values of one kind.
-pub trait Lane<T>: AsRef<[T]> + AsMut<[T]> + std::fmt::Debug + Clone {
-    /// `count` values to begin with.
-    fn of(count: usize) -> Self;
-}
-
-impl<T: Default + Clone + std::fmt::Debug> Lane<T> for Vec<T> {
-    fn of(count: usize) -> Self {
-        vec![T::default(); count]
-    }
-}
-
-impl<T: Default + Copy + std::fmt::Debug, const N: usize> Lane<T> for [T; N] {
-    /// Those of any other `count` than `N` are left out or too many.
-    fn of(_: usize) -> Self {
-        [T::default(); N]
-    }
-}
-
-/// Any number of positions and quadratures.
-#[derive(Debug, Clone, Copy)]
-pub struct Many;
-
-impl Lanes for Many {
-    type Positions = Vec<f64>;
-    type Rates = Vec<f64>;
-    type State = Vec<f64>;
-    type Tracks = Vec<Track>;
-}
-
-/// One position and one quadrature: all loops fall out at compile time.
-#[derive(Debug, Clone, Copy)]
-pub struct One;
-
-impl Lanes for One {
-    type Positions = [f64; 1];
-    type Rates = [f64; 2];
-    type State = [f64; 3];
-    type Tracks = [Track; 2];
-}
-
 /// One step of RKN8(6)9 at a time, as [`Dop853`](crate::Dop853) does it.
 #[derive(Debug, Clone)]
 pub struct Nystrom<L: Lanes = Many> {
@@ -105,55 +58,6 @@ pub struct Nystrom<L: Lanes = Many> {
     last_known: bool,
     dense_known: bool,
     evaluations: u64,
-}
-
-/// One position with its velocity, or one quadrature, in the course of a step.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Track {
-    /// Position at the start of the step; of no meaning to a quadrature.
-    x: f64,
-    /// Velocity, or quadrature, at the start of the step.
-    v: f64,
-    /// Acceleration, or rate of the quadrature, at the stages.
-    k: [f64; STAGES],
-    /// Positions at which the samples are refined.
-    refined: [f64; REFINED.end - REFINED.start],
-    /// The dense output: v + hθ Σ cθʲ …
-    velocity: [f64; SAMPLES],
-    /// … and x + hθ(v + hθ Σ cθʲ).
-    position: [f64; SAMPLES],
-}
-
-impl Track {
-    /// The polynomials through the samples.
-    fn interpolate(&mut self) {
-        self.velocity = [0.0; SAMPLES];
-        for (column, stage) in INTEGRALS.iter().zip(SAMPLED) {
-            for (to, weight) in self.velocity.iter_mut().zip(column) {
-                *to += weight * self.k[stage];
-            }
-        }
-        for (j, (to, from)) in self.position.iter_mut().zip(&self.velocity).enumerate() {
-            *to = from * (1.0 / (j + 2) as f64);
-        }
-    }
-
-    /// Position at a fraction θ of the step h.
-    #[inline]
-    fn position(&self, h: f64, share: f64) -> f64 {
-        self.x + share * h * (self.v + h * share * horner(&self.position, share))
-    }
-
-    /// Velocity, or quadrature.
-    #[inline]
-    fn velocity(&self, h: f64, share: f64) -> f64 {
-        self.v + h * share * horner(&self.velocity, share)
-    }
-}
-
-#[inline]
-fn horner(coefficients: &[f64; SAMPLES], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
 impl Nystrom {
@@ -309,18 +213,6 @@ impl<L: Lanes> Nystrom<L> {
         self.last_known = false;
         self.dense_known = false;
     }
-}
-
-/// Σ over the first `count` stages; where that is known at compile time, stages of weight zero fall out.
-#[inline(always)]
-fn dot(weights: &[f64], k: &[f64; STAGES], count: usize) -> f64 {
-    let mut sum = 0.0;
-    for j in 0..count {
-        if weights[j] != 0.0 {
-            sum += weights[j] * k[j];
-        }
-    }
-    sum
 }
 
 impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {

@@ -5,7 +5,9 @@
 //! output and the step ends there, in the state that the dense output has. Then memory is committed, all contacts together, and those whose
 //! guard fell get their next law by decree. Corners of waveforms end steps exactly.
 
+mod allowance;
 mod locate;
+mod moving;
 mod path;
 mod rest;
 mod shift;
@@ -18,10 +20,12 @@ use crate::equations::Equations;
 use crate::event::EventKind;
 use crate::guard::Guard;
 use crate::interval::Interval;
-use crate::model::{Contact, Measure, Model, Motion};
+use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError, Waveform};
+use allowance::scale;
+use moving::Moving;
 use path::MOST_PIECES;
 use stickslip_contact::{Engine, Segment};
 use stickslip_stepper::{
@@ -74,14 +78,6 @@ pub(super) struct Run<'a, A> {
     for_output: u64,
 }
 
-/// A contact at one end of a step.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Moving {
-    motion: Motion,
-    /// d̈ and ü, m/s²; what a waveform does to the indentation otherwise than by moving a body is left out.
-    second: (f64, f64),
-}
-
 /// Runs by the method that the model allows: where no force hangs on a velocity, one that spares a third of the
 /// evaluations.
 pub(super) fn run(
@@ -103,9 +99,6 @@ pub(super) fn run(
     let solver = Dop853::new(layout.dimension(), layout.total());
     Run::new(model, plan, tolerance, solver).go(DOP853_ORDER, state, record)
 }
-
-/// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
-const OVERSTEP: f64 = 1.05;
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
 /// and the estimates of a method of high order see them late. Without it errors were 20 to 1000 times the tolerance.
@@ -319,26 +312,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         self.commit(state)
     }
 
-    /// About when the first piece of memory will be used up, s from now: a step much longer would only be thrown away.
-    fn expected(&self, state: &State) -> f64 {
-        let mut first = f64::INFINITY;
-        for (c, contact) in self.model.contacts.iter().enumerate() {
-            let mode = &state.modes[c];
-            if let Mode::Slip(branch) = mode {
-                let Moving { motion, second } = self.from[c];
-                let speed = Guard::Drag.value(contact, state.law(c), &motion);
-                let (left, pull) =
-                    (branch.margin(motion.d, motion.u), Guard::Drag.rate(contact, mode, &motion, second));
-                // left = speed t + pull t²/2; a slowing edge may never get there.
-                let reaches = speed * speed + 2.0 * pull * left;
-                if speed > 0.0 && reaches > 0.0 && left > 0.0 {
-                    first = first.min(2.0 * left / (speed + reaches.sqrt()));
-                }
-            }
-        }
-        OVERSTEP * first + 16.0 * f64::EPSILON * state.t
-    }
-
     /// Tells the solver that the laws, and perhaps the forces of growing contacts, have changed.
     fn restart(&mut self, state: &State) {
         let begin = self.solver.begin_mut();
@@ -366,99 +339,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         self.interval = interval;
         result
     }
-
-    /// The contacts at the start of the next step, after anything that makes slopes jump.
-    fn set_out(&mut self, eq: &Equations<'_>) {
-        let mut from = std::mem::take(&mut self.from);
-        let (t, begin) = (self.solver.time(), self.solver.begin());
-        self.follow(eq, &mut from, t, begin, |i| self.solver.begin_slope(i));
-        self.from = from;
-    }
-
-    /// The contacts at the end of the step.
-    fn arrive(&mut self, eq: &Equations<'_>) {
-        let mut to = std::mem::take(&mut self.to);
-        let (t, end) = (self.solver.end_time(), self.solver.end());
-        self.follow(eq, &mut to, t, end, |i| self.solver.end_slope(i));
-        self.to = to;
-    }
-
-    /// The contacts at time t and state y, with the slopes of its velocities.
-    #[inline(always)]
-    fn follow(
-        &self,
-        eq: &Equations<'_>,
-        contacts: &mut [Moving],
-        t: f64,
-        y: &[f64],
-        slope: impl Fn(usize) -> f64 + Copy,
-    ) {
-        let Some(interval) = eq.interval else { return };
-        let n = self.layout.free;
-        for steady in &interval.steady {
-            let motion = steady.motion(t, |i| y[i], |i| y[n + i]);
-            contacts[steady.contact] = Moving { motion, second: (0.0, steady.own(|i| slope(n + i))) };
-        }
-        for &c in interval.others.iter().chain(&interval.apart) {
-            let contact = &self.model.contacts[c];
-            let motion = eq.motion(contact, t, |i| y[i]);
-            contacts[c] = Moving { motion, second: self.second(eq, contact, t, slope) };
-        }
-    }
-
-    /// d̈ and ü of a contact from the slopes of the velocities.
-    fn second(
-        &self,
-        eq: &Equations<'_>,
-        contact: &Contact,
-        t: f64,
-        slope: impl Fn(usize) -> f64,
-    ) -> (f64, f64) {
-        let of = |measure: &Measure| eq.acceleration(measure, t, |i| slope(self.layout.velocity(i)));
-        (contact.coupling().map_or(0.0, of), of(&contact.u))
-    }
-
-    /// Absolute error allowed per component: the tolerance times the natural scale, and never below what rounding
-    /// of a far-travelled coordinate makes of the force, or rounding of time of the work of a fast follower.
-    fn set_scale(&mut self, state: &State) {
-        let layout = self.layout;
-        for (i, free) in self.model.free.iter().enumerate() {
-            let (length, speed) = free.scale;
-            let (x, v) = (
-                8.0 * f64::EPSILON * state.y[i].abs(),
-                8.0 * f64::EPSILON * state.y[layout.velocity(i)].abs(),
-            );
-            self.scale[i] = self.strict * length + x;
-            self.scale[layout.velocity(i)] = self.strict * speed + x * (speed / length) + v;
-        }
-        let work = self.strict * self.work + 8.0 * f64::EPSILON * state.t * self.haste;
-        self.scale[layout.dimension()..].fill(work);
-    }
-
-    /// Largest power that followers can put into the contacts now, W: μF_N times their speed.
-    fn haste(&self, state: &State) -> f64 {
-        let model = self.model;
-        let rate = |w: usize| model.waveforms[w].sample(&state.pieces[w], state.t).rate;
-        let power = |contact: &Contact| {
-            let speed: f64 = contact.u.driven.iter().map(|(w, a)| a * rate(*w)).sum();
-            contact.count * contact.friction_limit() * speed.abs()
-        };
-        model.contacts.iter().map(power).sum()
-    }
-}
-
-/// Absolute error allowed of the forces of growing contacts; the rest is known step by step. The integrals of work steer
-/// the steps as well: energy books close at the tolerance.
-fn scale(model: &Model, tolerance: f64) -> Vec<f64> {
-    let layout = model.layout();
-    let mut scale = vec![0.0; layout.total()];
-    for contact in &model.contacts {
-        if let Some(slot) = contact.slot {
-            let limit = contact.friction_limit();
-            scale[layout.force(slot)] = tolerance * if limit > 0.0 { limit } else { 1.0 };
-        }
-    }
-    scale
 }
 
 /// The equations on the state as it stands.
