@@ -216,3 +216,26 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
         assert!(((at(beside).0 - known) / (known - here - stiffness * beside)).abs() < 0.02);
     }
 }
+
+/// What an edge has dragged lies along it, at its own level to the last place. Where it begins must not hang on that place:
+/// the force does not, but the friction power does.
+#[test]
+fn an_edge_at_rest_begins_where_its_last_move_left_it() {
+    let pair = Pair::from_moduli(1.15e11, 0.95e11).unwrap();
+    let law = Interface::new(pair, Profile::paraboloid(1e-3).unwrap(), 0.2).unwrap();
+    let mut lottery = Lottery(7);
+    for _ in 0..50 {
+        let (d, u) = (3e-7 * (1.0 + lottery.draw()), 1e-6 * lottery.draw());
+        let mut curve = Curve::new(&law, Apex { d, u });
+        let mut at = curve.apex();
+        for _ in 0..40 {
+            let (rise, drag) = (2e-9 * (lottery.draw() - 0.5), 1e-9 * lottery.draw());
+            at = Apex { d: at.d + rise, u: at.u + law.stick_slope() * rise.abs() + drag };
+            curve.commit(&law, Segment::Straight(at)).unwrap();
+            let (force, front) = curve.dragged(&law, 1.0, at);
+            let known = law.profile().depth(curve.stick_radius(&law));
+            assert!((front - known).abs() < 1e-9 * at.d, "{front:e} {known:e}");
+            assert!((force / curve.force(&law) - 1.0).abs() < 1e-9);
+        }
+    }
+}

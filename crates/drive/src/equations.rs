@@ -236,7 +236,10 @@ impl Equations<'_> {
         let (d, dd) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.look(measure, at);
-                sum.apply(&measure.free, d.driven, -contact.count * contact.law.normal_force(d.value));
+                // Decreed apart, it is so beyond the touch that will end the step.
+                if self.modes[c] != Mode::Open {
+                    sum.apply(&measure.free, d.driven, -contact.count * contact.law.normal_force(d.value));
+                }
                 (d.value, d.rate)
             }
             _ => self.pressed(contact, at.time()),

@@ -8,7 +8,7 @@
 //! step that oversteps an event meets no kink; the event is found afterwards, where [`Branch::margin`] or the
 //! sense of sliding changes sign.
 
-use super::{Curve, cut::Edge, knot::Knot};
+use super::{Curve, cut, knot::Knot};
 use crate::{Apex, Interface, Profile};
 
 /// What a contact is doing, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
@@ -202,7 +202,7 @@ impl Curve {
             excess: 0.0,
         };
         // A piece along the edge itself has no crossing: the edge takes it whole.
-        let crosses = |w: &[Knot]| reach(&w[0]) > level && slope - sense * w[1].slope > 1e-9 * slope;
+        let crosses = |w: &[Knot]| reach(&w[0]) > level && !cut::runs_along(slope, sense, &w[1]);
         let Some(top) = self.knots.windows(2).rposition(crosses) else { return gross };
         // The pieces of one path of growth are one: the branch ends where the path began.
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
@@ -220,11 +220,11 @@ impl Curve {
     }
 
     /// F_x (N) and height of the slip front (m) of a chord to an apex inside contact, dragged by the edge of a sense.
-    /// Where the apex of a shrinking contact lies on the other side of the old curve the law goes on smoothly, with a
-    /// front above d, as that of a branch does.
+    ///
+    /// As with a branch the law goes on smoothly where it no longer holds: where the apex of a shrinking contact lies on
+    /// the other side of the old curve, and where the edge has turned back.
     pub fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64) {
-        let edge = Edge::find(law, &self.knots, sense, to);
-        let height = edge.onward(law, &self.knots, to);
-        (law.tangential_modulus() * edge.shear(law, &self.knots, height, to), height)
+        let (shear, front) = cut::onward(law, &self.knots, sense, to);
+        (law.tangential_modulus() * shear, front)
     }
 }

@@ -55,6 +55,34 @@ pub(super) fn anchor(knots: &[Knot], h: f64) -> f64 {
     knots[above].p - knots[above].slope * (knots[above].h - h)
 }
 
+/// Whether the piece that ends in a knot runs along the edge of a sense itself.
+pub(super) fn runs_along(slope: f64, sense: f64, end: &Knot) -> bool {
+    slope - sense * end.slope <= 1e-9 * slope
+}
+
+/// Force over G\*, m², and height at which the edge of a sense begins, m, by the straight line of the piece on which it
+/// begins, also beyond that piece.
+pub(super) fn onward(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> (f64, f64) {
+    let slope = law.stick_slope();
+    let (edge, whole) = (sense * slope, law.profile().area(to.d));
+    // What the edge has dragged so far lies along it, at its own level: rounding would decide where on it the edge begins.
+    let dragged = knots.iter().rev().take_while(|end| end.h > 0.0 && runs_along(slope, sense, end)).count();
+    let knots = &knots[..knots.len() - dragged];
+    let Edge { kept, height, .. } = Edge::find(law, knots, sense, to);
+    let Some(base) = kept.min(knots.len() - 1).checked_sub(1).map(|i| &knots[i]) else {
+        // Gross slip, or no piece to go on along.
+        let base = knots.first().filter(|_| kept > 0).map_or((0.0, 0.0), |base| (base.shear, base.area));
+        return (base.0 + edge * (whole - base.1), height);
+    };
+    let end = &knots[kept.min(knots.len() - 1)];
+    let level = sense * to.u - slope * to.d;
+    let rise = sense * base.p - slope * base.h - level;
+    let height =
+        if runs_along(slope, sense, end) { base.h } else { base.h + rise / (slope - sense * end.slope) };
+    let area = law.profile().area(height);
+    (base.shear + end.gain * (area - base.area) + edge * (whole - area), height)
+}
+
 impl Edge {
     /// Walks down the stack. In the frame of the sense, σp - κh falls along the curve, and all that lies below
     /// its value at the apex is dragged.
@@ -73,29 +101,11 @@ impl Edge {
         let Some(end) = knots.get(kept) else {
             return Self { sense, kept, height: base.h, splits: false };
         };
-        let height = Self::crossing(slope, sense, (base, end), level).min(end.h).min(to.d);
-        Self { sense, kept, height: height.max(base.h), splits: height > base.h }
-    }
-
-    /// Height at which an edge of a level meets a piece, or the straight line on which it lies.
-    #[inline]
-    fn crossing(slope: f64, sense: f64, (base, end): (&Knot, &Knot), level: f64) -> f64 {
         let steep = slope - sense * end.slope;
         // A piece along the edge itself has no crossing: it is cut at its foot.
-        let rise = sense * base.p - slope * base.h - level;
-        base.h + if steep > 4.0 * f64::EPSILON * slope { rise / steep } else { 0.0 }
-    }
-
-    /// Height at which the edge begins, on the straight line of the piece below the apex where it does not meet that
-    /// piece itself.
-    pub(super) fn onward(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
-        match self.kept.checked_sub(1).map(|i| (&knots[i], knots.get(self.kept))) {
-            Some((base, Some(end))) if self.height >= to.d => {
-                let slope = law.stick_slope();
-                Self::crossing(slope, self.sense, (base, end), self.sense * to.u - slope * to.d)
-            }
-            _ => self.height,
-        }
+        let rise = if steep > 4.0 * f64::EPSILON * slope { (reach(base) - level) / steep } else { 0.0 };
+        let height = (base.h + rise).min(end.h).min(to.d);
+        Self { sense, kept, height: height.max(base.h), splits: height > base.h }
     }
 
     /// Whether the whole curve is dragged.
@@ -131,7 +141,7 @@ impl Edge {
     #[inline]
     pub(super) fn response(&self, law: &Interface, knots: &[Knot], to: Apex) -> Response {
         let (modulus, edge) = (law.tangential_modulus(), self.sense * law.stick_slope());
-        let shear = self.shear(law, knots, self.height, to);
+        let shear = self.shear(law, knots, to);
         let stiffness = if self.is_gross() { 0.0 } else { law.stick_stiffness(self.height) };
         Response {
             force: modulus * shear,
@@ -140,9 +150,9 @@ impl Edge {
         }
     }
 
-    /// Force over G\*, m², at the end of the edge, if it begins at a height.
+    /// Force over G\*, m², at the end of the edge.
     #[inline]
-    pub(super) fn shear(&self, law: &Interface, knots: &[Knot], height: f64, to: Apex) -> f64 {
+    pub(super) fn shear(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
         let edge = self.sense * law.stick_slope();
         let whole = match knots.last() {
             Some(top) if top.h == to.d => top.area,
@@ -152,7 +162,7 @@ impl Edge {
         if !self.splits {
             return base.shear + edge * (whole - base.area);
         }
-        let area = law.profile().area(height);
+        let area = law.profile().area(self.height);
         base.shear + knots[self.kept].gain * (area - base.area) + edge * (whole - area)
     }
 }

@@ -14,6 +14,7 @@ mod abuse;
 mod benchmark_drive;
 mod closed_forms;
 mod contact_damping;
+mod coupled_books;
 mod endurance;
 mod energy_books;
 mod far_travel;
