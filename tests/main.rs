@@ -1,6 +1,7 @@
 //! Behaviour of the whole program: what it writes, says and answers.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
+mod bench;
 mod broken_files;
 mod check;
 mod compare;

@@ -2,6 +2,7 @@
 
 mod pictures;
 
+use crate::bench::{self, BenchArguments};
 use crate::compare::{self, CompareArguments};
 use crate::look::Look;
 use crate::new;
@@ -89,6 +90,9 @@ pub(crate) enum Command {
     /// Compare two folders of results: channels, events, figures
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
+    /// Measure what accuracy costs: every stepper on both engines, errors over time and evaluations
+    #[command(long_about = bench::ABOUT, after_long_help = bench::EXAMPLES)]
+    Bench(BenchArguments),
 }
 
 const RUN_EXAMPLES: &str = "\

@@ -75,6 +75,16 @@ impl Folder {
     }
 }
 
+/// Writes one whole file.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = draft(folder, &path.file_name().unwrap_or_default().to_string_lossy())?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
 /// An empty file under a temporary name in a folder.
 pub(crate) fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
     let prefix = format!(".{name}-");

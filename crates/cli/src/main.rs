@@ -7,11 +7,12 @@
 //! (series prepared for the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`],
 //! [`provenance`] and [`fingerprint`] (pictures and what they carry); [`folder`] (how files are written); [`progress`],
 //! [`interrupt`]; [`results`] with [`replay`], [`rows`], [`springs`] and [`curves`] (what is read back from a folder) and
-//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`gallery`]; [`frame`] (tables read back whole);
-//! [`compare`] (tells two runs apart).
+//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`gallery`]; [`frame`] (tables read back whole); [`markdown`] (pages);
+//! [`compare`] (tells two runs apart); [`bench`] (what accuracy costs).
 
 mod arguments;
 mod batch;
+mod bench;
 mod books;
 mod check;
 mod compare;
@@ -29,6 +30,7 @@ mod job;
 mod kept;
 mod limits;
 mod look;
+mod markdown;
 mod new;
 mod origin;
 mod periods;
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Plot(arguments) => redraw::plot(&arguments),
         Command::Repro(arguments) => repro::repro(&arguments),
+        Command::Bench(arguments) => bench::bench(&arguments),
         Command::Gallery(arguments) => gallery::gallery(&arguments),
     };
     ExitCode::from(verdict.code())

@@ -33,18 +33,28 @@ impl Progress {
             let simulated = state.pos() as f64 / TICKS as f64 * duration;
             let _ = write!(text, "{:.3} s/s", simulated / state.elapsed().as_secs_f64().max(1e-9));
         };
-        // The template is fixed and good; the plain style would do, too.
-        let style = ProgressStyle::with_template("{prefix} {percent:>3} % {bar:30} {eta} left, {rate}");
-        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
-        bar.set_style(style.with_key("rate", rate));
+        bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left, {rate}").with_key("rate", rate));
         bar.set_prefix(name.to_owned());
         Bar { bar, duration }
+    }
+
+    /// A bar for work that has a budget of `wall` s of wall time.
+    pub(crate) fn budget(&self, name: &str, wall: f64) -> Bar {
+        let bar = self.bars.add(ProgressBar::new(TICKS));
+        bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left"));
+        bar.set_prefix(name.to_owned());
+        Bar { bar, duration: wall }
     }
 
     /// Does something with the bars out of the way.
     pub(crate) fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
         self.bars.suspend(act)
     }
+}
+
+/// The templates are fixed and good; the plain style would do, too.
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
 impl Bar {

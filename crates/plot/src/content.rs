@@ -63,11 +63,13 @@ impl<B: DrawingBackend> Painter<'_, B> {
     fn reference(&mut self, place: &Placed<'_, '_>, reference: &Reference) -> Result<(), PlotError> {
         let (frame, stroke) = (place.frame, self.theme.reference());
         match *reference {
-            Reference::Horizontal { y, .. } if is_drawable(y) => {
+            Reference::Horizontal { y, .. } if is_drawable(place.panel.y.measure(y)) => {
+                let y = place.panel.y.measure(y);
                 let y = frame.top + frame.height * (1.0 - place.y.place(y));
                 self.canvas.line(&[(frame.left, y), (frame.left + frame.width, y)], stroke)
             }
-            Reference::Vertical { x, .. } if is_drawable(x) => {
+            Reference::Vertical { x, .. } if is_drawable(place.panel.x.measure(x)) => {
+                let x = place.panel.x.measure(x);
                 let x = frame.left + frame.width * place.x.place(x);
                 self.canvas.line(&[(x, frame.top), (x, frame.top + frame.height)], stroke)
             }
@@ -77,7 +79,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
 
     fn series(&mut self, place: &Placed<'_, '_>, series: &Series<'_>, i: usize) -> Result<(), PlotError> {
         let mut stroke = self.theme.stroke(series.style, i);
-        let lines = thinned(series.points().map(|point| point.map(|point| place.pixel(point))));
+        let lines = thinned(place.panel.points(series).map(|point| point.map(|point| place.pixel(point))));
         if length(&lines) > FILLS * (place.frame.width + place.frame.height) {
             stroke.dash = Dash::Solid;
         }
@@ -89,7 +91,10 @@ impl<B: DrawingBackend> Painter<'_, B> {
                 _ => self.canvas.line(line, stroke)?,
             }
         }
-        Ok(())
+        let marked = place.panel.points(series).flatten().filter(|_| series.marked);
+        marked
+            .map(|point| place.pixel(point))
+            .try_for_each(|point| self.canvas.disc(point, DOT * stroke.width, stroke.colour))
     }
 
     fn lane(&mut self, place: &Placed<'_, '_>, lane: &Lane, i: usize) -> Result<(), PlotError> {
@@ -125,7 +130,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
 }
 
 impl Placed<'_, '_> {
-    /// The place of a point in the picture.
+    /// The place in the picture of a point as laid off along the axes.
     pub(crate) fn pixel(&self, (x, y): Point) -> Point {
         let frame = self.frame;
         (frame.left + frame.width * self.x.place(x), frame.top + frame.height * (1.0 - self.y.place(y)))

@@ -10,7 +10,8 @@
 //! * [`label`] – texts, plain or with subscripts;
 //! * the builders: [`hysteresis`] (force over displacement), [`trajectory`] (motion over time), [`phase`] (velocity
 //!   over displacement), [`energy`] (the energy book), [`events`] (what happened when), [`state`] (springs over time),
-//!   [`memory`] (the curve a contact remembers by), [`scene`] (what there is, to scale), [`compare`] (two runs and their difference);
+//!   [`memory`] (the curve a contact remembers by), [`scene`] (what there is, to scale), [`compare`] (two runs and their
+//!   difference), [`work_precision`] (what an error costs), [`growth`] (what more of something costs);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
@@ -30,6 +31,7 @@ pub mod error;
 pub mod events;
 pub mod figure;
 mod font;
+pub mod growth;
 pub mod hysteresis;
 pub mod label;
 mod lanes;
@@ -52,6 +54,7 @@ pub mod svg;
 pub mod theme;
 mod thin;
 pub mod trajectory;
+pub mod work_precision;
 
 pub use carried::read_text;
 pub use compare::{ComparedChannel, compare_figure};
@@ -59,6 +62,7 @@ pub use energy::{EnergyBook, energy_figure};
 pub use error::PlotError;
 pub use events::{EventTrack, events_figure};
 pub use figure::{Arrangement, Figure};
+pub use growth::{GrowthCurve, growth_figure};
 pub use hysteresis::{HysteresisLoop, loop_figure};
 pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
@@ -73,3 +77,4 @@ pub use state::{SpringCondition, SpringMap, state_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};
 pub use trajectory::{Coordinate, Motion, Track, Trajectory, trajectory_figure};
+pub use work_precision::{WorkCurve, work_precision_figure};

@@ -94,7 +94,7 @@ impl Board {
         }
         for series in &panel.panel.series {
             let points: Vec<Option<Point>> =
-                series.points().map(|point| point.map(|p| panel.pixel(p))).collect();
+                panel.panel.points(series).map(|point| point.map(|p| panel.pixel(p))).collect();
             match points[..] {
                 [Some(only)] => board.stroke([only, only]),
                 _ => points.windows(2).for_each(|pair| {

@@ -50,6 +50,9 @@ pub struct Axis {
     pub covers: Option<(f64, f64)>,
     /// Neither ticks nor numbers, for what is not to scale.
     pub unnumbered: bool,
+    /// Decades are as far apart everywhere; values not above 0 are gaps. Series and reference lines alone may stand on
+    /// such an axis.
+    pub logarithmic: bool,
 }
 
 /// One curve.
@@ -63,6 +66,8 @@ pub struct Series<'a> {
     pub ys: Cow<'a, [f64]>,
     /// Colour, dashes and width.
     pub style: Style,
+    /// Whether every point is marked, where few points were measured.
+    pub marked: bool,
 }
 
 /// The area between two curves over one axis.
@@ -167,15 +172,31 @@ impl Axis {
     pub fn new(label: Label, unit: &str) -> Self {
         Self { label, unit: unit.to_owned(), ..Self::default() }
     }
+
+    /// What is laid off along the axis for a value: the value, or its power of ten.
+    pub(crate) fn measure(&self, value: f64) -> f64 {
+        if self.logarithmic { value.log10() } else { value }
+    }
 }
 
 impl Panel<'_> {
     /// Whether there is nothing to show.
     pub(crate) fn is_empty(&self) -> bool {
-        let series = self.series.iter().all(|series| series.points().flatten().next().is_none());
+        let series = self.series.iter().all(|series| self.points(series).flatten().next().is_none());
         let bands = self.bands.iter().all(|band| band.columns().flatten().next().is_none());
         let mosaic = self.mosaic.as_ref().is_none_or(|mosaic| mosaic.cells.is_empty());
         series && bands && mosaic && self.shapes.is_empty() && self.lanes.is_empty()
+    }
+
+    /// The points of one of its series as laid off along the axes, with a gap (none) where one cannot be drawn.
+    pub(crate) fn points<'p>(
+        &'p self,
+        series: &'p Series<'_>,
+    ) -> impl Iterator<Item = Option<(f64, f64)>> + 'p {
+        series.xs.iter().zip(series.ys.iter()).map(|(&x, &y)| {
+            let (x, y) = (self.x.measure(x), self.y.measure(y));
+            (is_drawable(x) && is_drawable(y)).then_some((x, y))
+        })
     }
 
     /// Checks what the types do not; `panel` is the place of this one.
@@ -243,12 +264,6 @@ impl<'a> Series<'a> {
         xs: impl Into<Cow<'a, [f64]>>,
         ys: impl Into<Cow<'a, [f64]>>,
     ) -> Self {
-        Self { label: label.into(), xs: xs.into(), ys: ys.into(), style: Style::default() }
-    }
-
-    /// The points, with a gap (none) where one cannot be drawn.
-    pub(crate) fn points(&self) -> impl Iterator<Item = Option<(f64, f64)>> + '_ {
-        let drawable = |(&x, &y): (&f64, &f64)| (is_drawable(x) && is_drawable(y)).then_some((x, y));
-        self.xs.iter().zip(self.ys.iter()).map(drawable)
+        Self { label: label.into(), xs: xs.into(), ys: ys.into(), style: Style::default(), marked: false }
     }
 }

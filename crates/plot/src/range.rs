@@ -41,10 +41,10 @@ impl Extent {
     }
 }
 
-/// Extents of a panel in x and y, reference lines included; drawable points alone.
+/// Extents of a panel in x and y as laid off along its axes, reference lines included; drawable points alone.
 pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
     let (mut x, mut y) = (Extent::default(), Extent::default());
-    for point in panel.series.iter().flat_map(|series| series.points().flatten()) {
+    for point in panel.series.iter().flat_map(|series| panel.points(series).flatten()) {
         x.include(point.0);
         y.include(point.1);
     }
@@ -65,14 +65,16 @@ pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
         [mark.from, mark.to].into_iter().filter(|&end| is_drawable(end)).for_each(|end| x.include(end));
     }
     for (extent, axis) in [(&mut x, &panel.x), (&mut y, &panel.y)] {
-        let ends = axis.covers.map_or(Vec::new(), |(from, to)| vec![from, to]);
-        ends.into_iter().filter(|&end| is_drawable(end)).for_each(|end| extent.include(end));
+        let ends = axis.covers.into_iter().flat_map(|(from, to)| [axis.measure(from), axis.measure(to)]);
+        ends.filter(|&end| is_drawable(end)).for_each(|end| extent.include(end));
     }
     for reference in &panel.references {
-        match *reference {
-            Reference::Horizontal { y: value, .. } if is_drawable(value) => y.include(value),
-            Reference::Vertical { x: value, .. } if is_drawable(value) => x.include(value),
-            _ => {}
+        let (extent, value) = match reference {
+            Reference::Horizontal { y: value, .. } => (&mut y, panel.y.measure(*value)),
+            Reference::Vertical { x: value, .. } => (&mut x, panel.x.measure(*value)),
+        };
+        if is_drawable(value) {
+            extent.include(value);
         }
     }
     (x, y)

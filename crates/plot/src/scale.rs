@@ -16,6 +16,8 @@ pub(crate) struct Scale {
     numbered: bool,
     /// The same ends in the unit shown; none of an empty axis.
     shown: Option<(f64, f64)>,
+    /// Whether the ends are powers of ten.
+    decades: bool,
     /// Places (0 to 1) and numbers of the ticks.
     pub(crate) ticks: Vec<(f64, String)>,
     /// What it measures.
@@ -45,8 +47,23 @@ impl Scale {
         let Some((from, to)) = range else {
             let unit = unit_text(&label, "", &axis.unit);
             let (offset, low, high, ticks) = (0.0, 0.0, 1.0, Vec::new());
-            return Self { offset, low, high, numbered, shown: None, ticks, label, unit };
+            return Self { offset, low, high, numbered, shown: None, decades: false, ticks, label, unit };
         };
+        if axis.logarithmic {
+            let unit = unit_text(&label, "", &axis.unit);
+            let (low, high, ticks) = (from, to, Vec::new());
+            return Self {
+                offset: 0.0,
+                low,
+                high,
+                numbered,
+                shown: range,
+                decades: true,
+                ticks,
+                label,
+                unit,
+            };
+        }
         let offset = offset(from, to);
         let (low, high) = (from - offset, to - offset);
         let multiple = Multiple::of(low.abs().max(high.abs()), &axis.unit);
@@ -57,17 +74,18 @@ impl Scale {
         };
         let unit = unit_text(&label, &less, &multiple.unit);
         let shown = Some((multiple.apply(low), multiple.apply(high)));
-        Self { offset, low, high, numbered, shown, ticks: Vec::new(), label, unit }
+        Self { offset, low, high, numbered, shown, decades: false, ticks: Vec::new(), label, unit }
     }
 
     /// Gives the axis as many ticks as fit at a size of `em` px.
     pub(crate) fn set_ticks(&mut self, along: Along, em: f64) -> Result<(), PlotError> {
+        let ticks = if self.decades { decades } else { ticks };
         let shown = self.shown.filter(|_| self.numbered);
         self.ticks = shown.map_or(Ok(Vec::new()), |shown| ticks(shown, along, em))?;
         Ok(())
     }
 
-    /// Place of a value along the axis, 0 to 1.
+    /// Place along the axis of a value, or of its power of ten on a logarithmic one, 0 to 1.
     pub(crate) fn place(&self, value: f64) -> f64 {
         (value - self.offset - self.low) / (self.high - self.low)
     }
@@ -192,6 +210,34 @@ fn ticks((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, Str
     Ok(best)
 }
 
+/// Ticks at powers of ten whose labels keep apart; at 1, 2 and 5 times them where the range holds less than two.
+fn decades((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, String)>, PlotError> {
+    let span = high - low;
+    if !(span > 0.0 && span.is_finite()) {
+        return Ok(Vec::new());
+    }
+    let at = |value: f64| ((value - low) / span).clamp(0.0, 1.0);
+    let (first, last) = ((low - 1e-9).ceil() as i32, (high + 1e-9).floor() as i32);
+    if last <= first {
+        let one = |k: i32| [1, 2, 5].map(|digit| (f64::from(digit).log10() + f64::from(k), digit, k));
+        let all = (first - 1..=last).flat_map(one).filter(|(value, ..)| (low..=high).contains(value));
+        let text = |digit: i32, k: i32| match digit {
+            1 => format!("10{}", superscript(k)),
+            _ => format!("{digit}·10{}", superscript(k)),
+        };
+        return Ok(all.map(|(value, digit, k)| (at(value), text(digit, k))).collect());
+    }
+    for stride in [1, 2, 3, 5, 10, 20, 50, 100] {
+        let powers = (first..=last).filter(|k| k.rem_euclid(stride) == 0);
+        let ticks: Vec<(f64, String)> =
+            powers.map(|k| (at(f64::from(k)), format!("10{}", superscript(k)))).collect();
+        if ticks.len() <= 2 * MOST_TICKS && keep_apart(&ticks, along, em)? {
+            return Ok(ticks);
+        }
+    }
+    Ok(Vec::new())
+}
+
 fn keep_apart(ticks: &[(f64, String)], along: Along, em: f64) -> Result<bool, PlotError> {
     for pair in ticks.windows(2) {
         let way = pair[1].0 - pair[0].0;
@@ -253,6 +299,25 @@ mod tests {
         assert_eq!(ticks.first().map(String::as_str), Some("0"));
         let (_, label) = scale("m", -1.0 - 1e-9, -1.0 + 1e-9);
         assert_eq!(label, "u + 1 m (nm)");
+    }
+
+    #[test]
+    fn decades_are_told_by_their_powers() {
+        let decades = |low: f64, high: f64, width: f64| {
+            let axis = Axis { logarithmic: true, ..Axis::new(Label::plain("error"), "m") };
+            let mut scale = Scale::new(&axis, Some((low, high)));
+            scale.set_ticks(Along::Width(width), 30.0).unwrap();
+            (scale.ticks.into_iter().map(|(_, text)| text).collect::<Vec<_>>(), scale.unit.text())
+        };
+        assert_eq!(
+            decades(-3.2, 0.1, 600.0),
+            (["10⁻³", "10⁻²", "10⁻¹", "10⁰"].map(String::from).to_vec(), " (m)".into())
+        );
+        assert_eq!(decades(-12.5, 2.5, 600.0).0, ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰"]);
+        assert_eq!(decades(-0.2, 0.4, 600.0).0, ["10⁰", "2·10⁰"]);
+        let axis = Axis { logarithmic: true, ..Axis::default() };
+        let scale = Scale::new(&axis, Some((-2.0, 2.0)));
+        assert_eq!(scale.place(axis.measure(10.0)), 0.75);
     }
 
     #[test]

@@ -4,8 +4,7 @@ use super::channels::{ChannelDifference, CommonRows};
 use super::comparison::Comparison;
 use super::error::CompareError;
 use super::results::Results;
-use crate::folder::draft;
-use std::io::{self, Write};
+use crate::folder;
 use std::path::Path;
 use stickslip_plot::{ComparedChannel, Figure, PlotError, compare_figure, draw_png, draw_svg};
 
@@ -69,7 +68,8 @@ pub(crate) fn draw(
     let mut figure = compare_figure(&comparison.verdict(), (&names.0, &names.1), &channels);
     figure.provenance = provenance(comparison);
     let bytes = Form::of(file)?.draw(&figure)?;
-    write(file, &bytes).map_err(|source| CompareError::NotWritten { path: file.to_owned(), source })?;
+    folder::write(file, &bytes)
+        .map_err(|source| CompareError::NotWritten { path: file.to_owned(), source })?;
     Ok(curves.iter().map(|curve| curve.channel.name.clone()).collect())
 }
 
@@ -96,16 +96,6 @@ fn curves<'a>(
 fn legend(results: &Results) -> String {
     let parts: Vec<_> = results.folder.iter().map(|part| part.to_string_lossy()).collect();
     parts[parts.len().saturating_sub(2)..].join("/")
-}
-
-/// Under a temporary name first, as all files are written.
-fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = draft(folder, &path.file_name().unwrap_or_default().to_string_lossy())?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }
 
 /// What the picture comes from, as its text chunks say.

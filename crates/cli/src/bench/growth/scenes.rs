@@ -1,0 +1,91 @@
+//! The benchmark drive P1 with more of one thing.
+
+use stickslip_contact::{Material, Pair, Profile};
+use stickslip_drive::scene::{
+    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Side, Varying,
+};
+use stickslip_drive::{Scene, SceneError, Shape, Timing, Waveform};
+
+/// Period of the drive, s.
+pub(super) const PERIOD: f64 = 1e-3;
+/// Parts by which contacts and sliders differ from their neighbours, so that their events do not coincide.
+const SPREAD: f64 = 0.01;
+/// Swings of a memory's outer loops, m: shrinking from the first to the last, then the inner one.
+const OUTER: (f64, f64) = (50e-9, 10e-9);
+const INNER: f64 = 5e-9;
+/// Mass that hardly moves while its contact is swung, kg.
+const HEAVY: f64 = 1e3;
+
+/// P1 with so many sliders, each on so many contacts of its own that share 1 N, on this engine.
+pub(super) fn drive(sliders: u32, contacts: u32, engine: EngineChoice) -> Result<Scene, SceneError> {
+    let shape = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1 * PERIOD };
+    let mut scene = with_foot(Waveform::new(shape, Timing::every(PERIOD)))?;
+    for slider in 0..sliders {
+        let mass = 0.02 * (1.0 + SPREAD * f64::from(slider));
+        scene.bodies.push(named(format!("slider {slider}"), free(mass)));
+        let place = scene.bodies.len() - 1;
+        for contact in 0..contacts {
+            let radius = 1e-3 * (1.0 + SPREAD * f64::from(contact));
+            let part = touching(place, radius, 1.0 / f64::from(contacts), engine)?;
+            scene.contacts.push(named(format!("ball {slider}.{contact}"), part));
+        }
+    }
+    Ok(scene)
+}
+
+/// A heavy slider on a foot that swings ever less, so many times, and then by its last swing for ever; and the time at which
+/// that begins, s.
+pub(super) fn remembering(swings: u32, inner: u32) -> Result<(Scene, f64), SceneError> {
+    let half = 0.5 * PERIOD;
+    let outer = |k: u32| OUTER.0 + (OUTER.1 - OUTER.0) * f64::from(k) / f64::from(swings.max(2) - 1);
+    let amplitudes = (0..swings).map(outer).chain((0..2 * inner).map(|_| INNER));
+    let signs = [1.0, -1.0].into_iter().cycle();
+    let turns = amplitudes.zip(signs).enumerate();
+    let turns = turns.map(|(k, (amplitude, sign))| ((k + 1) as f64 * half, sign * amplitude));
+    let points = std::iter::once((0.0, 0.0)).chain(turns).collect();
+    let mut scene = with_foot(Waveform::new(Shape::Table { points }, Timing::every(PERIOD)))?;
+    scene.bodies.push(named("slider".to_owned(), free(HEAVY)));
+    scene.contacts.push(named("ball".to_owned(), touching(1, 1e-3, 1.0, EngineChoice::Curve)?));
+    Ok((scene, f64::from(swings) * half))
+}
+
+fn with_foot(waveform: Result<Waveform, stickslip_drive::WaveformError>) -> Result<Scene, SceneError> {
+    let waveform = waveform.map_err(|error| fault("waveforms.drive", error.to_string()))?;
+    Ok(Scene {
+        waveforms: vec![named("drive".to_owned(), waveform)],
+        bodies: vec![named("foot".to_owned(), Body { x: Coordinate::follows(0), ..Body::default() })],
+        ..Scene::default()
+    })
+}
+
+fn free(mass: f64) -> Body {
+    Body { mass: Some(mass), x: Coordinate::FREE, ..Body::default() }
+}
+
+/// A steel ball between the foot and a body.
+fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Result<Contact, SceneError> {
+    let steel = Material::new(210e9, 0.3).map_err(|error| fault("materials.steel", error.to_string()))?;
+    let profile =
+        Profile::paraboloid(radius).map_err(|error| fault("contacts.ball.profile", error.to_string()))?;
+    Ok(Contact {
+        between: [Side::Body(0), Side::Body(body)],
+        at: [Point::default(); 2],
+        pair: Pair::new(steel, steel),
+        profile,
+        friction: 0.15,
+        normal: Normal::Force(Varying::Constant(force)),
+        gap: 0.0,
+        damping: 0.0,
+        start: ContactStart::Untouched,
+        engine,
+        count: 1,
+    })
+}
+
+fn fault(path: &str, message: String) -> SceneError {
+    SceneError { path: path.to_owned(), message, help: None }
+}
+
+fn named<T>(name: String, part: T) -> Named<T> {
+    Named { name, part }
+}

@@ -1,0 +1,103 @@
+//! Work-precision diagrams of methods whose order is known: where their points stand is measured.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
+
+mod drawn;
+
+use drawn::{draw_everywhere, hex, polylines, texts};
+use stickslip_plot::{Dash, Figure, Ink, Theme, WorkCurve, draw_svg, work_precision_figure};
+
+/// Errors work^-order down to a floor, for work 1, 10, 100 …
+struct Method {
+    work: Vec<f64>,
+    seconds: Vec<f64>,
+    error: Vec<f64>,
+}
+
+fn method(order: i32, points: i32, floor: f64) -> Method {
+    let work: Vec<f64> = (0..points).map(|i| 10_f64.powi(i)).collect();
+    let error = work.iter().map(|work| work.powi(-order).max(floor)).collect();
+    Method { seconds: work.iter().map(|work| 2e-7 * work).collect(), work, error }
+}
+
+impl Method {
+    fn curve<'a>(&'a self, name: &'a str, ink: Ink, dash: Dash) -> WorkCurve<'a> {
+        WorkCurve { name, error: &self.error, seconds: &self.seconds, evaluations: &self.work, ink, dash }
+    }
+}
+
+/// Places of the numbers of the left panel's y axis, px from the top.
+fn ticks(figure: &Figure<'_>) -> Vec<(String, f64)> {
+    let texts = texts(&draw_svg(figure).unwrap());
+    let bottom = texts.iter().map(|text| text.area[3]).fold(0.0, f64::max);
+    let left = texts.iter().filter(|text| text.text.starts_with("10") && text.area[0] < 200.0);
+    left.filter(|text| text.area[3] < bottom - 80.0)
+        .map(|text| (text.text.clone(), (text.area[1] + text.area[3]) / 2.0))
+        .collect()
+}
+
+#[test]
+fn points_stand_at_their_powers_of_ten() {
+    let (second, fourth) = (method(2, 5, 0.0), method(4, 4, 0.0));
+    let curves = [
+        second.curve("order 2", Ink::Palette(0), Dash::Solid),
+        fourth.curve("order 4", Ink::Palette(1), Dash::Solid),
+    ];
+    let figure = work_precision_figure("Two methods", "error", &curves, None);
+    draw_everywhere("work-precision", &figure);
+    let ticks = ticks(&figure);
+    let drawing = draw_svg(&figure).unwrap();
+    for (colour, method) in Theme::light().palette.iter().zip([&second, &fourth]) {
+        let lines = polylines(&drawing, &hex(*colour));
+        // The legend's sample is short; one curve in each panel.
+        let curves: Vec<_> = lines.into_iter().filter(|line| line.len() == method.error.len()).collect();
+        assert_eq!(curves.len(), 2, "{colour:?}");
+        for curve in &curves {
+            let steps: Vec<f64> = curve.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
+            assert!(steps.iter().all(|step| (step / steps[0] - 1.0).abs() < 0.02), "{steps:?}");
+        }
+        for ((_, y), error) in curves[0].iter().zip(&method.error) {
+            let name = format!("10{}", superscript(error.log10().round() as i32));
+            if let Some((_, at)) = ticks.iter().find(|(text, _)| *text == name) {
+                assert!((y - at).abs() < 3.0, "{name}: {y} and {at}");
+            }
+        }
+    }
+    assert!(ticks.iter().any(|(text, _)| text == "10⁻⁸"), "{ticks:?}");
+}
+
+fn superscript(exponent: i32) -> String {
+    let digits = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().collect::<Vec<_>>();
+    exponent.to_string().chars().map(|c| c.to_digit(10).map_or('⁻', |d| digits[d as usize])).collect()
+}
+
+#[test]
+fn pale_curves_share_an_entry_and_the_floor_is_named() {
+    let (good, row) = (method(3, 5, 0.0), method(2, 5, 1e-5));
+    let zero = Method { error: vec![0.0; 5], ..method(1, 5, 0.0) };
+    let curves = [
+        row.curve("64 springs", Ink::Pale(0), Dash::Dotted),
+        row.curve("64 springs", Ink::Pale(1), Dash::Dotted),
+        good.curve("exact", Ink::Palette(0), Dash::Solid),
+        zero.curve("without error", Ink::Palette(1), Dash::Solid),
+    ];
+    let figure = work_precision_figure("Rows", "error", &curves, Some(1e-13));
+    draw_everywhere("work-precision-rows", &figure);
+    let texts = texts(&draw_svg(&figure).unwrap());
+    let count = |name: &str| texts.iter().filter(|text| text.text == name).count();
+    assert_eq!((count("64 springs"), count("exact"), count("without error")), (1, 1, 0));
+    assert_eq!(count("doubt of the reference"), 1);
+    assert!(texts.iter().any(|text| text.text == "10⁻¹²"));
+    let nothing = work_precision_figure("Nothing", "error", &curves[3..], None);
+    assert_eq!(nothing.panels.len(), 1);
+}
+
+#[test]
+fn every_run_is_marked() {
+    let method = method(2, 5, 0.0);
+    let curves = [method.curve("order 2", Ink::Palette(2), Dash::Solid)];
+    let drawing = draw_svg(&work_precision_figure("", "error", &curves, None)).unwrap();
+    let colour = hex(Theme::light().palette[2]);
+    let discs = drawing.split("<circle ").skip(1).filter(|tag| drawn::value(tag, "fill") == colour);
+    assert_eq!(discs.count(), 10);
+}
