@@ -232,10 +232,10 @@ impl Equations<'_> {
     #[inline(never)]
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
-        let u = self.look(&contact.u, at);
+        let u = self.read(&contact.u, at);
         let (d, dd) = match &contact.press {
             Press::Coupled(measure) => {
-                let d = self.look(measure, at);
+                let d = self.read(measure, at);
                 // Decreed apart, it is so beyond the touch that will end the step.
                 if self.modes[c] != Mode::Open {
                     sum.apply(&measure.free, d.driven, -contact.count * contact.law.normal_force(d.value));
