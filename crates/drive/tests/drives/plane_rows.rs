@@ -2,11 +2,14 @@
 //! Verlet in small fixed steps, which share neither contact engine nor stepper nor events.
 
 use crate::lottery::on_rows;
-use crate::parts::{channel, contact, damper, event, fitted_order, follower, named, plan, sine, trace, wave};
+use crate::parts::{
+    FOOT_SLIDER, channel, contact, damper, event, fitted_order, follower, free, named, piezo, plan, sine,
+    trace, wave,
+};
 use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{
-    Body, Contact, Coordinate, Direction, Freedom, Gravity, Load, Normal, Point, Scene, Side, Spring, Start,
-    Varying,
+    Actuator, Body, Contact, Coordinate, Direction, Freedom, Gravity, Load, Normal, Point, Scene, Side,
+    Spring, Start, Varying,
 };
 use stickslip_drive::{Plan, Shape, Stepper};
 
@@ -124,6 +127,40 @@ fn walking_drive() -> Case {
     Case { scene, stroke: 2.0 * amplitude, period }
 }
 
+/// A counter-mass on a piezo stack that drags its carrier over the ground.
+fn impact_drive() -> Case {
+    let between = [Side::Ground, Side::Body(0)];
+    let ball = |x| Contact { count: 2, ..ball(between, pair(210e9, 0.30), (2e-3, 0.25), (x, -5e-3)) };
+    let (stroke, period) = (2e-6, 4e-3);
+    let stack = Actuator { damping: 40.0, ..piezo(FOOT_SLIDER, 8e6, Varying::Follows(0)) };
+    let scene = Scene {
+        waveforms: vec![wave("drive", Shape::Sawtooth { stroke, flyback: 50e-6 }, period)],
+        bodies: vec![named("carrier", planar(0.03, 3e-6)), named("counter", free(0.01))],
+        contacts: vec![named("front", ball(15e-3)), named("rear", ball(-15e-3))],
+        actuators: vec![named("piezo", stack)],
+        gravity: Gravity { acceleration: 9.81, incline: 0.0 },
+        start: Start::Equilibrium,
+        ..Scene::default()
+    };
+    Case { scene, stroke, period }
+}
+
+/// A ball that bounces and slides until it rolls. Its stroke is the height from which it falls, its period that of the
+/// bounces; it moves by many heights along x.
+fn bouncing_ball() -> Case {
+    let height = 0.5e-6;
+    let mut body = planar(4.08e-3, 40.8e-9);
+    (body.z.position, body.x.velocity) = (height, 12e-3);
+    let between = [Side::Ground, Side::Body(0)];
+    let scene = Scene {
+        bodies: vec![named("ball", body)],
+        contacts: vec![named("foot", ball(between, pair(210e9, 0.30), (5e-3, 0.15), (0.0, -5e-3)))],
+        gravity: Gravity { acceleration: 9.81, incline: 0.0 },
+        ..Scene::default()
+    };
+    Case { scene, stroke: height, period: 2.0 * (2.0 * height / 9.81_f64).sqrt() }
+}
+
 struct Case {
     scene: Scene,
     stroke: f64,
@@ -181,6 +218,16 @@ fn slider_that_rocks() {
 #[test]
 fn rod_on_walking_feet() {
     agree(&walking_drive());
+}
+
+#[test]
+fn carrier_dragged_by_a_counter_mass() {
+    agree(&impact_drive());
+}
+
+#[test]
+fn ball_that_bounces_and_slides() {
+    agree(&bouncing_ball());
 }
 
 /// The error of few springs in steps so small that theirs does not show.
