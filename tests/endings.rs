@@ -74,3 +74,40 @@ fn an_interrupted_run_leaves_what_it_computed() {
     assert!(stderr(&output).starts_with("p1: interrupted at t = "), "{}", stderr(&output));
     assert!(stderr(&output).contains("quickstart: not run") && !out.path().join("quickstart").exists());
 }
+
+/// P1 steps 545.195, 485.170, 502.988, 502.9961, 502.99604 nm (`drive_p1.json`), and no more changes by 1e-4 from then on:
+/// the changes of the fourth, the fifth and the sixth step are small.
+#[test]
+fn a_run_asked_to_ends_well_as_soon_as_its_steps_are_constant() {
+    let out = tempdir().unwrap();
+    let set = ["run.cycles=100000", "run.until_steady=1e-4", "output.every=50 us"];
+    let output = run(&scenario("p1"), out.path(), &set);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    let said = stdout(&output);
+    assert!(said.starts_with("p1: 6.000 ms simulated in "), "{said}");
+    assert!(said.lines().next().unwrap().ends_with(", steps constant after 6 periods"), "{said}");
+    let folder = out.path().join("p1");
+    let found = summary(&folder);
+    assert_eq!((&found["status"], &found["steady_after_periods"]), (&"done".into(), &6.into()));
+    assert_eq!((number(&found, "/simulated_s"), number(&found, "/counts/rows")), (6e-3, 121.0));
+    let lengths = found["steps"]["lengths_m"].as_array().unwrap();
+    assert_eq!(lengths.len(), 6);
+    for (length, known) in lengths.iter().zip([545.194936404, 485.170376494, 502.988183807, 502.996111248]) {
+        assert!((1e9 * length.as_f64().unwrap() / known - 1.0).abs() < 1e-9);
+    }
+    for table in ["trace.csv", "events.csv"] {
+        let times = Table::read(&folder.join(table));
+        let last: f64 = times.column("time_s").last().unwrap().parse().unwrap();
+        assert!(last <= 6e-3 && last > 5.8e-3, "{table}: {last}");
+    }
+    // The last period has its memory curves, whichever it is.
+    let memory = Table::read(&folder.join("memory.csv"));
+    let mut moments = memory.column("time_s");
+    moments.dedup();
+    assert_eq!(moments.len(), 6 * 6);
+    // A run that does not settle says nothing of it.
+    let output = run(&scenario("p1"), out.path(), &["run.until_steady=1e-4", "run.cycles=5"]);
+    assert_eq!(code(&output), 0);
+    assert!(!stdout(&output).contains("constant"));
+    assert!(summary(&folder).get("steady_after_periods").is_none());
+}

@@ -87,7 +87,9 @@ impl Report {
 /// What was done, the numbers looked for first, where the files are.
 fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     let (simulated, wall) = (quantity(summary.simulated, "s"), quantity(Real(outcome.wall), "s"));
-    let mut lines = vec![format!("{}: {simulated} simulated in {wall}", job.name)];
+    let steady = summary.steady_after.map(|periods| format!(", steps constant after {periods} periods"));
+    let mut lines =
+        vec![format!("{}: {simulated} simulated in {wall}{}", job.name, steady.unwrap_or_default())];
     if let Some(steps) = &summary.steps {
         let steady = &steps.steady;
         let spread = steady.repeatability.filter(|r| r.0 > SHOWN * steady.step.0.abs());

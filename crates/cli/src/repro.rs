@@ -67,11 +67,7 @@ fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
     ];
     let found = found.concat();
     if !arguments.quiet {
-        let end = if origin.is_whole() {
-            String::new()
-        } else {
-            format!(" until it was stopped at t = {} s", origin.end)
-        };
+        let end = if origin.is_whole() { String::new() } else { format!(" until t = {} s", origin.end) };
         let count =
             format!("{} rows of {} channels, {} events{end}", trace.rows, trace.columns.len(), events.rows);
         let said = if found.is_empty() { format!("identical: {count}") } else { found.join("\n   ") };

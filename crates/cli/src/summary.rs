@@ -32,6 +32,9 @@ pub(crate) struct Summary {
     /// Time reached.
     #[serde(rename = "simulated_s")]
     pub(crate) simulated: Real,
+    /// Periods after which the run ended before its time, as it was asked to, because steps had become constant.
+    #[serde(rename = "steady_after_periods", skip_serializing_if = "Option::is_none")]
+    pub(crate) steady_after: Option<usize>,
     counts: Counts,
     /// By name.
     pub(crate) contacts: Parts<ContactSummary>,
@@ -52,7 +55,7 @@ pub(crate) struct Summary {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Status {
-    /// At its time.
+    /// At its time, or when its steps had become constant, if it was to end then.
     Done,
     /// By itself, before its time.
     Stopped,
@@ -121,6 +124,7 @@ impl Summary {
             status: Status::of(outcome.error.as_ref()),
             error: outcome.error.as_ref().map(|e| Stop { message: e.to_string(), advice: e.advice() }),
             simulated: Real(simulated),
+            steady_after: steps::steady_after(job, outcome),
             counts: Counts {
                 steps: counts.steps,
                 rejected: counts.rejected,

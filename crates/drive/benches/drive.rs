@@ -64,7 +64,8 @@ fn steppers(bench: &mut Criterion) {
         ("rk4 1 us", Stepper::Rk4 { step: 1e-6 }),
         ("dopri5 1e-6", Stepper::Dopri5 { tolerance: 1e-6 }),
     ] {
-        let plan = Plan { duration: 1.0, stepper, limits: Limits::default(), every: None };
+        let plan =
+            Plan { duration: 1.0, stepper, limits: Limits::default(), every: None, until_steady: None };
         group.bench_function(name, |b| {
             b.iter(|| {
                 let mut state = model.start(&plan).unwrap();

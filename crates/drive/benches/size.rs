@@ -102,7 +102,7 @@ impl Record for Nothing {
 fn timed(model: &Model, periods: u32) -> (Counts, f64) {
     let stepper = Stepper::Event { tolerance: 1e-6 };
     let duration = PERIOD * f64::from(periods);
-    let plan = Plan { duration, stepper, limits: Limits::default(), every: None };
+    let plan = Plan { duration, stepper, limits: Limits::default(), every: None, until_steady: None };
     let mut state = model.start(&plan).unwrap();
     let begun = Instant::now();
     run(black_box(model), &plan, &mut state, &mut Nothing).unwrap();

@@ -13,6 +13,23 @@ pub struct Plan {
     pub limits: Limits,
     /// Interval of the rows of the trace, s; none: only the first and the last row.
     pub every: Option<f64>,
+    /// Whether the run may end before its time, with the steps of a drive constant.
+    pub until_steady: Option<UntilSteady>,
+}
+
+/// An early end: that of the period with which the steps of a periodic drive are constant, each of the last three as long
+/// as the one before it. Up to there the run is the same to the last bit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UntilSteady {
+    /// Place in [`Scene::waveforms`](crate::Scene::waveforms) of the waveform whose periods are counted, from its delay on;
+    /// without a period nothing ends.
+    pub waveform: usize,
+    /// Place in [`Scene::bodies`](crate::Scene::bodies) of the body whose way along x in a period is the step; unless that
+    /// is free nothing ends.
+    pub body: usize,
+    /// How much "as long" allows, above 0: a share of the step or, if that is longer, of the natural length of the body,
+    /// u_c of its contacts.
+    pub change: f64,
 }
 
 impl Plan {
@@ -26,6 +43,7 @@ impl Plan {
         };
         above_zero("run.duration", self.duration)?;
         self.every.map_or(Ok(()), |every| above_zero("output.every", every))?;
+        self.until_steady.map_or(Ok(()), |steady| above_zero("run.until_steady", steady.change))?;
         match self.stepper {
             Stepper::Event { tolerance } => above_zero("run.stepper.event.tolerance", tolerance),
             Stepper::Dopri5 { tolerance } => above_zero("run.stepper.dopri5.tolerance", tolerance),

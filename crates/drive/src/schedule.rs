@@ -53,6 +53,12 @@ impl Schedule {
         self.due
     }
 
+    /// Ends the walk earlier.
+    pub(crate) fn end_at(&mut self, end: f64) {
+        self.end = end;
+        self.due = self.time();
+    }
+
     /// Moves on to the moment after the next one.
     #[inline]
     pub fn advance(&mut self) {

@@ -14,8 +14,8 @@ use std::ops::Mul;
 
 /// A system that moves its memory itself when a step has been accepted.
 pub trait Memory: System {
-    /// Commits the step that ended at time `t` in the state `y` (`total` components).
-    fn accept(&mut self, t: f64, y: &[f64]);
+    /// Commits the step that ended at time `t` in the state `y` (`total` components); `false` ends the stretch there.
+    fn accept(&mut self, t: f64, y: &[f64]) -> bool;
 }
 
 /// How [`integrate`] steps.
@@ -280,7 +280,7 @@ where
         }
         *steps = [steps[1], t - *time];
         *time = t;
-        self.memory.accept(t, y);
-        false
+        // The crate asks whether to stop.
+        !self.memory.accept(t, y)
     }
 }

@@ -10,6 +10,8 @@ use systems::{Forced, Oscillator};
 struct Log<S> {
     system: S,
     accepted: Vec<(f64, Vec<f64>)>,
+    /// Time from which on it has had enough, s.
+    enough: f64,
 }
 
 impl<S: System> System for Log<S> {
@@ -28,13 +30,14 @@ impl<S: System> System for Log<S> {
 }
 
 impl<S: System> Memory for Log<S> {
-    fn accept(&mut self, t: f64, y: &[f64]) {
+    fn accept(&mut self, t: f64, y: &[f64]) -> bool {
         self.accepted.push((t, y.to_vec()));
+        t < self.enough
     }
 }
 
 fn log<S>(system: S) -> Log<S> {
-    Log { system, accepted: Vec::new() }
+    Log { system, accepted: Vec::new(), enough: f64::INFINITY }
 }
 
 /// `pairs` oscillators ẍ = -x of different starts and one quadrature ∫Σx dt.
@@ -178,4 +181,14 @@ fn slopes_that_are_not_finite_end_in_an_error() {
         "{run:?}"
     );
     assert!(system.accepted.is_empty());
+}
+
+#[test]
+fn who_has_had_enough_ends_the_stretch() {
+    let mut log = Log { enough: 2.0, ..log(Many { pairs: 1 }) };
+    let y = [1.0, 0.0, 0.0];
+    let run = integrate(&mut log, (0.0, 10.0), &y, &[1e-8; 2], &ReferenceOptions::default()).unwrap();
+    let (last, before) = (log.accepted.last().unwrap(), &log.accepted[log.accepted.len() - 2]);
+    assert!(before.0 < 2.0 && (2.0..3.0).contains(&last.0), "{} {}", before.0, last.0);
+    assert_eq!(run.y, last.1);
 }

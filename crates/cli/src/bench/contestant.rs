@@ -99,7 +99,13 @@ impl<'p> Own<'p> {
 
     fn plan(&self, value: f64, wall: Option<f64>, every: Option<f64>) -> Plan {
         let limits = Limits { wall, ..Limits::default() };
-        Plan { duration: self.problem.duration, stepper: self.stepping.at(value), limits, every }
+        Plan {
+            duration: self.problem.duration,
+            stepper: self.stepping.at(value),
+            limits,
+            every,
+            until_steady: None,
+        }
     }
 }
 

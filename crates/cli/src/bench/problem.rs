@@ -92,6 +92,7 @@ impl Problem {
                 stepper: Stepper::Event { tolerance },
                 limits: Limits::default(),
                 every: Some(Samples::interval(duration)),
+                until_steady: None,
             };
             let mut state =
                 model.start(&plan).map_err(|source| ProblemError::Scene { name: name(), source })?;
@@ -110,6 +111,7 @@ impl Problem {
             stepper: Stepper::Event { tolerance: REFERENCE },
             limits: Limits::default(),
             every: None,
+            until_steady: None,
         };
         let start = model.start(&plan).map_err(|source| ProblemError::Scene { name: name(), source })?;
         let mechanism = Mechanism::new(&scene, &model, &start);

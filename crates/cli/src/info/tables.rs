@@ -93,6 +93,16 @@ impl Info {
             _ => stepping.stepper.to_owned(),
         };
         let stable = |step: Option<Real>| step.map(|step| format!("below {}", quantity(step, "s")));
+        let time = match stepping.until_steady {
+            Some(change) => {
+                format!(
+                    "at most {}, until steps change by {:e} of themselves",
+                    quantity(stepping.duration, "s"),
+                    change.0
+                )
+            }
+            None => quantity(stepping.duration, "s"),
+        };
         let of_springs =
             |(lines, size): (Real, Real)| format!("{} lines, about {}", whole(lines.0), bytes(size));
         let events = &expected.events;
@@ -102,7 +112,7 @@ impl Info {
             .map(|per| format!("; about {} per period of {}", two_digits(per.estimate.0), per.waveform));
         let rows = [
             ("stepper", Some(stepper)),
-            ("simulated time", Some(quantity(stepping.duration, "s"))),
+            ("simulated time", Some(time)),
             ("steps", expected.steps.map(|steps| whole(steps.0))),
             ("stable fixed step, verlet", stable(stepping.longest_verlet)),
             ("stable fixed step, rk4", stable(stepping.longest_rk4)),

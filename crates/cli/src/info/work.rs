@@ -28,6 +28,9 @@ pub(super) struct Stepping {
     pub(super) step: Option<Real>,
     #[serde(rename = "duration_s")]
     pub(super) duration: Real,
+    /// Largest change of a step, relative, at which the run ends earlier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) until_steady: Option<Real>,
     /// Longest stable steps with all contacts stuck and as deep as they get; none where nothing swings.
     #[serde(rename = "longest_verlet_step_s", skip_serializing_if = "Option::is_none")]
     pub(super) longest_verlet: Option<Real>,
@@ -70,6 +73,7 @@ impl Stepping {
             tolerance: value_if("tolerance"),
             step: value_if("step_s"),
             duration: Real(job.scenario.plan.duration),
+            until_steady: job.scenario.plan.until_steady.map(|asked| Real(asked.change)),
             longest_verlet: longest(Stepper::Verlet { step: 0.0 }),
             longest_rk4: longest(Stepper::Rk4 { step: 0.0 }),
         }

@@ -45,6 +45,15 @@ pub(crate) struct Steady {
     pub(crate) back_step: Option<Real>,
 }
 
+/// Periods after which a run ended before its time without a fault.
+pub(super) fn steady_after(job: &Job, outcome: &Outcome) -> Option<usize> {
+    let plan = &job.scenario.plan;
+    let asked = plan.until_steady.filter(|_| outcome.error.is_none())?;
+    let end = Some(outcome.state.time()).filter(|end| *end < plan.duration)?;
+    let waveform = job.scenario.scene.waveforms.get(asked.waveform)?;
+    Periods::until(&waveform.part, end).map(|periods| periods.count)
+}
+
 /// The steps of a run; none, with a note where that needs one, if there are no whole periods or no free body.
 pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Option<DriveSummary> {
     let (scene, figures) = (&job.scenario.scene, job.scenario.figures);

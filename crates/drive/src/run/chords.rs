@@ -1,6 +1,7 @@
 //! Steps without located events: every accepted step is one chord of every contact.
 
 use super::output::{Grid, Looks};
+use super::steady::Steps;
 use super::watch::Watch;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
@@ -15,6 +16,8 @@ pub(super) struct Chords<'a> {
     pub(super) model: &'a Model,
     pub(super) state: &'a mut State,
     pub(super) layout: Layout,
+    end: f64,
+    steps: Steps,
     grid: Grid,
     looks: Looks,
     watch: Watch,
@@ -38,15 +41,23 @@ impl<'a> Chords<'a> {
         for mode in &mut state.modes {
             *mode = Mode::Whole { sense: 0.0 };
         }
-        let grid = Grid::new(plan.every, state.t, plan.duration);
+        let end = plan.duration;
+        let mut steps = Steps::of(model, plan);
+        steps.begin(state);
+        let grid = Grid::new(plan.every, state.t, end);
         let looks = Looks::begin(model, state, record);
         let watch = Watch::new(model, plan.limits);
         let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
-        Self { model, state, layout, grid, looks, watch, record, standings, row: Vec::new() }
+        Self { model, state, layout, end, steps, grid, looks, watch, record, standings, row: Vec::new() }
     }
 
     pub(super) fn equations(&self) -> Equations<'_> {
         Equations::on(self.model, self.state, self.layout, true)
+    }
+
+    /// Whether the run is not at its end yet.
+    pub(super) fn goes_on(&self) -> bool {
+        self.state.t < self.end
     }
 
     /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
@@ -72,12 +83,34 @@ impl<'a> Chords<'a> {
         );
     }
 
-    /// Accepts the step that ends at t in y: rows on the way, then the commit of all contacts.
+    /// Accepts the step that ends at t in y, or earlier where the run does.
     pub(super) fn accept(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
         if let Some(i) = y.iter().position(|y| !y.is_finite()) {
             return Err(self.model.not_finite(t, i));
         }
-        self.write(t, y);
+        let Some((end, last)) = self.take_steps(t, y) else {
+            self.write(t, (t, y));
+            return self.commit(t, y);
+        };
+        self.write(end, (t, y));
+        self.commit(end, &last)
+    }
+
+    /// Takes the steps of the drive that are over at t; where the run ends with one of them, its time and state.
+    fn take_steps(&mut self, t: f64, y: &[f64]) -> Option<(f64, Vec<f64>)> {
+        while let Some(due) = self.steps.due(t) {
+            let step = Step { from: (self.state.t, &self.state.y), to: (t, y), free: self.layout.free };
+            if self.steps.take(0.0, step.value(self.steps.coordinate, due)) {
+                self.end = due;
+                self.grid.end_at(due);
+                return Some((due, (0..y.len()).map(|i| step.value(i, due)).collect()));
+            }
+        }
+        None
+    }
+
+    /// Commits all contacts at time t in y.
+    fn commit(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
         let eq = Equations::on(self.model, self.state, self.layout, true);
         let motions: Vec<Motion> = self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])).collect();
         for (c, (contact, motion)) in self.model.contacts.iter().zip(&motions).enumerate() {
@@ -95,10 +128,10 @@ impl<'a> Chords<'a> {
         self.watch.step(self.state, self.record)
     }
 
-    /// Rows and looks inside the step.
-    fn write(&mut self, t: f64, y: &[f64]) {
+    /// Rows and looks up to time t of the step that leads to `to`.
+    fn write(&mut self, t: f64, to: (f64, &[f64])) {
         let eq = Equations::on(self.model, self.state, self.layout, true);
-        let step = Step { from: (self.state.t, &self.state.y), to: (t, y), free: self.layout.free };
+        let step = Step { from: (self.state.t, &self.state.y), to, free: self.layout.free };
         while let Some(due) = self.grid.due(t) {
             self.grid.write(&eq, self.state, due, &|i| step.value(i, due), self.record);
         }

@@ -12,10 +12,12 @@ mod moving;
 mod path;
 mod rest;
 mod shift;
+mod steady;
 mod switch;
 mod write;
 
 use super::output::{Grid, Looks};
+use super::steady::Steps;
 use super::watch::Watch;
 use crate::equations::Equations;
 use crate::event::EventKind;
@@ -37,6 +39,8 @@ use stickslip_stepper::{
 pub(super) struct Run<'a, A> {
     model: &'a Model,
     end: f64,
+    /// The steps of the drive, where they may end the run.
+    steps: Steps,
     every: Option<f64>,
     tolerance: f64,
     layout: Layout,
@@ -126,6 +130,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         Self {
             model,
             end: plan.duration,
+            steps: Steps::of(model, plan),
             every: plan.every,
             tolerance,
             layout,
@@ -160,6 +165,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(order, limits));
         self.begin(state);
         grid.write_now(&equations(self.model, self.layout, state), state, record);
+        self.steps.begin(state);
         self.looks = Looks::begin(self.model, state, record);
         let mut outcome = Ok(());
         while state.t < self.end && outcome.is_ok() {
@@ -218,6 +224,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         let verdict = self.with_equations(state, |run, eq| run.attempt(eq, state, control, target));
         if !verdict.accepted {
             return self.reject(state, verdict.next, record);
+        }
+        if self.steps.due(self.solver.end_time()).is_some() {
+            self.take_steps(state, grid);
         }
         let cut = self.solver.end_time() < target;
         let ending = if cut {

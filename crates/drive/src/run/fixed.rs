@@ -42,7 +42,7 @@ pub(super) fn run(
     chords.write_now();
     let mut outcome = Ok(());
     let mut k = 0.0;
-    while chords.state.t < plan.duration && outcome.is_ok() {
+    while chords.goes_on() && outcome.is_ok() {
         k += 1.0;
         let t = chords.state.t;
         let aim = from + k * step;

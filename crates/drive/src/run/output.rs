@@ -30,6 +30,12 @@ impl Grid {
         (due <= t && due < self.end).then_some(due)
     }
 
+    /// Ends the rows earlier: the last one will be written there by the run itself.
+    pub(super) fn end_at(&mut self, end: f64) {
+        self.end = end;
+        self.schedule.end_at(end);
+    }
+
     /// Writes the row at time t and moves on to the next.
     pub(super) fn write(
         &mut self,

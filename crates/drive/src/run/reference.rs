@@ -31,11 +31,11 @@ impl System for Driven<'_> {
 }
 
 impl Memory for Driven<'_> {
-    fn accept(&mut self, t: f64, y: &[f64]) {
-        // The solver cannot be stopped from here; after an error the rest of the stretch is not recorded.
-        if self.outcome.is_ok() && t > self.chords.state.t {
+    fn accept(&mut self, t: f64, y: &[f64]) -> bool {
+        if t > self.chords.state.t {
             self.outcome = self.chords.accept(t, y);
         }
+        self.outcome.is_ok() && self.chords.goes_on()
     }
 }
 
@@ -53,7 +53,7 @@ pub(super) fn run(
     let mut driven = Driven { chords: Chords::new(model, plan, state, record), outcome: Ok(()) };
     driven.chords.write_now();
     let mut options = ReferenceOptions::default();
-    while driven.chords.state.t < plan.duration && driven.outcome.is_ok() {
+    while driven.chords.goes_on() && driven.outcome.is_ok() {
         let t = driven.chords.state.t;
         let corner = driven.chords.state.pieces.iter().map(|p| p.end).fold(plan.duration, f64::min);
         let y = driven.chords.state.y.clone();

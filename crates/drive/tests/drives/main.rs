@@ -33,3 +33,4 @@ mod ruby;
 mod small_oscillations;
 mod stages;
 mod statics;
+mod steady;

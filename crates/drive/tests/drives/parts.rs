@@ -90,7 +90,7 @@ pub(crate) fn p1() -> Scene {
 /// A plan with guards tight enough that a test cannot hang.
 pub(crate) fn plan(stepper: Stepper, duration: f64) -> Plan {
     let limits = Limits { steps: 20_000_000, events: 1_000_000, wall: Some(120.0) };
-    Plan { duration, stepper, limits, every: None }
+    Plan { duration, stepper, limits, every: None, until_steady: None }
 }
 
 pub(crate) fn event(tolerance: f64, duration: f64) -> Plan {

@@ -65,7 +65,7 @@ fn default_count() -> Count {
 }
 
 /// When the memory curves are written; by default at six moments, evenly spread over the last period or, without one,
-/// over the run.
+/// over the run; of a run that may end steady, over each of the first hundred periods as well.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("maxProperties" = 1))]

@@ -21,6 +21,13 @@ pub(crate) struct RunForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
     pub(crate) cycles: Option<f64>,
+    /// Largest change of the step from period to period at which the run ends early as steady, a share of the step, 1e-12 to
+    /// 0.1; by default it goes to its end; typical 1e-9 to 1e-3. The step is that of the body and the waveform of `figures`,
+    /// a free one and one with a period. The end is that of the period with which three steps running are as long as the one
+    /// before; where steps are shorter than u_c, the share is one of that. Until then the run is the same to the last bit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-12, max = 0.1), example = 1e-6)]
+    pub(crate) until_steady: Option<f64>,
     /// How the free coordinates start.
     #[serde(default)]
     #[schemars(example = &"equilibrium")]

@@ -17,6 +17,8 @@ const MAX_COUNT: u64 = 1_000_000;
 const STATES: f64 = 400.0;
 /// Moments of the memory where none are given.
 const CURVES: u32 = 6;
+/// Periods within which most runs become steady that are to end then.
+const SETTLING: u32 = 100;
 
 /// What every spring does over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,14 +117,18 @@ impl Builder<'_> {
     }
 
     /// Moments evenly spread over the last period, the end included: of the waveform of the figures, or else of the
-    /// slowest. Without a period that fits, over the run.
+    /// slowest. Without a period that fits, over the run; over the first hundred ones as well, where any
+    /// may be the last.
     fn last_period(&self, plan: Plan, figures: Figures) -> Moments {
         let waveforms = &self.scene.waveforms;
         let slowest = waveforms.iter().filter_map(|w| w.part.period()).reduce(f64::max);
         let named = figures.waveform.and_then(|w| waveforms.get(w)).and_then(|w| Waveform::period(&w.part));
         let span = named.or(slowest).filter(|period| *period < plan.duration).unwrap_or(plan.duration);
-        let share = |k: u32| f64::from(CURVES - k) / f64::from(CURVES);
-        Moments::At((1..=CURVES).map(|k| plan.duration - share(k) * span).collect())
+        let share = |k: u32| f64::from(k) / f64::from(CURVES);
+        let first = if plan.until_steady.is_some() { CURVES * SETTLING } else { 0 };
+        let first = (0..=first).skip(1).map(|k| share(k) * span).take_while(|t| *t <= plan.duration - span);
+        let last = (0..CURVES).rev().map(|k| plan.duration - share(k) * span);
+        Moments::At(first.chain(last).collect())
     }
 }
 

@@ -6,10 +6,12 @@ use crate::form::{LimitsForm, StepperForm};
 use crate::path::At;
 use crate::suggest;
 use stickslip_drive::scene::Freedom;
-use stickslip_drive::{Limits, Plan, Stepper};
+use stickslip_drive::{Limits, Plan, Stepper, UntilSteady};
 
 /// Tolerances that the steppers take.
 const TOLERANCE: (f64, f64) = (1e-13, 1e-2);
+/// Changes of a step that may count as none.
+const CHANGE: (f64, f64) = (1e-12, 0.1);
 
 impl Builder<'_> {
     /// Whose period and motion count: those named, or the only ones there are.
@@ -80,7 +82,35 @@ impl Builder<'_> {
             None => None,
         };
         let stepper = stepper(&at.key("stepper"), &form.stepper, duration)?;
-        Ok(Plan { duration, stepper, limits: limits(&at.key("limits"), &form.limits)?, every })
+        let until_steady = form
+            .until_steady
+            .map(|change| self.until_steady(&at.key("until_steady"), change, figures))
+            .transpose()?;
+        Ok(Plan { duration, stepper, limits: limits(&at.key("limits"), &form.limits)?, every, until_steady })
+    }
+
+    fn until_steady(&self, at: &At<'_>, change: f64, figures: Figures) -> Result<UntilSteady, Fault> {
+        let change = range::number_between(at, change, CHANGE.0, CHANGE.1)?;
+        let none = |message: String, help: &str| Err(at.fault(message).on_key().help(help));
+        let Some(waveform) = figures.waveform else {
+            let message = "there is no waveform, or more than one, whose periods could make steps";
+            return none(message.to_owned(), "name one in figures.waveform");
+        };
+        let named = &self.scene.waveforms[waveform];
+        if named.part.period().is_none() {
+            let message = format!("the waveform \"{}\" has no period: it makes no steps", named.name);
+            return none(message, "name another in figures.waveform");
+        }
+        let Some(body) = figures.body else {
+            let message = "there is no free body, or more than one, that could make steps";
+            return none(message.to_owned(), "name one in figures.body");
+        };
+        let named = &self.scene.bodies[body];
+        if named.part.x.freedom != Freedom::Free {
+            let message = format!("the body \"{}\" is not free along x: it makes no steps", named.name);
+            return none(message, "name a free one in figures.body");
+        }
+        Ok(UntilSteady { waveform, body, change })
     }
 
     fn cycles(&self, at: &At<'_>, cycles: f64, figures: Figures) -> Result<f64, Fault> {

@@ -84,7 +84,7 @@ impl Kind {
 }
 
 fn plan(periods: f64, stepper: Stepper, every: Option<f64>) -> Plan {
-    Plan { duration: periods * PERIOD, stepper, limits: Limits::default(), every }
+    Plan { duration: periods * PERIOD, stepper, limits: Limits::default(), every, until_steady: None }
 }
 
 fn from_rest(

@@ -1,0 +1,107 @@
+//! Steps of a periodic drive, watched until they are constant.
+
+use crate::model::Place;
+use crate::scene::Axis;
+use crate::state::State;
+use crate::{Model, Plan, UntilSteady};
+
+/// How many times running a step must agree with the one before it.
+const AGREEING: u32 = 3;
+/// A moment this near to the end of a period, relative to the time, is the end: a corner is a rounded sum.
+const SAME: f64 = 4.0 * f64::EPSILON;
+
+/// The ends of the periods, and what the steps between them have come to.
+pub(super) struct Steps {
+    /// Place of the body's x among the free coordinates.
+    pub(super) coordinate: usize,
+    /// Start of the first period and length of all, s.
+    start: f64,
+    period: f64,
+    /// Number of whole periods; may be infinite.
+    periods: f64,
+    /// Place of the next end, and when it is due, s; infinite after the last.
+    next: f64,
+    due: f64,
+    /// Largest change of a step, as a share of it or of the body's natural length, m.
+    change: f64,
+    natural: f64,
+    /// Origin and place at the end of the last period, m: their differences round apart from each other.
+    place: Option<(f64, f64)>,
+    step: Option<f64>,
+    agreed: u32,
+}
+
+impl Steps {
+    /// The steps that a plan asks for; never due where it does not, or where there are none.
+    pub(super) fn of(model: &Model, plan: &Plan) -> Self {
+        plan.until_steady.and_then(|asked| Self::asked(model, asked)).unwrap_or(Self::NEVER)
+    }
+
+    /// Begins with the first period that begins now or later: what was before the state is not known.
+    pub(super) fn begin(&mut self, state: &State) {
+        while self.due < state.t * (1.0 - SAME) {
+            self.advance();
+        }
+        if self.due(state.t).is_some() {
+            self.take(state.shifts[self.coordinate], state.y[self.coordinate]);
+        }
+    }
+
+    const NEVER: Self = Self {
+        coordinate: 0,
+        start: 0.0,
+        period: 0.0,
+        periods: 0.0,
+        next: 0.0,
+        due: f64::INFINITY,
+        change: 0.0,
+        natural: 0.0,
+        place: None,
+        step: None,
+        agreed: 0,
+    };
+
+    fn asked(model: &Model, UntilSteady { waveform, body, change }: UntilSteady) -> Option<Self> {
+        let waveform = model.waveforms.get(waveform)?;
+        let Place::Free(coordinate) = model.bodies.get(body)?.places[Axis::X as usize] else { return None };
+        let (period, timing) = (waveform.period()?, waveform.timing());
+        Some(Self {
+            coordinate,
+            start: timing.delay,
+            period,
+            periods: timing.cycles.unwrap_or(f64::INFINITY).floor(),
+            due: timing.delay,
+            change,
+            natural: model.free[coordinate].scale.0,
+            ..Self::NEVER
+        })
+    }
+
+    /// The next end of a period, if it lies at `t` or before it; `t` itself where it is as good as there.
+    #[inline]
+    pub(super) fn due(&self, t: f64) -> Option<f64> {
+        if t < self.due * (1.0 - SAME) {
+            return None;
+        }
+        Some(if t > self.due * (1.0 + SAME) { self.due } else { t })
+    }
+
+    /// Takes the place at the end of a period, its origin and what is counted from there, m. Tells whether the steps have
+    /// become constant.
+    pub(super) fn take(&mut self, origin: f64, place: f64) -> bool {
+        self.advance();
+        let Some(before) = self.place.replace((origin, place)) else { return false };
+        let step = (origin - before.0) + (place - before.1);
+        let last = self.step.replace(step);
+        let agrees =
+            last.is_some_and(|last| (step - last).abs() <= self.change * step.abs().max(self.natural));
+        self.agreed = if agrees { self.agreed + 1 } else { 0 };
+        self.agreed >= AGREEING
+    }
+
+    fn advance(&mut self) {
+        self.next += 1.0;
+        self.due =
+            if self.next <= self.periods { self.start + self.next * self.period } else { f64::INFINITY };
+    }
+}
