@@ -178,13 +178,7 @@ fn what_is_expected_is_what_runs_bring() {
         // A corner at the very end of the run starts nothing and may be missing.
         assert!((corners..=corners + 2.0).contains(&expected[0]), "{name}: {expected:?}, {corners}");
         let ratio = (expected[0] + expected[1]) / events.rows.len() as f64;
-        // What bodies that press on each other by their own motion will do is not estimated.
-        let is_coupled = std::fs::read_to_string(scenario(name)).unwrap().contains("\"coupled\"");
-        assert!(
-            is_coupled || (0.5..=2.0).contains(&ratio),
-            "{name}: {ratio} of {} events",
-            events.rows.len()
-        );
+        assert!((0.5..=2.0).contains(&ratio), "{name}: {ratio} of {} events", events.rows.len());
         let size = std::fs::metadata(folder.join("trace.csv")).unwrap().len() as f64;
         let ratio = number(&info, "/expected/trace_B") / size;
         assert!((0.7..=1.4).contains(&ratio), "{name}: {ratio} of {size} B");

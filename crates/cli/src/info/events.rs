@@ -4,22 +4,39 @@ use crate::job::Job;
 use crate::real::Real;
 use serde::Serialize;
 use std::f64::consts::TAU;
-use stickslip_drive::scene::{Freedom, Normal, Scene, Side, Varying};
-use stickslip_drive::{NormalMode, Stepper, Waveform};
+use stickslip_drive::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
+use stickslip_drive::{Linearised, NormalMode, Stepper, Waveform};
 
-/// Events of a contact in a period of ringing: two reversals, and about one loop closes.
-const PER_RINGING: f64 = 3.0;
+/// Events of a contact in a period of ringing: two reversals, and about one loop closes; where bodies press it by their
+/// own motion it reverses, grows in full stick and slips again, and one loop closes.
+const PER_RINGING: Pace = Pace { pressed: 3.0, coupled: 4.0 };
 /// Events of a contact that a smooth waveform drives, or that is walked, in a period: two turns, and with each one the end
-/// of gross slip or a loop that closes.
-const PER_TURNS: f64 = 4.0;
+/// of gross slip or a loop that closes; where bodies press it by their own motion twice as much, growth or flight with it.
+const PER_TURNS: Pace = Pace { pressed: 4.0, coupled: 8.0 };
+/// Events of a contact from one landing to the next: it touches, slips, turns and leaves.
+const PER_LANDING: f64 = 4.0;
 /// Of a free body under a waveform with corners: gross slip begins and ends once, the rest is ringing.
 const PER_FLYBACK: f64 = 2.0;
 /// Time constants after which a damped ringing is over (5 %).
 const DECAY: f64 = 3.0;
-/// Displacement of a contact in a mode, as a share of the mode's largest, below which the mode does not ring there.
+/// Displacement of a contact in a mode, as a share of the mode's largest in m, below which the mode does not ring there.
 const MOVED: f64 = 0.05;
 /// A corner this near to the end of a period, in periods, belongs to it.
 const SAME: f64 = 1e-9;
+
+/// Events that depend on what presses the contact.
+struct Pace {
+    /// A given force, indentation or radius.
+    pressed: f64,
+    /// The motion of its bodies.
+    coupled: f64,
+}
+
+impl Pace {
+    fn of(&self, normal: Normal) -> f64 {
+        if normal == Normal::Coupled { self.coupled } else { self.pressed }
+    }
+}
 
 /// Events of the whole run.
 #[derive(Debug, Serialize)]
@@ -42,12 +59,14 @@ pub(super) struct PerPeriod {
 impl Events {
     pub(super) fn of(job: &Job) -> Self {
         let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
-        let modes = job.model.linearised(&job.start, |d| d.most).modes();
-        let contacts = (0..scene.contacts.len()).map(|c| of_contact(job, c, &modes)).sum();
+        let linear = job.model.linearised(&job.start, |d| d.most);
+        let modes = linear.modes();
+        let contacts = (0..scene.contacts.len()).map(|c| of_contact(job, c, (&linear, &modes))).sum();
         // At fixed steps corners are crossed, not located.
         let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
         let corners = scene.waveforms.iter().map(|w| corners(&w.part, duration));
-        let corners = if located { corners.sum() } else { 0.0 };
+        // The sum of nothing is -0.
+        let corners = if located { corners.fold(0.0, |sum, corners| sum + corners) } else { 0.0 };
         let named = job.scenario.figures.waveform.and_then(|w| scene.waveforms.get(w));
         let per_period = named.and_then(|named| {
             let share = named.part.period()? / duration;
@@ -93,20 +112,52 @@ fn corners(waveform: &Waveform, duration: f64) -> f64 {
     }
 }
 
+/// Whether a mode moves contact `c` along its slide. Angles do not compare with displacements.
+fn rings_at(linear: &Linearised, mode: &NormalMode, c: usize) -> bool {
+    let lengths = linear.coordinates().iter().zip(&mode.shape).filter(|(name, _)| !name.ends_with(".pitch"));
+    let lengths = lengths.map(|(_, length)| length).chain(&mode.contacts);
+    let largest = lengths.fold(0.0_f64, |most, length| most.max(length.abs()));
+    mode.frequency > 0.0 && mode.contacts[c].abs() > MOVED * largest
+}
+
+/// Rate at which a contact's indentation starts to change, m/s, by the motion of its bodies.
+fn closing(scene: &Scene, contact: &Contact) -> f64 {
+    let rise = |i: usize| match contact.between[i] {
+        Side::Body(body) => scene
+            .bodies
+            .get(body)
+            .map_or(0.0, |body| body.part.z.velocity + contact.at[i].x * body.part.pitch.velocity),
+        Side::Ground => 0.0,
+    };
+    rise(0) - rise(1)
+}
+
+/// Landings until `duration` (s) of a contact that starts apart by `height` (m) and closes at a `speed` (m/s): with nothing
+/// lost it bounces as high as it falls, and without gravity it lands but once.
+fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
+    let fall = scene.gravity.acceleration * scene.gravity.incline.cos();
+    match (height > 0.0, fall > 0.0) {
+        (true, true) => duration * fall / (2.0 * (speed * speed + 2.0 * height * fall).sqrt()),
+        (true, false) if speed * duration > height => 1.0,
+        _ => 0.0,
+    }
+}
+
 /// Estimate for contact `c` over the whole run.
-fn of_contact(job: &Job, c: usize, modes: &[NormalMode]) -> f64 {
+fn of_contact(job: &Job, c: usize, (linear, modes): (&Linearised, &[NormalMode])) -> f64 {
     let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
-    let touches = job.model.indentations(&job.start, c).is_some_and(|d| d.most > 0.0);
-    if !touches || scene.contacts.get(c).is_none_or(|contact| contact.part.friction == 0.0) {
+    let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
+    let Some(d) = job.model.indentations(&job.start, c) else { return 0.0 };
+    if d.most <= 0.0 || contact.friction == 0.0 {
         return 0.0;
     }
-    let moves = |mode: &&NormalMode| mode.frequency > 0.0 && mode.contacts[c].abs() > MOVED;
-    let ringing = modes.iter().rfind(moves);
+    let (per_ringing, per_turns) = (PER_RINGING.of(contact.normal), PER_TURNS.of(contact.normal));
+    let ringing = modes.iter().rfind(|mode| rings_at(linear, mode, c));
     // Events of a ringing that corners keep up for at most `time`, s.
     let rings = |time: f64, corners: f64| {
         ringing.map_or(0.0, |mode| {
             let decay = DECAY / (mode.damping_ratio * mode.frequency);
-            PER_RINGING * mode.frequency / TAU * time.min(corners * decay)
+            per_ringing * mode.frequency / TAU * time.min(corners * decay)
         })
     };
     let (mut turns, mut most) = (0.0, 0.0_f64);
@@ -116,7 +167,7 @@ fn of_contact(job: &Job, c: usize, modes: &[NormalMode]) -> f64 {
                 let (cycles, corners) =
                     (cycles(waveform, period, duration), corners_per_period(waveform, period));
                 let kicked = ringing.is_some() && corners > 0.0;
-                let turns = if kicked { PER_FLYBACK } else { PER_TURNS };
+                let turns = if kicked { PER_FLYBACK } else { per_turns };
                 (cycles * turns, if kicked { cycles * rings(period, corners) } else { 0.0 })
             }
             None => {
@@ -128,7 +179,7 @@ fn of_contact(job: &Job, c: usize, modes: &[NormalMode]) -> f64 {
         // Several waveforms do not make a body ring faster.
         most = most.max(ringing);
     }
-    turns + most
+    turns + most + PER_LANDING * landings(scene, (-d.start, closing(scene, contact)), duration)
 }
 
 /// The waveforms whose motion reaches contact `c`: those that its sides follow and that press it, and all that act on

@@ -2,10 +2,10 @@
 
 use crate::lottery::deal;
 use crate::parts::{
-    FOOT_SLIDER, Nothing, channel, contact, damper, event, foot_and_slider, named, p1, plan, push, sine, wave,
+    FOOT_SLIDER, Nothing, channel, contact, event, foot_and_slider, named, p1, plan, push, sine, wave,
 };
 use stickslip_contact::Profile;
-use stickslip_drive::scene::{Load, Scene, Side, Varying};
+use stickslip_drive::scene::{Load, Scene, Varying};
 use stickslip_drive::{Model, Plan, Shape, State, Stepper, Timing, Trace, UntilSteady, Waveform, run};
 
 const PERIOD: f64 = 1e-3;
