@@ -11,7 +11,11 @@ mod watch;
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper};
 
-/// Moves `state` along `plan` to its end: its duration, or earlier where it asks for no more than steady steps. What was computed before an error is in `state` and `record`.
+/// Moves `state` along `plan` to its end: its duration, or earlier where it asks for no more than steady steps. What was
+/// computed before an error is in `state` and `record`.
+///
+/// Never inlined: profilers find here all that a run costs.
+#[inline(never)]
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
     match model.effective(plan.stepper) {
         Stepper::Event { tolerance } => events::run(model, plan, tolerance, state, record),
