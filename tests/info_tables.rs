@@ -76,17 +76,56 @@ fn what_is_skipped_is_told_with_its_reason() {
         "pictures",
     ];
     assert_eq!(items("skipped"), skipped);
-    let slider = "motion slider whose name goes on and on to the very last of its 64 sign.x";
-    assert_eq!(
-        items("used"),
-        [slider, "memory pressed", "indentation pressed", "tangential force pressed", "memory row"]
-    );
+    let slider = "slider whose name goes on and on to the very last of its 64 sign.x";
+    let used = [
+        &format!("motion {slider}"),
+        "method",
+        &format!("position {slider}"),
+        "memory pressed",
+        "indentation pressed",
+        "tangential force pressed",
+        "memory row",
+    ];
+    assert_eq!(items("used"), used);
     assert_eq!(info["contacts"]["pressed"]["start"]["peak_pressure_Pa"], "inf");
     assert!(info["contacts"]["row"]["start"].get("peak_pressure_Pa").is_none());
     assert_eq!(number(&info, "/contacts/slick/start/tangential_stiffness_N_m"), 0.0);
     // In a walk there are no equations.
     let walk = tables(&scenario("fretting_sphere"));
     assert!(walk.contains("nothing is free") && !walk.contains("MODES"), "{walk}");
+}
+
+#[test]
+fn what_the_event_stepper_spares_is_told_where_it_does() {
+    let told = |name: &str, set: &[&str]| -> Vec<String> {
+        let set: Vec<&str> = set.iter().flat_map(|set| ["--set", set]).collect();
+        let usage = info(&scenario(name), &set)["usage"].clone();
+        let items = ["used", "skipped"].into_iter().flat_map(|key| usage[key].as_array().unwrap().clone());
+        let what = items.map(|item| item["what"].as_str().unwrap().to_owned());
+        let of_stepper =
+            ["method", "position", "stages for velocities", "memory between events", "evaluations", "forces"];
+        what.filter(|what| of_stepper.contains(&what.as_str())).collect()
+    };
+    let all = ["method", "position", "stages for velocities", "memory between events", "evaluations"];
+    assert_eq!(told("p1", &[]), all);
+    // A stepper without events knows none of it.
+    assert!(told("p1", &["run.stepper={\"verlet\":{\"step\":\"1 us\"}}"]).is_empty());
+    // A curved waveform drags the edge along no line, so evaluations go on in gross slip.
+    let curved = r#"waveforms.drive={"sine":{"amplitude":"1 um","period":"1 ms"}}"#;
+    assert_eq!(told("p1", &[curved]), all[..3]);
+    // A damper makes a force hang on a velocity, and a position count from where it is.
+    let oil = r#"springs={"oil":{"between":["ground","slider"],"direction":"x","stiffness":1,"damping":1}}"#;
+    assert_eq!(told("p1", &[oil]), ["method", "memory between events"]);
+    assert_eq!(told("bouncing_ball", &[]), ["method", "position", "forces"]);
+    // Between bodies at rest a spring is skipped; one that a follower moves has its energy computed.
+    let spring = r#"springs={"idle":{"between":["ground","foot"],"direction":"x","stiffness":1}}"#;
+    let item = |set: &[&str], key: &str| -> bool {
+        let items = info(&scenario("p1"), set)["usage"][key].clone();
+        items.as_array().unwrap().iter().any(|item| item["what"] == "spring")
+    };
+    assert!(item(&["--set", spring], "used") && !item(&["--set", spring], "skipped"));
+    let still = ["--set", spring, "--set", "bodies.foot={\"x\":\"fixed\"}"];
+    assert!(item(&still, "skipped") && !item(&still, "used"));
 }
 
 #[test]

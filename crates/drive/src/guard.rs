@@ -35,7 +35,7 @@ impl Guard {
     /// The guards of a contact in a mode.
     pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {
         match (mode, contact.is_constant()) {
-            _ if contact.inert && contact.coupling().is_none() => &[],
+            _ if contact.unguarded => &[],
             (Mode::Whole { .. }, false) if contact.inert => &[Self::Contact],
             (Mode::Open, true) => &[],
             (Mode::Open, false) => &[Self::Gap],

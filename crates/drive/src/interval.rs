@@ -15,7 +15,7 @@ pub(crate) struct Interval<'a> {
     pub(crate) steady: Vec<Steady<'a>>,
     /// Contacts that go through the general equations.
     pub(crate) others: Vec<usize>,
-    /// Contacts that are apart.
+    /// Contacts that are apart and may touch.
     pub(crate) apart: Vec<usize>,
     /// By contact: its place among the steady ones.
     places: Vec<Option<usize>>,
@@ -138,6 +138,10 @@ impl<'a> Interval<'a> {
         self.apart.clear();
         self.places.clear();
         for (c, (contact, mode)) in model.contacts.iter().zip(&state.modes).enumerate() {
+            if contact.is_never_pressed() {
+                self.places.push(None);
+                continue;
+            }
             let steady = steady(c, contact, mode, state);
             self.places.push(steady.is_some().then_some(self.steady.len()));
             match steady {

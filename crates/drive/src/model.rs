@@ -8,6 +8,7 @@ mod held;
 mod measure;
 mod reach;
 mod scale;
+mod spare;
 mod used;
 
 pub(crate) use measure::{Measure, Terms};
@@ -85,6 +86,8 @@ pub(crate) struct Contact {
     pub(crate) damping: f64,
     /// Whether the contact can never carry a tangential force: no friction, or never pressed.
     pub(crate) inert: bool,
+    /// Whether nothing that it does ends a step: never pressed, or neither friction nor bodies that press it.
+    pub(crate) unguarded: bool,
     /// Place among the growing contacts.
     pub(crate) slot: Option<usize>,
     pub(crate) natural: Natural,
@@ -274,14 +277,6 @@ impl Model {
     /// Work of gravity and constant loads on the way to the positions `x` from 0, J.
     pub(crate) fn lifted(&self, x: impl Fn(usize) -> f64) -> f64 {
         self.free.iter().enumerate().map(|(i, free)| free.force * x(i)).sum()
-    }
-
-    /// Whether no force hangs on a velocity: no damper, no load whose power does, no contact that grows along a curved
-    /// path.
-    pub(crate) fn is_conservative(&self) -> bool {
-        let undamped = self.links.iter().all(|link| link.damping == 0.0);
-        let unbraked = self.contacts.iter().all(|contact| contact.damping == 0.0);
-        undamped && unbraked && self.loads.is_empty() && self.growing == 0 && !self.free.is_empty()
     }
 
     /// Indentation of a contact at t = 0, m, with the free coordinates where they start.

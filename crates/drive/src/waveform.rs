@@ -157,6 +157,12 @@ impl Waveform {
         self.sample(&next, next.start).value - self.sample(piece, piece.end).value
     }
 
+    /// Whether all its pieces are straight lines.
+    #[must_use]
+    pub fn is_straight(&self) -> bool {
+        matches!(self.shape, Shape::Sawtooth { .. } | Shape::Triangle { .. } | Shape::Table { .. })
+    }
+
     /// Whether the value ever jumps by design.
     #[must_use]
     pub fn has_jumps(&self) -> bool {

@@ -5,7 +5,7 @@ use super::motion;
 use crate::job::Job;
 use serde::Serialize;
 use stickslip_drive::Stepper;
-use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Normal, Side};
+use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Normal, Scene, Side, Varying};
 
 /// What is computed and what is not.
 #[derive(Debug, Default, Serialize)]
@@ -58,14 +58,35 @@ impl Usage {
         } else {
             names.iter().for_each(|name| self.uses("motion", name, format!("free, stepper {stepper}")));
         }
+        if !names.is_empty() && is_located(job) {
+            self.method(job);
+        }
+    }
+
+    /// What the stepper with located events makes of the equations of motion.
+    fn method(&mut self, job: &Job) {
+        if job.model.is_conservative() {
+            self.uses("method", "", "Runge–Kutta–Nyström 8(6): no force hangs on a velocity");
+            let why = "no force hangs on one: a third of the evaluations is spared";
+            self.skips("stages for velocities", "", why);
+        } else {
+            self.uses("method", "", "Dormand–Prince 8(5,3)");
+        }
+        for name in job.model.travellers() {
+            self.uses("position", &format!("{name}.x"), "counted from near by: only contacts hang on it");
+        }
     }
 
     fn contacts(&mut self, job: &Job) {
-        let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
+        let located = is_located(job);
         for (c, contact) in job.scenario.scene.contacts.iter().enumerate() {
             let name = &contact.name;
             if job.model.indentations(&job.start, c).is_some_and(|d| d.most <= 0.0) {
-                self.skips("contact", name, "never pressed: the bodies cannot touch");
+                self.skips(
+                    "contact",
+                    name,
+                    "never pressed: it is not evaluated, and nothing looks out for it",
+                );
                 continue;
             }
             if contact.part.friction == 0.0 {
@@ -84,6 +105,9 @@ impl Usage {
                     name,
                     "constant load: the indentation is found once, nothing grows",
                 );
+                if located && contact.part.engine == EngineChoice::Curve && contact.part.damping == 0.0 {
+                    self.steady(job, c);
+                }
                 continue;
             }
             let why = match contact.part.normal {
@@ -92,6 +116,9 @@ impl Usage {
                 Normal::Coupled => "from the motion of the bodies",
             };
             self.uses("indentation", name, why);
+            if contact.part.normal == Normal::Coupled && located {
+                self.skips("forces", name, "while apart: only the gap is watched");
+            }
             if contact.part.engine == EngineChoice::Curve && located {
                 self.uses(
                     "tangential force",
@@ -102,15 +129,45 @@ impl Usage {
         }
     }
 
+    /// What need not be done of contact `c`, pressed by a constant load, between two events.
+    fn steady(&mut self, job: &Job, c: usize) {
+        let scene = &job.scenario.scene;
+        let Some(contact) = scene.contacts.get(c) else { return };
+        let is_straight = |side: &Side| match side {
+            Side::Body(body) => scene.bodies.get(*body).is_none_or(|body| follows_lines(scene, &body.part)),
+            Side::Ground => true,
+        };
+        if !contact.part.between.iter().all(is_straight) {
+            return;
+        }
+        let name = &contact.name;
+        let why = "steady: straight waveforms drag one edge through it, it moves at events only";
+        self.skips("memory between events", name, why);
+        let is_alone = scene.contacts.len() == 1 && scene.springs.is_empty() && scene.actuators.is_empty();
+        if is_alone && job.model.is_conservative() {
+            self.skips("evaluations", name, "in gross slip: the motion is a parabola");
+        }
+    }
+
     fn couplings(&mut self, job: &Job) {
         let scene = &job.scenario.scene;
         let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free()));
-        let springs = scene.springs.iter().map(|part| ("spring", &part.name, part.part.between));
-        let actuators = scene.actuators.iter().map(|part| ("actuator", &part.name, part.part.between));
-        for (kind, part, between) in springs.chain(actuators) {
+        let is_followed = |body: &Named<Body>| {
+            body.part.coordinates().into_iter().any(|(_, c)| matches!(c.freedom, Freedom::Follows(_)))
+        };
+        let follows =
+            |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(is_followed));
+        let springs = scene.springs.iter().map(|part| ("spring", &part.name, part.part.between, false));
+        let actuators = scene.actuators.iter().map(|part| {
+            let is_driven = matches!(part.part.stroke, Varying::Follows(_));
+            ("actuator", &part.name, part.part.between, is_driven)
+        });
+        for (kind, part, between, is_driven) in springs.chain(actuators) {
             let [first, second] = between.map(|side| name(job, side));
             if between.iter().any(is_free) {
                 self.uses(kind, part, format!("between {first} and {second}"));
+            } else if between.iter().any(follows) || is_driven {
+                self.uses(kind, part, format!("neither {first} nor {second} is free: for its energy alone"));
             } else {
                 self.skips(kind, part, format!("neither {first} nor {second} is free: it moves nothing"));
             }
@@ -145,7 +202,7 @@ impl Usage {
         let followers = motion::followers(scene);
         for (w, waveform) in scene.waveforms.iter().enumerate() {
             if !followers.iter().any(|follower| follower.waveform == w) {
-                self.skips("waveform", &waveform.name, "nothing follows it; its corners still end steps");
+                self.skips("waveform", &waveform.name, "nothing follows it: its corners end no steps");
             }
         }
         for body in &scene.bodies {
@@ -169,6 +226,19 @@ impl Usage {
         }
         job.scenario.plots.iter().for_each(|plot| self.uses("picture", plot.name(), "asked for in plots"));
     }
+}
+
+/// Whether events are located: they are crossed by all other steppers.
+fn is_located(job: &Job) -> bool {
+    matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. })
+}
+
+/// Whether whatever a body follows is straight between its corners.
+fn follows_lines(scene: &Scene, body: &Body) -> bool {
+    body.coordinates().into_iter().all(|(_, coordinate)| match coordinate.freedom {
+        Freedom::Follows(w) => scene.waveforms.get(w).is_none_or(|waveform| waveform.part.is_straight()),
+        Freedom::Fixed | Freedom::Free => true,
+    })
 }
 
 /// Adds to what stands there for the same reason, if anything does.

@@ -11,7 +11,7 @@ impl Model {
         check::check(scene)?;
         let mut waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();
         let (bodies, mut free) = bodies(scene)?;
-        let links = links(scene, &bodies)?;
+        let mut links = links(scene, &bodies)?;
         let loads = loads(scene, &bodies, &mut free);
         let equilibrium = scene.start == Start::Equilibrium;
         let around = Surroundings {
@@ -37,6 +37,7 @@ impl Model {
         }
         dampers::check(scene, &links, &contacts, &waveforms)?;
         held::check(&bodies, &free, &contacts, &links)?;
+        links.retain(Link::acts);
         for link in &links {
             link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
         }

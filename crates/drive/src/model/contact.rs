@@ -62,6 +62,7 @@ pub(super) fn build(
         start,
         damping: part.damping,
         inert,
+        unguarded: known.deepest <= 0.0 || inert && part.normal != Normal::Coupled,
         slot: None,
         natural: Natural::default(),
     };

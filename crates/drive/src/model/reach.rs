@@ -13,7 +13,8 @@ const MARGIN: f64 = 1.2;
 ///
 /// Energy sets it: what moves at the start, ½mḋ², and the work of the loads on the way, F(g + d) with the gap g, are
 /// stored as E\*N(d). m is the mass felt along d, F the largest force that a load, a preload or a stroke puts on it.
-/// Followers press as deep as they go. Bodies that start in equilibrium have neither motion nor a way to fall.
+/// Followers press as deep as they go; where that is not at all, and nothing else moves, the contact is never pressed, and
+/// what comes out is below zero. Bodies that start in equilibrium have neither motion nor a way to fall.
 pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
     let first = around.at_start(d);
     let mobility = d.mobility(|i| around.free[i].mobility);
@@ -32,6 +33,9 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
         .map(|(w, a)| (a * span(*w).0).max(a * span(*w).1) - a * around.waveforms[*w].first().value)
         .sum();
     let driven = if d.driven.is_empty() { first } else { first + driven };
+    if d.free.is_empty() && driven < 0.0 {
+        return driven;
+    }
     MARGIN * dynamic.max(driven).max(first).max(SHALLOW)
 }
 

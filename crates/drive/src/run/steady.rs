@@ -22,6 +22,8 @@ pub(super) struct Steps {
     /// Place of the next end, and when it is due, s; infinite after the last.
     next: f64,
     due: f64,
+    /// From when on a moment is as good as that, s.
+    nearly: f64,
     /// Largest change of a step, as a share of it or of the body's natural length, m.
     change: f64,
     natural: f64,
@@ -39,7 +41,7 @@ impl Steps {
 
     /// Begins with the first period that begins now or later: what was before the state is not known.
     pub(super) fn begin(&mut self, state: &State) {
-        while self.due < state.t * (1.0 - SAME) {
+        while self.due * (1.0 + SAME) < state.t {
             self.advance();
         }
         if self.due(state.t).is_some() {
@@ -54,6 +56,7 @@ impl Steps {
         periods: 0.0,
         next: 0.0,
         due: f64::INFINITY,
+        nearly: f64::INFINITY,
         change: 0.0,
         natural: 0.0,
         place: None,
@@ -71,6 +74,7 @@ impl Steps {
             period,
             periods: timing.cycles.unwrap_or(f64::INFINITY).floor(),
             due: timing.delay,
+            nearly: timing.delay * (1.0 - SAME),
             change,
             natural: model.free[coordinate].scale.0,
             ..Self::NEVER
@@ -80,7 +84,7 @@ impl Steps {
     /// The next end of a period, if it lies at `t` or before it; `t` itself where it is as good as there.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
-        if t < self.due * (1.0 - SAME) {
+        if t < self.nearly {
             return None;
         }
         Some(if t > self.due * (1.0 + SAME) { self.due } else { t })
@@ -103,5 +107,6 @@ impl Steps {
         self.next += 1.0;
         self.due =
             if self.next <= self.periods { self.start + self.next * self.period } else { f64::INFINITY };
+        self.nearly = self.due * (1.0 - SAME);
     }
 }

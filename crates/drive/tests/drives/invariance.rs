@@ -1,11 +1,12 @@
 //! What must not change a run: output, repetition, an interruption; and what must stop it in an orderly way.
 
 use crate::lottery::deal;
-use crate::parts::{Looker, Nothing, damper, event, named, p1, plan, push, try_end};
+use crate::parts::{Looker, Nothing, damper, event, named, p1, piezo, plan, push, try_end};
 use proptest::{prelude::*, test_runner::RngSeed};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
-    ContactStart, Coordinate, EngineChoice, Load, Normal, Scene, Side, Spring, Varying,
+    Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Load, Normal, Point, Scene, Side,
+    Spring, Varying,
 };
 use stickslip_drive::{
     Event, Limits, Model, Moments, Plan, Record, RunError, SceneError, Shape, State, Stepper, Timing, Trace,
@@ -358,5 +359,42 @@ proptest! {
             Err(error) => prop_assert!(false, "{error}"),
         }
         prop_assert!(trace.rows().flatten().all(|x| x.is_finite()));
+    }
+}
+
+/// What cannot act leaves the run alone to the last bit, work counts and all: a contact that followers never bring together,
+/// a spring and a stack between bodies at rest, a waveform that nothing follows.
+#[test]
+fn what_cannot_act_changes_nothing() {
+    let plain = p1();
+    let mut scene = p1();
+    let triangle = Waveform::new(Shape::Triangle { stroke: 2e-6 }, Timing::every(1.0)).unwrap();
+    // It turns no corner within the run.
+    scene.waveforms.push(named("lift", triangle.clone()));
+    scene.waveforms.push(named("nobody's", triangle));
+    scene.bodies.push(named("lid", Body { z: Coordinate::follows(1), ..Body::default() }));
+    scene.bodies.push(named("rail", Body::default()));
+    let apart = Contact {
+        between: [Side::Body(2), Side::Body(1)],
+        normal: Normal::Coupled,
+        gap: 2.1e-6,
+        ..scene.contacts[0].part.clone()
+    };
+    scene.contacts.push(named("far", apart));
+    let still = [Side::Ground, Side::Body(3)];
+    let direction = Direction::X;
+    let at = [Point::default(); 2];
+    let spring = Spring { between: still, at, direction, stiffness: 1e6, damping: 1.0, preload: 2.0 };
+    scene.springs.push(named("idle", spring));
+    scene.actuators.push(named("stack", piezo(still, 1e6, Varying::Constant(1e-6))));
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let plan = event(tolerance, 10.0 * PERIOD);
+        let [alone, among] = [&plain, &scene].map(|scene| {
+            let model = Model::new(scene).unwrap();
+            let mut state = model.start(&plan).unwrap();
+            run(&model, &plan, &mut state, &mut Nothing).unwrap();
+            (state.body(&model, 1), state.counts(), state.memories()[0].clone())
+        });
+        assert_eq!(alone, among, "{tolerance:e}");
     }
 }

@@ -21,7 +21,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     pub(super) fn trace_segments(&mut self, state: &State, t: f64, goes_on: bool) {
         self.segments.clear();
         for (c, contact) in self.model.contacts.iter().enumerate() {
-            if goes_on && self.interval.as_ref().is_some_and(|interval| interval.steady(c).is_some()) {
+            let is_steady = || self.interval.as_ref().is_some_and(|interval| interval.steady(c).is_some());
+            if contact.is_never_pressed() || (goes_on && is_steady()) {
                 continue;
             }
             let motion = self.to[c].motion;

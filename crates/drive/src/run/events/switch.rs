@@ -106,7 +106,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Decides afresh what a contact does after a corner, where velocities jump.
     fn turn(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
-        if !moved_by_waveform(&self.model.contacts[c]) {
+        let contact = &self.model.contacts[c];
+        if contact.is_never_pressed() || !moved_by_waveform(contact) {
             return Ok(());
         }
         // As it was before a jump, which decrees for itself.

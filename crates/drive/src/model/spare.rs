@@ -1,0 +1,35 @@
+//! What a model spares its runs.
+
+use super::{Contact, Link, Model, Stroke};
+
+impl Model {
+    /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts hangs on
+    /// where they are.
+    pub fn travellers(&self) -> impl Iterator<Item = &str> {
+        let travelling = self.free.iter().filter(|free| free.travels);
+        travelling.map(|free| self.bodies[free.body].name.as_str())
+    }
+
+    /// Whether the stepper `event` may take the Nyström method, for no force hangs on a velocity: no damper, no load whose
+    /// power does, no contact that grows along a curved path.
+    pub fn is_conservative(&self) -> bool {
+        let undamped = self.links.iter().all(|link| link.damping == 0.0);
+        let unbraked = self.contacts.iter().all(|contact| contact.damping == 0.0);
+        undamped && unbraked && self.loads.is_empty() && self.growing == 0 && !self.free.is_empty()
+    }
+}
+
+impl Contact {
+    /// Whether nothing will ever press it.
+    pub(crate) fn is_never_pressed(&self) -> bool {
+        self.natural.depth == 0.0
+    }
+}
+
+impl Link {
+    /// Whether anything changes about it: between bodies at rest, at a constant stroke, it only is there.
+    pub(crate) fn acts(&self) -> bool {
+        let moves = !self.elongation.free.is_empty() || !self.elongation.driven.is_empty();
+        moves || matches!(self.stroke, Stroke::Driven(_))
+    }
+}
