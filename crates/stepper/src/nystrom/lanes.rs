@@ -2,7 +2,7 @@
 
 use super::Track;
 
-/// How many positions and quadratures there are: the storage of a [`Nystrom`].
+/// How many positions and quadratures there are: the storage of a [`Nystrom`](super::Nystrom).
 pub trait Lanes {
     /// A number for each position.
     type Positions: Lane<f64>;
