@@ -7,8 +7,8 @@
 //! (series prepared for the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`],
 //! [`provenance`] and [`fingerprint`] (pictures and what they carry); [`folder`] (how files are written); [`progress`],
 //! [`interrupt`]; [`results`] with [`replay`], [`rows`], [`springs`] and [`curves`] (what is read back from a folder) and
-//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`gallery`]; [`frame`] (tables read back whole); [`markdown`] (pages);
-//! [`compare`] (tells two runs apart); [`mod@bench`] (what accuracy costs).
+//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`gallery`]; [`frame`] (tables read back whole);
+//! [`markdown`] (pages); [`compare`] (tells two runs apart); [`mod@bench`] (what accuracy costs).
 
 mod arguments;
 mod batch;

@@ -7,7 +7,7 @@ use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{
     Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Scene, Side, Varying,
 };
-use stickslip_drive::{Event, Limits, Model, Plan, Record, Shape, Stepper, Timing, Waveform, run};
+use stickslip_drive::{Limits, Model, Plan, Shape, Stepper, Timing, Waveform, run};
 
 fn named<T>(name: &str, part: T) -> Named<T> {
     Named { name: name.to_owned(), part }
@@ -42,16 +42,6 @@ fn p1() -> Scene {
     }
 }
 
-struct Nothing;
-
-impl Record for Nothing {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
-        false
-    }
-}
-
 fn steppers(bench: &mut Criterion) {
     let model = Model::new(&p1()).unwrap();
     let mut group = bench.benchmark_group("P1, one simulated second");
@@ -69,7 +59,7 @@ fn steppers(bench: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 let mut state = model.start(&plan).unwrap();
-                run(&model, &plan, &mut state, &mut Nothing).unwrap();
+                run(&model, &plan, &mut state, &mut ()).unwrap();
                 state.body(&model, 1)
             });
         });

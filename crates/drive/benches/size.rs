@@ -18,7 +18,7 @@ use stickslip_drive::scene::{
     Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Gravity, Named, Normal, Point, Scene,
     Side, Spring, Start, Varying,
 };
-use stickslip_drive::{Counts, Event, Limits, Model, Plan, Record, Shape, Stepper, Timing, Waveform, run};
+use stickslip_drive::{Counts, Limits, Model, Plan, Shape, Stepper, Timing, Waveform, run};
 
 const PERIOD: f64 = 1e-3;
 const PERIODS: u32 = 20;
@@ -88,16 +88,6 @@ fn scene(contacts: usize, coordinates: usize) -> Scene {
     }
 }
 
-struct Nothing;
-
-impl Record for Nothing {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
-        false
-    }
-}
-
 /// Work of a run, and its time without the equilibrium before it, s.
 fn timed(model: &Model, periods: u32) -> (Counts, f64) {
     let stepper = Stepper::Event { tolerance: 1e-6 };
@@ -105,7 +95,7 @@ fn timed(model: &Model, periods: u32) -> (Counts, f64) {
     let plan = Plan { duration, stepper, limits: Limits::default(), every: None, until_steady: None };
     let mut state = model.start(&plan).unwrap();
     let begun = Instant::now();
-    run(black_box(model), &plan, &mut state, &mut Nothing).unwrap();
+    run(black_box(model), &plan, &mut state, &mut ()).unwrap();
     (state.counts(), begun.elapsed().as_secs_f64())
 }
 

@@ -92,12 +92,6 @@ impl Equations<'_> {
         Reading { value: measure.constant + (own + followed), rate: rate + driven, driven }
     }
 
-    /// The same away from the evaluations that count.
-    #[inline(never)]
-    fn look(&self, measure: &Measure, at: &impl View) -> Reading {
-        self.read(measure, at)
-    }
-
     /// Second derivative of a measure, m/s²; `free` gives that of a free coordinate.
     pub(crate) fn acceleration(&self, measure: &Measure, t: f64, free: impl Fn(usize) -> f64) -> f64 {
         let followed = measure.driven.iter().map(|(w, a)| a * self.sample(*w, t).acceleration);
@@ -260,7 +254,7 @@ impl Equations<'_> {
     #[inline(never)]
     fn links(&self, at: &impl View, sum: &mut Sum<'_>) {
         for link in &self.model.links {
-            let elongation = self.look(&link.elongation, at);
+            let elongation = self.read(&link.elongation, at);
             let stroke = self.stroke(link, at.time());
             let (stretch, rate) = (stroke.value - elongation.value, stroke.rate - elongation.rate);
             let force = link.stiffness * stretch + link.damping * rate;
@@ -332,10 +326,6 @@ impl System for Equations<'_> {
 }
 
 impl Conservative for Equations<'_> {
-    fn positions(&self) -> usize {
-        self.layout.free
-    }
-
     #[inline(always)]
     fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]) {
         match (x, out, self.interval) {

@@ -19,9 +19,7 @@ pub(crate) struct Interval<'a> {
     pub(crate) apart: Vec<usize>,
     /// By contact: its place among the steady ones.
     places: Vec<Option<usize>>,
-    /// Whether nothing but steady contacts acts.
-    simple: bool,
-    /// The same where a single slider moves among them.
+    /// The slider, where a single one moves and nothing but steady contacts acts on it.
     pub(crate) slider: Option<Slider>,
     /// What its contacts make of it.
     pub(crate) pulls: Vec<Pull<'a>>,
@@ -150,12 +148,12 @@ impl<'a> Interval<'a> {
                 None => self.others.push(c),
             }
         }
-        self.simple = self.others.is_empty() && model.links.is_empty();
+        let simple = self.others.is_empty() && model.links.is_empty();
         let gross = state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open);
-        self.constant = gross && self.simple;
+        self.constant = gross && simple;
         self.pulls.clear();
         self.slider = match &model.free[..] {
-            [slider] if self.simple => Some(self.pull(slider)),
+            [slider] if simple => Some(self.pull(slider)),
             _ => None,
         };
     }

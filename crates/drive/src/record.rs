@@ -40,6 +40,15 @@ pub trait Record {
     }
 }
 
+/// Keeps nothing.
+impl Record for () {
+    fn row(&mut self, _: &[f64]) {}
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+    fn wants_events(&self) -> bool {
+        false
+    }
+}
+
 /// One column of a trace.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Channel {

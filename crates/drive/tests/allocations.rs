@@ -13,23 +13,13 @@ mod parts;
 use parts::{FOOT_SLIDER, contact, event, foot_and_slider, p1, sine, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Normal, Scene, Varying};
-use stickslip_drive::{Event, Model, Plan, Record, Shape, run};
-
-struct Nothing;
-
-impl Record for Nothing {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
-        false
-    }
-}
+use stickslip_drive::{Model, Plan, Shape, run};
 
 /// Allocations of a run of so many seconds, the workspace included.
 fn allocations(scene: &Scene, plan: &Plan) -> u64 {
     let model = Model::new(scene).unwrap();
     let mut state = model.start(plan).unwrap();
-    allocation_counter::measure(|| run(&model, plan, &mut state, &mut Nothing).unwrap()).count_total
+    allocation_counter::measure(|| run(&model, plan, &mut state, &mut ()).unwrap()).count_total
 }
 
 /// A slider on a sine, pressed by a force that varies: contacts that grow, shrink, stop and turn.

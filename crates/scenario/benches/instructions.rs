@@ -1,11 +1,12 @@
-//! Runs one benchmark once, for an instruction counter to look at: see `.ci/instructions`.
+//! Stepping alone, without reading, writing and events written down: for a profiler, and to see what a change of a scene
+//! costs. What a whole run takes is on record in `.ci/instructions.csv`.
 //!
-//! `instructions NAME` runs the scenario of that name at its benchmark's tolerance with nothing written and prints what
-//! the run took; only the function `measured` is to be counted, so that reading the file is not.
+//! `instructions NAME KEY=VALUE…` runs one benchmark with keys of its scenario set and prints what it took, as in
+//! `valgrind --tool=callgrind --toggle-collect='*measured*' BINARY p1 run.cycles=200`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
-use stickslip_drive::{Event, Model, Plan, Record, State, run};
+use stickslip_drive::{Model, Plan, State, run};
 use stickslip_scenario::Scenario;
 
 /// A key and what it is set to.
@@ -21,20 +22,9 @@ const BENCHMARKS: [(&str, &str, &[Setting]); 6] = [
     ("vibration", "vibrated_slider", &[("run.stepper.event.tolerance", "1e-6")]),
 ];
 
-/// Takes everything and wants nothing.
-struct Nothing;
-
-impl Record for Nothing {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
-        false
-    }
-}
-
 #[inline(never)]
 fn measured(model: &Model, plan: &Plan, state: &mut State) {
-    run(model, plan, state, &mut Nothing).unwrap();
+    run(model, plan, state, &mut ()).unwrap();
 }
 
 fn main() {

@@ -28,9 +28,6 @@ pub const ORDER: u32 = 7;
 ///
 /// Its state has n positions, n velocities and then the quadratures.
 pub trait Conservative {
-    /// Number n of positions.
-    fn positions(&self) -> usize;
-
     /// Accelerations (n) and then the rates of the quadratures at time `t` (s) and positions `x`; all to be filled.
     fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]);
 

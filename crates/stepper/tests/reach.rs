@@ -51,9 +51,6 @@ fn in_reach_of_dop853_nothing_grows_that_fades_or_swings() {
 struct Swings;
 
 impl Conservative for Swings {
-    fn positions(&self) -> usize {
-        1
-    }
     fn accelerations(&self, _: f64, x: &[f64], a: &mut [f64]) {
         a[0] = -x[0];
     }

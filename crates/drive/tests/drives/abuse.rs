@@ -2,8 +2,7 @@
 
 use crate::lottery::Draw;
 use crate::parts::{
-    FOOT_SLIDER, Nothing, contact, damper, event, foot_and_slider, free, named, p1, piezo, plan, push, sine,
-    wave,
+    FOOT_SLIDER, contact, damper, event, foot_and_slider, free, named, p1, piezo, plan, push, sine, wave,
 };
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
@@ -133,7 +132,7 @@ fn a_contact_without_friction_or_without_force_does_nothing() {
         let model = Model::new(&scene).unwrap();
         let plan = event(1e-9, 10e-3);
         let mut state = model.start(&plan).unwrap();
-        run(&model, &plan, &mut state, &mut Nothing).unwrap();
+        run(&model, &plan, &mut state, &mut ()).unwrap();
         // x = ½(F/m)t²
         let x = 0.5 * (0.01 / 0.02) * 1e-4;
         assert!((state.body(&model, 1).unwrap().0 / x - 1.0).abs() < 1e-12);
@@ -151,7 +150,7 @@ fn a_contact_that_never_slips_is_a_spring() {
     // The tolerance is relative to u_c, here some thousand amplitudes.
     let plan = event(1e-13, t);
     let mut state = model.start(&plan).unwrap();
-    run(&model, &plan, &mut state, &mut Nothing).unwrap();
+    run(&model, &plan, &mut state, &mut ()).unwrap();
     let ratio = std::f64::consts::TAU / 1e-3 / natural;
     let x = amplitude / (1.0 - ratio * ratio) * ((ratio * natural * t).sin() - ratio * (natural * t).sin());
     let off = (state.body(&model, 1).unwrap().0 - x).abs() / amplitude;
@@ -213,7 +212,7 @@ fn a_varying_contact_without_friction_or_without_force_does_nothing() {
         let model = Model::new(&scene).unwrap();
         let plan = event(1e-9, 10e-3);
         let mut state = model.start(&plan).unwrap();
-        run(&model, &plan, &mut state, &mut Nothing).unwrap();
+        run(&model, &plan, &mut state, &mut ()).unwrap();
         let x = 0.5 * (0.01 / 0.02) * 1e-4;
         assert!((state.body(&model, 1).unwrap().0 / x - 1.0).abs() < 1e-12);
     }

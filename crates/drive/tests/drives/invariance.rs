@@ -1,7 +1,7 @@
 //! What must not change a run: output, repetition, an interruption; and what must stop it in an orderly way.
 
 use crate::lottery::deal;
-use crate::parts::{Looker, Nothing, damper, event, named, p1, piezo, plan, push, try_end};
+use crate::parts::{Looker, damper, event, named, p1, piezo, plan, push, try_end};
 use proptest::{prelude::*, test_runner::RngSeed};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
@@ -54,12 +54,12 @@ fn output_never_changes_the_trajectory() {
     for (scene, period) in scenes() {
         for stepper in steppers() {
             let plan = plan(stepper, 2.3 * period);
-            let silent = final_state(&scene, &plan, |_| Box::new(Nothing));
+            let silent = final_state(&scene, &plan, |_| Box::new(()));
             for parts in [7.0, 100.0, 200.0] {
                 let plan = Plan { every: Some(period / parts), ..plan };
                 let written = final_state(&scene, &plan, |model| Box::new(Trace::new(model)));
                 same(&silent, &written, &scene);
-                let quiet = final_state(&scene, &plan, |_| Box::new(Nothing));
+                let quiet = final_state(&scene, &plan, |_| Box::new(()));
                 same(&silent, &quiet, &scene);
             }
         }
@@ -71,7 +71,7 @@ fn output_leaves_no_trace_in_the_state() {
     for (scene, period) in scenes() {
         for stepper in steppers() {
             let plan = plan(stepper, 2.3 * period);
-            let silent = final_state(&scene, &plan, |_| Box::new(Nothing));
+            let silent = final_state(&scene, &plan, |_| Box::new(()));
             let plan = Plan { every: Some(0.01 * period), ..plan };
             let written = final_state(&scene, &plan, |model| Box::new(Trace::new(model)));
             assert!(silent == written, "{stepper:?}: {:?} {:?}", silent.counts(), written.counts());
@@ -106,11 +106,11 @@ fn a_run_in_two_halves_is_one_run() {
     for tolerance in [1e-4, 1e-8, 1e-12] {
         let (whole, half) = (event(tolerance, 10.0 * PERIOD), event(tolerance, 5.0 * PERIOD));
         let mut once = model.start(&whole).unwrap();
-        run(&model, &whole, &mut once, &mut Nothing).unwrap();
+        run(&model, &whole, &mut once, &mut ()).unwrap();
         let mut first = model.start(&half).unwrap();
-        run(&model, &half, &mut first, &mut Nothing).unwrap();
+        run(&model, &half, &mut first, &mut ()).unwrap();
         let mut second = first.clone();
-        run(&model, &whole, &mut second, &mut Nothing).unwrap();
+        run(&model, &whole, &mut second, &mut ()).unwrap();
         same(&once, &second, &scene);
         assert_ne!(first, second);
     }
@@ -122,10 +122,10 @@ fn a_short_first_part_does_not_slow_down_the_rest() {
     let model = Model::new(&scene).unwrap();
     let (short, long) = (event(1e-8, 1e-7), event(1e-8, 10.0 * PERIOD));
     let mut once = model.start(&long).unwrap();
-    run(&model, &long, &mut once, &mut Nothing).unwrap();
+    run(&model, &long, &mut once, &mut ()).unwrap();
     let mut parts = model.start(&short).unwrap();
-    run(&model, &short, &mut parts, &mut Nothing).unwrap();
-    run(&model, &long, &mut parts, &mut Nothing).unwrap();
+    run(&model, &short, &mut parts, &mut ()).unwrap();
+    run(&model, &long, &mut parts, &mut ()).unwrap();
     assert!(parts.counts().steps < 2 * once.counts().steps);
 }
 
@@ -392,7 +392,7 @@ fn what_cannot_act_changes_nothing() {
         let [alone, among] = [&plain, &scene].map(|scene| {
             let model = Model::new(scene).unwrap();
             let mut state = model.start(&plan).unwrap();
-            run(&model, &plan, &mut state, &mut Nothing).unwrap();
+            run(&model, &plan, &mut state, &mut ()).unwrap();
             (state.body(&model, 1), state.counts(), state.memories()[0].clone())
         });
         assert_eq!(alone, among, "{tolerance:e}");

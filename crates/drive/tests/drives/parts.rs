@@ -98,17 +98,6 @@ pub(crate) fn event(tolerance: f64, duration: f64) -> Plan {
     Plan { limits, ..plan(Stepper::Event { tolerance }, duration) }
 }
 
-/// A record that keeps nothing.
-pub(crate) struct Nothing;
-
-impl Record for Nothing {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
-        false
-    }
-}
-
 /// A record that looks into the contacts at moments of its own and keeps what it saw, with rows.
 pub(crate) struct Looker {
     schedule: Schedule,
@@ -153,7 +142,7 @@ pub(crate) fn look(scene: &Scene, plan: &Plan, moments: Moments) -> (Model, Stat
 pub(crate) fn try_end(scene: &Scene, plan: &Plan) -> Result<(Model, State), RunError> {
     let model = Model::new(scene).unwrap();
     let mut state = model.start(plan).unwrap();
-    run(&model, plan, &mut state, &mut Nothing).map(|()| (model, state))
+    run(&model, plan, &mut state, &mut ()).map(|()| (model, state))
 }
 
 pub(crate) fn end(scene: &Scene, plan: &Plan) -> (Model, State) {

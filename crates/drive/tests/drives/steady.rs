@@ -2,7 +2,7 @@
 
 use crate::lottery::deal;
 use crate::parts::{
-    FOOT_SLIDER, Nothing, channel, contact, event, foot_and_slider, named, p1, plan, push, sine, wave,
+    FOOT_SLIDER, channel, contact, event, foot_and_slider, named, p1, plan, push, sine, wave,
 };
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Load, Scene, Varying};
@@ -67,7 +67,7 @@ fn an_early_end_at_a_corner_is_a_shorter_run() {
         let model = Model::new(&p1()).unwrap();
         let (mut on, mut once) = (from, model.start(&event(tolerance, 20.0 * PERIOD)).unwrap());
         for state in [&mut on, &mut once] {
-            run(&model, &event(tolerance, 20.0 * PERIOD), state, &mut Nothing).unwrap();
+            run(&model, &event(tolerance, 20.0 * PERIOD), state, &mut ()).unwrap();
         }
         assert_eq!(on.body(&model, 1), once.body(&model, 1), "{tolerance:e}");
     }
