@@ -6,17 +6,17 @@ use tempfile::tempdir;
 #[test]
 fn a_run_that_stops_itself_leaves_what_it_computed() {
     let out = tempdir().unwrap();
-    let output = run(&scenario("quickstart"), out.path(), &["run.limits.steps=1500"]);
+    let output = run(&scenario("quickstart"), out.path(), &["run.limits.steps=400"]);
     assert_eq!(code(&output), 3);
     assert_eq!(stdout(&output), "");
     let said = stderr(&output);
-    assert!(said.starts_with("quickstart: stopped: the limit of 1500 steps was reached at t = "), "{said}");
+    assert!(said.starts_with("quickstart: stopped: the limit of 400 steps was reached at t = "), "{said}");
     assert!(said.contains("help: raise run.limits.steps"), "{said}");
     let folder = out.path().join("quickstart");
     assert_eq!(listing(&folder).len(), 6);
     let summary = summary(&folder);
     assert_eq!(summary["status"], "stopped");
-    assert!(summary["error"]["message"].as_str().unwrap().starts_with("the limit of 1500 steps"));
+    assert!(summary["error"]["message"].as_str().unwrap().starts_with("the limit of 400 steps"));
     let reached = number(&summary, "/simulated_s");
     assert!(reached > 0.0 && reached < 0.1);
     let trace = Table::read(&folder.join("trace.csv"));

@@ -102,12 +102,22 @@ fn what_the_event_stepper_spares_is_told_where_it_does() {
         let usage = info(&scenario(name), &set)["usage"].clone();
         let items = ["used", "skipped"].into_iter().flat_map(|key| usage[key].as_array().unwrap().clone());
         let what = items.map(|item| item["what"].as_str().unwrap().to_owned());
-        let of_stepper =
-            ["method", "position", "stages for velocities", "memory between events", "evaluations", "forces"];
+        let of_stepper = [
+            "method",
+            "position",
+            "stages for velocities",
+            "steps between events",
+            "memory between events",
+            "evaluations",
+            "forces",
+        ];
         what.filter(|what| of_stepper.contains(&what.as_str())).collect()
     };
     let all = ["method", "position", "stages for velocities", "memory between events", "evaluations"];
-    assert_eq!(told("p1", &[]), all);
+    let sphere = r#"contacts.ball.profile={"sphere":{"radius":"1 mm"}}"#;
+    assert_eq!(told("p1", &[sphere]), all);
+    // A paraboloid needs no steps between events.
+    assert_eq!(told("p1", &[]), ["method", "position", "steps between events", all[3], all[4]]);
     // A stepper without events knows none of it.
     assert!(told("p1", &["run.stepper={\"verlet\":{\"step\":\"1 us\"}}"]).is_empty());
     // A curved waveform drags the edge along no line, so evaluations go on in gross slip.

@@ -4,7 +4,7 @@ mod sum;
 
 pub(crate) use sum::{Components, Reading, View};
 
-use crate::interval::Interval;
+use crate::interval::{Interval, Pull};
 use crate::model::{Contact, Link, Measure, Motion, Place, Press, Stroke};
 use crate::state::{Layout, Mode, State};
 use crate::{Model, Piece, Sample};
@@ -213,9 +213,8 @@ impl Equations<'_> {
             return;
         };
         for steady in &interval.steady {
-            let u = steady.own(|i| at.component(i)) + steady.followed(at.time());
-            let force = steady.force(u);
-            sum.apply(&steady.free, steady.driven(), force);
+            let force = steady.force(steady.displacement(at.time(), |i| at.component(i)));
+            sum.apply(&steady.contact.u.free, steady.driven(), force);
         }
         for &c in &interval.others {
             self.contact(c, at, sum, extra);
@@ -332,10 +331,14 @@ impl Conservative for Equations<'_> {
             // One slider, as in most drives: no loop over coordinates is left.
             ([x], [acceleration, input], Some(Interval { slider: Some(slider), pulls, .. })) => {
                 (*acceleration, *input) = (slider.acceleration, slider.power);
-                for pull in pulls {
+                let mut add = |pull: &Pull<'_>| {
                     let area = pull.area(t, *x);
                     *acceleration += pull.acceleration * area;
                     *input += pull.power * area;
+                };
+                match &pulls[..] {
+                    [pull] => add(pull),
+                    pulls => pulls.iter().for_each(add),
                 }
             }
             (x, out, _) => self.accelerate(&Positions { t, x }, out),

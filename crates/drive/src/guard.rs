@@ -88,9 +88,9 @@ impl Guard {
     }
 
     /// How far below zero a guard must fall to count, and how near to zero it counts as there. Both hold what rounding
-    /// leaves of a difference of displacements that have travelled far, and of the velocities that it makes.
-    pub(crate) fn bands(self, contact: &Contact, tolerance: f64, at: &Motion) -> (f64, f64) {
-        let rounding = 4.0 * f64::EPSILON * at.u.abs();
+    /// leaves of a difference of displacements that have travelled as far as `u` (m), and of the velocities that it makes.
+    pub(crate) fn bands(self, contact: &Contact, tolerance: f64, u: f64) -> (f64, f64) {
+        let rounding = 4.0 * f64::EPSILON * u.abs();
         let (unit, rounding) = match self {
             Self::Drag | Self::Lower | Self::Upper => {
                 (contact.natural_velocity(), rounding * contact.natural.frequency)

@@ -5,7 +5,12 @@
 //! linear in time and coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
 //! not looked at until their gap closes. What is left goes through the general [`Equations`](crate::equations::Equations).
 
-use crate::model::{Contact, Free, Measure, Model, Motion, Press, Terms};
+mod swing;
+
+pub(crate) use swing::{Place, Swing};
+
+use crate::guard::Guard;
+use crate::model::{Contact, Free, Measure, Model, Motion, Press};
 use crate::state::{Mode, State};
 use stickslip_contact::{Profile, SteadyBranch};
 
@@ -56,24 +61,38 @@ impl Pull<'_> {
     /// M at the slip front, m².
     #[inline(always)]
     pub(crate) fn area(&self, t: f64, x: f64) -> f64 {
-        self.profile.area((self.front + self.advance * (t - self.start)) + self.lean * x)
+        self.profile.area(self.height(t, x))
+    }
+
+    /// Height of the slip front, m.
+    #[inline(always)]
+    fn height(&self, t: f64, x: f64) -> f64 {
+        (self.front + self.advance * (t - self.start)) + self.lean * x
+    }
+
+    /// N of one metre (m³), the height now (m) and how it leans on the coordinate, where M is a power 3/2 of the height.
+    fn root_law(&self, t: f64, x: f64) -> Option<(f64, f64, f64)> {
+        let is_paraboloid = self.profile.exponent() == Some(2.0);
+        is_paraboloid.then(|| (self.profile.volume(1.0), self.height(t, x), self.lean))
     }
 }
 
 /// A contact at constant indentation on one branch.
 #[derive(Debug, Clone)]
 pub(crate) struct Steady<'a> {
-    pub(crate) contact: usize,
+    /// Its place among the contacts.
+    pub(crate) index: usize,
+    pub(crate) contact: &'a Contact,
+    /// Those that end the interval.
+    pub(crate) guards: &'static [Guard],
     d: f64,
     /// u = constant + rate (t - start) + Σ coefficient · coordinate.
     constant: f64,
     rate: f64,
     start: f64,
-    /// Coefficients of the free coordinates.
-    pub(crate) free: Terms,
+    /// Sum of the coefficients: what a single coordinate counts in u.
+    pub(crate) arm: f64,
     branch: SteadyBranch,
-    profile: &'a Profile,
-    count: f64,
 }
 
 impl Steady<'_> {
@@ -86,7 +105,7 @@ impl Steady<'_> {
     /// Force along u on the coordinates, N: what the contacts exert, less than zero forward.
     #[inline(always)]
     pub(crate) fn force(&self, u: f64) -> f64 {
-        -self.count * self.branch.force(self.profile, u)
+        -self.contact.count * self.branch.force(self.contact.law.profile(), u)
     }
 
     /// Rate of u that followers make, m/s.
@@ -95,17 +114,59 @@ impl Steady<'_> {
         self.rate
     }
 
+    /// u at time t, s; `x` reads positions of free coordinates.
+    #[inline(always)]
+    pub(crate) fn displacement(&self, t: f64, x: impl Fn(usize) -> f64) -> f64 {
+        // Two bodies far from their start may be close to each other: their difference first.
+        self.own(x) + self.followed(t)
+    }
+
     /// Motion at time t, s; `x` and `v` read positions and velocities of free coordinates.
     #[inline(always)]
     pub(crate) fn motion(&self, t: f64, x: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64) -> Motion {
-        let u = self.own(x) + self.followed(t);
-        Motion { d: self.d, u, dd: 0.0, du: self.own(v) + self.rate }
+        Motion { d: self.d, u: self.displacement(t, x), dd: 0.0, du: self.own(v) + self.rate }
+    }
+
+    /// Value of one of its guards at time t, s: the margin of its piece, or else the speed of its edge.
+    #[inline(always)]
+    pub(crate) fn guard(
+        &self,
+        guard: Guard,
+        t: f64,
+        x: impl Fn(usize) -> f64,
+        v: impl Fn(usize) -> f64,
+    ) -> f64 {
+        match guard {
+            Guard::Piece => self.branch.margin(self.displacement(t, x)),
+            _ => self.branch.sense() * (self.own(v) + self.rate),
+        }
+    }
+
+    /// Its rate; `v` and `a` read velocities and accelerations.
+    #[inline(always)]
+    pub(crate) fn guard_rate(&self, guard: Guard, v: impl Fn(usize) -> f64, a: impl Fn(usize) -> f64) -> f64 {
+        match guard {
+            Guard::Piece => -self.branch.sense() * (self.own(v) + self.rate),
+            _ => self.branch.sense() * self.own(a),
+        }
+    }
+
+    /// +1 forward, -1 backward.
+    pub(crate) fn sense(&self) -> f64 {
+        self.branch.sense()
+    }
+
+    /// How far a single coordinate at x (m) may still move before a piece of memory ends, m; ∞ in gross slip.
+    #[inline(always)]
+    pub(crate) fn reach(&self, t: f64, x: f64) -> f64 {
+        let u = self.arm * x + self.followed(t);
+        if self.branch.is_gross() { f64::INFINITY } else { self.branch.margin(u) / self.arm.abs() }
     }
 
     /// What the free coordinates make of u, or their derivatives of its own.
     #[inline(always)]
-    pub(crate) fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
-        self.free.iter().map(|(i, a)| a * of(*i)).sum()
+    fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
+        self.contact.u.free.iter().map(|(i, a)| a * of(*i)).sum()
     }
 }
 
@@ -127,6 +188,18 @@ impl<'a> Interval<'a> {
     #[inline]
     pub(crate) fn steady(&self, c: usize) -> Option<&Steady<'a>> {
         self.places.get(c).copied().flatten().map(|place| &self.steady[place])
+    }
+
+    /// The contacts whose motion a steady contact's closed forms do not give.
+    #[inline(always)]
+    pub(crate) fn unsteady(&self) -> impl Iterator<Item = usize> + '_ {
+        self.others.iter().chain(&self.apart).copied()
+    }
+
+    /// Whether there are none.
+    #[inline(always)]
+    pub(crate) fn is_steady(&self) -> bool {
+        self.others.is_empty() && self.apart.is_empty()
     }
 
     /// Works out what stays the same from a state on.
@@ -162,14 +235,15 @@ impl<'a> Interval<'a> {
     fn pull(&mut self, slider: &Free) -> Slider {
         let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
         for steady in &self.steady {
-            let arm: f64 = steady.free.iter().map(|(_, a)| a).sum();
+            let arm = steady.arm;
             let ((front, lean), (force, gain)) = (steady.branch.front(), steady.branch.forces());
-            let (bend, work) = (-slider.mobility * arm * steady.count, steady.count * steady.rate);
+            let count = steady.contact.count;
+            let (bend, work) = (-slider.mobility * arm * count, count * steady.rate);
             sum.acceleration += bend * force;
             sum.power += work * force;
             if gain != 0.0 {
                 self.pulls.push(Pull {
-                    profile: steady.profile,
+                    profile: steady.contact.law.profile(),
                     front: front + lean * steady.constant,
                     advance: lean * steady.rate,
                     start: steady.start,
@@ -190,15 +264,15 @@ fn steady<'a>(c: usize, contact: &'a Contact, mode: &Mode, state: &State) -> Opt
     }
     let [constant, rate, start] = line(&contact.u, state)?;
     Some(Steady {
-        contact: c,
+        index: c,
+        contact,
+        guards: Guard::of(contact, mode),
         d: *d,
         constant,
         rate,
         start,
-        free: contact.u.free.clone(),
+        arm: contact.u.free.iter().map(|(_, a)| a).sum(),
         branch: branch.steady(*d, *area),
-        profile: contact.law.profile(),
-        count: contact.count,
     })
 }
 

@@ -21,6 +21,7 @@ mod interval;
 mod linearised;
 mod model;
 mod plan;
+mod quadrature;
 mod record;
 mod run;
 pub mod scene;

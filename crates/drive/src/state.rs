@@ -80,6 +80,11 @@ impl Mode {
         matches!(self, Self::Slip(branch) if branch.is_gross())
     }
 
+    /// Whether a contact in this mode has springs that stick.
+    pub(crate) fn holds(&self) -> bool {
+        !self.is_gross() && *self != Self::Open
+    }
+
     /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
     pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
         match (memory, course) {

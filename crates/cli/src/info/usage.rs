@@ -65,7 +65,15 @@ impl Usage {
 
     /// What the stepper with located events makes of the equations of motion.
     fn method(&mut self, job: &Job) {
-        if job.model.is_conservative() {
+        if job.model.swings() {
+            self.uses(
+                "method",
+                "",
+                "closed form from event to event; Runge–Kutta–Nyström 8(6) where it comes to rest",
+            );
+            let why = "one slider, paraboloids under constant load, straight waveforms: an interval is one quadrature";
+            self.skips("steps between events", "", why);
+        } else if job.model.is_conservative() {
             self.uses("method", "", "Runge–Kutta–Nyström 8(6): no force hangs on a velocity");
             let why = "no force hangs on one: a third of the evaluations is spared";
             self.skips("stages for velocities", "", why);

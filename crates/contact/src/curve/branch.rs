@@ -119,10 +119,28 @@ impl SteadyBranch {
         (self.base, self.gain)
     }
 
+    /// +1 forward, -1 backward.
+    #[inline(always)]
+    pub fn sense(&self) -> f64 {
+        self.sense
+    }
+
+    /// Whether every spring slips.
+    #[inline(always)]
+    pub fn is_gross(&self) -> bool {
+        self.gain == 0.0
+    }
+
+    /// How far the edge may still move at u before the piece is used up, m; 0 - σu in gross slip, where no piece ends.
+    #[inline(always)]
+    pub fn margin(&self, u: f64) -> f64 {
+        self.level - self.sense * u
+    }
+
     /// F_x at u, N.
     #[inline(always)]
     pub fn force(&self, profile: &Profile, u: f64) -> f64 {
-        let front = self.height + (self.level - self.sense * u) * self.flow;
+        let front = self.height + self.margin(u) * self.flow;
         self.base + self.gain * profile.area(front)
     }
 }

@@ -1,6 +1,7 @@
 //! What a model spares its runs.
 
 use super::{Contact, Link, Model, Stroke};
+use stickslip_contact::Engine;
 
 impl Model {
     /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts hangs on
@@ -16,6 +17,19 @@ impl Model {
         let undamped = self.links.iter().all(|link| link.damping == 0.0);
         let unbraked = self.contacts.iter().all(|contact| contact.damping == 0.0);
         undamped && unbraked && self.loads.is_empty() && self.growing == 0 && !self.free.is_empty()
+    }
+
+    /// Whether the stepper `event` takes no steps between events: a single slider swings in closed form among paraboloids
+    /// under constant load that straight waveforms drag. Others are stepped through their partial slip.
+    pub fn swings(&self) -> bool {
+        let is_straight = |w: usize| self.waveforms[w].resolution() == f64::INFINITY;
+        let has_form = |contact: &&Contact| {
+            let is_curve = contact.engine == Engine::Curve && contact.law.profile().exponent() == Some(2.0);
+            is_curve && contact.is_constant() && contact.u.driven.iter().all(|(w, _)| is_straight(*w))
+        };
+        let mut pressed = self.contacts.iter().filter(|contact| !contact.is_never_pressed());
+        let is_single = self.free.len() == 1 && self.links.is_empty() && pressed.clone().next().is_some();
+        self.is_conservative() && is_single && pressed.all(|contact| has_form(&contact))
     }
 }
 

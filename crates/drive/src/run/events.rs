@@ -4,15 +4,18 @@
 //! it. A step is attempted on these laws; if a guard falls below zero inside it, the moment is found on the dense
 //! output and the step ends there, in the state that the dense output has. Then memory is committed, all contacts
 //! together, and those whose guard fell get their next law by decree. Steps that no event ends leave the memories of
-//! steady contacts to the next one that does. Corners of waveforms end steps exactly.
+//! steady contacts to the next one that does. Corners of waveforms end steps exactly. Where an interval has a closed form,
+//! no step is attempted: one leap takes it to its end.
 
 mod allowance;
+mod leap;
 mod locate;
 mod moving;
 mod path;
 mod rest;
 mod shift;
 mod steady;
+mod step;
 mod switch;
 mod write;
 
@@ -22,7 +25,7 @@ use super::watch::Watch;
 use crate::equations::Equations;
 use crate::event::EventKind;
 use crate::guard::Guard;
-use crate::interval::Interval;
+use crate::interval::{Interval, Swing};
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
@@ -31,9 +34,7 @@ use allowance::scale;
 use moving::Moving;
 use path::MOST_PIECES;
 use stickslip_contact::{Engine, Segment};
-use stickslip_stepper::{
-    Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Nystrom, StepControl, StepLimits, Verdict,
-};
+use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Nystrom, StepControl, StepLimits};
 
 /// Scratch of one run; all that its future depends on is in the [`State`].
 pub(super) struct Run<'a, A> {
@@ -50,7 +51,7 @@ pub(super) struct Run<'a, A> {
     strict: f64,
     /// Natural scale of work, J.
     work: f64,
-    /// Largest power that followers could put into the contacts at the last event, W.
+    /// Largest power that followers could put into the contacts at the last corner, W.
     haste: f64,
     watch: Watch,
     /// Longest step, s: a fraction of the period of the fastest smooth waveform.
@@ -61,6 +62,17 @@ pub(super) struct Run<'a, A> {
     jumpy: bool,
     /// What stays the same until the next event.
     interval: Option<Box<Interval<'a>>>,
+    /// The motion of a single slider until its next event, and whether it may be taken up.
+    swing: Box<Swing>,
+    leaps: bool,
+    /// Whether the solver has been left behind by leaps.
+    behind: bool,
+    /// Earliest corner of a waveform, s.
+    corner: f64,
+    /// Whether any contact is in partial slip or sticks.
+    holds: bool,
+    /// Whether all that is free is at rest.
+    rests: bool,
     /// Whether memories of steady contacts lag behind the state.
     lags: bool,
     /// The contacts at the start of the step.
@@ -114,14 +126,6 @@ const FINEST: f64 = 1e-13;
 /// Steps of a row under a varying load in a period of the load, at least.
 const CHORDS_PER_PERIOD: f64 = 4096.0;
 
-/// How a step ends.
-#[derive(Clone, Copy, PartialEq)]
-enum Ending {
-    Smooth,
-    Event,
-    Corner,
-}
-
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
     fn new(model: &'a Model, plan: &Plan, tolerance: f64, solver: A) -> Self {
         let layout = model.layout();
@@ -144,6 +148,12 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             longest: longest(model, plan),
             jumpy: model.waveforms.iter().any(Waveform::has_jumps),
             interval: Some(Box::new(Interval::of(model))),
+            swing: Box::new(Swing::of(model)),
+            leaps: false,
+            behind: false,
+            corner: f64::INFINITY,
+            holds: false,
+            rests: false,
             lags: false,
             from: vec![Moving::default(); model.contacts.len()],
             to: vec![Moving::default(); model.contacts.len()],
@@ -187,11 +197,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             (0..self.model.contacts.len()).for_each(|c| self.decide(state, c));
             self.set_scale(state);
         }
+        self.turned(state);
         self.begin_interval(state);
-        self.with_equations(state, |run, eq| {
-            run.solver.start(eq, state.t, &state.y);
-            run.set_out(eq);
-        });
+        self.catch_up(state);
         if !fresh {
             return;
         }
@@ -205,138 +213,38 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         };
     }
 
-    /// One attempt and, if it succeeds, everything that belongs to an accepted step.
-    fn step(
-        &mut self,
-        state: &mut State,
-        control: &mut StepControl,
-        grid: &mut Grid,
-        record: &mut dyn Record,
-    ) -> Result<(), RunError> {
-        self.set_scale(state);
-        let corner = state.pieces.iter().map(|p| p.end).fold(self.end, f64::min);
-        let longest = self.longest_now(state);
-        let target = aim(state.t, state.step.min(longest).min(self.expected(state)), corner);
-        let h = target - state.t;
-        if h <= 0.0 {
-            return Err(RunError::StepTooSmall { t: state.t, step: state.step });
-        }
-        let verdict = self.with_equations(state, |run, eq| run.attempt(eq, state, control, target));
-        if !verdict.accepted {
-            return self.reject(state, verdict.next, record);
-        }
-        if self.steps.due(self.solver.end_time()).is_some() {
-            self.take_steps(state, grid);
-        }
-        let cut = self.solver.end_time() < target;
-        let ending = if cut {
-            Ending::Event
-        } else if target == corner {
-            Ending::Corner
-        } else {
-            Ending::Smooth
-        };
-        let wished = match (cut, h < state.step) {
-            // The next law has not earned a longer step yet.
-            (true, false) => h.min(verdict.next),
-            (true, true) => state.step,
-            (false, false) => verdict.next,
-            (false, true) => state.step.max(verdict.next),
-        };
-        self.accept(state, grid, record, ending == Ending::Smooth && self.fired.is_empty())?;
-        state.step = if ending == Ending::Smooth { wished } else { control.after_event(wished) };
-        if ending == Ending::Corner {
-            self.turn_corners(state, record);
-        }
-        if ending == Ending::Corner || !self.fired.is_empty() {
-            self.handle_fallen(state, ending == Ending::Corner, record)?;
-            self.shift(state);
-            self.restart(state);
-        } else {
-            std::mem::swap(&mut self.from, &mut self.to);
-            if self.rests(state) {
-                self.stop(state);
-            }
-        }
-        self.watch.step(state, record)
-    }
-
-    /// Tries a step and, if its error allows, looks for the first event in it and ends it there.
-    #[inline(always)]
-    fn attempt(
-        &mut self,
-        eq: &Equations<'_>,
-        state: &State,
-        control: &mut StepControl,
-        target: f64,
-    ) -> Verdict {
-        let error = self.solver.attempt_until(eq, target, &self.scale);
-        let verdict = control.propose(error, target - state.t);
-        if verdict.accepted {
-            self.solver.end_slopes(eq);
-            self.arrive(eq);
-            self.fired.clear();
-            if let Some(fall) = self.first_fall(eq, state) {
-                if fall.t < target {
-                    self.solver.cut(fall.t);
-                    self.arrive(eq);
-                }
-                self.collect_fallen(state, fall);
-            }
-        }
-        verdict
-    }
-
-    fn reject(&mut self, state: &mut State, next: f64, record: &mut dyn Record) -> Result<(), RunError> {
-        state.counts.rejected += 1;
-        state.step = next;
-        if next > 4.0 * f64::EPSILON * state.t.abs() && next > f64::MIN_POSITIVE {
-            return self.watch.step(state, record);
-        }
-        Err(RunError::StepTooSmall { t: state.t, step: next })
-    }
-
-    /// Rows and looks inside the step, then the commit of all contacts, then time moves on. `goes_on` says that no event
-    /// ends the step.
-    fn accept(
-        &mut self,
-        state: &mut State,
-        grid: &mut Grid,
-        record: &mut dyn Record,
-        goes_on: bool,
-    ) -> Result<(), RunError> {
-        let t = self.solver.end_time();
-        self.trace_segments(state, t, goes_on);
-        self.lags = goes_on;
-        if grid.due(t).is_some() || self.looks.due(t).is_some() {
-            self.write(state, t, grid, record);
-        }
-        let end = self.solver.end();
-        if let Some(i) = end.iter().position(|y| !y.is_finite()) {
-            return Err(self.model.not_finite(t, i));
-        }
-        state.y[..end.len()].copy_from_slice(end);
-        state.t = t;
-        state.counts.steps += 1;
-        self.solver.accept();
-        self.commit(state)
-    }
-
-    /// Tells the solver that the laws, and perhaps the forces of growing contacts, have changed.
+    /// The laws, and perhaps the forces of growing contacts, have changed.
     fn restart(&mut self, state: &State) {
-        let begin = self.solver.begin_mut();
-        begin.copy_from_slice(&state.y[..begin.len()]);
         self.begin_interval(state);
+        self.behind = true;
+        if !self.leaps {
+            self.catch_up(state);
+        }
+    }
+
+    /// Puts the solver where the state is.
+    fn catch_up(&mut self, state: &State) {
+        self.behind = false;
         self.with_equations(state, |run, eq| {
-            run.solver.restart_slopes(eq);
+            run.solver.start(eq, state.t, &state.y);
             run.set_out(eq);
         });
+        self.set_scale(state);
+        self.rests = self.is_at_rest(state);
     }
 
     fn begin_interval(&mut self, state: &State) {
         if let Some(interval) = &mut self.interval {
             interval.begin(self.model, state);
         }
+        let leaps = |interval: &Interval<'_>| interval.slider.is_some() && interval.is_steady();
+        self.leaps = self.model.is_conservative() && self.interval.as_ref().is_some_and(|i| leaps(i));
+        self.holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
+    }
+
+    /// Waveforms are on new pieces.
+    fn turned(&mut self, state: &State) {
+        self.corner = state.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min);
         self.haste = self.haste(state);
     }
 
@@ -362,16 +270,4 @@ fn longest(model: &Model, plan: &Plan) -> f64 {
     let rows = model.contacts.iter().filter(|c| c.engine != Engine::Curve && !c.is_constant());
     let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
     rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
-}
-
-/// End of the next step: the corner exactly, or so that no sliver is left before it.
-fn aim(t: f64, step: f64, corner: f64) -> f64 {
-    let left = corner - t;
-    if step >= 0.999 * left {
-        corner
-    } else if 2.0 * step > left {
-        t + 0.5 * left
-    } else {
-        t + step
-    }
 }

@@ -3,6 +3,7 @@
 use crate::parts::{column, contact, end, event, fitted_order, foot_and_slider, p1, push, trace, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::Shape;
+use stickslip_drive::scene::{Named, Side};
 
 const PERIOD: f64 = 1e-3;
 
@@ -43,15 +44,22 @@ fn energy_books_close_far_away() {
     assert!(error.iter().all(|error| error.abs() < 1e-9 * input[10]), "{error:?}");
 }
 
-/// Under constant load the stepper keeps the order of its method, 8, through all events.
+/// Under constant load the stepper keeps the order of its method, 8, through all events. Two sliders side by side: a single
+/// one would not be stepped.
 #[test]
 fn order_through_the_events_of_p1() {
     let known = 1.008_428_628_032_075e-5;
+    let mut twins = p1();
+    let (slider, mut ball) = (twins.bodies[1].clone(), twins.contacts[0].clone());
+    twins.bodies.push(Named { name: "twin".into(), ..slider });
+    (ball.name, ball.part.between[1]) = ("its ball".into(), Side::Body(2));
+    twins.contacts.push(ball);
     let points: Vec<(f64, f64)> = (5..=10)
         .map(|exponent| {
-            let (model, state) = end(&p1(), &event(10_f64.powi(-exponent), 20.0 * PERIOD));
-            let error = (state.body(&model, 1).unwrap().0 - known).abs();
-            (1.0 / state.counts().evaluations as f64, error)
+            let (model, state) = end(&twins, &event(10_f64.powi(-exponent), 20.0 * PERIOD));
+            let [one, other] = [1, 2].map(|body| state.body(&model, body).unwrap().0);
+            assert_eq!(one, other);
+            (1.0 / state.counts().evaluations as f64, (one - known).abs())
         })
         .collect();
     let order = fitted_order(&points);

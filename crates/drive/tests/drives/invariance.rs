@@ -133,15 +133,15 @@ fn a_short_first_part_does_not_slow_down_the_rest() {
 fn limits_stop_a_run_with_a_typed_error_and_keep_what_was_computed() {
     for stepper in steppers() {
         let free_plan = plan(stepper, 20.0 * PERIOD);
-        let steps = Plan { limits: Limits { steps: 300, ..Limits::default() }, ..free_plan };
+        let steps = Plan { limits: Limits { steps: 100, ..Limits::default() }, ..free_plan };
         let model = Model::new(&p1()).unwrap();
         let (mut state, mut trace) = (model.start(&steps).unwrap(), Trace::new(&model));
         let error = run(&model, &steps, &mut state, &mut trace).unwrap_err();
         assert!(
-            matches!(error, RunError::TooManySteps { limit: 300, t } if t > 0.0 && t < 20.0 * PERIOD),
+            matches!(error, RunError::TooManySteps { limit: 100, t } if t > 0.0 && t < 20.0 * PERIOD),
             "{error:?}"
         );
-        assert!(state.time() > 0.0 && state.counts().steps <= 300);
+        assert!(state.time() > 0.0 && state.counts().steps <= 100);
         // The last row written is where it stopped.
         assert_eq!(trace.rows().last().unwrap()[0], state.time());
         let Err(error) = try_end(
@@ -178,7 +178,7 @@ impl Record for Enough {
 #[test]
 fn a_record_can_interrupt_a_run() {
     for stepper in steppers() {
-        let plan = plan(stepper, 100.0 * PERIOD);
+        let plan = plan(stepper, 400.0 * PERIOD);
         let model = Model::new(&p1()).unwrap();
         let mut state = model.start(&plan).unwrap();
         let error = run(&model, &plan, &mut state, &mut Enough).unwrap_err();

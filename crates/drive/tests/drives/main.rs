@@ -34,3 +34,4 @@ mod small_oscillations;
 mod stages;
 mod statics;
 mod steady;
+mod swings;

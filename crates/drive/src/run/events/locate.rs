@@ -1,133 +1,165 @@
 //! Finding the first guard that falls inside a step.
 
 use super::{Moving, Run};
+use crate::Model;
 use crate::equations::Equations;
 use crate::guard::{Guard, NEARNESS};
-use crate::model::Motion;
+use crate::interval::{Interval, Steady};
+use crate::model::{Contact, Motion};
 use crate::state::State;
 use stickslip_stepper::{Attempt, hermite_dip, hermite_root, root, root_near};
 
+/// A guard of a contact: of a steady one a straight function of the state, of any other one a function of its motion.
+#[derive(Clone, Copy)]
+pub(super) struct Watched<'e> {
+    index: usize,
+    contact: &'e Contact,
+    guard: Guard,
+    steady: Option<&'e Steady<'e>>,
+}
+
 /// A guard that falls inside the step just attempted.
 #[derive(Clone, Copy)]
-pub(super) struct Fall {
+pub(super) struct Fall<'e> {
     pub(super) t: f64,
-    contact: usize,
-    guard: Guard,
+    watched: Watched<'e>,
 }
 
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
 
-impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
-    /// The earliest fall in the step just attempted, on its dense output.
-    pub(super) fn first_fall(&mut self, eq: &Equations<'_>, state: &State) -> Option<Fall> {
-        let mut first: Option<Fall> = None;
-        for (c, contact) in self.model.contacts.iter().enumerate() {
-            let (start, stop) = (self.from[c].motion, self.to[c].motion);
-            for &guard in Guard::of(contact, &state.modes[c]) {
-                let value = |at: &Motion| guard.value(contact, state.law(c), at);
-                let (dead, _) = guard.bands(contact, self.tolerance, &start);
-                let (g0, g1) = (value(&start), value(&stop));
-                let low = if g1 < -dead && g1 < g0 {
-                    Some((self.solver.end_time(), g1))
-                } else {
-                    self.dip(eq, state, (c, guard), (g0, g1), dead)
-                };
-                if let Some((low, below)) = low {
-                    let t = self.fall(eq, state, (c, guard), (g0, low, below));
-                    if first.is_none_or(|first| t < first.t) {
-                        first = Some(Fall { t, contact: c, guard });
-                    }
-                }
+impl<'e> Watched<'e> {
+    /// Does something with the guards of all contacts that can end the interval.
+    #[inline(always)]
+    fn each(model: &'e Model, interval: &'e Interval<'e>, state: &State, mut act: impl FnMut(Self)) {
+        for steady in &interval.steady {
+            let Steady { index, contact, .. } = *steady;
+            for &guard in steady.guards {
+                act(Self { index, contact, guard, steady: Some(steady) });
             }
         }
+        for index in interval.unsteady() {
+            let contact = &model.contacts[index];
+            for &guard in Guard::of(contact, &state.modes[index]) {
+                act(Self { index, contact, guard, steady: None });
+            }
+        }
+    }
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+    /// The earliest fall in the step just attempted, on its dense output.
+    #[inline(always)]
+    pub(super) fn first_fall<'e>(&mut self, eq: &Equations<'e>, state: &State) -> Option<Fall<'e>> {
+        let mut first: Option<Fall<'e>> = None;
+        Watched::each(eq.model, eq.interval?, state, |watched| {
+            let g1 = self.at_end(state, watched);
+            let low = if g1 < 0.0 && self.has_fallen(state, watched, g1) {
+                Some((self.solver.end_time(), g1))
+            } else {
+                self.dip(eq, state, watched, g1)
+            };
+            if let Some(low) = low {
+                let t = self.fall(eq, state, watched, low);
+                if first.is_none_or(|first| t < first.t) {
+                    first = Some(Fall { t, watched });
+                }
+            }
+        });
         first.map(|first| self.before(eq, state, first))
+    }
+
+    /// Whether a guard with the value `g` later in the step has fallen below its deadband.
+    fn has_fallen(&self, state: &State, watched: Watched<'_>, g: f64) -> bool {
+        g < -self.bands(watched).0 && g < self.at_begin(state, watched)
     }
 
     /// A guard that is up at both ends of the step may be down where another one falls: the piece of memory that an
     /// edge has used up before it turns back. Then that one comes first.
-    fn before(&mut self, eq: &Equations<'_>, state: &State, mut first: Fall) -> Fall {
-        for (c, contact) in self.model.contacts.iter().enumerate() {
-            for &guard in Guard::of(contact, &state.modes[c]) {
-                if (c, guard) == (first.contact, first.guard) {
-                    continue;
-                }
-                let start = self.from[c].motion;
-                let (dead, _) = guard.bands(contact, self.tolerance, &start);
-                let g1 = self.guard_at(eq, state, (c, guard), first.t);
-                if g1 < -dead {
-                    let g0 = guard.value(contact, state.law(c), &start);
-                    let t = self.fall(eq, state, (c, guard), (g0, first.t, g1));
-                    if g1 < g0 && t < first.t {
-                        first = Fall { t, contact: c, guard };
-                    }
+    fn before<'e>(&mut self, eq: &Equations<'e>, state: &State, mut first: Fall<'e>) -> Fall<'e> {
+        let Some(interval) = eq.interval else { return first };
+        Watched::each(eq.model, interval, state, |watched| {
+            if (watched.index, watched.guard) == (first.watched.index, first.watched.guard) {
+                return;
+            }
+            let g = self.inside(eq, state, watched, first.t);
+            if g < 0.0 && self.has_fallen(state, watched, g) {
+                let t = self.fall(eq, state, watched, (first.t, g));
+                if t < first.t {
+                    first = Fall { t, watched };
                 }
             }
-        }
+        });
         first
     }
 
     /// A guard that falls and returns inside the step: the time and value of its lowest point found.
-    fn dip(
+    #[inline(always)]
+    fn dip<'e>(
         &mut self,
-        eq: &Equations<'_>,
+        eq: &Equations<'e>,
         state: &State,
-        (c, guard): (usize, Guard),
-        (g0, g1): (f64, f64),
-        dead: f64,
+        watched: Watched<'e>,
+        g1: f64,
     ) -> Option<(f64, f64)> {
-        let contact = &self.model.contacts[c];
-        let (t0, h) = (self.solver.time(), self.solver.end_time() - self.solver.time());
-        let look = |run: &mut Self, share: f64| {
-            run.solver.dense(eq);
-            let t = t0 + share * h;
-            (t, run.guard_at(eq, state, (c, guard), t))
-        };
-        let looks = |run: &mut Self| {
-            LOOKS.into_iter().map(|share| look(run, share)).find(|(_, g)| *g < -dead && *g < g0)
-        };
-        if contact.press.waveform().is_some() {
-            return looks(self);
+        if watched.contact.press.waveform().is_some() {
+            return self.looks(eq, state, watched);
         }
-        match guard {
+        match watched.guard {
             // It rises again only after the edge has turned, and then that comes first.
             Guard::Piece => return None,
             Guard::Side => {
-                let slope = contact.law.stick_slope();
+                let slope = watched.contact.law.stick_slope();
                 let closes = |at: &Motion| at.dd < 0.0 && at.du.abs() < -slope * at.dd;
-                let closing = closes(&self.from[c].motion) || closes(&self.to[c].motion);
-                return if closing { looks(self) } else { None };
+                let (from, to) = (&self.from[watched.index].motion, &self.to[watched.index].motion);
+                return if closes(from) || closes(to) { self.looks(eq, state, watched) } else { None };
             }
             _ => {}
         }
-        let rate = |at: &Moving| guard.rate(contact, &state.modes[c], &at.motion, at.second);
-        let (share, lowest) = hermite_dip(g0, rate(&self.from[c]), g1, rate(&self.to[c]), h)?;
+        let (t0, h) = (self.solver.time(), self.solver.end_time() - self.solver.time());
+        let (g0, rates) = (self.at_begin(state, watched), self.rates(state, watched));
+        let (share, lowest) = hermite_dip(g0, rates[0], g1, rates[1], h)?;
         if lowest > 0.1 * g0.min(g1).max(0.0) {
             return None;
         }
-        Some(look(self, share)).filter(|(_, g)| *g < -dead)
+        let low = self.look(eq, state, watched, t0 + share * h);
+        Some(low).filter(|(_, g)| *g < -self.bands(watched).0)
+    }
+
+    /// The first of some moments inside the step at which a guard has fallen, and its value there.
+    fn looks<'e>(&mut self, eq: &Equations<'e>, state: &State, watched: Watched<'e>) -> Option<(f64, f64)> {
+        let (t0, h) = (self.solver.time(), self.solver.end_time() - self.solver.time());
+        let mut looks = LOOKS.into_iter().map(|share| self.look(eq, state, watched, t0 + share * h));
+        let (t, g) = looks.find(|(_, g)| *g < 0.0)?;
+        self.has_fallen(state, watched, g).then_some((t, g))
+    }
+
+    /// A moment inside the step and the value of a guard there.
+    fn look<'e>(&mut self, eq: &Equations<'e>, state: &State, watched: Watched<'e>, t: f64) -> (f64, f64) {
+        self.solver.dense(eq);
+        (t, self.inside(eq, state, watched, t))
     }
 
     /// The moment at which a guard falls, between the start of the step and a time at which it is below zero.
-    fn fall(
+    #[inline(never)]
+    fn fall<'e>(
         &mut self,
-        eq: &Equations<'_>,
+        eq: &Equations<'e>,
         state: &State,
-        guard: (usize, Guard),
-        (g0, low, below): (f64, f64, f64),
+        watched: Watched<'e>,
+        (low, below): (f64, f64),
     ) -> f64 {
         self.solver.dense(eq);
-        let t0 = self.solver.time();
+        let (t0, g0) = (self.solver.time(), self.at_begin(state, watched));
         if g0 <= 0.0 {
-            return self.leave(eq, state, guard, (t0, low));
+            return self.leave(eq, state, watched, (t0, low));
         }
         // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.
         let tolerance = (0.1 * NEARNESS * self.tolerance * (low - t0)).max(4.0 * f64::EPSILON * low.abs());
-        let guess = self.guess(state, guard, (g0, low, below));
-        let (_, near) =
-            guard.1.bands(&self.model.contacts[guard.0], self.tolerance, &self.from[guard.0].motion);
+        let guess = self.guess(state, watched, (g0, low, below));
+        let (_, near) = self.bands(watched);
         let value = |t: f64| {
-            let value = self.guard_at(eq, state, guard, t);
+            let value = self.inside(eq, state, watched, t);
             // As good as there.
             if value.abs() < near { 0.0 } else { value }
         };
@@ -136,18 +168,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
     /// both ends of the step where its rates are known there.
-    fn guess(&self, state: &State, (c, guard): (usize, Guard), (g0, low, below): (f64, f64, f64)) -> f64 {
-        let contact = &self.model.contacts[c];
-        if low < self.solver.end_time() || contact.press.waveform().is_some() {
+    fn guess(&self, state: &State, watched: Watched<'_>, (g0, low, below): (f64, f64, f64)) -> f64 {
+        if low < self.solver.end_time() || watched.contact.press.waveform().is_some() {
             return 0.5;
         }
-        let rate = |at: &Moving| guard.rate(contact, &state.modes[c], &at.motion, at.second);
-        hermite_root(g0, rate(&self.from[c]), below, rate(&self.to[c]), low - self.solver.time())
+        let rates = self.rates(state, watched);
+        hermite_root(g0, rates[0], below, rates[1], low - self.solver.time())
     }
 
     /// A guard that starts within its deadband: it may first rise and then fall.
-    fn leave(&self, eq: &Equations<'_>, state: &State, guard: (usize, Guard), (t0, low): (f64, f64)) -> f64 {
-        let g = |t: f64| self.guard_at(eq, state, guard, t);
+    fn leave(&self, eq: &Equations<'_>, state: &State, watched: Watched<'_>, (t0, low): (f64, f64)) -> f64 {
+        let g = |t: f64| self.inside(eq, state, watched, t);
         let mut t = low;
         for _ in 0..40 {
             t = t0 + 0.5 * (t - t0);
@@ -159,30 +190,77 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         t
     }
 
-    /// Value of a guard at a time inside the step, on the dense output.
-    fn guard_at(&self, eq: &Equations<'_>, state: &State, (c, guard): (usize, Guard), t: f64) -> f64 {
-        let contact = &self.model.contacts[c];
+    /// Value of a guard at the start of the step.
+    #[inline(always)]
+    fn at_begin(&self, state: &State, Watched { index, contact, guard, steady }: Watched<'_>) -> f64 {
+        let (t, begin, n) = (self.solver.time(), self.solver.begin(), self.layout.free);
+        match steady {
+            Some(steady) => steady.guard(guard, t, |i| begin[i], |i| begin[n + i]),
+            None => guard.value(contact, state.law(index), &self.from[index].motion),
+        }
+    }
+
+    /// Its value at the end of the step.
+    #[inline(always)]
+    fn at_end(&self, state: &State, Watched { index, contact, guard, steady }: Watched<'_>) -> f64 {
+        let (t, end, n) = (self.solver.end_time(), self.solver.end(), self.layout.free);
+        match steady {
+            Some(steady) => steady.guard(guard, t, |i| end[i], |i| end[n + i]),
+            None => guard.value(contact, state.law(index), &self.to[index].motion),
+        }
+    }
+
+    /// Its rates at both ends.
+    #[inline(always)]
+    fn rates(&self, state: &State, Watched { index, contact, guard, steady }: Watched<'_>) -> [f64; 2] {
+        let (begin, end, n) = (self.solver.begin(), self.solver.end(), self.layout.free);
+        match steady {
+            Some(steady) => [
+                steady.guard_rate(guard, |i| begin[n + i], |i| self.solver.begin_slope(n + i)),
+                steady.guard_rate(guard, |i| end[n + i], |i| self.solver.end_slope(n + i)),
+            ],
+            None => [&self.from[index], &self.to[index]]
+                .map(|Moving { motion, second }| guard.rate(contact, &state.modes[index], motion, *second)),
+        }
+    }
+
+    /// Its value at a time inside the step, on the dense output.
+    #[inline(always)]
+    fn inside(
+        &self,
+        eq: &Equations<'_>,
+        state: &State,
+        Watched { index, contact, guard, steady }: Watched<'_>,
+        t: f64,
+    ) -> f64 {
         let value = |i: usize| self.solver.value(i, t);
-        let motion = match eq.interval.and_then(|interval| interval.steady(c)) {
-            Some(steady) => steady.motion(t, value, |i| value(self.layout.velocity(i))),
-            None => eq.motion(contact, t, value),
+        match steady {
+            Some(steady) => steady.guard(guard, t, value, |i| value(self.layout.velocity(i))),
+            None => guard.value(contact, state.law(index), &eq.motion(contact, t, value)),
+        }
+    }
+
+    /// Its deadband and how near to zero it is as good as there.
+    fn bands(&self, Watched { index, contact, guard, steady }: Watched<'_>) -> (f64, f64) {
+        let u = match steady {
+            Some(steady) => steady.displacement(self.solver.time(), |i| self.solver.begin()[i]),
+            None => self.from[index].motion.u,
         };
-        guard.value(contact, state.law(c), &motion)
+        guard.bands(contact, self.tolerance, u)
     }
 
     /// The guard that ends the step, by decree, and all others that are down or as good as down there:
     /// simultaneous events are one.
-    pub(super) fn collect_fallen(&mut self, state: &State, fall: Fall) {
-        self.fired.push((fall.contact, fall.guard));
-        let others = self.model.contacts.iter().enumerate().filter(|(c, _)| *c != fall.contact);
-        for (c, contact) in others {
-            let (start, stop) = (self.from[c].motion, self.to[c].motion);
-            let fallen = Guard::of(contact, &state.modes[c]).iter().find(|guard| {
-                let (_, near) = guard.bands(contact, self.tolerance, &stop);
-                let value = |at| guard.value(contact, state.law(c), at);
-                value(&stop) < near && value(&stop) < value(&start)
-            });
-            self.fired.extend(fallen.map(|guard| (c, *guard)));
-        }
+    pub(super) fn collect_fallen(&mut self, eq: &Equations<'_>, state: &State, fall: Fall<'_>) {
+        self.fired.push((fall.watched.index, fall.watched.guard));
+        let Some(interval) = eq.interval else { return };
+        Watched::each(eq.model, interval, state, |watched| {
+            let known = self.fired.iter().any(|(c, _)| *c == watched.index);
+            let g = self.at_end(state, watched);
+            let (_, near) = self.bands(watched);
+            if !known && g < near && g < self.at_begin(state, watched) {
+                self.fired.push((watched.index, watched.guard));
+            }
+        });
     }
 }

@@ -3,11 +3,12 @@
 use super::Run;
 use crate::equations::Equations;
 use crate::guard::Guard;
+use crate::interval::{Interval, Steady};
 use crate::model::{Contact, Measure, Motion};
 use crate::state::{Mode, State};
 use stickslip_stepper::Attempt;
 
-/// A contact at one end of a step.
+/// A contact at one end of a step. Steady contacts have none: their motion is read off the state where it is asked for.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Moving {
     pub(super) motion: Motion,
@@ -21,6 +22,9 @@ const OVERSTEP: f64 = 1.05;
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// The contacts at the start of the next step, after anything that makes slopes jump.
     pub(super) fn set_out(&mut self, eq: &Equations<'_>) {
+        if eq.interval.is_some_and(Interval::is_steady) {
+            return;
+        }
         let mut from = std::mem::take(&mut self.from);
         let (t, begin) = (self.solver.time(), self.solver.begin());
         self.follow(eq, &mut from, t, begin, |i| self.solver.begin_slope(i));
@@ -29,6 +33,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// The contacts at the end of the step.
     pub(super) fn arrive(&mut self, eq: &Equations<'_>) {
+        if eq.interval.is_some_and(Interval::is_steady) {
+            return;
+        }
         let mut to = std::mem::take(&mut self.to);
         let (t, end) = (self.solver.end_time(), self.solver.end());
         self.follow(eq, &mut to, t, end, |i| self.solver.end_slope(i));
@@ -46,12 +53,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         slope: impl Fn(usize) -> f64 + Copy,
     ) {
         let Some(interval) = eq.interval else { return };
-        let n = self.layout.free;
-        for steady in &interval.steady {
-            let motion = steady.motion(t, |i| y[i], |i| y[n + i]);
-            contacts[steady.contact] = Moving { motion, second: (0.0, steady.own(|i| slope(n + i))) };
-        }
-        for &c in interval.others.iter().chain(&interval.apart) {
+        for c in interval.unsteady() {
             let contact = &self.model.contacts[c];
             let motion = eq.motion(contact, t, |i| y[i]);
             contacts[c] = Moving { motion, second: self.second(eq, contact, t, slope) };
@@ -70,23 +72,62 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         (contact.coupling().map_or(0.0, of), of(&contact.u))
     }
 
+    /// Motion of contact `c` at the end of the step.
+    pub(super) fn motion_at_end(&self, c: usize) -> Motion {
+        self.motion(c, self.solver.end_time(), self.solver.end())
+    }
+
+    /// The same once the state has moved there.
+    pub(super) fn motion_now(&self, state: &State, c: usize) -> Motion {
+        self.motion(c, state.t, &state.y)
+    }
+
+    fn motion(&self, c: usize, t: f64, y: &[f64]) -> Motion {
+        let n = self.layout.free;
+        match self.interval.as_ref().and_then(|interval| interval.steady(c)) {
+            Some(steady) => steady.motion(t, |i| y[i], |i| y[n + i]),
+            None => self.to[c].motion,
+        }
+    }
+
     /// About when the first piece of memory will be used up, s from now: a step much longer would only be thrown away.
     pub(super) fn expected(&self, state: &State) -> f64 {
-        let mut first = f64::INFINITY;
-        for (c, contact) in self.model.contacts.iter().enumerate() {
-            let mode = &state.modes[c];
-            if let Mode::Slip(branch) = mode {
-                let Moving { motion, second } = self.from[c];
-                let speed = Guard::Drag.value(contact, state.law(c), &motion);
-                let (left, pull) =
-                    (branch.margin(motion.d, motion.u), Guard::Drag.rate(contact, mode, &motion, second));
-                // left = speed t + pull t²/2; a slowing edge may never get there.
-                let reaches = speed * speed + 2.0 * pull * left;
-                if speed > 0.0 && reaches > 0.0 && left > 0.0 {
-                    first = first.min(2.0 * left / (speed + reaches.sqrt()));
-                }
-            }
-        }
+        let Some(interval) = &self.interval else { return f64::INFINITY };
+        let steady = interval.steady.iter().map(|steady| self.expected_of_steady(steady));
+        let unsteady = interval.unsteady().map(|c| self.expected_of(state, c));
+        let first = unsteady.fold(steady.fold(f64::INFINITY, f64::min), f64::min);
         OVERSTEP * first + 16.0 * f64::EPSILON * state.t
+    }
+
+    #[inline(always)]
+    fn expected_of_steady(&self, steady: &Steady<'_>) -> f64 {
+        if !steady.guards.contains(&Guard::Piece) {
+            return f64::INFINITY;
+        }
+        let (t, begin, n) = (self.solver.time(), self.solver.begin(), self.layout.free);
+        let (x, v, a) = (|i| begin[i], |i| begin[n + i], |i| self.solver.begin_slope(n + i));
+        let guard = |guard| steady.guard(guard, t, x, v);
+        reached(guard(Guard::Piece), guard(Guard::Drag), steady.guard_rate(Guard::Drag, v, a))
+    }
+
+    fn expected_of(&self, state: &State, c: usize) -> f64 {
+        let (contact, mode) = (&self.model.contacts[c], &state.modes[c]);
+        let Mode::Slip(branch) = mode else { return f64::INFINITY };
+        let Moving { motion, second } = self.from[c];
+        let speed = Guard::Drag.value(contact, state.law(c), &motion);
+        let pull = Guard::Drag.rate(contact, mode, &motion, second);
+        reached(branch.margin(motion.d, motion.u), speed, pull)
+    }
+}
+
+/// When what is left (m) will be used up at a speed (m/s) and its rate (m/s²): left = speed t + pull t²/2.
+#[inline(always)]
+fn reached(left: f64, speed: f64, pull: f64) -> f64 {
+    // A slowing edge may never get there.
+    let reaches = speed * speed + 2.0 * pull * left;
+    if speed > 0.0 && reaches > 0.0 && left > 0.0 {
+        2.0 * left / (speed + reaches.sqrt())
+    } else {
+        f64::INFINITY
     }
 }

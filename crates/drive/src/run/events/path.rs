@@ -20,12 +20,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// a step that `goes_on` leaves its memory where it is.
     pub(super) fn trace_segments(&mut self, state: &State, t: f64, goes_on: bool) {
         self.segments.clear();
+        let interval = self.interval.as_ref();
+        if goes_on && interval.is_some_and(|interval| interval.is_steady()) {
+            return;
+        }
         for (c, contact) in self.model.contacts.iter().enumerate() {
             let is_steady = || self.interval.as_ref().is_some_and(|interval| interval.steady(c).is_some());
             if contact.is_never_pressed() || (goes_on && is_steady()) {
                 continue;
             }
-            let motion = self.to[c].motion;
+            let motion = self.motion_at_end(c);
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
                 let mut segments = std::mem::take(&mut self.segments);
                 self.with_equations(state, |run, eq| {
@@ -80,15 +84,20 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Moves the memories of steady contacts to where a run stops short of an event.
     pub(super) fn settle(&mut self, state: &mut State) {
+        self.trace_steady(state);
+        // What is not finite has been refused before.
+        let _ = self.commit(state);
+    }
+
+    /// The segments of steady contacts that lead to the state.
+    pub(super) fn trace_steady(&mut self, state: &State) {
         self.segments.clear();
         if let Some(interval) = &self.interval {
             let x = |i: usize| state.y[i];
             let motion = |steady: &Steady<'_>| steady.motion(state.t, x, x).apex();
-            let segment = |steady: &Steady<'_>| (steady.contact, Segment::Straight(motion(steady)));
+            let segment = |steady: &Steady<'_>| (steady.index, Segment::Straight(motion(steady)));
             self.segments.extend(interval.steady.iter().map(segment));
         }
-        // What is not finite has been refused before.
-        let _ = self.commit(state);
     }
 
     /// All contacts move their memory to where the step ended.

@@ -3,7 +3,7 @@
 use super::Run;
 use crate::equations::Equations;
 use crate::model::Free;
-use crate::state::{Mode, State};
+use crate::state::State;
 use stickslip_stepper::Attempt;
 
 /// Velocities this small, relative to the natural ones, are rounding: some hundred of their last places.
@@ -14,18 +14,17 @@ const REST_REACH: f64 = 1.0;
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Longest step from here, s. Where something holds, a swing below the tolerance must die away instead of being
     /// nursed up to it, and one of the size of rounding must not be fed by more of it.
-    pub(super) fn longest_now(&self, state: &State) -> f64 {
-        let stuck = |mode: &Mode| !mode.is_gross() && *mode != Mode::Open;
-        if !state.modes.is_empty() && !state.modes.iter().any(stuck) {
+    pub(super) fn longest_now(&self) -> f64 {
+        if !self.holds {
             return self.longest;
         }
-        let reach = if self.rests(state) { REST_REACH } else { self.solver.reach() };
+        let reach = if self.rests { REST_REACH } else { self.solver.reach() };
         self.longest.min(reach / self.fastest)
     }
 
     /// Whether all that is free is at rest but for rounding: velocities that some step has left, and accelerations that
     /// will not make more of them.
-    pub(super) fn rests(&self, state: &State) -> bool {
+    pub(super) fn is_at_rest(&self, state: &State) -> bool {
         let velocity = |i: usize| self.layout.velocity(i);
         let still = |(i, free): (usize, &Free)| {
             let ((length, speed), pull) = (free.scale, self.solver.begin_slope(velocity(i)));

@@ -80,13 +80,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         for i in 0..self.fired.len() {
             let (c, guard) = self.fired[i];
             let contact = &self.model.contacts[c];
-            let motion = self.to[c].motion;
+            let motion = self.motion_now(state, c);
             let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
-            let (_, near) = Guard::Piece.bands(contact, self.tolerance, &motion);
-            let left = Guard::Piece.value(contact, state.law(c), &motion);
             // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
             // end is reached by decree.
-            let slack = if guard == Guard::Piece { near + left.max(0.0) } else { 0.0 };
+            let slack = if guard == Guard::Piece {
+                let left = guard.value(contact, state.law(c), &motion);
+                guard.bands(contact, self.tolerance, motion.u).1 + left.max(0.0)
+            } else {
+                0.0
+            };
             self.decree(state, c, course, slack);
             if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
                 kind = EventKind::GrossSlip;
@@ -133,7 +136,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let contact = &self.model.contacts[c];
         let eq = equations(self.model, self.layout, state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
-        let (_, near) = Guard::Drag.bands(contact, self.tolerance, &motion);
+        let (_, near) = Guard::Drag.bands(contact, self.tolerance, motion.u);
         if motion.du.abs() <= near && contact.law.stick_slope() * motion.dd.abs() <= near {
             (motion.dd, motion.du) = self.push(state, c, &motion);
         }

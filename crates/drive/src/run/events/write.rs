@@ -19,20 +19,26 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             grid.write(&eq, state, due, &|i| self.component_at(state, i, due), record);
         }
         while let Some(due) = self.looks.due(t) {
-            let memories = self.memories_at(&eq, state, due);
+            let memories = self.memories_at(&eq, state, due, |i| self.component(i, due));
             self.looks.show(memories.as_deref().ok(), record);
         }
         // What output asks for is no part of the run.
         self.for_output += self.solver.evaluations() - asked;
     }
 
-    /// The memories of all contacts at a time inside the step, as if it ended there. Kept out of the way of rows.
+    /// The memories of all contacts at a time inside the step, as if it ended there; `y` reads the components. Kept out of the way of rows.
     #[inline(never)]
-    fn memories_at(&self, eq: &Equations<'_>, state: &State, t: f64) -> Result<Vec<Memory>, ContactError> {
+    pub(super) fn memories_at(
+        &self,
+        eq: &Equations<'_>,
+        state: &State,
+        t: f64,
+        y: impl Fn(usize) -> f64,
+    ) -> Result<Vec<Memory>, ContactError> {
         let mut path = Vec::new();
         let contacts = self.model.contacts.iter().zip(&state.memories).enumerate();
         let memories = contacts.map(|(c, (contact, memory))| {
-            let motion = eq.motion(contact, t, |i| self.component(i, t));
+            let motion = eq.motion(contact, t, &y);
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
                 self.trace_growth(eq, state, (c, slot), (t, &motion), |piece| path.push(piece));
             } else {

@@ -1,0 +1,139 @@
+//! Intervals that are taken in one go, without the stepper.
+
+use super::{Run, equations};
+use crate::RunError;
+use crate::equations::Equations;
+use crate::guard::Guard;
+use crate::interval::{Place, Steady};
+use crate::record::Record;
+use crate::run::output::Grid;
+use crate::state::State;
+use stickslip_stepper::Attempt;
+
+/// Part of the tolerance that the place at an event may be off by.
+const SHARE: f64 = 0.1;
+
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+    /// Moves to the next event, corner or end in one go; false, with nothing done, where the interval has no closed form.
+    pub(super) fn leap(
+        &mut self,
+        state: &mut State,
+        grid: &mut Grid,
+        record: &mut dyn Record,
+    ) -> Result<bool, RunError> {
+        if !self.leaps || !self.aim(state) {
+            return Ok(false);
+        }
+        let event = self.swing.end();
+        let corner = self.corner.min(self.end);
+        let mut to = if event.t < corner { event } else { self.swing.at(corner) };
+        if to.t <= state.t {
+            return Ok(false);
+        }
+        if let Some(steady) = self.leap_over_steps(state, grid, to) {
+            to = steady;
+        }
+        state.counts.evaluations += self.swing.evaluations;
+        if grid.due(to.t).is_some() || self.looks.due(to.t).is_some() {
+            self.write_on_the_way(state, to, grid, record);
+        }
+        self.land(state, to)?;
+        let (is_event, is_corner) = (to.t == event.t, to.t == self.corner);
+        self.fired.clear();
+        if is_event {
+            self.collect_reached(state);
+        }
+        if is_corner {
+            self.turn_corners(state, record);
+            self.turned(state);
+        }
+        if is_event || is_corner {
+            self.handle_fallen(state, is_corner, record)?;
+            self.shift(state);
+            self.restart(state);
+        }
+        self.watch.step(state, record)?;
+        Ok(true)
+    }
+
+    /// Takes up the interval and finds its event.
+    fn aim(&mut self, state: &State) -> bool {
+        // What has no closed form now has none until the next event.
+        self.leaps = false;
+        let (Some(interval), [slider]) = (&self.interval, &self.model.free[..]) else { return false };
+        let start = Place { t: state.t, x: state.y[0], v: state.y[1] };
+        let length = slider.scale.0;
+        self.swing.begin(interval, slider, start) && self.swing.aim(length, SHARE * self.strict * length)
+    }
+
+    /// The end of a period with which the steps of the drive are constant, if there is one on the way.
+    fn leap_over_steps(&mut self, state: &State, grid: &mut Grid, to: Place) -> Option<Place> {
+        while let Some(due) = self.steps.due(to.t) {
+            let place = if due < to.t { self.swing.at(due) } else { to };
+            if self.steps.take(state.shifts[self.steps.coordinate], place.x) {
+                self.end = due;
+                grid.end_at(due);
+                return Some(place);
+            }
+        }
+        None
+    }
+
+    /// Rows and looks that are due on the way.
+    #[inline(never)]
+    fn write_on_the_way(&mut self, state: &State, to: Place, grid: &mut Grid, record: &mut dyn Record) {
+        let eq = equations(self.model, self.layout, state);
+        let mut y = std::mem::take(&mut self.slopes);
+        while let Some(due) = grid.due(to.t) {
+            self.fill(state, due, to, &mut y);
+            grid.write(&eq, state, due, &|i| y[i], record);
+        }
+        while let Some(due) = self.looks.due(to.t) {
+            self.fill(state, due, to, &mut y);
+            let memories = self.memories_at(&eq, state, due, |i| y[i]);
+            self.looks.show(memories.as_deref().ok(), record);
+        }
+        self.slopes = y;
+    }
+
+    /// Components at a time on the way.
+    fn fill(&mut self, state: &State, due: f64, to: Place, y: &mut [f64]) {
+        let place = if due < to.t { self.swing.at(due) } else { to };
+        y.copy_from_slice(&state.y);
+        (y[0], y[1]) = (place.x, place.v);
+        y[self.layout.input()] += self.swing.work(&place);
+    }
+
+    /// Moves the state to a place, and the memories of all contacts with it.
+    fn land(&mut self, state: &mut State, to: Place) -> Result<(), RunError> {
+        if let Some(i) = [to.x, to.v].iter().position(|y| !y.is_finite()) {
+            return Err(self.model.not_finite(to.t, i));
+        }
+        state.y[self.layout.input()] += self.swing.work(&to);
+        (state.y[0], state.y[1]) = (to.x, to.v);
+        state.t = to.t;
+        state.counts.steps += 1;
+        self.lags = false;
+        self.trace_steady(state);
+        self.commit(state)
+    }
+
+    /// The guards that end the motion: all edges turn at once; of pieces those that are used up, or as good as.
+    fn collect_reached(&mut self, state: &State) {
+        let Some(interval) = &self.interval else { return };
+        let steady = interval.steady.iter();
+        if self.swing.turns {
+            self.fired.extend(steady.map(|steady| (steady.index, Guard::Drag)));
+            return;
+        }
+        let pieces = steady.filter(|steady| steady.guards.contains(&Guard::Piece));
+        let left = |steady: &Steady<'_>| steady.guard(Guard::Piece, state.t, |_| state.y[0], |_| state.y[1]);
+        let least = pieces.clone().map(left).fold(f64::INFINITY, f64::min);
+        let reached = pieces.filter(|steady| {
+            let u = steady.displacement(state.t, |_| state.y[0]);
+            let (_, near) = Guard::Piece.bands(steady.contact, self.tolerance, u);
+            left(steady) <= least.max(0.0) + near
+        });
+        self.fired.extend(reached.map(|steady| (steady.index, Guard::Piece)));
+    }
+}

@@ -1,0 +1,158 @@
+//! One attempt, and what belongs to an accepted step.
+
+use super::Run;
+use crate::RunError;
+use crate::equations::Equations;
+use crate::record::Record;
+use crate::run::output::Grid;
+use crate::state::State;
+use stickslip_stepper::{Attempt, StepControl, Verdict};
+
+/// How a step ends.
+#[derive(Clone, Copy, PartialEq)]
+enum Ending {
+    Smooth,
+    Event,
+    Corner,
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+    /// A leap to the next event or, where that is not possible, one attempt and, if it succeeds, everything that belongs to
+    /// an accepted step.
+    pub(super) fn step(
+        &mut self,
+        state: &mut State,
+        control: &mut StepControl,
+        grid: &mut Grid,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        if self.leap(state, grid, record)? {
+            return Ok(());
+        }
+        if self.behind {
+            self.catch_up(state);
+        }
+        let corner = self.corner.min(self.end);
+        let longest = self.longest_now();
+        let target = aim(state.t, state.step.min(longest).min(self.expected(state)), corner);
+        let h = target - state.t;
+        if h <= 0.0 {
+            return Err(RunError::StepTooSmall { t: state.t, step: state.step });
+        }
+        let verdict = self.with_equations(state, |run, eq| run.attempt(eq, state, control, target));
+        if !verdict.accepted {
+            return self.reject(state, verdict.next, record);
+        }
+        if self.steps.due(self.solver.end_time()).is_some() {
+            self.take_steps(state, grid);
+        }
+        let cut = self.solver.end_time() < target;
+        let ending = if cut {
+            Ending::Event
+        } else if target == corner {
+            Ending::Corner
+        } else {
+            Ending::Smooth
+        };
+        let wished = match (cut, h < state.step) {
+            // The next law has not earned a longer step yet.
+            (true, false) => h.min(verdict.next),
+            (true, true) => state.step,
+            (false, false) => verdict.next,
+            (false, true) => state.step.max(verdict.next),
+        };
+        self.accept(state, grid, record, ending == Ending::Smooth && self.fired.is_empty())?;
+        state.step = if ending == Ending::Smooth { wished } else { control.after_event(wished) };
+        if ending == Ending::Corner {
+            self.turn_corners(state, record);
+            self.turned(state);
+        }
+        if ending == Ending::Corner || !self.fired.is_empty() {
+            self.handle_fallen(state, ending == Ending::Corner, record)?;
+            self.shift(state);
+            self.restart(state);
+        } else {
+            std::mem::swap(&mut self.from, &mut self.to);
+            self.rests = self.is_at_rest(state);
+            if self.rests {
+                self.stop(state);
+            }
+        }
+        self.watch.step(state, record)
+    }
+
+    /// Tries a step and, if its error allows, looks for the first event in it and ends it there.
+    #[inline(always)]
+    fn attempt(
+        &mut self,
+        eq: &Equations<'_>,
+        state: &State,
+        control: &mut StepControl,
+        target: f64,
+    ) -> Verdict {
+        let error = self.solver.attempt_until(eq, target, &self.scale);
+        let verdict = control.propose(error, target - state.t);
+        if verdict.accepted {
+            self.solver.end_slopes(eq);
+            self.arrive(eq);
+            self.fired.clear();
+            if let Some(fall) = self.first_fall(eq, state) {
+                if fall.t < target {
+                    self.solver.cut(fall.t);
+                    self.arrive(eq);
+                }
+                self.collect_fallen(eq, state, fall);
+            }
+        }
+        verdict
+    }
+
+    fn reject(&mut self, state: &mut State, next: f64, record: &mut dyn Record) -> Result<(), RunError> {
+        state.counts.rejected += 1;
+        state.step = next;
+        // Perhaps rounding has grown above what was allowed for it.
+        self.set_scale(state);
+        if next > 4.0 * f64::EPSILON * state.t.abs() && next > f64::MIN_POSITIVE {
+            return self.watch.step(state, record);
+        }
+        Err(RunError::StepTooSmall { t: state.t, step: next })
+    }
+
+    /// Rows and looks inside the step, then the commit of all contacts, then time moves on. `goes_on` says that no event
+    /// ends the step.
+    fn accept(
+        &mut self,
+        state: &mut State,
+        grid: &mut Grid,
+        record: &mut dyn Record,
+        goes_on: bool,
+    ) -> Result<(), RunError> {
+        let t = self.solver.end_time();
+        self.trace_segments(state, t, goes_on);
+        self.lags = goes_on;
+        if grid.due(t).is_some() || self.looks.due(t).is_some() {
+            self.write(state, t, grid, record);
+        }
+        let end = self.solver.end();
+        if let Some(i) = end.iter().position(|y| !y.is_finite()) {
+            return Err(self.model.not_finite(t, i));
+        }
+        state.y[..end.len()].copy_from_slice(end);
+        state.t = t;
+        state.counts.steps += 1;
+        self.solver.accept();
+        self.commit(state)
+    }
+}
+
+/// End of the next step: the corner exactly, or so that no sliver is left before it.
+fn aim(t: f64, step: f64, corner: f64) -> f64 {
+    let left = corner - t;
+    if step >= 0.999 * left {
+        corner
+    } else if 2.0 * step > left {
+        t + 0.5 * left
+    } else {
+        t + step
+    }
+}

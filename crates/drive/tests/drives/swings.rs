@@ -1,0 +1,139 @@
+//! Swings in closed form against the stepper. A single slider among contacts under constant load is taken from event to
+//! event at once; two sliders that know nothing of each other are stepped, each with the same motion as alone.
+
+use crate::parts::{column, contact, end, event, follower, free, p1, push, trace, wave};
+use stickslip_contact::Profile;
+use stickslip_drive::scene::{Contact, Named, Scene, Side};
+use stickslip_drive::{Shape, Timing, Waveform};
+
+/// x(20 ms) of P1, m (`tests/data/drive_p1.json`).
+const KNOWN: f64 = 1.008_428_628_032_074_9e-5;
+const STROKE: f64 = 0.5e-6;
+
+/// One slider's share of a scene: contacts with the foot (radius, friction, force, count), mass and load.
+type Part = (&'static [(f64, f64, f64, u32)], f64, f64);
+
+const PERIOD: f64 = 1e-3;
+
+/// A foot on a waveform, and sliders on it.
+fn sliders(drive: &Named<Waveform>, parts: &[Part]) -> Scene {
+    let mut scene = Scene { waveforms: vec![drive.clone()], ..Scene::default() };
+    scene.bodies.push(Named { name: "foot".into(), part: follower(0) });
+    for (i, (contacts, mass, force)) in parts.iter().enumerate() {
+        let body = scene.bodies.len();
+        scene.bodies.push(Named { name: format!("slider{i}"), part: free(*mass) });
+        for (k, (radius, friction, load, count)) in contacts.iter().enumerate() {
+            let profile = Profile::paraboloid(*radius).unwrap();
+            let ball = contact([Side::Body(0), Side::Body(body)], profile, *friction, *load);
+            scene
+                .contacts
+                .push(Named { name: format!("ball{i}{k}"), part: Contact { count: *count, ..ball } });
+        }
+        if *force != 0.0 {
+            scene.loads.push(push(body, *force));
+        }
+    }
+    scene
+}
+
+fn drives() -> Vec<Named<Waveform>> {
+    let trapezium = |points: &[(f64, f64)]| {
+        let shape = Shape::Table { points: points.iter().map(|(t, x)| (t * PERIOD, *x)).collect() };
+        Named { name: "drive".to_owned(), part: Waveform::new(shape, Timing::every(PERIOD)).unwrap() }
+    };
+    vec![
+        wave("drive", Shape::Sawtooth { stroke: STROKE, flyback: 0.1 * PERIOD }, PERIOD),
+        wave("drive", Shape::Sawtooth { stroke: 2e-6, flyback: 1e-3 * PERIOD }, PERIOD),
+        wave("drive", Shape::Sawtooth { stroke: 20e-9, flyback: 0.4 * PERIOD }, PERIOD),
+        // Held still between its strokes.
+        trapezium(&[(0.0, 0.0), (0.2, 0.6e-6), (0.5, 0.6e-6), (0.53, 0.0), (1.0, 0.0)]),
+    ]
+}
+
+/// Largest speed of a waveform, m/s.
+fn fastest(drive: &Named<Waveform>) -> f64 {
+    let mut piece = drive.part.piece_at(0.0);
+    let mut fastest = 0.0_f64;
+    while piece.end < PERIOD {
+        fastest = fastest.max(drive.part.sample(&piece, piece.start).rate.abs());
+        piece = drive.part.after(&piece);
+    }
+    fastest.max(drive.part.sample(&piece, piece.start).rate.abs())
+}
+
+const PARTS: [[Part; 2]; 3] = [
+    [(&[(1e-3, 0.15, 1.0, 1)], 0.02, 0.0), (&[(2e-3, 0.3, 0.4, 3)], 0.05, 0.0)],
+    // Contacts that slip and turn at different times; pushed.
+    [(&[(1e-3, 0.1, 0.6, 1), (5e-3, 0.4, 0.3, 2)], 0.03, 0.01), (&[(0.5e-3, 0.05, 0.2, 1)], 0.001, -0.004)],
+    [
+        (&[(1e-3, 0.2, 1.0, 1), (1e-3, 0.2, 1.0, 1), (1e-2, 0.6, 0.05, 1)], 0.2, -0.1),
+        (&[(1e-3, 0.9, 2.0, 1)], 0.01, 0.3),
+    ],
+];
+
+#[test]
+fn alone_and_side_by_side_they_move_alike() {
+    let plan = event(1e-11, 5.0 * PERIOD);
+    for (drive, parts) in drives().iter().flat_map(|drive| PARTS.iter().map(move |parts| (drive, parts))) {
+        let rows = |parts: &[Part]| {
+            let scene = sliders(drive, parts);
+            let (model, state, rows) = trace(&scene, &plan, PERIOD / 64.0);
+            let column = |name: &str| column(&model, &rows, name);
+            let x: Vec<Vec<f64>> = (0..parts.len()).map(|i| column(&format!("slider{i}.x_m"))).collect();
+            (x, column("energy.input_J"), column("energy.error_J"), state.counts())
+        };
+        let (both, input, _, stepped) = rows(parts);
+        let mut sum = vec![0.0; input.len()];
+        for (i, part) in parts.iter().enumerate() {
+            let (alone, work, missing, counts) = rows(std::slice::from_ref(part));
+            let travel = alone[0].iter().chain([&STROKE]).map(|x| x.abs()).fold(0.0, f64::max);
+            let off = alone[0].iter().zip(&both[i]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let throughput = work.iter().map(|w| w.abs()).fold(0.0, f64::max);
+            let open = missing.iter().map(|e| e.abs()).fold(0.0, f64::max);
+            println!(
+                "{:?}: off by {:.1e}, books {:.1e}, {counts:?}",
+                drive.part.period(),
+                off / travel,
+                open / throughput
+            );
+            assert!(off < 1e-9 * travel, "{off:e} of {travel:e}");
+            // A fast follower's work is known to the last place of its speed.
+            let rounding = 1e-14 * part.1 * fastest(drive).powi(2);
+            assert!(open < 1e-12 * throughput + rounding, "{open:e} of {throughput:e}");
+            // Otherwise it was stepped, too.
+            assert!(3 * counts.steps < 2 * stepped.steps, "{counts:?} {stepped:?}");
+            sum.iter_mut().zip(work).for_each(|(sum, work)| *sum += work);
+        }
+        let off = sum.iter().zip(&input).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let throughput = input.iter().map(|w| w.abs()).fold(0.0, f64::max);
+        assert!(off < 1e-8 * throughput, "{off:e} of {throughput:e}");
+    }
+}
+
+/// Tolerances are promises: P1 keeps each of them a thousandfold, down to the last place of what is known.
+#[test]
+fn p1_keeps_every_tolerance() {
+    for exponent in 2..=13 {
+        let tolerance = 10_f64.powi(-exponent);
+        let (model, state) = end(&p1(), &event(tolerance, 20.0 * PERIOD));
+        let error = (state.body(&model, 1).unwrap().0 - KNOWN).abs() / STROKE;
+        println!("{tolerance:e}: {error:.1e}, {:?}", state.counts());
+        assert!(error < 1e-3 * tolerance + 2e-13, "{tolerance:e}: {error:e}");
+        assert!(state.counts().steps < 150 && state.counts().rejected == 0);
+    }
+}
+
+/// Rows read off a swing are those of a run that ends there.
+#[test]
+fn rows_lie_on_the_swing() {
+    let scene = p1();
+    let plan = event(1e-10, 2.0 * PERIOD);
+    let (model, _, rows) = trace(&scene, &plan, PERIOD / 32.0);
+    let [t, x, v] = ["time_s", "slider.x_m", "slider.vx_m_s"].map(|name| column(&model, &rows, name));
+    for ((t, x), v) in t.iter().zip(&x).zip(&v).skip(1) {
+        let (model, state) = end(&scene, &event(1e-10, *t));
+        let (there, speed) = state.body(&model, 1).unwrap();
+        assert!((there - x).abs() < 1e-11 * STROKE, "{t:e}: {x:e} {there:e}");
+        assert!((speed - v).abs() < 1e-11 * STROKE * 2.5e4, "{t:e}: {v:e} {speed:e}");
+    }
+}
