@@ -103,7 +103,7 @@ fn machines_get_a_line_of_json_per_file() {
     assert_eq!(error["message"], "expected a number between 0 and 1000, got -0.2");
     assert!(error["help"].as_str().unwrap().contains("typical 0.05 to 0.6"));
     assert_eq!((&lines[1]["ok"], lines[1].get("error")), (&true.into(), None));
-    assert!(lines[2]["error"]["message"].as_str().unwrap().starts_with("cannot be read"));
+    assert!(lines[2]["error"]["message"].as_str().unwrap().starts_with("there is no such file"));
     let output =
         check(folder.path(), &["--json", good.to_str().unwrap(), "--set", "contacts.ball.friction=-1"]);
     let line: Value = serde_json::from_str(&stdout(&output)).unwrap();

@@ -365,10 +365,36 @@ fn the_channels_that_differ_are_drawn_where_that_is_asked() {
         }
     }
     assert_eq!(listing(out.path()), ["difference.png", "difference.svg"]);
-    for (file, message) in [("x.jpg", "ends in .png or .svg"), ("no/x.png", "no/x.png  cannot be written")] {
+    for (file, message) in [
+        ("x.jpg", "ends in .png or .svg"),
+        ("no/x.png", "no/x.png  cannot be written: No such file or directory\n"),
+    ] {
         let output = call(&pair.a, &pair.b, &["--plot", file]);
         assert!(code(&output) == 2 && stderr(&output).contains(message), "{}", stderr(&output));
     }
+}
+
+/// The rest would press together what is compared, to a sixth of the width.
+#[test]
+fn the_picture_ends_with_the_shorter_run() {
+    let out = tempdir().unwrap();
+    let run = |name: &str, cycles: u32| {
+        let set = [&format!("run.cycles={cycles}"), "output.every=50 us", "plots=[]"];
+        run_example("p1", &out.path().join(name), &set)
+    };
+    let (long, short) = (run("long", 6), run("short", 1));
+    let file = out.path().join("difference.svg");
+    // Names and ticks, without what names the runs.
+    let texts = |a: &Path, b: &Path| -> Vec<String> {
+        assert!(code(&call(a, b, &["--plot", file.to_str().unwrap()])) < 2);
+        let svg = std::fs::read_to_string(&file).unwrap();
+        let texts = svg.lines().filter(|line| !line.starts_with('<') && !line.contains("/p1"));
+        texts.filter(|line| !line.contains("SHA-256")).map(str::to_owned).collect()
+    };
+    let one = texts(&short, &short);
+    assert!(one.contains(&"time t (ms)".to_owned()), "{one:?}");
+    assert_eq!((texts(&long, &short), texts(&short, &long)), (one.clone(), one.clone()));
+    assert_ne!(texts(&long, &long), one);
 }
 
 #[test]
@@ -387,6 +413,7 @@ fn bad_input_is_said_and_is_no_difference() {
     refused(a, b, &["--absolute", "slider.x_m=-1 nm"], "expected a value of 0 or more");
     refused(a, b, &["--ignore", "bell"], "did you mean \"ball\"?");
     refused(a, b, &["--tolerance=-1"], "expected a value of 0 or more");
+    refused(a, b, &["--tolerance", "-1"], "expected a value of 0 or more");
     refused(a, b, &["--time-tolerance", "1 nm"], "nm is the unit of a length");
     pair.edit("trace.csv", |lines| lines.truncate(1));
     refused(a, b, &[], "A and B have no row at a common time");
@@ -398,6 +425,10 @@ fn bad_input_is_said_and_is_no_difference() {
     refused(a, b, &[], "summary.json: is no summary of a run: there is no simulated_s");
     std::fs::write(b.join("summary.json"), "{").unwrap();
     refused(a, b, &[], "summary.json: cannot be read: ");
+    std::fs::remove_file(b.join("summary.json")).unwrap();
+    refused(a, b, &[], "summary.json: cannot be read: No such file or directory\n");
+    std::fs::remove_file(b.join("trace.csv")).unwrap();
+    refused(a, b, &[], "expected a folder of results");
     std::fs::remove_file(b.join("events.csv")).unwrap();
 }
 

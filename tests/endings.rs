@@ -1,6 +1,6 @@
 //! Runs that do not come to their end.
 
-use crate::program::{Table, code, listing, number, run, scenario, stderr, stdout, summary};
+use crate::program::{Table, code, listing, number, run, scenario, stderr, stdout, stickslip, summary};
 use tempfile::tempdir;
 
 #[test]
@@ -110,4 +110,26 @@ fn a_run_asked_to_ends_well_as_soon_as_its_steps_are_constant() {
     assert_eq!(code(&output), 0);
     assert!(!stdout(&output).contains("constant"));
     assert!(summary(&folder).get("steady_after_periods").is_none());
+}
+
+/// Half an answer in a file on a full disk is not whole; a reader that has seen enough is served.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_answer_that_is_lost_is_told_and_a_closed_pipe_is_not() {
+    use std::process::Stdio;
+    let file = scenario("p1");
+    let p1 = file.to_str().unwrap();
+    for arguments in
+        [&["schema"][..], &["info", p1], &["check", p1], &["check", p1, "--json"], &["new", "--list"]]
+    {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = stickslip().args(arguments).stdout(full).output().unwrap();
+        let told = "the output cannot be written: No space left on device\n";
+        assert_eq!((code(&output), stderr(&output).as_str()), (3, told), "{arguments:?}");
+        let mut reader =
+            stickslip().args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(reader.stdout.take());
+        let output = reader.wait_with_output().unwrap();
+        assert_eq!((code(&output), stderr(&output)), (0, String::new()), "{arguments:?}");
+    }
 }

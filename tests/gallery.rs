@@ -73,7 +73,7 @@ fn a_gallery_that_is_not_complete_has_no_page() {
         assert!(stderr(&output).contains(message), "{}", stderr(&output));
         assert!(!out.join("README.md").exists());
     };
-    refused(2, "scenarios: has no scenarios: files NAME.json");
+    refused(2, "scenarios: has no scenarios, files NAME.json");
     put(&scenarios, "quickstart", &[("\"friction\": 0.2", "\"friction\": -0.2")]);
     put(&scenarios, "oblique_loading", &[]);
     refused(2, "contacts.ball.friction");
@@ -118,4 +118,19 @@ fn the_gallery_of_the_project_is_whole() {
     for link in page.split(['"', '(', ')']).filter(|link| link.ends_with(".png") || link.ends_with(".svg")) {
         assert!(plots.join(link).is_file(), "run stickslip gallery: no {link}");
     }
+}
+
+#[test]
+fn a_folder_without_scenarios_is_bad_input_and_nothing_is_written() {
+    let root = tempdir().unwrap();
+    let (none, empty) = (root.path().join("none"), root.path().join("empty"));
+    std::fs::create_dir(&empty).unwrap();
+    for (folder, message) in [
+        (&none, "none: expected a folder of scenarios: No such file or directory\n   help: "),
+        (&empty, "empty: has no scenarios, files NAME.json\n   help: "),
+    ] {
+        let output = gallery(folder, &root.path().join("out"));
+        assert!(code(&output) == 2 && stderr(&output).contains(message), "{}", stderr(&output));
+    }
+    assert!(!root.path().join("out").exists());
 }

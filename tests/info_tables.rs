@@ -156,11 +156,16 @@ fn tables_fit_a_hundred_columns() {
         "slider   10.00 g   x free",
         "S₀, zero-step stroke                 29.38 nm",
         "contact resonance                    4.151 kHz",
-        "warning: ball: ruby and steel are not elastically similar (β = -0.0764): pressing and sliding are",
+        "warning: ruby and steel are not elastically similar (β = -0.0764): pressing and sliding are",
+        "Contact: ball",
         "stable fixed step, verlet            below 76.69 µs",
     ] {
         assert!(text.lines().any(|known| known == line), "{line:?} in\n{text}");
     }
+    // Two contacts of one pair are warned of together.
+    let stage = tables(&scenario("three_ball_stage"));
+    assert_eq!(stage.matches("warning: ").count(), 1, "{stage}");
+    assert!(stage.contains("\nContacts: front, rear\n"), "{stage}");
 }
 
 #[test]

@@ -83,6 +83,20 @@ fn the_schema_may_lie_elsewhere() {
 }
 
 #[test]
+fn a_file_without_a_name_is_not_made() {
+    let folder = tempdir().unwrap();
+    for name in ["motors/", ".json", "motors/.json", "."] {
+        let output = new(folder.path(), &[name]);
+        assert_eq!(code(&output), 2, "{name}");
+        assert_eq!(
+            stderr(&output),
+            format!("{name}: expected the name of a file, such as motor or drives/motor\n")
+        );
+    }
+    assert!(listing(folder.path()).is_empty());
+}
+
+#[test]
 fn a_template_that_is_not_there_is_refused_with_those_that_are() {
     let folder = tempdir().unwrap();
     let output = new(folder.path(), &["--template", "peizo"]);

@@ -293,7 +293,7 @@ fn damaged_results_are_refused_with_file_and_line() {
 fn results_that_are_not_there_or_of_another_program_are_refused() {
     let spoiled = Spoiled::new();
     std::fs::remove_file(spoiled.folder.join("events.csv")).unwrap();
-    assert!(spoiled.message().starts_with("events.csv: cannot be read: "));
+    assert_eq!(spoiled.message(), "events.csv: cannot be read: No such file or directory\n");
     let spoiled = Spoiled::new();
     std::fs::write(spoiled.folder.join("trace.csv"), "").unwrap();
     assert!(spoiled.message().starts_with("trace.csv:1  column 1: expected \"time_s\", got nothing"));
@@ -309,9 +309,11 @@ fn results_that_are_not_there_or_of_another_program_are_refused() {
         said.contains("rubbing")
             && said.ends_with("   note: written by stickslip 0.0.9, this is stickslip 0.1.0\n")
     );
-    let nothing = plot(Path::new("no/such/folder"), &[]);
-    assert_eq!(code(&nothing), 2);
-    assert!(stderr(&nothing).starts_with("no/such/folder/scenario.json: cannot be read: "));
+    for none in ["no/such/folder", "src"] {
+        let nothing = plot(Path::new(none), &[]);
+        let message = "expected a folder of results, as `stickslip run` writes one for each scenario";
+        assert_eq!((code(&nothing), stderr(&nothing)), (2, format!("{none}: {message}\n")));
+    }
 }
 
 #[test]

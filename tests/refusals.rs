@@ -168,7 +168,7 @@ fn usage_is_explained() {
     {
         check(&call(arguments), &["Usage"].map(|word| if arguments.len() > 2 { "error" } else { word }));
     }
-    check(&call(&["run", "nowhere/a.json"]), &["nowhere/a.json: cannot be read"]);
+    check(&call(&["run", "nowhere/a.json"]), &["nowhere/a.json: there is no such file"]);
 }
 
 #[test]

@@ -18,7 +18,7 @@ Exit codes:
   0    done
   1    a comparison found a difference
   2    bad input: a scenario, an override, an argument; nothing was written for it
-  3    a run stopped itself (its results so far are written), or results could not be written
+  3    a run stopped itself (its results so far are written), or something could not be written
   130  interrupted; what was computed is written
 Of several files the largest counts.
 
@@ -178,7 +178,7 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     /// Scenarios run at the same time, at most one per core
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: u16,
     /// Print the summaries to stdout, one line of JSON per scenario
     #[arg(long)]

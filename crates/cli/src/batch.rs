@@ -1,5 +1,6 @@
 //! Several scenarios, one after the other or side by side.
 
+use crate::answer::say;
 use crate::arguments::RunArguments;
 use crate::interrupt::Interrupt;
 use crate::job::{Job, Refusal};
@@ -90,7 +91,6 @@ impl Console<'_> {
         }
     }
 
-    /// A closed pipe is no reason to stop computing.
     fn write(&self, report: &Report) {
         let result = match self.arguments {
             RunArguments { json: true, .. } => &report.json,
@@ -101,7 +101,7 @@ impl Console<'_> {
             let _ = writeln!(std::io::stderr(), "{}", report.error);
         }
         if !result.is_empty() {
-            let _ = writeln!(std::io::stdout(), "{result}");
+            say(format_args!("{result}"));
         }
     }
 }

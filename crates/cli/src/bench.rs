@@ -27,6 +27,8 @@ mod turns;
 
 pub(crate) use arguments::{ABOUT, BenchArguments, EXAMPLES};
 
+use crate::answer::say;
+use crate::complaint::words;
 use crate::folder::{self, Folder};
 use crate::interrupt::Interrupt;
 use crate::job::{Job, Refusal};
@@ -66,7 +68,7 @@ enum BenchFailure {
     #[error("{name}: {source}")]
     Picture { name: String, source: PlotError },
     /// Reading or writing.
-    #[error("{}: {source}", .path.display())]
+    #[error("{}: {}", .path.display(), words(.source))]
     File { path: PathBuf, source: io::Error },
 }
 
@@ -102,20 +104,14 @@ fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
         let known: Vec<Known> = known.map(|(_, known)| known.clone()).collect();
         chapters.extend(measure((job, file), &known, arguments, &interrupt, &progress)?);
         if !arguments.quiet {
-            let _ = writeln!(
-                io::stdout(),
-                "{}: {}: {TABLE}, {}.png",
-                job.name,
-                job.folder.display(),
-                picture::NAME
-            );
+            say(format_args!("{}: {}: {TABLE}, {}.png", job.name, job.folder.display(), picture::NAME));
         }
     }
     if arguments.growth {
         growth::measure(&arguments.out, &interrupt, &progress)?;
         if !arguments.quiet {
             let (out, table, name) = (arguments.out.display(), growth::TABLE, growth::PICTURE);
-            let _ = writeln!(io::stdout(), "growth: {out}: {table}, {name}.png");
+            say(format_args!("growth: {out}: {table}, {name}.png"));
         }
     }
     let Some(page) = &arguments.page else { return Ok(()) };

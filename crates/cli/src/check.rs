@@ -1,5 +1,6 @@
 //! `stickslip check`: everything that a run would refuse, and no run.
 
+use crate::answer::say;
 use crate::arguments::CheckArguments;
 use crate::job::{Job, Refusal};
 use crate::report::warn;
@@ -57,9 +58,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Verdict {
     worst
 }
 
-/// A closed pipe does not change what was found.
 fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
-    let mut stdout = std::io::stdout();
     if arguments.json {
         let odd = job.as_ref().map_or(&[][..], |job| &job.scenario.warnings);
         let finding = Finding {
@@ -70,7 +69,7 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
         };
         // A path that is not Unicode is the only thing that JSON has no words for.
         let line = serde_json::to_string(&finding);
-        let _ = writeln!(stdout, "{}", line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", job.is_ok())));
+        say(format_args!("{}", line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", job.is_ok()))));
         return;
     }
     match job {
@@ -80,7 +79,7 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
         Ok(_) if arguments.quiet => {}
         Ok(job) => {
             warn(&job.scenario);
-            let _ = writeln!(stdout, "{}: ok", file.display());
+            say(format_args!("{}: ok", file.display()));
         }
     }
 }

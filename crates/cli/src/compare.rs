@@ -18,6 +18,7 @@ mod picture;
 mod results;
 mod scales;
 
+use crate::answer::say;
 use crate::verdict::Verdict;
 use comparison::Comparison;
 use error::CompareError;
@@ -37,8 +38,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Verdict {
                 _ => account::text(&comparison),
             };
             if !text.is_empty() {
-                // A closed pipe does not change the verdict.
-                let _ = writeln!(std::io::stdout(), "{text}");
+                say(format_args!("{text}"));
             }
             if comparison.same { Verdict::Done } else { Verdict::Differs }
         }

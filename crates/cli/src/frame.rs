@@ -1,5 +1,6 @@
 //! A table of results read back from its file: columns of numbers or words.
 
+use crate::complaint::words;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -88,7 +89,7 @@ pub(crate) enum FrameError {
 /// A missing file is told in the system's words.
 fn reason(error: &csv::Error) -> String {
     match error.kind() {
-        csv::ErrorKind::Io(error) => format!("cannot be read: {error}"),
+        csv::ErrorKind::Io(error) => format!("cannot be read: {}", words(error)),
         _ => error.to_string(),
     }
 }

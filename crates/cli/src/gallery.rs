@@ -2,7 +2,9 @@
 
 mod page;
 
+use crate::answer::say;
 use crate::arguments::GalleryArguments;
+use crate::complaint::words;
 use crate::figures::{self, FigureError, Sources};
 use crate::folder::Folder;
 use crate::insides::{MEMORY, SPRINGS};
@@ -32,7 +34,7 @@ enum GalleryFailure {
     #[error(transparent)]
     Refused(#[from] Refusal),
     /// A folder without scenarios.
-    #[error("{}: has no scenarios: files NAME.json", .0.display())]
+    #[error("{}: has no scenarios, files NAME.json\n   help: name another folder with --scenarios", .0.display())]
     Nothing(PathBuf),
     /// A run that did not come to its end.
     #[error("{name}: {source}\n   help: {}", .source.advice())]
@@ -40,8 +42,11 @@ enum GalleryFailure {
     /// A picture.
     #[error("{name}: {source}")]
     Figure { name: String, source: Box<FigureError> },
-    /// Reading or writing.
-    #[error("{}: {source}", .path.display())]
+    /// No folder of scenarios.
+    #[error("{}: expected a folder of scenarios: {}\n   help: name one with --scenarios", .path.display(), words(.source))]
+    NoFolder { path: PathBuf, source: io::Error },
+    /// Writing.
+    #[error("{}: cannot be written: {}\n   help: choose another place with --out", .path.display(), words(.source))]
     File { path: PathBuf, source: io::Error },
 }
 
@@ -52,7 +57,7 @@ pub(crate) fn gallery(arguments: &GalleryArguments) -> Verdict {
             if !arguments.quiet {
                 let pictures: usize = exhibits.iter().map(|exhibit| exhibit.plots.len()).sum();
                 let (out, scenarios) = (arguments.out.display(), exhibits.len());
-                let _ = writeln!(io::stdout(), "{out}: {pictures} pictures of {scenarios} scenarios, {PAGE}");
+                say(format_args!("{out}: {pictures} pictures of {scenarios} scenarios, {PAGE}"));
             }
             Verdict::Done
         }
@@ -86,7 +91,7 @@ fn hang(arguments: &GalleryArguments) -> Result<Vec<Exhibit>, GalleryFailure> {
 
 /// The scenarios of a folder, by name.
 fn scenarios(folder: &Path) -> Result<Vec<PathBuf>, GalleryFailure> {
-    let failed = |source| GalleryFailure::File { path: folder.to_owned(), source };
+    let failed = |source| GalleryFailure::NoFolder { path: folder.to_owned(), source };
     let entries = fs::read_dir(folder).map_err(failed)?.collect::<io::Result<Vec<_>>>().map_err(failed)?;
     let paths = entries.iter().map(fs::DirEntry::path);
     let mut files: Vec<PathBuf> =
@@ -135,7 +140,7 @@ fn write(path: &Path, pictures: &[Picture]) -> io::Result<Vec<String>> {
 impl GalleryFailure {
     fn verdict(&self) -> Verdict {
         match self {
-            Self::Refused(_) | Self::Nothing(_) => Verdict::BadInput,
+            Self::Refused(_) | Self::Nothing(_) | Self::NoFolder { .. } => Verdict::BadInput,
             Self::Stopped { source: RunError::Interrupted { .. }, .. } => Verdict::Interrupted,
             Self::Stopped { .. } | Self::Figure { .. } | Self::File { .. } => Verdict::Stopped,
         }

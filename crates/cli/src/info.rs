@@ -9,6 +9,7 @@ mod tables;
 mod usage;
 mod work;
 
+use crate::answer::say;
 use crate::arguments::InfoArguments;
 use crate::job::Job;
 use crate::report::Report;
@@ -53,8 +54,7 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
     let info = Info::of(&job);
     // Numbers and strings only: there is nothing that JSON could refuse.
     let text = if arguments.json { serde_json::to_string(&info).unwrap_or_default() } else { info.text() };
-    // A closed pipe is no fault.
-    let _ = writeln!(std::io::stdout(), "{text}");
+    say(format_args!("{text}"));
     Verdict::Done
 }
 

@@ -1,5 +1,6 @@
 //! How pictures are drawn: as what files, in what colours and size.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use stickslip_plot::{Figure, PlotError, Theme, draw_png, draw_svg};
 use stickslip_scenario::PlotName;
@@ -14,8 +15,13 @@ pub(crate) struct Look {
     #[arg(long, value_name = "NAME", default_value = "light")]
     pub(crate) theme: Colours,
     /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (NAME@2x.png)
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=2))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
     pub(crate) scale: u32,
+}
+
+/// Reads a size.
+fn scales() -> impl TypedValueParser<Value = u32> {
+    PossibleValuesParser::new(["1", "2"]).try_map(|given| given.parse::<u32>())
 }
 
 /// A kind of picture file.

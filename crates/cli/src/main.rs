@@ -1,7 +1,7 @@
 //! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
 //!
 //! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several
-//! files, messages in order) and its [`verdict`]; [`job`] (a scenario that was found good, with everything a run needs)
+//! files, messages in order) and its [`verdict`]; [`answer`] and [`complaint`] (what is printed); [`job`] (a scenario that was found good, with everything a run needs)
 //! within its [`limits`]; [`run`] (one job from start to files); [`record`] with [`table`], [`insides`], [`sheet`],
 //! [`kept`], [`series`], [`tracks`] and [`books`] (what a run leaves behind); [`contact_path`], [`trail`] and [`periods`]
 //! (series prepared for the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`],
@@ -10,12 +10,14 @@
 //! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`gallery`]; [`frame`] (tables read back whole);
 //! [`markdown`] (pages); [`compare`] (tells two runs apart); [`mod@bench`] (what accuracy costs).
 
+mod answer;
 mod arguments;
 mod batch;
 mod bench;
 mod books;
 mod check;
 mod compare;
+mod complaint;
 mod contact_path;
 mod curves;
 mod figures;
@@ -72,5 +74,5 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::bench(&arguments),
         Command::Gallery(arguments) => gallery::gallery(&arguments),
     };
-    ExitCode::from(verdict.code())
+    ExitCode::from(verdict.max(answer::verdict()).code())
 }

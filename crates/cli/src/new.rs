@@ -1,6 +1,8 @@
 //! `stickslip new`: a scenario that runs at once, and a schema by which an editor completes it.
 
+use crate::answer::say;
 use crate::arguments::NewArguments;
+use crate::complaint::words;
 use crate::folder;
 use crate::verdict::Verdict;
 use std::io::{self, Write};
@@ -30,9 +32,9 @@ enum NewError {
     Exists(PathBuf),
     #[error("{}: is there already and is no schema of stickslip\n   help: say with --schema where editors find the schema", .0.display())]
     OtherSchema(PathBuf),
-    #[error("{}: expected the name of a file", .0.display())]
+    #[error("{}: expected the name of a file, such as motor or drives/motor", .0.display())]
     NoName(PathBuf),
-    #[error("{}: cannot be written: {source}", .path.display())]
+    #[error("{}: cannot be written: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
 }
 
@@ -45,7 +47,7 @@ pub(crate) fn templates() -> [&'static str; TEMPLATES.len()] {
 pub(crate) fn new(arguments: &NewArguments) -> Verdict {
     if arguments.list {
         for (name, text) in TEMPLATES {
-            let _ = writeln!(io::stdout(), "{name:10} {}", title(text));
+            say(format_args!("{name:10} {}", title(text)));
         }
         return Verdict::Done;
     }
@@ -53,7 +55,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Verdict {
     match write(&arguments.name, text, arguments.schema.as_deref()) {
         Ok(file) => {
             let file = file.display();
-            let _ = writeln!(io::stdout(), "{file}: {}\n  next: stickslip run {file}", title(text));
+            say(format_args!("{file}: {}\n  next: stickslip run {file}", title(text)));
             Verdict::Done
         }
         Err(error) => {
@@ -72,7 +74,9 @@ fn title(text: &str) -> String {
 /// schema.
 fn write(name: &Path, text: &str, at: Option<&str>) -> Result<PathBuf, NewError> {
     let mut file = name.to_owned();
-    if name.file_name().is_none() {
+    // "drives/" is a folder, and ".json" an ending without a name.
+    let ends = |end: &str| name.as_os_str().as_encoded_bytes().ends_with(end.as_bytes());
+    if name.file_name().is_none_or(|own| own == ".json") || ends("/") || ends(std::path::MAIN_SEPARATOR_STR) {
         return Err(NewError::NoName(file));
     }
     if name.extension().is_none_or(|extension| extension != "json") {

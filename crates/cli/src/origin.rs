@@ -1,5 +1,6 @@
 //! What a picture comes from, read back from the picture.
 
+use crate::complaint::words;
 use crate::fingerprint::{Fingerprint, FingerprintError};
 use crate::job::{Job, hash};
 use crate::provenance::{END, FINGERPRINT, HASH, PROGRAM, SCENARIO, TITLE};
@@ -29,7 +30,7 @@ pub(crate) struct Origin {
 #[derive(Debug, Error)]
 pub(crate) enum OriginError {
     /// The file.
-    #[error("{}: cannot be read: {source}", .path.display())]
+    #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read { path: PathBuf, source: io::Error },
     /// Larger than any picture of ours.
     #[error("{}: has more than {MOST_BYTES} bytes", .0.display())]
@@ -38,7 +39,7 @@ pub(crate) enum OriginError {
     #[error("{}: cannot be read as a picture: {source}", .path.display())]
     Picture { path: PathBuf, source: PlotError },
     /// A picture of something else.
-    #[error("{}: carries no \"{key}\"\n   help: pictures of stickslip run and plot do, unless another program has written them since", .path.display())]
+    #[error("{}: carries no scenario: there is no text \"{key}\" in it\n   help: pictures of `stickslip run` and `plot` carry theirs, unless another program has written them since", .path.display())]
     Missing { path: PathBuf, key: &'static str },
     /// A text that is not what it should be.
     #[error("{}: its \"{key}\" is damaged: {reason}", .path.display())]
@@ -90,6 +91,10 @@ struct Texts<'a> {
 impl<'a> Texts<'a> {
     fn read(path: &'a Path) -> Result<Self, OriginError> {
         let failed = |source| OriginError::Read { path: path.to_owned(), source };
+        // To open a pipe with a name would wait for whoever writes into it.
+        if path.canonicalize().is_ok_and(|named| !named.is_file()) {
+            return Err(failed(io::Error::other("not a file")));
+        }
         let mut bytes = Vec::new();
         File::open(path).map_err(failed)?.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
         if bytes.len() as u64 > MOST_BYTES {

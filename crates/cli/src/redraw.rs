@@ -1,6 +1,8 @@
 //! Pictures drawn again from results on disk.
 
+use crate::answer::say;
 use crate::arguments::PlotArguments;
+use crate::complaint::words;
 use crate::figures::{self, FigureError, Sources};
 use crate::folder::Folder;
 use crate::insides::{MEMORY, SPRINGS};
@@ -24,7 +26,7 @@ enum PlotFailure {
     #[error("{}: {source}{}", .folder.display(), advice(.source))]
     Figure { folder: PathBuf, source: FigureError },
     /// The pictures cannot be written.
-    #[error("{}: the pictures cannot be written: {source}", .folder.display())]
+    #[error("{}: the pictures cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
 }
 
@@ -64,7 +66,7 @@ fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
     let out = arguments.out.as_ref().map_or_else(|| folder.to_owned(), |out| out.join(&job.name));
     match write(&out, &pictures) {
         Ok(names) if !arguments.quiet && !names.is_empty() => {
-            let _ = writeln!(io::stdout(), "{}: {}", out.display(), names.join(", "));
+            say(format_args!("{}: {}", out.display(), names.join(", ")));
         }
         Ok(_) => {}
         Err(source) => failures.push(PlotFailure::Write { folder: out, source }),

@@ -1,5 +1,6 @@
 //! What a run tells people, and how it ended.
 
+use crate::complaint::words;
 use crate::job::{Job, Refusal};
 use crate::real::Real;
 use crate::run::Outcome;
@@ -52,7 +53,7 @@ impl Report {
         let help = "   help: choose another place with --out";
         Self::failed(
             Verdict::BadInput,
-            format!("{}: the folder {folder} cannot be made: {error}\n{help}", job.name),
+            format!("{}: the folder {folder} cannot be made: {}\n{help}", job.name, words(error)),
         )
     }
 
@@ -61,7 +62,7 @@ impl Report {
         let folder = job.folder.display();
         Self::failed(
             Verdict::Stopped,
-            format!("{}: the results cannot be written to {folder}: {error}", job.name),
+            format!("{}: the results cannot be written to {folder}: {}", job.name, words(error)),
         )
     }
 

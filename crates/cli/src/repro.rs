@@ -1,6 +1,8 @@
 //! Runs again what a picture carries, and tells whether the same comes out.
 
+use crate::answer::say;
 use crate::arguments::ReproArguments;
+use crate::complaint::words;
 use crate::fingerprint::{Difference, Differing, Fingerprint};
 use crate::folder::Folder;
 use crate::interrupt::Interrupt;
@@ -24,7 +26,7 @@ enum ReproFailure {
     #[error(transparent)]
     Origin(#[from] OriginError),
     /// The results cannot be written.
-    #[error("{}: the results cannot be written: {source}", .folder.display())]
+    #[error("{}: the results cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
     /// Somebody interrupted the run.
     #[error("{}: interrupted, nothing compared", .0.display())]
@@ -71,7 +73,7 @@ fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
         let count =
             format!("{} rows of {} channels, {} events{end}", trace.rows, trace.columns.len(), events.rows);
         let said = if found.is_empty() { format!("identical: {count}") } else { found.join("\n   ") };
-        let _ = writeln!(io::stdout(), "{}: {said}", file.display());
+        say(format_args!("{}: {said}", file.display()));
     }
     Ok(found.is_empty())
 }

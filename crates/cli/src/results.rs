@@ -1,5 +1,6 @@
 //! A folder of results read back: the job that was run, and what was kept of it.
 
+use crate::complaint::words;
 use crate::frame::FrameError;
 use crate::job::{Job, hash, this_program};
 use crate::kept::Kept;
@@ -19,6 +20,10 @@ pub(crate) struct Results {
     pub(crate) kept: Kept,
 }
 
+/// What is said of anything else, by all who read results.
+pub(crate) const NO_RESULTS: &str =
+    "expected a folder of results, as `stickslip run` writes one for each scenario";
+
 /// Why a folder cannot be read as results.
 #[derive(Debug, Error)]
 pub(crate) enum ResultsError {
@@ -29,8 +34,11 @@ pub(crate) enum ResultsError {
         /// The program that wrote it.
         program: String,
     },
+    /// Not what a run writes.
+    #[error("{}: {NO_RESULTS}", .0.display())]
+    NoResults(PathBuf),
     /// A file that cannot be read at all.
-    #[error("{}: cannot be read: {source}", .path.display())]
+    #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read { path: PathBuf, source: io::Error },
     /// A summary that is none.
     #[error("{}: expected the summary of a run: {source}", .path.display())]
@@ -80,6 +88,9 @@ impl Results {
 
 /// The job that was run, under the folder's name.
 fn job(folder: &Path) -> Result<Job, ResultsError> {
+    if ![SUMMARY, SCENARIO].iter().any(|name| folder.join(name).is_file()) {
+        return Err(ResultsError::NoResults(folder.to_owned()));
+    }
     let origin = origin(&folder.join(SUMMARY))?;
     let program = match &origin {
         Some(Origin { program, .. }) => format!("{} {}", program.name, program.version),

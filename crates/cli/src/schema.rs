@@ -1,10 +1,10 @@
 //! `stickslip schema`: the JSON Schema of the scenario file.
 
+use crate::answer::say;
 use crate::verdict::Verdict;
-use std::io::Write;
 
-/// Prints the schema. A reader that has seen enough and closes the pipe is no fault.
+/// Prints the schema.
 pub(crate) fn print() -> Verdict {
-    let _ = std::io::stdout().write_all(stickslip_scenario::schema().as_bytes());
+    say(format_args!("{}", stickslip_scenario::schema().trim_end()));
     Verdict::Done
 }

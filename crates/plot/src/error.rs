@@ -98,6 +98,10 @@ impl From<png::EncodingError> for PlotError {
 
 impl From<png::DecodingError> for PlotError {
     fn from(error: png::DecodingError) -> Self {
-        Self::Png(error.to_string())
+        // What the decoder says of a part that is damaged shows its own structures.
+        Self::Png(match &error {
+            png::DecodingError::Format(_) => "damaged".to_owned(),
+            _ => error.to_string(),
+        })
     }
 }

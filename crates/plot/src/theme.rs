@@ -65,6 +65,8 @@ pub struct Theme {
     /// Colours of areas side by side, from next to nothing to what stands out; told apart by the colour-blind and,
     /// by their lightness, in a grey print.
     pub shades: [Colour; 4],
+    /// How far a pale ink has gone towards the background, 0 to 1.
+    pub pale: f64,
     /// Size of the title, px per em.
     pub title: f64,
     /// Size of axis labels, px per em.
@@ -98,8 +100,12 @@ const DARK: [Colour; 6] = [
     Colour(0x80, 0x80, 0xFF),
 ];
 
-/// How far a pale ink has gone towards the background.
-const PALE: f64 = 0.68;
+impl Dash {
+    /// The line style at a place, counted round.
+    pub(crate) fn at(place: usize) -> Self {
+        DASHES[place % DASHES.len()]
+    }
+}
 
 impl Colour {
     /// The colour a share of the way to another.
@@ -124,6 +130,7 @@ impl Theme {
                 Colour(0xE6, 0x82, 0x0A),
                 Colour(0x1B, 0x4B, 0x8C),
             ],
+            pale: 0.68,
             title: 36.0,
             label: 32.0,
             tick: 30.0,
@@ -145,6 +152,8 @@ impl Theme {
                 Colour(0xF5, 0xB0, 0x41),
                 Colour(0x3D, 0x8F, 0xD9),
             ],
+            // What stands behind must not drown: the eye sees less of two dark colours than of two light ones.
+            pale: 0.6,
             ..Self::light()
         }
     }
@@ -157,7 +166,7 @@ impl Theme {
         };
         match ink {
             Ink::Palette(place) => palette(place),
-            Ink::Pale(place) => palette(place).towards(self.background, PALE),
+            Ink::Pale(place) => palette(place).towards(self.background, self.pale),
             Ink::Shade(place) => self.shades[place % self.shades.len()],
             Ink::Foreground => self.foreground,
             Ink::Muted => self.muted,
@@ -169,7 +178,7 @@ impl Theme {
     pub(crate) fn stroke(&self, style: Style, place: usize) -> Stroke {
         let ink = style.ink.unwrap_or(Ink::Palette(place));
         let dash = match ink {
-            Ink::Palette(place) => DASHES[place % DASHES.len()],
+            Ink::Palette(place) => Dash::at(place),
             _ => Dash::Solid,
         };
         let width = if style.width.is_finite() { style.width.clamp(0.1, 10.0) } else { 1.0 };
@@ -262,13 +271,20 @@ mod tests {
         // colours a little below.
         let luminance =
             |colour| linear(colour).iter().zip([0.2126, 0.7152, 0.0722]).map(|(v, m)| v * m).sum::<f64>();
-        for (theme, least) in [(Theme::light(), 2.1), (Theme::dark(), 4.5)] {
+        for (theme, least, least_pale) in [(Theme::light(), 2.1, 1.5), (Theme::dark(), 4.5, 2.0)] {
             let contrast = |colour| {
                 let (a, b) = (luminance(colour) + 0.05, luminance(theme.background) + 0.05);
                 a.max(b) / a.min(b)
             };
             assert!(contrast(theme.foreground) > 7.0 && contrast(theme.muted) > 3.0);
             assert!(theme.palette.iter().all(|colour| contrast(*colour) > least));
+            // What is pale stands out, too, and what lies upon it: bodies of a scene under their arrows and names.
+            for place in 0..2 {
+                let pale = contrast(theme.colour(Ink::Pale(place)));
+                let seen = |colour| (contrast(colour) / pale).max(pale / contrast(colour));
+                assert!(pale > least_pale, "{pale}");
+                assert!(seen(theme.palette[place]) > 2.5 && seen(theme.foreground) > 6.0, "{pale}");
+            }
         }
     }
 }

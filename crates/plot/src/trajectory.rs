@@ -3,7 +3,7 @@
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Reference, Series};
-use crate::theme::{Ink, Style};
+use crate::theme::{Dash, Ink, Style};
 
 /// Height that each panel beyond two adds to the figure, px.
 const MORE: u32 = 300;
@@ -58,22 +58,21 @@ pub struct Trajectory<'a> {
 /// Position over time: sliders over feet above, the other coordinates and relative displacements below, on one time
 /// axis.
 pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure<'a> {
-    let beside = trajectory.beside.iter().flat_map(|motion| &motion.sliders);
-    let mut names: Vec<&str> = Vec::new();
-    for track in trajectory.sliders.iter().chain(beside) {
-        if !names.contains(&track.name) {
-            names.push(track.name);
-        }
-    }
-    let series = |track: &Track<'a>, ink, width| Series {
-        style: Style { ink: Some(ink), dash: None, width },
+    let beside = &trajectory.beside;
+    let slider_names =
+        names(trajectory.sliders.iter().chain(beside.iter().flat_map(|motion| &motion.sliders)));
+    let feet_names = names(trajectory.feet.iter().chain(beside.iter().flat_map(|motion| &motion.feet)));
+    let series = |track: &Track<'a>, ink, dash, width| Series {
+        style: Style { ink: Some(ink), dash, width },
         ..Series::new(track.name, trajectory.time, track.values)
     };
     let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
     let panel = |(label, unit): (&str, &str), feet: &[Track<'a>], sliders: &[Track<'a>], share| {
-        let place = |track: &Track<'_>| names.iter().position(|name| *name == track.name).unwrap_or(0);
-        let feet = feet.iter().map(|track| series(track, Ink::Muted, 0.6));
-        let sliders = sliders.iter().map(|track| series(track, Ink::Palette(place(track)), 1.0));
+        let place = |track: &Track<'_>| slider_names.iter().position(|name| *name == track.name).unwrap_or(0);
+        // Of one ink, they are told apart by their dashes, the same in all panels.
+        let foot = |track: &Track<'_>| feet_names.iter().position(|name| *name == track.name).unwrap_or(0);
+        let feet = feet.iter().map(|track| series(track, Ink::Muted, Some(Dash::at(foot(track))), 0.6));
+        let sliders = sliders.iter().map(|track| series(track, Ink::Palette(place(track)), None, 1.0));
         Panel {
             x: time.clone(),
             y: Axis::new(Label::plain(label), unit),
@@ -101,7 +100,7 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
         panels.push(Panel {
             x: time,
             y: Axis::new(Label::plain("displacement u"), "m"),
-            series: relative.map(|(i, track)| series(track, Ink::Palette(i), 1.0)).collect(),
+            series: relative.map(|(i, track)| series(track, Ink::Palette(i), None, 1.0)).collect(),
             references: gross_slip.into_iter().flat_map(|u| [limit(u), limit(-u)]).collect(),
             share: 1.0,
             ..Panel::default()
@@ -112,4 +111,42 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
     let arrangement = Arrangement::Column { share_x: true };
     Figure { title: Label::plain(title), panels, arrangement, size, ..Figure::default() }
         .with_room_for_legends()
+}
+
+/// The different names of tracks, in order of appearance.
+fn names<'a>(tracks: impl Iterator<Item = &'a Track<'a>>) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    for track in tracks {
+        if !names.contains(&track.name) {
+            names.push(track.name);
+        }
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn followers_are_told_apart_by_the_same_dashes_in_all_panels() {
+        let track = |name| Track { name, values: &[0.0, 1.0] };
+        let lifted = Motion {
+            coordinate: Coordinate::Height,
+            feet: vec![track("b"), track("c")],
+            sliders: Vec::new(),
+        };
+        let trajectory = Trajectory {
+            time: &[0.0, 1.0],
+            feet: vec![track("a"), track("b")],
+            beside: vec![lifted],
+            ..Trajectory::default()
+        };
+        let figure = trajectory_figure("", &trajectory);
+        let dashes =
+            |panel: usize| -> Vec<_> { figure.panels[panel].series.iter().map(|s| s.style.dash).collect() };
+        assert_eq!(dashes(0), [Some(Dash::at(0)), Some(Dash::at(1))]);
+        assert_eq!(dashes(1), [Some(Dash::at(1)), Some(Dash::at(2))]);
+        assert!(Dash::at(0) == Dash::Solid && Dash::at(1) != Dash::Solid && Dash::at(2) != Dash::at(1));
+    }
 }

@@ -124,8 +124,7 @@ fn a_damaged_text_is_an_error_and_not_a_missing_one() {
         for offset in [4, 60] {
             let mut bytes = bytes.clone();
             bytes[place + offset] ^= 1;
-            let error = read_text(&bytes).unwrap_err().to_string();
-            assert!(error.starts_with("PNG: ") && error.contains("CRC"), "{error}");
+            assert_eq!(read_text(&bytes).unwrap_err().to_string(), "PNG: damaged");
         }
         assert!(read_text(&bytes[..place + 60]).is_err());
     }

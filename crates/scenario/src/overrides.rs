@@ -80,6 +80,15 @@ fn known(document: &Document, target: &KeyPath, name: Span) -> Result<(), Fault>
     }
 }
 
+/// Which entries a list has.
+fn extent(length: usize) -> String {
+    match length {
+        0 => "is empty".to_owned(),
+        1 => "has one entry, [0]".to_owned(),
+        _ => format!("has {length} entries, [0] to [{}]", length - 1),
+    }
+}
+
 fn insert(root: &mut Value, target: &KeyPath, value: Value, name: Span) -> Result<(), Fault> {
     let mut here = root;
     for (depth, step) in target.0.iter().enumerate() {
@@ -90,9 +99,7 @@ fn insert(root: &mut Value, target: &KeyPath, value: Value, name: Span) -> Resul
             }
             (Step::Index(index), Value::Array(entries)) => {
                 let length = entries.len();
-                entries
-                    .get_mut(*index)
-                    .ok_or_else(|| fault(format!("the list has {length} entries, counted from 0")))?
+                entries.get_mut(*index).ok_or_else(|| fault(format!("the list {}", extent(length))))?
             }
             (Step::Key(_), _) => return Err(fault("this value has no keys".to_owned())),
             (Step::Index(_), _) => return Err(fault("this value is not a list".to_owned())),

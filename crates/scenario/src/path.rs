@@ -46,6 +46,7 @@ impl fmt::Display for KeyPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, step) in self.0.iter().enumerate() {
             match step {
+                Step::Key(key) if key.is_empty() => write!(f, "{}\"\"", if i == 0 { "" } else { "." })?,
                 Step::Key(key) if i == 0 => write!(f, "{}", shown(key))?,
                 Step::Key(key) => write!(f, ".{}", shown(key))?,
                 Step::Index(index) => write!(f, "[{index}]")?,

@@ -241,7 +241,10 @@ fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
         })
     };
     let limit = syntax::MAX_BYTES;
-    let bytes = text::read(path, limit).map_err(|error| failed(format!("cannot be read: {error}"), None))?;
+    let bytes = text::read(path, limit).map_err(|error| {
+        let (message, help) = text::unreadable(path, &error);
+        failed(message, help.as_deref())
+    })?;
     let bytes = bytes.ok_or_else(|| {
         let help = "long tables fit into a CSV file of their own";
         failed(format!("a scenario has at most {limit} bytes, this file has more"), Some(help))

@@ -1,5 +1,6 @@
 //! Files as text: read up to a limit, told to be UTF-8 or not.
 
+use crate::{folder, suggest};
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
@@ -17,10 +18,39 @@ pub(crate) struct Garbled {
 }
 
 /// The bytes of a file; none where there are more than `limit`.
+///
+/// Refused are folders, devices and pipes that have a name: to open one waits for whoever writes into it, which may be
+/// nobody, and is not to be interrupted. A pipe of the shell has no name, and ends.
 pub(crate) fn read(path: &Path, limit: usize) -> io::Result<Option<Vec<u8>>> {
+    if path.canonicalize().is_ok_and(|named| !named.is_file()) {
+        let kind = if path.is_dir() { io::ErrorKind::IsADirectory } else { io::ErrorKind::InvalidInput };
+        return Err(io::Error::new(kind, "not a file"));
+    }
     let mut bytes = Vec::new();
     File::open(path)?.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() <= limit).then_some(bytes))
+}
+
+/// Why a scenario cannot be read, and what would do.
+pub(crate) fn unreadable(path: &Path, error: &io::Error) -> (String, Option<String>) {
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            let names = folder::names(path.parent().unwrap_or(Path::new("")));
+            let scenarios = names.iter().map(String::as_str).filter(|name| name.ends_with(".json"));
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            ("there is no such file".to_owned(), suggest::help(&name, scenarios))
+        }
+        io::ErrorKind::IsADirectory => {
+            let files = path.join("*.json");
+            (
+                "this is a folder, not a scenario".to_owned(),
+                Some(format!("name its files: {}", files.display())),
+            )
+        }
+        io::ErrorKind::PermissionDenied => ("there is no permission to read this file".to_owned(), None),
+        io::ErrorKind::InvalidInput => ("this is not a file".to_owned(), None),
+        _ => (format!("cannot be read: {error}"), None),
+    }
 }
 
 /// The text that bytes are, without the mark of byte order that some editors put before it.
@@ -63,6 +93,29 @@ fn utf_16(bytes: &[u8]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Opening a pipe that nobody writes into would wait for ever; a pipe of the shell has no name and is read.
+    #[cfg(unix)]
+    #[test]
+    fn pipes_with_a_name_are_refused_at_once_and_those_of_a_shell_are_read() {
+        use std::process::{Command, Stdio};
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe.json");
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let link = folder.path().join("link.json");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        for path in [&pipe, &link] {
+            let error = read(path, 9).unwrap_err();
+            assert_eq!(unreadable(path, &error).0, "this is not a file");
+        }
+        let error = read(folder.path(), 9).unwrap_err();
+        assert_eq!(unreadable(folder.path(), &error).0, "this is a folder, not a scenario");
+        let mut shell = Command::new("echo").arg("{}").stdout(Stdio::piped()).spawn().unwrap();
+        let descriptor = std::os::fd::AsRawFd::as_raw_fd(shell.stdout.as_ref().unwrap());
+        let bytes = read(Path::new(&format!("/dev/fd/{descriptor}")), 9).unwrap();
+        assert_eq!(bytes.as_deref(), Some(&b"{}\n"[..]));
+        shell.wait().unwrap();
+    }
 
     #[test]
     fn what_is_no_text_has_a_place() {

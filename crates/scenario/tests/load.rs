@@ -199,7 +199,7 @@ fn a_bad_override_is_blamed_itself() {
     assert_eq!(
         refused(&[("loads[3].x", "0.3")]),
         "\
---set loads[3].x=0.3  loads: the list has 1 entries, counted from 0
+--set loads[3].x=0.3  loads: the list has one entry, [0]
       | loads[3].x=0.3
         ^^^^^^^^^^"
     );
@@ -266,7 +266,16 @@ fn files_are_found_below_the_folder_only() {
 fn files_that_are_no_scenarios_are_refused_whole() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("s.json");
-    assert!(Scenario::load(&path).unwrap_err().to_string().contains("cannot be read"));
+    let told = |path: &Path| Scenario::load(path).unwrap_err().to_string();
+    assert!(told(&path).ends_with("s.json: there is no such file"), "{}", told(&path));
+    fs::write(folder.path().join("drive.json"), "").unwrap();
+    let near = told(&folder.path().join("drvie.json"));
+    assert!(
+        near.ends_with("drvie.json: there is no such file\n   help: did you mean \"drive.json\"?"),
+        "{near}"
+    );
+    let whole = told(folder.path());
+    assert!(whole.contains(": this is a folder, not a scenario\n   help: name its files: "), "{whole}");
     fs::write(&path, b"{ \"stickslip\": 1,\n \"title\": \"\xff\" }").unwrap();
     assert!(
         Scenario::load(&path)

@@ -44,7 +44,7 @@ pub(crate) struct BenchArguments {
     #[arg(long, value_name = "OUT", default_value = "bench")]
     pub(crate) out: PathBuf,
     /// Wall time for each scenario, besides its reference
-    #[arg(long, value_name = "TIME", default_value = "60 s", value_parser = seconds)]
+    #[arg(long, value_name = "TIME", default_value = "60 s", allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
     /// Put a value into every scenario, such as run.duration="20 ms"
     #[arg(long, value_name = "PATH=VALUE", value_parser = crate::arguments::assignment)]

@@ -53,13 +53,13 @@ pub(crate) struct CompareArguments {
     #[arg(value_name = "B")]
     pub(crate) b: PathBuf,
     /// Relative tolerance, for all channels and figures; 0 asks for the same bits [default: the steppers decide]
-    #[arg(long, value_name = "R", value_parser = tolerance)]
+    #[arg(long, value_name = "R", allow_hyphen_values = true, value_parser = tolerance)]
     pub(crate) tolerance: Option<f64>,
     /// Absolute tolerance of a channel or figure, such as slider.x_m="1 nm", instead of that from the scene's scale
     #[arg(long, value_name = "CHANNEL=VALUE", value_parser = assignment)]
     pub(crate) absolute: Vec<(String, String)>,
     /// How far apart in time an event may be, such as "1 ns" [default: the steppers decide]
-    #[arg(long, value_name = "T", value_parser = time)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = time)]
     pub(crate) time_tolerance: Option<f64>,
     /// Leave out a channel or figure, or all of a body, contact or waveform, events included
     #[arg(long, value_name = "NAME")]

@@ -1,6 +1,7 @@
 //! Why two folders cannot be compared.
 
 use super::results::ResultsError;
+use crate::complaint::words;
 use std::io;
 use std::path::PathBuf;
 use stickslip_plot::PlotError;
@@ -46,7 +47,7 @@ pub(crate) enum CompareError {
     #[error("the picture cannot be drawn: {0}")]
     Plot(#[from] PlotError),
     /// The picture cannot be written.
-    #[error("--plot {}  cannot be written: {source}", .path.display())]
+    #[error("--plot {}  cannot be written: {}", .path.display(), words(.source))]
     NotWritten {
         /// Which file.
         path: PathBuf,

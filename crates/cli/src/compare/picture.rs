@@ -18,11 +18,11 @@ pub(crate) enum Form {
     Svg,
 }
 
-/// A channel at the common times.
+/// A channel until the shorter run ends, and its difference at the common times.
 struct Curve<'a> {
     channel: &'a ChannelDifference,
-    a: &'a [f64],
-    b: &'a [f64],
+    a: (&'a [f64], &'a [f64]),
+    b: (&'a [f64], &'a [f64]),
     time: Vec<f64>,
     difference: Vec<f64>,
 }
@@ -59,8 +59,8 @@ pub(crate) fn draw(
         .map(|curve| ComparedChannel {
             name: &curve.channel.name,
             unit: curve.channel.unit,
-            a: (a.time(), curve.a),
-            b: (b.time(), curve.b),
+            a: curve.a,
+            b: curve.b,
             difference: (&curve.time, &curve.difference),
         })
         .collect();
@@ -87,7 +87,12 @@ fn curves<'a>(
         let (first, second) = (a.trace.numbers(&channel.name)?, b.trace.numbers(&channel.name)?);
         let at = |(i, j): &(usize, usize)| Some((*a.time().get(*i)?, second.get(*j)? - first.get(*i)?));
         let (time, difference) = rows.pairs.iter().filter_map(at).unzip();
-        Some(Curve { channel, a: first, b: second, time, difference })
+        // What is not compared would only press together what is.
+        let compared = |results: &'a Results, values: &'a [f64]| {
+            let end = results.time().partition_point(|&t| t <= comparison.until.0);
+            (&results.time()[..end], &values[..end])
+        };
+        Some(Curve { channel, a: compared(a, first), b: compared(b, second), time, difference })
     };
     channels.into_iter().filter_map(curve).take(SHOWN).collect()
 }

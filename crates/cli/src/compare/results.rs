@@ -1,7 +1,9 @@
 //! A folder of results, read back.
 
+use crate::complaint::words;
 use crate::frame::{Frame, FrameError};
 use crate::record::{EVENTS, TRACE};
+use crate::results::NO_RESULTS;
 use crate::run::SUMMARY;
 use serde_json::Value;
 use std::io;
@@ -47,8 +49,8 @@ pub(crate) struct EventRow<'a> {
 /// Why a folder holds no results.
 #[derive(Debug, Error)]
 pub(crate) enum ResultsError {
-    /// It is no folder.
-    #[error("{}: expected a folder of results, as `stickslip run` writes one for each scenario", .0.display())]
+    /// It is no folder, or of something else.
+    #[error("{}: {NO_RESULTS}", .0.display())]
     NoFolder(PathBuf),
     /// One of its tables.
     #[error(transparent)]
@@ -62,7 +64,7 @@ pub(crate) enum ResultsError {
         column: &'static str,
     },
     /// The summary cannot be read.
-    #[error("{}: cannot be read: {source}", .path.display())]
+    #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Summary {
         /// Which file.
         path: PathBuf,
@@ -82,10 +84,10 @@ pub(crate) enum ResultsError {
 impl Results {
     /// Reads a folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, ResultsError> {
-        if !folder.is_dir() {
+        let path = folder.join(SUMMARY);
+        if !path.is_file() && !folder.join(TRACE).is_file() {
             return Err(ResultsError::NoFolder(folder.to_owned()));
         }
-        let path = folder.join(SUMMARY);
         let summary =
             read_summary(&path).map_err(|source| ResultsError::Summary { path: path.clone(), source })?;
         let missing = |key| ResultsError::NoSummary { path: path.clone(), key };

@@ -8,6 +8,8 @@ use crate::report::quantity;
 
 /// Space that a column takes beside its text.
 const PADDING: usize = 2;
+/// Contacts of one pair that a warning names.
+const NAMED: usize = 4;
 
 const ABOUT_STROKE: &str = "\
 S₀ is that of the quasi-static, damped limit: flyback in no time, slow way back, load against the
@@ -44,7 +46,7 @@ pub(super) fn contacts(contacts: &[(String, ContactInfo)]) -> String {
     if !sections.is_empty() {
         sections.push(ABOUT_STROKE.to_owned());
     }
-    sections.extend(contacts.iter().filter_map(|(name, contact)| warning(name, contact)));
+    sections.extend(warnings(contacts));
     sections.join("\n\n")
 }
 
@@ -108,16 +110,28 @@ fn bounded(value: Real, unit: &str) -> String {
     if value.0.is_infinite() { "unbounded".to_owned() } else { quantity(value, unit) }
 }
 
-/// What to know of a pair for which the theory is not exact.
-fn warning(name: &str, contact: &ContactInfo) -> Option<String> {
-    let [first, second] = &contact.materials;
-    (!contact.elastically_similar).then(|| {
-        format!(
-            "warning: {name}: {first} and {second} are not elastically similar (β = {}): pressing and sliding are\n\
+/// What to know of pairs for which the theory is not exact, once for each pair.
+fn warnings(contacts: &[(String, ContactInfo)]) -> Vec<String> {
+    let mut pairs: Vec<(String, Vec<&str>)> = Vec::new();
+    for (name, contact) in contacts.iter().filter(|(_, contact)| !contact.elastically_similar) {
+        let [first, second] = &contact.materials;
+        let pair = format!(
+            "warning: {first} and {second} are not elastically similar (β = {}): pressing and sliding are\n\
              coupled, which the theory leaves out. Results are approximate, the more so the larger |β|.",
             digits(contact.dundurs_beta.0)
-        )
-    })
+        );
+        match pairs.iter_mut().find(|(known, _)| *known == pair) {
+            Some((_, names)) => names.push(name),
+            None => pairs.push((pair, vec![name])),
+        }
+    }
+    let told = |(pair, names): (String, Vec<&str>)| {
+        let more = names.len().saturating_sub(NAMED);
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let word = if names.len() == 1 { "Contact" } else { "Contacts" };
+        format!("{pair}\n{word}: {}{rest}", names[..names.len() - more].join(", "))
+    };
+    pairs.into_iter().map(told).collect()
 }
 
 fn width(text: &str) -> usize {

@@ -1,0 +1,34 @@
+//! The answer of a command, on stdout.
+
+use crate::complaint::words;
+use crate::verdict::Verdict;
+use std::fmt::Arguments;
+use std::io::{self, ErrorKind, Write};
+use std::sync::OnceLock;
+
+/// Why some of the answer was lost.
+static LOST: OnceLock<io::Error> = OnceLock::new();
+
+/// Prints a line.
+pub(crate) fn say(line: Arguments<'_>) {
+    keep(writeln!(io::stdout(), "{line}"));
+}
+
+/// What all that was said has come to. A reader that has seen enough and closes its pipe is no fault; a full disk is
+/// told, or a file would hold half an answer and the exit code call it whole.
+pub(crate) fn verdict() -> Verdict {
+    keep(io::stdout().flush());
+    LOST.get().map_or(Verdict::Done, |error| {
+        let _ = writeln!(io::stderr(), "the output cannot be written: {}", words(error));
+        Verdict::Stopped
+    })
+}
+
+fn keep(result: io::Result<()>) {
+    if let Err(error) = result
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        // The first is told.
+        let _ = LOST.set(error);
+    }
+}
