@@ -236,8 +236,8 @@ impl Swing {
         if self.springs.is_empty() {
             return self.freely(t, self.duration);
         }
-        let speed = if self.turns { 0.0 } else { self.speed_at(self.to) };
-        self.place(t, self.duration, (self.reach.min(self.high), speed))
+        let v = if self.turns { -self.drift } else { self.velocity(self.reach, self.to) };
+        self.place(t, self.reach.min(self.high), v)
     }
 
     /// Place and velocity at a time before the event.
@@ -263,7 +263,8 @@ impl Swing {
                 break;
             }
         }
-        self.place(t, passed, (self.way(angle), self.speed_at(angle)))
+        let way = self.way(angle);
+        self.place(t, way, self.velocity(way, angle))
     }
 
     /// ν at an angle, m/s.
@@ -271,16 +272,26 @@ impl Swing {
         0.5 * (self.high - self.low) * angle.sin() * (2.0 * self.stiffness(angle)).sqrt()
     }
 
-    fn freely(&self, t: f64, passed: f64) -> Place {
-        let speed = self.speed();
-        let turned = self.turns && passed == self.duration;
-        let later = if turned { 0.0 } else { speed + self.push * passed };
-        self.place(t, passed, (0.5 * (speed + later) * passed, later))
+    /// The slider's velocity at q, m/s: what it has gained, not what the followers' speed leaves of ν, which may be thousands
+    /// of times as fast.
+    fn velocity(&self, way: f64, angle: f64) -> f64 {
+        let [mean, ..] = self.force(way);
+        let sum = self.speed() + self.speed_at(angle);
+        let gain = if sum > 0.0 { 2.0 * way * mean / sum } else { 0.0 };
+        self.start.v + self.sense * gain
     }
 
-    fn place(&self, t: f64, passed: f64, (way, speed): (f64, f64)) -> Place {
-        let Place { x, .. } = self.start;
-        Place { t, x: x + (self.sense * way - self.drift * passed), v: self.sense * speed - self.drift }
+    /// In gross slip: a parabola.
+    fn freely(&self, t: f64, passed: f64) -> Place {
+        let Place { x, v, .. } = self.start;
+        let gain = self.sense * self.push * passed;
+        let turned = self.turns && passed == self.duration;
+        Place { t, x: x + (v + 0.5 * gain) * passed, v: if turned { -self.drift } else { v + gain } }
+    }
+
+    fn place(&self, t: f64, way: f64, v: f64) -> Place {
+        let Place { t: start, x, .. } = self.start;
+        Place { t, x: x + (self.sense * way - self.drift * (t - start)), v }
     }
 
     /// Work that the followers have put in up to a place, J: their speed times what the slider's momentum lacks of the
