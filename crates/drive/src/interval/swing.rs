@@ -86,7 +86,7 @@ impl Swing {
     pub(crate) fn begin(&mut self, interval: &Interval<'_>, slider: &Free, start: Place) -> bool {
         let Some(pull) = &interval.slider else { return false };
         let Some(first) = interval.steady.first() else { return false };
-        if first.arm == 0.0 || !interval.is_steady() {
+        if first.arm == 0.0 {
             return false;
         }
         self.sense = (first.sense() * first.arm).signum();

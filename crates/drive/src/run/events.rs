@@ -237,9 +237,15 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         if let Some(interval) = &mut self.interval {
             interval.begin(self.model, state);
         }
-        let leaps = |interval: &Interval<'_>| interval.slider.is_some() && interval.is_steady();
-        self.leaps = self.model.is_conservative() && self.interval.as_ref().is_some_and(|i| leaps(i));
+        self.leaps = self.interval.as_ref().is_some_and(|interval| self.may_leap(interval));
         self.holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
+    }
+
+    /// Whether steady contacts alone act on a single slider, and nothing else is looked out for.
+    fn may_leap(&self, interval: &Interval<'_>) -> bool {
+        let unguarded = |c: &usize| self.model.contacts[*c].unguarded;
+        let alone = interval.slider.is_some() && interval.apart.iter().all(unguarded);
+        alone && self.model.is_conservative()
     }
 
     /// Waveforms are on new pieces.

@@ -176,3 +176,17 @@ fn drawn_drives_move_as_their_stepped_twins() {
     }
     println!("off by {worst:.1e} at most");
 }
+
+/// A guide without friction carries a part of the load and nothing else: the drive swings as without it, to the bit.
+#[test]
+fn a_contact_without_friction_is_no_reason_to_step() {
+    let plain = p1();
+    let mut guided = plain.clone();
+    let guide = contact([Side::Ground, Side::Body(1)], Profile::paraboloid(1e-2).unwrap(), 0.0, 2.0);
+    guided.contacts.push(Named { name: "guide".into(), part: guide });
+    let [alone, beside] = [plain, guided].map(|scene| {
+        let (model, state) = end(&scene, &event(1e-9, 20.0 * PERIOD));
+        (state.body(&model, 1), state.counts().steps)
+    });
+    assert_eq!(alone, beside);
+}

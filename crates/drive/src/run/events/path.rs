@@ -1,6 +1,6 @@
 //! From an accepted step to the segments that the contacts commit.
 
-use super::Run;
+use super::{Run, equations};
 use crate::RunError;
 use crate::equations::Equations;
 use crate::interval::Steady;
@@ -89,7 +89,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let _ = self.commit(state);
     }
 
-    /// The segments of steady contacts that lead to the state.
+    /// The segments of steady contacts, and of those that only are there, that lead to the state.
     pub(super) fn trace_steady(&mut self, state: &State) {
         self.segments.clear();
         if let Some(interval) = &self.interval {
@@ -97,6 +97,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             let motion = |steady: &Steady<'_>| steady.motion(state.t, x, x).apex();
             let segment = |steady: &Steady<'_>| (steady.index, Segment::Straight(motion(steady)));
             self.segments.extend(interval.steady.iter().map(segment));
+            for &c in &interval.apart {
+                let motion =
+                    equations(self.model, self.layout, state).motion(&self.model.contacts[c], state.t, x);
+                self.segments.push((c, Segment::Straight(motion.apex())));
+            }
         }
     }
 
