@@ -226,22 +226,37 @@ impl Equations<'_> {
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
         let u = self.read(&contact.u, at);
-        let (d, dd) = match &contact.press {
+        let (d, dd, area) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
+                let area = contact.law.profile().area(d.value);
                 // Decreed apart, it is so beyond the touch that will end the step.
                 if self.modes[c] != Mode::Open {
-                    sum.apply(&measure.free, d.driven, -contact.count * contact.law.normal_force(d.value));
+                    let press = contact.count * (contact.law.normal_modulus() * area);
+                    sum.apply(&measure.free, d.driven, -press);
                 }
-                (d.value, d.rate)
+                (d.value, d.rate, area)
             }
-            _ => self.pressed(contact, at.time()),
+            _ => {
+                let (d, dd) = self.pressed(contact, at.time());
+                (d, dd, contact.law.profile().area(d))
+            }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
-        let mut force = self.force(c, &motion, |i| at.component(i));
-        if let (Some(slot), true) = (contact.slot, self.layout.growing > 0) {
-            self.grow(c, slot, &motion, force, extra);
-        }
+        let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
+            (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
+                let [force, friction] = branch.drag(&contact.law, (d, dd), (u.value, u.rate), area);
+                extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
+                force
+            }
+            (_, slot) => {
+                let force = self.force(c, &motion, |i| at.component(i));
+                if let Some(slot) = slot {
+                    self.grow(c, slot, &motion, force, extra);
+                }
+                force
+            }
+        };
         if contact.damping > 0.0 {
             let damping = contact.damping * self.stuck_stiffness(c, &motion);
             sum.damping += contact.count * damping * motion.du * motion.du;
@@ -321,6 +336,11 @@ impl System for Equations<'_> {
         let (input, damping) = sum.accelerate(self.model);
         let growing = layout.growing;
         (extra[growing], extra[growing + 1]) = (input, damping);
+    }
+
+    /// Flight and gross slip under constant loads.
+    fn coasts(&self) -> bool {
+        self.model.loads.is_empty() && self.interval.is_some_and(|interval| interval.constant)
     }
 }
 

@@ -106,7 +106,7 @@ impl Model {
     }
 
     /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
-    pub(crate) fn fastest(&self) -> f64 {
+    pub(super) fn largest_rate(&self) -> f64 {
         let stiffest = self.linearised(&self.rest(), |d| d.most);
         let frequency = stiffest.highest_frequency();
         if stiffest.damping.amax() == 0.0 {

@@ -29,6 +29,8 @@ pub struct Model {
     /// Number of contacts whose force is a state while they grow.
     pub(crate) growing: usize,
     pub(crate) equilibrium: bool,
+    /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
+    pub(crate) fastest: f64,
 }
 
 /// Where a coordinate comes from.

@@ -1,6 +1,6 @@
 //! What an event-aware run asks of a method.
 
-use crate::{Dop853, System};
+use crate::{Dop853, Grade, System};
 
 /// A one-step method that attempts; someone else accepts.
 ///
@@ -22,6 +22,16 @@ pub trait Attempt<S: ?Sized> {
     /// Tries a step to the time `end` and returns its error in units of `scale`: 1 is just at the tolerance,
     /// [`f64::INFINITY`] not finite.
     fn attempt_until(&mut self, system: &S, end: f64, scale: &[f64]) -> f64;
+    /// The same with stages that crowd towards a singular end of the step, by methods that can do that.
+    fn attempt_graded(&mut self, system: &S, end: f64, scale: &[f64], _: Grade) -> f64 {
+        self.attempt_until(system, end, scale)
+    }
+    /// Whether the coming steps are exact and free at any length.
+    fn coasts(&self) -> bool {
+        false
+    }
+    /// Whether graded steps are any different.
+    const GRADES: bool = false;
     /// Makes the slopes at the end of the step tried known.
     fn end_slopes(&mut self, system: &S);
     /// Makes the dense output of the step tried, at the first call only.
@@ -51,9 +61,10 @@ pub trait Attempt<S: ?Sized> {
 }
 
 impl<S: System + ?Sized> Attempt<S> for Dop853 {
-    /// The region of stability ends on the imaginary axis at 6.0, on the real axis at -6.4; swings fade fastest here.
+    /// The region of stability ends on the imaginary axis at 6.0, on the real axis at -6.4. Steps that events cut end on
+    /// the dense output, which near there is no longer that of a swing.
     fn reach(&self) -> f64 {
-        5.5
+        5.0
     }
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         Self::start(self, system, t, y);
@@ -68,6 +79,13 @@ impl<S: System + ?Sized> Attempt<S> for Dop853 {
     fn attempt_until(&mut self, system: &S, end: f64, scale: &[f64]) -> f64 {
         Self::attempt_until(self, system, end, scale)
     }
+    fn attempt_graded(&mut self, system: &S, end: f64, scale: &[f64], grade: Grade) -> f64 {
+        Self::attempt_graded(self, system, end, scale, grade)
+    }
+    fn coasts(&self) -> bool {
+        Self::coasts(self)
+    }
+    const GRADES: bool = true;
     fn end_slopes(&mut self, system: &S) {
         Self::end_slopes(self, system);
     }

@@ -3,12 +3,16 @@
 //! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993,
 //! sections II.5, II.6, II.10 and the program DOP853.
 
+mod coast;
 mod dense;
+mod grade;
 mod tableau;
+
+pub use grade::Grade;
 
 use crate::System;
 use tableau::{
-    END, Error3, Error5, NODES, Row, Slopes, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9,
+    Error3, Error5, NODES, Row, Slopes, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9,
     Stage10, Stage11, Stage12, Weights,
 };
 
@@ -37,6 +41,11 @@ pub struct Dop853 {
     end: Vec<f64>,
     stage: Vec<f64>,
     slope: Vec<f64>,
+    /// Slopes at the start of the step and at its end; those in `k` are over σ.
+    first: Vec<f64>,
+    last: Vec<f64>,
+    grade: Grade,
+    coasts: bool,
     k: Vec<Slopes>,
     polynomials: Vec<dense::Polynomial>,
     first_known: bool,
@@ -62,6 +71,10 @@ impl Dop853 {
             end: vec![0.0; total],
             stage: vec![0.0; dimension],
             slope: vec![0.0; total],
+            first: vec![0.0; total],
+            last: vec![0.0; total],
+            grade: Grade::Even,
+            coasts: false,
             k: vec![[0.0; 16]; total],
             polynomials: vec![dense::Polynomial::default(); total],
             first_known: false,
@@ -88,9 +101,9 @@ impl Dop853 {
     /// [`begin_mut`](Self::begin_mut). What was attempted from here is forgotten.
     pub fn restart_slopes<S: System + ?Sized>(&mut self, system: &S) {
         self.forget_step();
-        system.slopes(self.time, &self.begin[..self.dimension], &mut self.slope);
+        system.slopes(self.time, &self.begin[..self.dimension], &mut self.first);
         self.evaluations += 1;
-        self.keep::<0>();
+        self.coasts = system.coasts();
         self.first_known = true;
     }
 
@@ -102,21 +115,31 @@ impl Dop853 {
     ///
     /// May be called any number of times from the same start; [`accept`](Self::accept) moves on.
     pub fn attempt<S: System + ?Sized>(&mut self, system: &S, h: f64, scale: &[f64]) -> f64 {
-        self.attempt_span(system, h, self.time + h, scale)
+        self.attempt_span(system, h, (self.time + h, Grade::Even), scale)
+    }
+
+    /// Like [`attempt_until`](Self::attempt_until), with stages that crowd towards a singular end of the step.
+    pub fn attempt_graded<S: System + ?Sized>(
+        &mut self,
+        system: &S,
+        end: f64,
+        scale: &[f64],
+        grade: Grade,
+    ) -> f64 {
+        self.attempt_span(system, end - self.time, (end, grade), scale)
     }
 
     /// Like [`attempt`](Self::attempt), but ends at the time `end` to the last bit, as a waveform's corner wants it.
     pub fn attempt_until<S: System + ?Sized>(&mut self, system: &S, end: f64, scale: &[f64]) -> f64 {
-        self.attempt_span(system, end - self.time, end, scale)
+        self.attempt_graded(system, end, scale, Grade::Even)
     }
 
     /// Evaluates the slopes at the end of the step tried, at the first call only; [`end_slope`](Self::end_slope) reads
     /// them.
     pub fn end_slopes<S: System + ?Sized>(&mut self, system: &S) {
         if !self.last_known {
-            system.slopes(self.end_time, &self.end[..self.dimension], &mut self.slope);
+            system.slopes(self.end_time, &self.end[..self.dimension], &mut self.last);
             self.evaluations += 1;
-            self.keep::<END>();
             self.last_known = true;
         }
     }
@@ -140,14 +163,9 @@ impl Dop853 {
     pub fn accept(&mut self) {
         std::mem::swap(&mut self.begin, &mut self.end);
         self.time = self.end_time;
-        let known = self.last_known;
-        if known {
-            for k in &mut self.k {
-                k[0] = k[END];
-            }
-        }
+        std::mem::swap(&mut self.first, &mut self.last);
+        self.first_known = self.last_known;
         self.forget_step();
-        self.first_known = known;
     }
 
     /// Time at the start of the step, s.
@@ -183,13 +201,13 @@ impl Dop853 {
     /// Slope of component `i` at the start of the step; NaN where it is not known yet.
     #[must_use]
     pub fn begin_slope(&self, i: usize) -> f64 {
-        self.k.get(i).filter(|_| self.first_known).map_or(f64::NAN, |k| k[0])
+        self.first.get(i).filter(|_| self.first_known).map_or(f64::NAN, |slope| *slope)
     }
 
     /// Slope of component `i` at the end of the step tried; NaN before [`end_slopes`](Self::end_slopes).
     #[must_use]
     pub fn end_slope(&self, i: usize) -> f64 {
-        self.k.get(i).filter(|_| self.last_known).map_or(f64::NAN, |k| k[END])
+        self.last.get(i).filter(|_| self.last_known).map_or(f64::NAN, |slope| *slope)
     }
 
     /// Evaluations of the slopes since construction.
@@ -206,53 +224,63 @@ impl Dop853 {
         let norm = |of: &dyn Fn(usize) -> f64| {
             scale.iter().enumerate().take(self.dimension).map(|(i, s)| (of(i) / s).abs()).fold(0.0, f64::max)
         };
-        let (size, speed) = (norm(&|i| self.begin[i]), norm(&|i| self.k[i][0]));
+        let (size, speed) = (norm(&|i| self.begin[i]), norm(&|i| self.first[i]));
         let trial = if size > 1e-5 && speed > 1e-5 { 0.01 * size / speed } else { 1e-6 * longest };
         let trial = trial.min(longest);
-        for ((to, y), k) in self.stage.iter_mut().zip(&self.begin).zip(&self.k) {
-            *to = y + trial * k[0];
+        for ((to, y), slope) in self.stage.iter_mut().zip(&self.begin).zip(&self.first) {
+            *to = y + trial * slope;
         }
         system.slopes(self.time + trial, &self.stage, &mut self.slope);
         self.evaluations += 1;
-        let bend = norm(&|i| (self.slope[i] - self.k[i][0]) / trial);
+        let bend = norm(&|i| (self.slope[i] - self.first[i]) / trial);
         let largest = speed.max(bend);
         let step = if largest > 1e-15 { (0.01 / largest).powf(1.0 / f64::from(ORDER)) } else { 1e3 * trial };
         step.min(100.0 * trial).min(longest)
     }
 
-    fn attempt_span<S: System + ?Sized>(&mut self, system: &S, h: f64, end: f64, scale: &[f64]) -> f64 {
+    fn attempt_span<S: System + ?Sized>(
+        &mut self,
+        system: &S,
+        h: f64,
+        (end, grade): (f64, Grade),
+        scale: &[f64],
+    ) -> f64 {
         if !self.first_known {
             self.restart_slopes(system);
         }
         self.forget_step();
-        self.step = h;
+        (self.step, self.grade) = (h, if self.coasts { Grade::Even } else { grade });
         (self.end_time, self.reach) = (end, end);
-        self.recall::<0>();
-        self.stage::<Stage2, S>(system, self.time + NODES[1] * h);
-        self.stage::<Stage3, S>(system, self.time + NODES[2] * h);
-        self.stage::<Stage4, S>(system, self.time + NODES[3] * h);
-        self.stage::<Stage5, S>(system, self.time + NODES[4] * h);
-        self.stage::<Stage6, S>(system, self.time + NODES[5] * h);
-        self.stage::<Stage7, S>(system, self.time + NODES[6] * h);
-        self.stage::<Stage8, S>(system, self.time + NODES[7] * h);
-        self.stage::<Stage9, S>(system, self.time + NODES[8] * h);
-        self.stage::<Stage10, S>(system, self.time + NODES[9] * h);
-        self.stage::<Stage11, S>(system, self.time + NODES[10] * h);
-        // The last stage has node 1: the very end of the step, not t + h, which may differ in the last bit.
-        self.stage::<Stage12, S>(system, end);
-        self.evaluations += 11;
+        if self.coasts {
+            return self.coast(system);
+        }
+        self.recall_first();
+        self.stage::<Stage2, 1, S>(system);
+        self.stage::<Stage3, 2, S>(system);
+        self.stage::<Stage4, 3, S>(system);
+        self.stage::<Stage5, 4, S>(system);
+        self.stage::<Stage6, 5, S>(system);
+        self.stage::<Stage7, 6, S>(system);
+        self.stage::<Stage8, 7, S>(system);
+        self.stage::<Stage9, 8, S>(system);
+        self.stage::<Stage10, 9, S>(system);
+        self.stage::<Stage11, 10, S>(system);
+        self.stage::<Stage12, 11, S>(system);
         self.keep::<11>();
         for ((to, y), k) in self.end.iter_mut().zip(&self.begin).zip(&self.k) {
             *to = y + h * Weights::dot(k);
         }
+        if self.grade != Grade::Even {
+            self.end.iter_mut().zip(&self.first).for_each(|(to, first)| *to += h * first);
+        }
         self.error(scale)
     }
 
-    /// One stage: keep the newest slope, combine all so far over the coupled components, evaluate the next.
+    /// One stage, at node `J`: keep the newest slope, combine all so far over the coupled components, evaluate the next.
     ///
     /// Evaluations follow on one another, so what counts is the path from one slope to the next: a product and a sum.
     #[inline(always)]
-    fn stage<R: Row, S: System + ?Sized>(&mut self, system: &S, t: f64) {
+    fn stage<R: Row, const J: usize, S: System + ?Sized>(&mut self, system: &S) {
         let h = self.step;
         let last = h * R::LAST;
         for (((to, y), k), newest) in self.stage.iter_mut().zip(&self.begin).zip(&mut self.k).zip(&self.slope)
@@ -264,7 +292,26 @@ impl Dop853 {
         for (k, newest) in quadratures {
             k[R::NEWEST] = *newest;
         }
+        if self.grade != Grade::Even {
+            let past = h * self.grade.time(NODES[J]);
+            self.stage.iter_mut().zip(&self.first).for_each(|(to, first)| *to += past * first);
+        }
+        // A node of 1 is the very end of the step, not t + h, which may differ in the last bit.
+        let t = if NODES[J] == 1.0 { self.reach } else { self.time + self.grade.time(NODES[J]) * h };
         system.slopes(t, &self.stage, &mut self.slope);
+        self.evaluations += 1;
+        self.pace(self.grade.pace(NODES[J]));
+    }
+
+    /// From slopes over the part of the time to those over σ.
+    #[inline(always)]
+    fn pace(&mut self, pace: f64) {
+        if self.grade != Grade::Even {
+            self.slope
+                .iter_mut()
+                .zip(&self.first)
+                .for_each(|(slope, first)| *slope = pace * (*slope - first));
+        }
     }
 
     #[inline(always)]
@@ -274,11 +321,9 @@ impl Dop853 {
         }
     }
 
-    #[inline(always)]
-    fn recall<const J: usize>(&mut self) {
-        for (slope, k) in self.slope.iter_mut().zip(&self.k) {
-            *slope = k[J];
-        }
+    fn recall_first(&mut self) {
+        self.slope.copy_from_slice(&self.first);
+        self.pace(self.grade.pace(0.0));
     }
 
     /// The estimate of DOP853 with the largest component instead of the mean: with a mean, components at rest would

@@ -51,7 +51,7 @@ pub use system::System;
 mod attempt;
 pub use attempt::Attempt;
 mod dop853;
-pub use dop853::{Dop853, ORDER as DOP853_ORDER};
+pub use dop853::{Dop853, Grade, ORDER as DOP853_ORDER};
 mod nystrom;
 pub use nystrom::{Conservative, Lane, Lanes, Many, Nystrom, ORDER as NYSTROM_ORDER, One, Track};
 mod control;

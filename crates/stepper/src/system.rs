@@ -23,4 +23,10 @@ pub trait System {
     ///
     /// `y` has `dimension` components, `dy` has `total` and must be filled completely.
     fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]);
+
+    /// Whether all slopes but those of the positions stay as they are until the steps are restarted: then positions run
+    /// along parabolas, everything else along straight lines, and nothing has to be evaluated.
+    fn coasts(&self) -> bool {
+        false
+    }
 }

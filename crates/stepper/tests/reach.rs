@@ -43,8 +43,8 @@ fn in_reach_of_dop853_nothing_grows_that_fades_or_swings() {
             assert!(within < 1.0 + 1e-12, "{angle} {part}: {within}");
         }
     }
-    // A swing of the longest step fades by a third, and one a tenth longer grows.
-    assert!(growth(90_f64.to_radians(), reach) < 0.7 && growth(90_f64.to_radians(), 1.1 * reach) > 1.1);
+    // A swing of the longest step fades by a sixth, and one a quarter longer grows.
+    assert!(growth(90_f64.to_radians(), reach) < 0.85 && growth(90_f64.to_radians(), 1.25 * reach) > 1.1);
 }
 
 /// ẍ = -x.

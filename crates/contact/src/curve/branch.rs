@@ -63,6 +63,11 @@ impl Branch {
         self.level == f64::INFINITY
     }
 
+    /// Whether the last of the springs begin to slip where the piece ends: gross slip comes next.
+    pub fn ends_in_the_centre(&self) -> bool {
+        self.height == 0.0 && !self.is_gross()
+    }
+
     /// Whether the law of this branch holds at (d, u): not yet, where the edge still cuts later pieces of the path of
     /// growth at whose foot the branch lies. Those are for [`Curve::dragged`] to find.
     #[inline]
@@ -172,6 +177,23 @@ impl Branch {
     /// +1 forward, -1 backward.
     pub fn sense(&self) -> f64 {
         self.sense
+    }
+
+    /// Force, N, and friction power, W, of a moving apex with M(d) at hand, as [`Branch::force`] and
+    /// [`Branch::friction_power`] have them: what both need of the profile is asked for once.
+    #[inline]
+    pub fn drag(&self, law: &Interface, (d, dd): (f64, f64), (u, du): (f64, f64), area: f64) -> [f64; 2] {
+        let drive = law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd);
+        if self.is_gross() {
+            return [self.factor * (self.slope * area), drive * area];
+        }
+        let (profile, front) = (law.profile(), self.front(d, u));
+        let inner = profile.area(front);
+        let force = self.factor * (self.excess * inner + self.offset + self.slope * area);
+        if front >= 0.0 && front <= d {
+            return [force, drive * (area - inner - (d - front) * profile.length(front))];
+        }
+        [force, self.friction_power(law, front, (d, dd), du)]
     }
 
     /// Friction power, W: G\*κL̇∫(d-h)dm over the springs at their limit, those higher than `front`,

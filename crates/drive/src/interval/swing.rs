@@ -78,7 +78,9 @@ pub(crate) struct Place {
 impl Swing {
     /// Room for the contacts of a model.
     pub(crate) fn of(model: &Model) -> Self {
-        LazyLock::force(&GAUSS);
+        if model.is_conservative() && model.free.len() == 1 {
+            LazyLock::force(&GAUSS);
+        }
         Self { springs: Vec::with_capacity(model.contacts.len()), ..Self::default() }
     }
 

@@ -43,7 +43,9 @@ impl Model {
         }
         used::hold_the_others(&mut waveforms, &bodies, &contacts, &links, &loads);
         scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
-        Ok(Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium })
+        let constants =
+            Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium, fastest: 0.0 };
+        Ok(Self { fastest: constants.largest_rate(), ..constants })
     }
 }
 

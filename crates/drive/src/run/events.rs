@@ -7,6 +7,7 @@
 //! steady contacts to the next one that does. Corners of waveforms end steps exactly. Where an interval has a closed form,
 //! no step is attempted: one leap takes it to its end.
 
+mod aim;
 mod allowance;
 mod leap;
 mod locate;
@@ -56,8 +57,8 @@ pub(super) struct Run<'a, A> {
     watch: Watch,
     /// Longest step, s: a fraction of the period of the fastest smooth waveform.
     longest: f64,
-    /// Largest rate of the motions with all contacts stuck, 1/s.
-    fastest: f64,
+    /// Whether any contact is damped.
+    damped: bool,
     /// Whether any waveform jumps.
     jumpy: bool,
     /// What stays the same until the next event.
@@ -138,7 +139,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             every: plan.every,
             tolerance,
             layout,
-            fastest: model.fastest(),
+            damped: model.contacts.iter().any(|contact| contact.damping > 0.0),
             solver,
             strict,
             scale: scale(model, strict),

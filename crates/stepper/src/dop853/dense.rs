@@ -1,7 +1,7 @@
 //! Dense output of order 7 (Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.6, equation (6.12) ff.).
 
-use super::Dop853;
-use super::tableau::{Dense5, Dense6, Dense7, Dense8, END, NODES, Row, Stage14, Stage15, Stage16};
+use super::tableau::{Dense5, Dense6, Dense7, Dense8, END, Row, Stage14, Stage15, Stage16, Weights};
+use super::{Dop853, Grade};
 use crate::System;
 
 /// The polynomial of one component over a step in nested form:
@@ -15,17 +15,22 @@ impl Dop853 {
         if self.dense_known {
             return;
         }
+        if self.coasts {
+            self.dense_coast();
+            return;
+        }
         self.end_slopes(system);
-        self.recall::<END>();
-        self.stage::<Stage14, S>(system, self.time + NODES[13] * self.step);
-        self.stage::<Stage15, S>(system, self.time + NODES[14] * self.step);
-        self.stage::<Stage16, S>(system, self.time + NODES[15] * self.step);
+        self.slope.copy_from_slice(&self.last);
+        self.pace(self.grade.pace(1.0));
+        self.keep::<END>();
+        self.stage::<Stage14, 13, S>(system);
+        self.stage::<Stage15, 14, S>(system);
+        self.stage::<Stage16, 15, S>(system);
         self.keep::<15>();
-        self.evaluations += 3;
-        let h = self.step;
+        let (h, grade) = (self.step, self.grade);
         for (((c, k), begin), end) in self.polynomials.iter_mut().zip(&self.k).zip(&self.begin).zip(&self.end)
         {
-            let rise = end - begin;
+            let rise = if grade == Grade::Even { end - begin } else { h * Weights::dot(k) };
             let bend = h * k[0] - rise;
             *c = [
                 *begin,
@@ -37,6 +42,18 @@ impl Dop853 {
                 h * Dense7::dot(k),
                 h * Dense8::dot(k),
             ];
+        }
+        // The straight part that graded stages leave out: φ = σ ∓ σ(1-σ).
+        let bend = match grade {
+            Grade::Even => 0.0,
+            Grade::Start => -h,
+            Grade::End => h,
+        };
+        if grade != Grade::Even {
+            for (c, first) in self.polynomials.iter_mut().zip(&self.first) {
+                c[1] += h * first;
+                c[2] += bend * first;
+            }
         }
         self.dense_known = true;
     }
@@ -71,7 +88,8 @@ impl Dop853 {
     #[must_use]
     #[inline]
     pub fn rate(&self, i: usize, t: f64) -> f64 {
-        self.polynomial(i).map_or(f64::NAN, |c| rate(c, self.fraction(t)) / self.step)
+        let s = self.fraction(t);
+        self.polynomial(i).map_or(f64::NAN, |c| rate(c, s) / (self.step * self.grade.pace(s)))
     }
 
     #[inline]
@@ -79,10 +97,14 @@ impl Dop853 {
         self.polynomials.get(i).filter(|_| self.dense_known)
     }
 
-    /// Fraction of the step attempted that is done at time `t`, exactly 0 and 1 at its ends.
+    /// σ at time `t` of the step attempted, exactly 0 and 1 at its ends.
     #[inline]
     fn fraction(&self, t: f64) -> f64 {
-        if t == self.reach { 1.0 } else { (t - self.time) / self.step }
+        if t == self.reach {
+            1.0
+        } else {
+            self.grade.fraction((t - self.time) / self.step, (self.reach - t) / self.step)
+        }
     }
 }
 

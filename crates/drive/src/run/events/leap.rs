@@ -10,9 +10,6 @@ use crate::run::output::Grid;
 use crate::state::State;
 use stickslip_stepper::Attempt;
 
-/// Part of the tolerance that the place at an event may be off by.
-const SHARE: f64 = 0.1;
-
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Moves to the next event, corner or end in one go; false, with nothing done, where the interval has no closed form.
     pub(super) fn leap(
@@ -63,7 +60,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let (Some(interval), [slider]) = (&self.interval, &self.model.free[..]) else { return false };
         let start = Place { t: state.t, x: state.y[0], v: state.y[1] };
         let length = slider.scale.0;
-        self.swing.begin(interval, slider, start) && self.swing.aim(length, SHARE * self.strict * length)
+        self.swing.begin(interval, slider, start) && self.swing.aim(length, self.strict * length)
     }
 
     /// The end of a period with which the steps of the drive are constant, if there is one on the way.

@@ -151,13 +151,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     ) -> f64 {
         self.solver.dense(eq);
         let (t0, g0) = (self.solver.time(), self.at_begin(state, watched));
-        if g0 <= 0.0 {
+        let (_, near) = self.bands(watched);
+        // A flight may be one step from a lift-off to the next touch: its start is as good as a touch.
+        if g0 <= 0.0 || self.solver.coasts() && g0 < near {
             return self.leave(eq, state, watched, (t0, low));
         }
         // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.
         let tolerance = (0.1 * NEARNESS * self.tolerance * (low - t0)).max(4.0 * f64::EPSILON * low.abs());
         let guess = self.guess(state, watched, (g0, low, below));
-        let (_, near) = self.bands(watched);
         let value = |t: f64| {
             let value = self.inside(eq, state, watched, t);
             // As good as there.

@@ -17,7 +17,7 @@ pub(super) struct Moving {
 }
 
 /// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
-const OVERSTEP: f64 = 1.05;
+pub(super) const OVERSTEP: f64 = 1.05;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// The contacts at the start of the next step, after anything that makes slopes jump.
@@ -90,6 +90,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         }
     }
 
+    /// The motion of a contact at the start of the step.
+    pub(super) fn motion_from(&self, c: usize) -> Motion {
+        let (t, begin, n) = (self.solver.time(), self.solver.begin(), self.layout.free);
+        match self.interval.as_ref().and_then(|interval| interval.steady(c)) {
+            Some(steady) => steady.motion(t, |i| begin[i], |i| begin[n + i]),
+            None => self.from[c].motion,
+        }
+    }
+
     /// About when the first piece of memory will be used up, s from now: a step much longer would only be thrown away.
     pub(super) fn expected(&self, state: &State) -> f64 {
         let Some(interval) = &self.interval else { return f64::INFINITY };
@@ -100,7 +109,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     }
 
     #[inline(always)]
-    fn expected_of_steady(&self, steady: &Steady<'_>) -> f64 {
+    pub(super) fn expected_of_steady(&self, steady: &Steady<'_>) -> f64 {
         if !steady.guards.contains(&Guard::Piece) {
             return f64::INFINITY;
         }
@@ -110,7 +119,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         reached(guard(Guard::Piece), guard(Guard::Drag), steady.guard_rate(Guard::Drag, v, a))
     }
 
-    fn expected_of(&self, state: &State, c: usize) -> f64 {
+    pub(super) fn expected_of(&self, state: &State, c: usize) -> f64 {
         let (contact, mode) = (&self.model.contacts[c], &state.modes[c]);
         let Mode::Slip(branch) = mode else { return f64::INFINITY };
         let Moving { motion, second } = self.from[c];

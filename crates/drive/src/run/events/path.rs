@@ -12,6 +12,10 @@ use stickslip_stepper::Attempt;
 /// Most pieces into which a step's path of growth is cut.
 pub(super) const MOST_PIECES: f64 = 256.0;
 
+/// How far a piece of a path of growth may bend, in units of the tolerance. Forces at both its ends are those of the state:
+/// a bend counts only where an edge stops inside the piece, and then for less than a hundredth.
+const BEND: f64 = 100.0;
+
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// The segments of all contacts that lead to the end of the step: chords, and for a contact that
     /// grew in full stick its path in as many pieces as its bend asks for.
@@ -44,7 +48,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     }
 
     /// The path of a growing contact on the dense output up to a time and a motion inside the step, each piece bent by
-    /// less than the tolerance allows.
+    /// less than [`BEND`] allows.
     pub(super) fn trace_growth(
         &self,
         eq: &Equations<'_>,
@@ -58,7 +62,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let at = |share: f64| eq.motion(contact, t0 + share * h, |i| self.solver.value(i, t0 + share * h));
         let (from, middle) = (state.memories[c].apex(), at(0.5));
         let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
-        let bend = (middle.u - chord).abs() / (self.tolerance * contact.natural.displacement);
+        let bend = (middle.u - chord).abs() / (BEND * self.tolerance * contact.natural.displacement);
         let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
         let mut joins = state.grew[c];
         for k in 1..=pieces as u32 {

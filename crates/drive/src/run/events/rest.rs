@@ -19,7 +19,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             return self.longest;
         }
         let reach = if self.rests { REST_REACH } else { self.solver.reach() };
-        self.longest.min(reach / self.fastest)
+        self.longest.min(reach / self.model.fastest)
     }
 
     /// Whether all that is free is at rest but for rounding: velocities that some step has left, and accelerations that

@@ -1,6 +1,7 @@
 //! One attempt, and what belongs to an accepted step.
 
 use super::Run;
+use super::aim::Aim;
 use crate::RunError;
 use crate::equations::Equations;
 use crate::record::Record;
@@ -33,13 +34,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             self.catch_up(state);
         }
         let corner = self.corner.min(self.end);
-        let longest = self.longest_now();
-        let target = aim(state.t, state.step.min(longest).min(self.expected(state)), corner);
-        let h = target - state.t;
-        if h <= 0.0 {
+        let mut aim = self.next_step(state, corner);
+        if aim.target <= state.t {
             return Err(RunError::StepTooSmall { t: state.t, step: state.step });
         }
-        let verdict = self.with_equations(state, |run, eq| run.attempt(eq, state, control, target));
+        let verdict =
+            self.with_equations(state, |run, eq| run.attempt(eq, state, control, (&mut aim, corner)));
+        let (target, h) = (aim.target, aim.target - state.t);
         if !verdict.accepted {
             return self.reject(state, verdict.next, record);
         }
@@ -56,6 +57,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         };
         let wished = match (cut, h < state.step) {
             // The next law has not earned a longer step yet.
+            _ if self.solver.coasts() => state.step,
             (true, false) => h.min(verdict.next),
             (true, true) => state.step,
             (false, false) => verdict.next,
@@ -88,9 +90,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         eq: &Equations<'_>,
         state: &State,
         control: &mut StepControl,
-        target: f64,
+        (aim, corner): (&mut Aim, f64),
     ) -> Verdict {
-        let error = self.solver.attempt_until(eq, target, &self.scale);
+        let error = self.try_step(eq, state, aim, corner);
+        let target = aim.target;
         let verdict = control.propose(error, target - state.t);
         if verdict.accepted {
             self.solver.end_slopes(eq);
@@ -146,7 +149,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 }
 
 /// End of the next step: the corner exactly, or so that no sliver is left before it.
-fn aim(t: f64, step: f64, corner: f64) -> f64 {
+pub(super) fn aim(t: f64, step: f64, corner: f64) -> f64 {
     let left = corner - t;
     if step >= 0.999 * left {
         corner

@@ -1,0 +1,180 @@
+//! Where the next step ends, and how its stages lie in it.
+
+use super::Run;
+use super::moving::OVERSTEP;
+use super::step::aim;
+use crate::equations::Equations;
+use crate::guard::Guard;
+use crate::model::{Contact, Measure};
+use crate::state::{Mode, State};
+use stickslip_stepper::{Attempt, Grade};
+
+/// What the next step is to be.
+#[derive(Clone, Copy)]
+pub(super) struct Aim {
+    /// Where it ends, s.
+    pub(super) target: f64,
+    pub(super) grade: Grade,
+    /// The longest that it may become, s.
+    most: f64,
+    /// The guard whose singular fall is expected at its end.
+    pub(super) closes: Option<(usize, Guard)>,
+}
+
+/// An expected end of a law: s from now, and the guard that falls.
+#[derive(Clone, Copy)]
+struct Expected {
+    left: f64,
+    contact: usize,
+    guard: Guard,
+}
+
+/// Time goes by at most this much faster along a graded step than along an even one: so much less is its reach.
+const FASTEST: f64 = 2.0;
+/// A step is not tried again with less than this part of it.
+const SHRINK: f64 = 0.2;
+/// How often a step is tried again to end nearer to its singular moment.
+const CORRECTIONS: u32 = 2;
+
+impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+    /// The next step: as long as its control wishes, but not far beyond the first event that is expected.
+    pub(super) fn next_step(&self, state: &State, corner: f64) -> Aim {
+        let longest = self.longest_now();
+        let even = |step: f64| Aim {
+            target: aim(state.t, step, corner),
+            grade: Grade::Even,
+            most: step,
+            closes: None,
+        };
+        if self.solver.coasts() {
+            return even(longest);
+        }
+        let step = state.step.min(longest);
+        if !A::GRADES {
+            return even(step.min(self.expected(state)));
+        }
+        let rounding = 16.0 * f64::EPSILON * state.t;
+        let within = |end: Expected| OVERSTEP * end.left + rounding;
+        let first = [self.piece_end(state), self.lift_off(state, step)].into_iter().flatten();
+        let start = |step: f64| Aim { grade: self.start_grade(state, step), ..even(step) };
+        let Some(first) = first.min_by(|a, b| a.left.total_cmp(&b.left)) else { return start(step) };
+        let over = 0.5 * self.slack() * first.left;
+        let to = first.left + over;
+        let far = first.left > 2.0 * step || over < rounding || state.t + to >= corner;
+        if far || !self.is_singular(state, first) {
+            return start(step.min(within(first)));
+        }
+        let most = step.min(longest / FASTEST);
+        if to > most {
+            return start(0.5 * first.left);
+        }
+        Aim { target: state.t + to, grade: Grade::End, most, closes: Some((first.contact, first.guard)) }
+    }
+
+    /// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2
+    /// of the time counts with the power 5/2, of the damping of the stuck springs with the power 3/2.
+    fn slack(&self) -> f64 {
+        0.1 * self.tolerance.powf(if self.damped { 2.0 / 3.0 } else { 0.4 })
+    }
+
+    /// Whether a law ends with a force that goes with a power 3/2 of the time left, and enough of it to tell.
+    fn is_singular(&self, state: &State, end: Expected) -> bool {
+        let (contact, motion) = (&self.model.contacts[end.contact], self.motion_from(end.contact));
+        let left = end.guard.value(contact, state.law(end.contact), &motion);
+        let tells = |unit: f64| left > unit * self.tolerance.powf(2.0 / 3.0);
+        match &state.modes[end.contact] {
+            _ if end.guard == Guard::Contact => tells(contact.natural.depth),
+            Mode::Slip(branch) => branch.ends_in_the_centre() && tells(contact.natural.displacement),
+            _ => false,
+        }
+    }
+
+    fn start_grade(&self, state: &State, step: f64) -> Grade {
+        let touched = |(c, contact): (usize, &Contact)| {
+            let motion = self.from[c].motion;
+            !contact.is_constant()
+                && matches!(state.modes[c], Mode::Grow | Mode::Slip(_))
+                && motion.d <= self.slack() * motion.dd * step
+        };
+        if self.model.contacts.iter().enumerate().any(touched) { Grade::Start } else { Grade::Even }
+    }
+
+    /// About when the first piece of memory will be used up: a step much longer would only be thrown away.
+    fn piece_end(&self, state: &State) -> Option<Expected> {
+        let interval = self.interval.as_ref()?;
+        let steady = interval.steady.iter().map(|steady| (steady.index, self.expected_of_steady(steady)));
+        let all = steady.chain(interval.unsteady().map(|c| (c, self.expected_of(state, c))));
+        let (contact, left) = all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, left)| left.is_finite())?;
+        Some(Expected { left, contact, guard: Guard::Piece })
+    }
+
+    /// About when the first contact will end, if within twice a step.
+    fn lift_off(&self, state: &State, step: f64) -> Option<Expected> {
+        let mut first: Option<Expected> = None;
+        for (c, contact) in self.model.contacts.iter().enumerate() {
+            let Some(measure) = contact.coupling().filter(|_| state.modes[c] != Mode::Open) else { continue };
+            if let Some(left) = self.leaves(c, contact, measure, 2.0 * step)
+                && first.is_none_or(|first| left < first.left)
+            {
+                first = Some(Expected { left, contact: c, guard: Guard::Contact });
+            }
+        }
+        first
+    }
+
+    /// Time to the end of a contact as if only its own normal force changed: then ḋ²/2 loses what the springs give,
+    /// and ∫dd/ḋ is left.
+    fn leaves(&self, c: usize, contact: &Contact, measure: &Measure, within: f64) -> Option<f64> {
+        let (motion, (bend, _)) = (self.from[c].motion, self.from[c].second);
+        let (d, v) = (motion.d, motion.dd);
+        if !(v < 0.0 && d > 0.0) {
+            return None;
+        }
+        let gain = contact.count * measure.mobility(|i| self.model.free[i].mobility);
+        let rest = bend + gain * contact.law.normal_force(d);
+        let energy = contact.law.normal_energy(d);
+        let square =
+            |x: f64| v * v - 2.0 * rest * (d - x) + 2.0 * gain * (energy - contact.law.normal_energy(x));
+        let end = square(0.0);
+        if !(end > 0.0 && d < within * end.sqrt()) {
+            return None;
+        }
+        let inverse = |(x, weight): &(f64, f64)| weight / square(d * x).sqrt();
+        let left = d * GAUSS.iter().map(inverse).sum::<f64>();
+        left.is_finite().then_some(left)
+    }
+
+    /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
+    #[inline(always)]
+    pub(super) fn try_step(&mut self, eq: &Equations<'_>, state: &State, aim: &mut Aim, corner: f64) -> f64 {
+        if !A::GRADES || aim.grade == Grade::Even {
+            return self.solver.attempt_until(eq, aim.target, &self.scale);
+        }
+        let mut error = self.solver.attempt_graded(eq, aim.target, &self.scale, aim.grade);
+        let Some((c, guard)) = aim.closes else { return error };
+        let contact = &self.model.contacts[c];
+        for _ in 0..CORRECTIONS {
+            let (end, h) = (self.solver.end(), aim.target - state.t);
+            let motion = eq.motion(contact, aim.target, |i| end[i]);
+            let value = guard.value(contact, state.law(c), &motion);
+            let rate = guard.rate(contact, &state.modes[c], &motion, (0.0, 0.0));
+            let missed = -value / rate;
+            let to = aim.target + missed + 0.5 * self.slack() * h;
+            let fits = to - state.t > SHRINK * h && to - state.t < aim.most && to < corner;
+            if !(rate < 0.0 && error < 1.0 && missed.abs() > self.slack() * h && fits) {
+                break;
+            }
+            aim.target = to;
+            error = self.solver.attempt_graded(eq, to, &self.scale, aim.grade);
+        }
+        error
+    }
+}
+
+/// Nodes and weights of Gauss and Legendre on [0, 1].
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];

@@ -1,0 +1,49 @@
+//! Steps whose stages crowd towards an end, where forces go with the root of the time from there.
+
+/// How the moments of a step lie in it: its stages run evenly over σ from 0 to 1, time goes as φ(σ).
+///
+/// A force that goes with a power 3/2 of the time from a singular moment (a contact that begins or ends, the last of its
+/// springs that begin to slip) costs every method its order. In √ of that time it is smooth: where the singular moment is
+/// an end of the step, a step of full length keeps all of the order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Grade {
+    /// φ = σ.
+    #[default]
+    Even,
+    /// φ = σ²: the step starts at a singular moment.
+    Start,
+    /// φ = 1 - (1-σ)²: it ends at one.
+    End,
+}
+
+impl Grade {
+    /// φ(σ), the part of the time.
+    #[inline]
+    pub(super) fn time(self, s: f64) -> f64 {
+        match self {
+            Self::Even => s,
+            Self::Start => s * s,
+            Self::End => s * (2.0 - s),
+        }
+    }
+
+    /// φ'(σ).
+    #[inline]
+    pub(super) fn pace(self, s: f64) -> f64 {
+        match self {
+            Self::Even => 1.0,
+            Self::Start => 2.0 * s,
+            Self::End => 2.0 * (1.0 - s),
+        }
+    }
+
+    /// σ at a part of the time, with the part that is left.
+    #[inline]
+    pub(super) fn fraction(self, done: f64, left: f64) -> f64 {
+        match self {
+            Self::Even => done,
+            Self::Start => done.max(0.0).sqrt(),
+            Self::End => 1.0 - left.max(0.0).sqrt(),
+        }
+    }
+}
