@@ -62,6 +62,8 @@ pub(crate) struct Swing {
     pub(crate) duration: f64,
     /// Whether the slide turns at the end; otherwise a piece of memory ends.
     pub(crate) turns: bool,
+    /// Whether the slide ends near the centre of a contact.
+    nears: bool,
     /// Relative error allowed of times.
     allowed: f64,
     pub(crate) evaluations: u64,
@@ -156,16 +158,28 @@ impl Swing {
         let way = (0.5 * span * (high - low)).max(self.drift.abs() * rough);
         self.allowed = allowed / way;
         let end = self.reach.min(high);
-        let mean = if self.springs.iter().any(|s| s.height - s.lean * end < BRANCH * s.height) {
+        self.nears = self.springs.iter().any(|s| s.height - s.lean * end < BRANCH * s.height);
+        let (duration, error) = self.time_between(self.from, self.to, self.allowed);
+        self.duration = duration;
+        error <= self.allowed && duration > 0.0
+    }
+
+    /// Time from one angle to another, s, and its relative error.
+    fn time_between(&mut self, from: f64, to: f64, allowed: f64) -> (f64, f64) {
+        let (span, mean) = if self.nears {
             // Where slip reaches the centre, M ends as a power 3/2 of the height: the root of the way that is left sees no
             // such end.
-            GAUSS.mean(self.allowed, |share| 2.0 * share * self.slowness(self.to - span * share * share))
+            let [start, end] = [from, to].map(|angle| (self.to - angle).max(0.0).sqrt());
+            let slowness = |share: f64| {
+                let left = start + (end - start) * share;
+                2.0 * left * self.slowness(self.to - left * left)
+            };
+            (start - end, GAUSS.mean(allowed, slowness))
         } else {
-            GAUSS.mean(self.allowed, |share| self.slowness(self.to - span * share))
+            (to - from, GAUSS.mean(allowed, |share| self.slowness(from + (to - from) * share)))
         };
         self.evaluations += mean.asked;
-        self.duration = span * mean.value;
-        mean.error <= self.allowed && self.duration > 0.0
+        (span * mean.value, mean.error)
     }
 
     /// The same in gross slip: a parabola.
@@ -239,7 +253,7 @@ impl Swing {
             return self.freely(t, self.duration);
         }
         let v = if self.turns { -self.drift } else { self.velocity(self.reach, self.to) };
-        self.place(t, self.reach.min(self.high), v)
+        self.place((t, self.duration), self.reach.min(self.high), v)
     }
 
     /// Place and velocity at a time before the event.
@@ -255,9 +269,7 @@ impl Swing {
             let span = angle - known;
             // The shorter the way, the less its digits count.
             let allowed = self.allowed * (whole / span).abs();
-            let mean = GAUSS.mean(allowed, |share| self.slowness(known + span * share));
-            self.evaluations += mean.asked;
-            left -= span * mean.value;
+            left -= self.time_between(known, angle, allowed).0;
             known = angle;
             let step = left / self.slowness(angle);
             angle = (angle + step).clamp(self.from, self.to);
@@ -266,7 +278,7 @@ impl Swing {
             }
         }
         let way = self.way(angle);
-        self.place(t, way, self.velocity(way, angle))
+        self.place((t, passed), way, self.velocity(way, angle))
     }
 
     /// ν at an angle, m/s.
@@ -291,9 +303,9 @@ impl Swing {
         Place { t, x: x + (v + 0.5 * gain) * passed, v: if turned { -self.drift } else { v + gain } }
     }
 
-    fn place(&self, t: f64, way: f64, v: f64) -> Place {
-        let Place { t: start, x, .. } = self.start;
-        Place { t, x: x + (self.sense * way - self.drift * (t - start)), v }
+    /// `passed` is what `t` would be from the start on without its rounding: a fast follower's way hangs on it.
+    fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> Place {
+        Place { t, x: self.start.x + (self.sense * way - self.drift * passed), v }
     }
 
     /// Work that the followers have put in up to a place, J: their speed times what the slider's momentum lacks of the
