@@ -49,10 +49,12 @@ impl Gauss {
     }
 
     /// Mean of a function over [0, 1], by the coarsest rule whose relative error is below `allowed`, or else by the finest.
-    /// Begins with a rule from which that can be hoped for.
+    /// Begins with a rule from which that can be hoped for, where [0, 1] is but a `part` of the range that the function
+    /// changes over.
     #[inline]
-    pub(crate) fn mean(&self, allowed: f64, f: impl Fn(f64) -> f64) -> Mean {
-        let first = HOPELESS.iter().filter(|hopeless| allowed < **hopeless).count();
+    pub(crate) fn mean(&self, allowed: f64, part: f64, f: impl Fn(f64) -> f64) -> Mean {
+        let needed = allowed / (part * part * part * part);
+        let first = HOPELESS.iter().filter(|hopeless| needed < **hopeless).count();
         let mut mean = Mean { value: f64::NAN, error: f64::INFINITY, asked: 0 };
         for rule in &self.rules[first..] {
             let asked = mean.asked + rule.len() as u64;
@@ -152,8 +154,11 @@ mod tests {
 
     #[test]
     fn the_coarsest_rule_that_serves_is_taken() {
-        let mean = |allowed: f64| GAUSS.mean(allowed, |x| 1.0 / (1.0 + x * x));
+        let mean = |allowed: f64| GAUSS.mean(allowed, 1.0, |x| 1.0 / (1.0 + x * x));
         assert_eq!([1e-1, 1e-5, 1e-9].map(|allowed| mean(allowed).asked), [4, 8, 16]);
-        assert!(GAUSS.mean(1e-12, |x| x.sqrt()).error > 1e-12, "no rule serves a root at its branch point");
+        assert!(
+            GAUSS.mean(1e-12, 1.0, |x| x.sqrt()).error > 1e-12,
+            "no rule serves a root at its branch point"
+        );
     }
 }

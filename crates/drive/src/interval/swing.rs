@@ -58,6 +58,8 @@ pub(crate) struct Swing {
     /// Angles at the start and at the end.
     from: f64,
     to: f64,
+    /// The last angle asked for, and the time until there, s.
+    last: (f64, f64),
     /// Duration until the event, s; ∞ if there is none.
     pub(crate) duration: f64,
     /// Whether the slide turns at the end; otherwise a piece of memory ends.
@@ -159,13 +161,15 @@ impl Swing {
         self.allowed = allowed / way;
         let end = self.reach.min(high);
         self.nears = self.springs.iter().any(|s| s.height - s.lean * end < BRANCH * s.height);
-        let (duration, error) = self.time_between(self.from, self.to, self.allowed);
+        self.last = (self.from, 0.0);
+        let (duration, is_good) = self.time_between(self.from, self.to, self.allowed, 1.0);
         self.duration = duration;
-        error <= self.allowed && duration > 0.0
+        is_good && duration > 0.0
     }
 
-    /// Time from one angle to another, s, and its relative error.
-    fn time_between(&mut self, from: f64, to: f64, allowed: f64) -> (f64, f64) {
+    /// Time from one angle to another, s, `part` of the whole way, and whether its relative error is as allowed.
+    #[inline(always)]
+    fn time_between(&mut self, from: f64, to: f64, allowed: f64, part: f64) -> (f64, bool) {
         let (span, mean) = if self.nears {
             // Where slip reaches the centre, M ends as a power 3/2 of the height: the root of the way that is left sees no
             // such end.
@@ -174,12 +178,12 @@ impl Swing {
                 let left = start + (end - start) * share;
                 2.0 * left * self.slowness(self.to - left * left)
             };
-            (start - end, GAUSS.mean(allowed, slowness))
+            (start - end, GAUSS.mean(allowed, part, slowness))
         } else {
-            (to - from, GAUSS.mean(allowed, |share| self.slowness(from + (to - from) * share)))
+            (to - from, GAUSS.mean(allowed, part, |share| self.slowness(from + (to - from) * share)))
         };
         self.evaluations += mean.asked;
-        (span * mean.value, mean.error)
+        (span * mean.value, mean.error <= allowed)
     }
 
     /// The same in gross slip: a parabola.
@@ -218,10 +222,9 @@ impl Swing {
         sum
     }
 
-    /// K at an angle, 1/s².
+    /// K at q, 1/s².
     #[inline(always)]
-    fn stiffness(&self, angle: f64) -> f64 {
-        let q = self.way(angle);
+    fn stiffness(&self, q: f64) -> f64 {
         match &self.springs[..] {
             [spring] => spring.stiffness(q),
             springs => springs.iter().map(|spring| spring.stiffness(q)).sum(),
@@ -231,7 +234,7 @@ impl Swing {
     /// dt/dθ = 1/√(2K), s.
     #[inline(always)]
     fn slowness(&self, angle: f64) -> f64 {
-        (0.5 / self.stiffness(angle)).sqrt()
+        (0.5 / self.stiffness(self.way(angle))).sqrt()
     }
 
     /// q at an angle, m.
@@ -252,7 +255,7 @@ impl Swing {
         if self.springs.is_empty() {
             return self.freely(t, self.duration);
         }
-        let v = if self.turns { -self.drift } else { self.velocity(self.reach, self.to) };
+        let v = if self.turns { -self.drift } else { self.velocity(self.reach) };
         self.place((t, self.duration), self.reach.min(self.high), v)
     }
 
@@ -263,34 +266,47 @@ impl Swing {
             return self.freely(t, passed);
         }
         let whole = self.to - self.from;
-        let mut angle = self.from + whole * (passed / self.duration).clamp(0.0, 1.0);
-        let (mut known, mut left) = (self.from, passed);
+        // Rows follow one upon the other: each goes on from the one before.
+        let goes_on = self.last.1 > 0.0 && self.last.1 <= passed;
+        let (mut known, gone) = if goes_on { self.last } else { (self.from, 0.0) };
+        let mut left = passed - gone;
+        let guess = if goes_on {
+            let half = self.within(known + 0.5 * left / self.slowness(known));
+            known + left / self.slowness(half)
+        } else {
+            known + whole * (passed / self.duration)
+        };
+        let mut angle = self.within(guess);
         for _ in 0..NEWTON {
-            let span = angle - known;
             // The shorter the way, the less its digits count.
-            let allowed = self.allowed * (whole / span).abs();
-            left -= self.time_between(known, angle, allowed).0;
+            let part = ((angle - known) / whole).abs();
+            left -= self.time_between(known, angle, self.allowed / part, part).0;
             known = angle;
             let step = left / self.slowness(angle);
-            angle = (angle + step).clamp(self.from, self.to);
+            angle = self.within(angle + step);
             if step.abs() <= 1e-8 * whole {
                 break;
             }
         }
+        self.last = (angle, passed);
         let way = self.way(angle);
-        self.place((t, passed), way, self.velocity(way, angle))
+        self.place((t, passed), way, self.velocity(way))
     }
 
-    /// ν at an angle, m/s.
-    fn speed_at(&self, angle: f64) -> f64 {
-        0.5 * (self.high - self.low) * angle.sin() * (2.0 * self.stiffness(angle)).sqrt()
+    fn within(&self, angle: f64) -> f64 {
+        angle.clamp(self.from, self.to)
+    }
+
+    /// ν at q, m/s.
+    fn speed_at(&self, way: f64) -> f64 {
+        (2.0 * (way - self.low).max(0.0) * (self.high - way).max(0.0) * self.stiffness(way)).sqrt()
     }
 
     /// The slider's velocity at q, m/s: what it has gained, not what the followers' speed leaves of ν, which may be thousands
     /// of times as fast.
-    fn velocity(&self, way: f64, angle: f64) -> f64 {
+    fn velocity(&self, way: f64) -> f64 {
         let [mean, ..] = self.force(way);
-        let sum = self.speed() + self.speed_at(angle);
+        let sum = self.speed() + self.speed_at(way);
         let gain = if sum > 0.0 { 2.0 * way * mean / sum } else { 0.0 };
         self.start.v + self.sense * gain
     }
