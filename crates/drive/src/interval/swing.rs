@@ -284,7 +284,8 @@ impl Swing {
             known = angle;
             let step = left / self.slowness(angle);
             angle = self.within(angle + step);
-            if step.abs() <= 1e-8 * whole {
+            // What is left after this step is the square of it.
+            if step.abs() <= 1e-7 * whole {
                 break;
             }
         }
