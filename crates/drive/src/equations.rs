@@ -1,14 +1,15 @@
 //! The equations of motion, evaluated on borrowed memory.
 
+mod forces;
 mod sum;
 
 pub(crate) use sum::{Components, Reading, View};
 
 use crate::interval::{Interval, Pull};
-use crate::model::{Contact, Link, Measure, Motion, Place, Press, Stroke};
+use crate::model::{Contact, Measure, Motion, Place, Press};
 use crate::state::{Layout, Mode, State};
 use crate::{Model, Piece, Sample};
-use stickslip_contact::{Branch, Memory, Move};
+use stickslip_contact::Memory;
 use stickslip_stepper::{Conservative, System};
 use sum::{Positions, Sum};
 
@@ -121,168 +122,6 @@ impl Equations<'_> {
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(self.sample(*w, t)),
             // The bodies say.
             Press::Coupled(_) => (0.0, 0.0),
-        }
-    }
-
-    /// F_x of one contact, N, under its decreed law.
-    #[inline(always)]
-    pub(crate) fn force(&self, c: usize, motion: &Motion, y: impl Fn(usize) -> f64) -> f64 {
-        let contact = &self.model.contacts[c];
-        match &self.modes[c] {
-            Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => self.dragged(c, branch, motion).0,
-            Mode::Slip(branch) => {
-                let area = match &contact.press {
-                    Press::Constant { area, .. } => *area,
-                    _ => contact.law.profile().area(motion.d),
-                };
-                branch.force(&contact.law, motion.d, motion.u, area)
-            }
-            Mode::Whole { .. } if contact.inert => 0.0,
-            Mode::Whole { .. } => self.whole(c, motion),
-            Mode::Grow => contact.slot.map_or(0.0, |slot| y(self.layout.force(slot))),
-            Mode::Open => 0.0,
-        }
-    }
-
-    /// Force by the whole law on the committed memory.
-    #[inline(never)]
-    fn whole(&self, c: usize, motion: &Motion) -> f64 {
-        self.memories[c].force(&self.model.contacts[c].law, motion.apex())
-    }
-
-    /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
-    #[inline(never)]
-    fn dragged(&self, c: usize, branch: &Branch, motion: &Motion) -> (f64, f64) {
-        match &self.memories[c] {
-            Memory::Curve(curve) => curve.dragged(&self.model.contacts[c].law, branch.sense(), motion.apex()),
-            Memory::Row { .. } => (0.0, 0.0),
-        }
-    }
-
-    /// Height of the slip front, m.
-    pub(crate) fn front(&self, c: usize, branch: &Branch, motion: &Motion) -> f64 {
-        if branch.covers(motion.d, motion.u) {
-            branch.front(motion.d, motion.u)
-        } else {
-            self.dragged(c, branch, motion).1
-        }
-    }
-
-    /// Stiffness of the springs that stick, N/m: what carries a contact's own damping.
-    pub(crate) fn stuck_stiffness(&self, c: usize, motion: &Motion) -> f64 {
-        let law = &self.model.contacts[c].law;
-        match &self.modes[c] {
-            Mode::Open => 0.0,
-            Mode::Grow => law.stick_stiffness(motion.d),
-            Mode::Slip(branch) if branch.is_gross() => 0.0,
-            Mode::Slip(branch) => {
-                law.stick_stiffness(self.front(c, branch, motion).clamp(0.0, motion.d.max(0.0)))
-            }
-            Mode::Whole { .. } => self.memories[c].trial(law, Move::Chord(motion.apex())).stiffness,
-        }
-    }
-
-    /// Slopes of the extra components of a growing contact: Ḟ = G\*m(d)u̇ and Ė = Fu̇ in full stick, friction power
-    /// where an edge drags. `extra` begins after the velocities.
-    #[inline(never)]
-    fn grow(&self, c: usize, slot: usize, motion: &Motion, force: f64, extra: &mut [f64]) {
-        let contact = &self.model.contacts[c];
-        let (mut rate, mut elastic, mut friction) = (0.0, 0.0, 0.0);
-        match &self.modes[c] {
-            Mode::Grow => {
-                rate = contact.law.stick_stiffness(motion.d) * motion.du;
-                elastic = force * motion.du;
-            }
-            Mode::Slip(branch) => {
-                let front = self.front(c, branch, motion);
-                friction = branch.friction_power(&contact.law, front, (motion.d, motion.dd), motion.du);
-            }
-            Mode::Open | Mode::Whole { .. } => {}
-        }
-        let from = 2 * self.layout.free;
-        extra[self.layout.force(slot) - from] = rate;
-        extra[self.layout.elastic(slot) - from] = elastic;
-        extra[self.layout.friction(slot) - from] = friction;
-    }
-
-    /// Forces of all contacts, and the slopes of their extra components.
-    #[inline(always)]
-    fn contacts(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
-        let Some(interval) = self.interval else {
-            (0..self.model.contacts.len()).for_each(|c| self.contact(c, at, sum, extra));
-            return;
-        };
-        for steady in &interval.steady {
-            let force = steady.force(steady.displacement(at.time(), |i| at.component(i)));
-            sum.apply(&steady.contact.u.free, steady.driven(), force);
-        }
-        for &c in &interval.others {
-            self.contact(c, at, sum, extra);
-        }
-    }
-
-    /// Any contact in any mode: its forces, and the slopes of its extra components.
-    #[inline(never)]
-    fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
-        let contact = &self.model.contacts[c];
-        let u = self.read(&contact.u, at);
-        let (d, dd, area) = match &contact.press {
-            Press::Coupled(measure) => {
-                let d = self.read(measure, at);
-                let area = contact.law.profile().area(d.value);
-                // Decreed apart, it is so beyond the touch that will end the step.
-                if self.modes[c] != Mode::Open {
-                    let press = contact.count * (contact.law.normal_modulus() * area);
-                    sum.apply(&measure.free, d.driven, -press);
-                }
-                (d.value, d.rate, area)
-            }
-            _ => {
-                let (d, dd) = self.pressed(contact, at.time());
-                (d, dd, contact.law.profile().area(d))
-            }
-        };
-        let motion = Motion { d, u: u.value, dd, du: u.rate };
-        let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
-            (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
-                let [force, friction] = branch.drag(&contact.law, (d, dd), (u.value, u.rate), area);
-                extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
-                force
-            }
-            (_, slot) => {
-                let force = self.force(c, &motion, |i| at.component(i));
-                if let Some(slot) = slot {
-                    self.grow(c, slot, &motion, force, extra);
-                }
-                force
-            }
-        };
-        if contact.damping > 0.0 {
-            let damping = contact.damping * self.stuck_stiffness(c, &motion);
-            sum.damping += contact.count * damping * motion.du * motion.du;
-            force += damping * motion.du;
-        }
-        sum.apply(&contact.u.free, u.driven, -contact.count * force);
-    }
-
-    #[inline(never)]
-    fn links(&self, at: &impl View, sum: &mut Sum<'_>) {
-        for link in &self.model.links {
-            let elongation = self.read(&link.elongation, at);
-            let stroke = self.stroke(link, at.time());
-            let (stretch, rate) = (stroke.value - elongation.value, stroke.rate - elongation.rate);
-            let force = link.stiffness * stretch + link.damping * rate;
-            sum.apply(&link.elongation.free, elongation.driven, force + link.preload);
-            sum.input += force * stroke.rate;
-            sum.damping += link.damping * rate * rate;
-        }
-    }
-
-    /// Free stroke of a link.
-    pub(crate) fn stroke(&self, link: &Link, t: f64) -> Sample {
-        match link.stroke {
-            Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },
-            Stroke::Driven(w) => self.sample(w, t),
         }
     }
 }

@@ -5,6 +5,7 @@
 
 mod coast;
 mod dense;
+mod estimate;
 mod grade;
 mod tableau;
 
@@ -12,8 +13,8 @@ pub use grade::Grade;
 
 use crate::System;
 use tableau::{
-    Error3, Error5, NODES, Row, Slopes, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9,
-    Stage10, Stage11, Stage12, Weights,
+    NODES, Row, Slopes, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9, Stage10, Stage11,
+    Stage12, Weights,
 };
 
 /// Order of the method.
@@ -216,28 +217,6 @@ impl Dop853 {
         self.evaluations
     }
 
-    /// A first step for a fresh start (Hairer, Nørsett, Wanner, section II.4), at most `longest`; one evaluation.
-    pub fn first_step<S: System + ?Sized>(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
-        if !self.first_known {
-            self.restart_slopes(system);
-        }
-        let norm = |of: &dyn Fn(usize) -> f64| {
-            scale.iter().enumerate().take(self.dimension).map(|(i, s)| (of(i) / s).abs()).fold(0.0, f64::max)
-        };
-        let (size, speed) = (norm(&|i| self.begin[i]), norm(&|i| self.first[i]));
-        let trial = if size > 1e-5 && speed > 1e-5 { 0.01 * size / speed } else { 1e-6 * longest };
-        let trial = trial.min(longest);
-        for ((to, y), slope) in self.stage.iter_mut().zip(&self.begin).zip(&self.first) {
-            *to = y + trial * slope;
-        }
-        system.slopes(self.time + trial, &self.stage, &mut self.slope);
-        self.evaluations += 1;
-        let bend = norm(&|i| (self.slope[i] - self.first[i]) / trial);
-        let largest = speed.max(bend);
-        let step = if largest > 1e-15 { (0.01 / largest).powf(1.0 / f64::from(ORDER)) } else { 1e3 * trial };
-        step.min(100.0 * trial).min(longest)
-    }
-
     fn attempt_span<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -324,26 +303,6 @@ impl Dop853 {
     fn recall_first(&mut self) {
         self.slope.copy_from_slice(&self.first);
         self.pace(self.grade.pace(0.0));
-    }
-
-    /// The estimate of DOP853 with the largest component instead of the mean: with a mean, components at rest would
-    /// dilute the one that matters.
-    fn error(&self, scale: &[f64]) -> f64 {
-        let (mut five, mut three, mut probe) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for (k, scale) in self.k.iter().zip(scale) {
-            let unit = 1.0 / scale;
-            let (e5, e3) = ((Error5::dot(k) * unit).abs(), (Error3::dot(k) * unit).abs());
-            five = five.max(e5);
-            three = three.max(e3);
-            // `max` drops NaN, a sum does not.
-            probe += e5 + e3;
-        }
-        probe += self.end.iter().sum::<f64>();
-        if !probe.is_finite() {
-            return f64::INFINITY;
-        }
-        let norm = (five * five + 0.01 * three * three).sqrt();
-        if norm > 0.0 { self.step.abs() * five * (five / norm) } else { 0.0 }
     }
 
     fn forget_step(&mut self) {

@@ -1,0 +1,90 @@
+//! Where a swing is at a time.
+
+use super::{Place, Swing};
+
+/// Steps to the place at a time: each squares the error.
+const NEWTON: usize = 8;
+
+impl Swing {
+    /// Place and velocity at the event.
+    pub(crate) fn end(&self) -> Place {
+        let t = self.start.t + self.duration;
+        if self.springs.is_empty() {
+            return self.freely(t, self.duration);
+        }
+        let v = if self.turns { -self.drift } else { self.velocity(self.reach) };
+        self.place((t, self.duration), self.reach.min(self.high), v)
+    }
+
+    /// Place and velocity at a time before the event.
+    pub(crate) fn at(&mut self, t: f64) -> Place {
+        let passed = t - self.start.t;
+        if self.springs.is_empty() {
+            return self.freely(t, passed);
+        }
+        let whole = self.to - self.from;
+        // Rows follow one upon the other: each goes on from the one before.
+        let goes_on = self.last.1 > 0.0 && self.last.1 <= passed;
+        let (mut known, gone) = if goes_on { self.last } else { (self.from, 0.0) };
+        let mut left = passed - gone;
+        let guess = if goes_on {
+            let half = self.within(known + 0.5 * left / self.slowness(known));
+            known + left / self.slowness(half)
+        } else {
+            known + whole * (passed / self.duration)
+        };
+        let mut angle = self.within(guess);
+        for _ in 0..NEWTON {
+            // The shorter the way, the less its digits count.
+            let part = ((angle - known) / whole).abs();
+            left -= self.time_between(known, angle, self.allowed / part, part).0;
+            known = angle;
+            let step = left / self.slowness(angle);
+            angle = self.within(angle + step);
+            // What is left after this step is the square of it.
+            if step.abs() <= 1e-7 * whole {
+                break;
+            }
+        }
+        self.last = (angle, passed);
+        let way = self.way(angle);
+        self.place((t, passed), way, self.velocity(way))
+    }
+
+    fn within(&self, angle: f64) -> f64 {
+        angle.clamp(self.from, self.to)
+    }
+
+    /// ν at q, m/s.
+    fn speed_at(&self, way: f64) -> f64 {
+        (2.0 * (way - self.low).max(0.0) * (self.high - way).max(0.0) * self.stiffness(way)).sqrt()
+    }
+
+    /// The slider's velocity at q, m/s: what it has gained, not what the followers' speed leaves of ν, which may be thousands
+    /// of times as fast.
+    fn velocity(&self, way: f64) -> f64 {
+        let [mean, ..] = self.force(way);
+        let sum = self.speed() + self.speed_at(way);
+        let gain = if sum > 0.0 { 2.0 * way * mean / sum } else { 0.0 };
+        self.start.v + self.sense * gain
+    }
+
+    /// In gross slip: a parabola.
+    fn freely(&self, t: f64, passed: f64) -> Place {
+        let Place { x, v, .. } = self.start;
+        let gain = self.sense * self.push * passed;
+        let turned = self.turns && passed == self.duration;
+        Place { t, x: x + (v + 0.5 * gain) * passed, v: if turned { -self.drift } else { v + gain } }
+    }
+
+    /// `passed` is what `t` would be from the start on without its rounding: a fast follower's way hangs on it.
+    fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> Place {
+        Place { t, x: self.start.x + (self.sense * way - self.drift * passed), v }
+    }
+
+    /// Work that the followers have put in up to a place, J: their speed times what the slider's momentum lacks of the
+    /// impulse of its load.
+    pub(crate) fn work(&self, to: &Place) -> f64 {
+        self.drift * (self.load * (to.t - self.start.t) - (to.v - self.start.v) / self.mobility)
+    }
+}
