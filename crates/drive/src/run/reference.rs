@@ -2,9 +2,13 @@
 
 use super::chords::Chords;
 use crate::record::Record;
-use crate::{Model, Plan, RunError, State};
+use crate::{Model, Plan, RunError, State, Waveform};
 use stickslip_stepper::System;
 use stickslip_stepper::reference::{Memory, ReferenceError, ReferenceOptions, integrate};
+
+/// Longest step, in quarters of the shortest wave. In gross slip nothing in the equations tells of a wave that goes by under
+/// a long step, nor of the short time in which it holds a body.
+const SEEN: f64 = 0.125;
 
 /// A run whose steps an outside solver chooses.
 struct Driven<'a> {
@@ -52,7 +56,9 @@ pub(super) fn run(
     let scale: Vec<f64> = scale.into_iter().chain(speed).collect();
     let mut driven = Driven { chords: Chords::new(model, plan, state, record), outcome: Ok(()) };
     driven.chords.write_now();
-    let mut options = ReferenceOptions::default();
+    let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
+    let longest = SEEN * waves;
+    let mut options = ReferenceOptions { longest, ..ReferenceOptions::default() };
     while driven.chords.goes_on() && driven.outcome.is_ok() {
         let t = driven.chords.state.t;
         let corner = driven.chords.state.pieces.iter().map(|p| p.end).fold(plan.duration, f64::min);

@@ -1,12 +1,13 @@
 //! Contacts that vibrate, along the normal and along the slide: when slip dies out, when it goes on, what friction is left.
 
 use crate::parts::{
-    FOOT_SLIDER, channel, column, contact, damper, event, follower, free, named, push, sine, trace, wave,
+    FOOT_SLIDER, channel, column, contact, damper, end, event, follower, foot_and_slider, free, named, plan,
+    push, sine, trace, wave,
 };
 use std::f64::consts::{PI, TAU};
 use stickslip_contact::{Pair, Profile};
 use stickslip_drive::scene::{Body, Contact, ContactStart, Normal, Scene, Side, Start, Varying};
-use stickslip_drive::{EventKind, Shape, Timing, Waveform};
+use stickslip_drive::{EventKind, Shape, Stepper, Timing, Waveform};
 
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(0)];
 const MU: f64 = 0.2;
@@ -181,4 +182,24 @@ fn loops_close_after_a_travel_of_ten_thousand_gross_slips() {
     let far = far.count();
     println!("{far} loops closed beyond 1e4 u_c, {:?}", state.counts());
     assert!(far > 100 && state.counts().events < 10_000);
+}
+
+/// A slider on a foot that vibrates along the slide, mostly in gross slip: there the force is constant, and a stepper without
+/// events that takes its steps as long as it may leaps over whole waves, each of which holds or drags the slider on.
+#[test]
+fn a_stepper_without_events_leaps_over_no_wave() {
+    let drive = wave("vibration", sine(1e-6), 1e-3);
+    let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
+    let mut scene = foot_and_slider(drive, 0.1, ball);
+    scene.loads.push(push(1, 0.03));
+    let place = |plan| {
+        let (model, state) = end(&scene, &plan);
+        state.body(&model, 1).unwrap().0
+    };
+    let exact = place(event(1e-9, 20e-3));
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let off = place(plan(Stepper::Dopri5 { tolerance }, 20e-3)) / exact - 1.0;
+        println!("{tolerance:e}: {off:.1e} of {exact:.2e} m");
+        assert!(off.abs() < 1e-2, "{tolerance:e}: {off:e}");
+    }
 }
