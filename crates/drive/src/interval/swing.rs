@@ -57,8 +57,6 @@ pub(crate) struct Swing {
     /// Angles at the start and at the end.
     from: f64,
     to: f64,
-    /// The last angle asked for, and the time until there, s.
-    last: (f64, f64),
     /// Duration until the event, s; ∞ if there is none.
     pub(crate) duration: f64,
     /// Whether the slide turns at the end; otherwise a piece of memory ends.
@@ -160,7 +158,6 @@ impl Swing {
         self.allowed = allowed / way;
         let end = self.reach.min(high);
         self.nears = self.springs.iter().any(|s| s.height - s.lean * end < BRANCH * s.height);
-        self.last = (self.from, 0.0);
         let (duration, is_good) = self.time_between(self.from, self.to, self.allowed, 1.0);
         self.duration = duration;
         is_good && duration > 0.0

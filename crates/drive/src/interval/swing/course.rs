@@ -23,36 +23,23 @@ impl Swing {
             return self.freely(t, passed);
         }
         let whole = self.to - self.from;
-        // Rows follow one upon the other: each goes on from the one before.
-        let goes_on = self.last.1 > 0.0 && self.last.1 <= passed;
-        let (mut known, gone) = if goes_on { self.last } else { (self.from, 0.0) };
-        let mut left = passed - gone;
-        let guess = if goes_on {
-            let half = self.within(known + 0.5 * left / self.slowness(known));
-            known + left / self.slowness(half)
-        } else {
-            known + whole * (passed / self.duration)
-        };
-        let mut angle = self.within(guess);
+        // Every moment from the start on, not from the one before: rows are the same whatever others there are.
+        let mut angle = self.from + whole * (passed / self.duration).clamp(0.0, 1.0);
+        let (mut known, mut left) = (self.from, passed);
         for _ in 0..NEWTON {
             // The shorter the way, the less its digits count.
             let part = ((angle - known) / whole).abs();
             left -= self.time_between(known, angle, self.allowed / part, part).0;
             known = angle;
             let step = left / self.slowness(angle);
-            angle = self.within(angle + step);
+            angle = (angle + step).clamp(self.from, self.to);
             // What is left after this step is the square of it.
             if step.abs() <= 1e-7 * whole {
                 break;
             }
         }
-        self.last = (angle, passed);
         let way = self.way(angle);
         self.place((t, passed), way, self.velocity(way))
-    }
-
-    fn within(&self, angle: f64) -> f64 {
-        angle.clamp(self.from, self.to)
     }
 
     /// ν at q, m/s.
