@@ -205,7 +205,7 @@ impl Conservative for Equations<'_> {
     }
 
     /// Gross slip under constant loads: a parabola.
-    fn is_constant(&self) -> bool {
+    fn coasts(&self) -> bool {
         self.interval.is_some_and(|interval| interval.constant)
     }
 }

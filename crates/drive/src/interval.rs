@@ -24,7 +24,9 @@ pub(crate) struct Interval<'a> {
     pub(crate) apart: Vec<usize>,
     /// By contact: its place among the steady ones.
     places: Vec<Option<usize>>,
-    /// The slider, where a single one moves and nothing but steady contacts acts on it.
+    /// Whether the scene has a single slider on which no force hangs on a velocity.
+    single: bool,
+    /// That slider, where nothing but steady contacts acts on it.
     pub(crate) slider: Option<Slider>,
     /// What its contacts make of it.
     pub(crate) pulls: Vec<Pull<'a>>,
@@ -180,6 +182,7 @@ impl<'a> Interval<'a> {
             apart: Vec::with_capacity(count),
             places: Vec::with_capacity(count),
             pulls: Vec::with_capacity(count),
+            single: model.free.len() == 1 && model.is_conservative(),
             ..Self::default()
         }
     }
@@ -226,7 +229,7 @@ impl<'a> Interval<'a> {
         self.constant = gross && simple;
         self.pulls.clear();
         self.slider = match &model.free[..] {
-            [slider] if simple => Some(self.pull(slider)),
+            [slider] if simple && self.single => Some(self.pull(slider)),
             _ => None,
         };
     }

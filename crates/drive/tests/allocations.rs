@@ -34,8 +34,6 @@ fn shaken() -> Scene {
 /// Ten times as long a run allocates no more: all of it is the workspace, made at the start.
 #[test]
 fn stepping_allocates_nothing() {
-    // What all runs of a process share is made by the first.
-    allocations(&p1(), &event(1e-3, 1e-3));
     for (name, scene) in [("P1", p1()), ("shaken", shaken())] {
         for tolerance in [1e-3, 1e-8] {
             let [short, long] =

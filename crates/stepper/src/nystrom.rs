@@ -33,7 +33,7 @@ pub trait Conservative {
 
     /// Whether accelerations and rates are the same at all times and positions of the coming step: then they are not
     /// asked for again.
-    fn is_constant(&self) -> bool {
+    fn coasts(&self) -> bool {
         false
     }
 }
@@ -231,7 +231,7 @@ impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
         let n = self.positions();
         self.stage.as_mut().copy_from_slice(&self.begin.as_ref()[..n]);
         self.evaluate(system, self.time, 0);
-        self.constant = system.is_constant();
+        self.constant = system.coasts();
         self.first_known = true;
     }
 

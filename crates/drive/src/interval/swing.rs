@@ -22,10 +22,9 @@ mod spring;
 use super::Interval;
 use crate::Model;
 use crate::model::Free;
-use crate::quadrature::GAUSS;
+use crate::quadrature;
 use spring::Spring;
 use std::f64::consts::PI;
-use std::sync::LazyLock;
 
 /// Steps of Halley's method to a turning point: three suffice, more are for slow starts.
 const HALLEY: usize = 30;
@@ -79,9 +78,6 @@ pub(crate) struct Place {
 impl Swing {
     /// Room for the contacts of a model.
     pub(crate) fn of(model: &Model) -> Self {
-        if model.is_conservative() && model.free.len() == 1 {
-            LazyLock::force(&GAUSS);
-        }
         Self { springs: Vec::with_capacity(model.contacts.len()), ..Self::default() }
     }
 
@@ -174,9 +170,9 @@ impl Swing {
                 let left = start + (end - start) * share;
                 2.0 * left * self.slowness(self.to - left * left)
             };
-            (start - end, GAUSS.mean(allowed, part, slowness))
+            (start - end, quadrature::mean(allowed, part, slowness))
         } else {
-            (to - from, GAUSS.mean(allowed, part, |share| self.slowness(from + (to - from) * share)))
+            (to - from, quadrature::mean(allowed, part, |share| self.slowness(from + (to - from) * share)))
         };
         self.evaluations += mean.asked;
         (span * mean.value, mean.error <= allowed)

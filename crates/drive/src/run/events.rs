@@ -89,7 +89,7 @@ pub(super) struct Run<'a, A> {
     /// Waveforms that turned a corner at the end of the step.
     turned: Vec<(usize, EventKind)>,
     row: Vec<f64>,
-    /// Slopes of a moment between two steps.
+    /// Components of a moment, or their slopes.
     slopes: Vec<f64>,
     looks: Looks,
     /// Evaluations made for rows and looks only.
@@ -196,7 +196,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         let fresh = state.step <= 0.0;
         if fresh {
             (0..self.model.contacts.len()).for_each(|c| self.decide(state, c));
-            self.set_scale(state);
         }
         self.turned(state);
         self.begin_interval(state);
@@ -212,6 +211,23 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         } else {
             self.with_equations(state, |run, eq| run.solver.first_step(eq, longest, &run.scale))
         };
+    }
+
+    /// From an event or a corner, at which the state is, into the next interval.
+    fn pass_event(
+        &mut self,
+        state: &mut State,
+        is_corner: bool,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        if is_corner {
+            self.turn_corners(state, record);
+            self.turned(state);
+        }
+        self.handle_fallen(state, is_corner, record)?;
+        self.shift(state);
+        self.restart(state);
+        Ok(())
     }
 
     /// The laws, and perhaps the forces of growing contacts, have changed.
@@ -244,9 +260,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
 
     /// Whether steady contacts alone act on a single slider, and nothing else is looked out for.
     fn may_leap(&self, interval: &Interval<'_>) -> bool {
-        let unguarded = |c: &usize| self.model.contacts[*c].unguarded;
-        let alone = interval.slider.is_some() && interval.apart.iter().all(unguarded);
-        alone && self.model.is_conservative()
+        interval.slider.is_some() && interval.apart.iter().all(|c| self.model.contacts[*c].unguarded)
     }
 
     /// Waveforms are on new pieces.

@@ -18,7 +18,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         grid: &mut Grid,
         record: &mut dyn Record,
     ) -> Result<bool, RunError> {
-        if !self.leaps || !self.aim(state) {
+        if !self.leaps || !self.take_up(state) {
             return Ok(false);
         }
         let event = self.swing.end();
@@ -40,21 +40,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         if is_event {
             self.collect_reached(state);
         }
-        if is_corner {
-            self.turn_corners(state, record);
-            self.turned(state);
-        }
         if is_event || is_corner {
-            self.handle_fallen(state, is_corner, record)?;
-            self.shift(state);
-            self.restart(state);
+            self.pass_event(state, is_corner, record)?;
         }
         self.watch.step(state, record)?;
         Ok(true)
     }
 
     /// Takes up the interval and finds its event.
-    fn aim(&mut self, state: &State) -> bool {
+    fn take_up(&mut self, state: &State) -> bool {
         // What has no closed form now has none until the next event.
         self.leaps = false;
         let (Some(interval), [slider]) = (&self.interval, &self.model.free[..]) else { return false };

@@ -193,21 +193,28 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Value of a guard at the start of the step.
     #[inline(always)]
-    fn at_begin(&self, state: &State, Watched { index, contact, guard, steady }: Watched<'_>) -> f64 {
-        let (t, begin, n) = (self.solver.time(), self.solver.begin(), self.layout.free);
-        match steady {
-            Some(steady) => steady.guard(guard, t, |i| begin[i], |i| begin[n + i]),
-            None => guard.value(contact, state.law(index), &self.from[index].motion),
-        }
+    fn at_begin(&self, state: &State, watched: Watched<'_>) -> f64 {
+        self.value(state, watched, (self.solver.time(), self.solver.begin()), &self.from)
     }
 
     /// Its value at the end of the step.
     #[inline(always)]
-    fn at_end(&self, state: &State, Watched { index, contact, guard, steady }: Watched<'_>) -> f64 {
-        let (t, end, n) = (self.solver.end_time(), self.solver.end(), self.layout.free);
+    fn at_end(&self, state: &State, watched: Watched<'_>) -> f64 {
+        self.value(state, watched, (self.solver.end_time(), self.solver.end()), &self.to)
+    }
+
+    /// Its value at one end of the step: time and state there, and the contacts that are not steady.
+    #[inline(always)]
+    fn value(
+        &self,
+        state: &State,
+        Watched { index, contact, guard, steady }: Watched<'_>,
+        (t, y): (f64, &[f64]),
+        contacts: &[Moving],
+    ) -> f64 {
         match steady {
-            Some(steady) => steady.guard(guard, t, |i| end[i], |i| end[n + i]),
-            None => guard.value(contact, state.law(index), &self.to[index].motion),
+            Some(steady) => steady.guard(guard, t, |i| y[i], |i| y[self.layout.velocity(i)]),
+            None => guard.value(contact, state.law(index), &contacts[index].motion),
         }
     }
 

@@ -65,14 +65,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         };
         self.accept(state, grid, record, ending == Ending::Smooth && self.fired.is_empty())?;
         state.step = if ending == Ending::Smooth { wished } else { control.after_event(wished) };
-        if ending == Ending::Corner {
-            self.turn_corners(state, record);
-            self.turned(state);
-        }
         if ending == Ending::Corner || !self.fired.is_empty() {
-            self.handle_fallen(state, ending == Ending::Corner, record)?;
-            self.shift(state);
-            self.restart(state);
+            self.pass_event(state, ending == Ending::Corner, record)?;
         } else {
             std::mem::swap(&mut self.from, &mut self.to);
             self.rests = self.is_at_rest(state);
@@ -145,17 +139,5 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         state.counts.steps += 1;
         self.solver.accept();
         self.commit(state)
-    }
-}
-
-/// End of the next step: the corner exactly, or so that no sliver is left before it.
-pub(super) fn aim(t: f64, step: f64, corner: f64) -> f64 {
-    let left = corner - t;
-    if step >= 0.999 * left {
-        corner
-    } else if 2.0 * step > left {
-        t + 0.5 * left
-    } else {
-        t + step
     }
 }
