@@ -13,12 +13,13 @@ use stickslip_scenario::Scenario;
 type Setting = (&'static str, &'static str);
 
 /// Benchmarks: name, file, and what is set in it.
-const BENCHMARKS: [(&str, &str, &[Setting]); 6] = [
+const BENCHMARKS: [(&str, &str, &[Setting]); 7] = [
     ("p1", "p1", &[("run.stepper.event.tolerance", "1e-4"), ("run.cycles", "200")]),
     ("p1-fine", "p1", &[("run.stepper.event.tolerance", "1e-8"), ("run.cycles", "200")]),
     ("ruby", "ruby_drive", &[("run.stepper.event.tolerance", "1e-6")]),
     ("stage", "three_ball_stage", &[("run.stepper.event.tolerance", "1e-6")]),
     ("ball", "bouncing_ball", &[("run.stepper.event.tolerance", "1e-6")]),
+    ("impact", "oblique_impact", &[("run.stepper.event.tolerance", "1e-6")]),
     ("vibration", "vibrated_slider", &[("run.stepper.event.tolerance", "1e-6")]),
 ];
 

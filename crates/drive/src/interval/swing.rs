@@ -18,18 +18,24 @@
 
 mod course;
 mod spring;
+mod time;
 
 use super::Interval;
 use crate::Model;
 use crate::model::Free;
-use crate::quadrature;
 use spring::Spring;
+use std::array;
 use std::f64::consts::PI;
 
-/// Steps of Halley's method to a turning point: three suffice, more are for slow starts.
+/// Steps of Halley's method to a turning point: two suffice, more are for slow starts.
 const HALLEY: usize = 30;
+/// Its last step, relative: one that leaves nothing, to the third power, and one that is always worth another.
+const EXACT: f64 = 1e-5;
+const ROUGH: f64 = 0.02;
 /// Part of its height at the start below which a slip front comes so near to the centre that its branch point is felt.
 const BRANCH: f64 = 0.1;
+/// Part of the way to the nearer turning point up to which motion is a passage: its time is as smooth as can be.
+const FAR: f64 = 0.25;
 /// Swings smaller than this share of the natural length are left to the stepper: it knows rest from rounding.
 const SMALLEST: f64 = 1e-9;
 
@@ -53,7 +59,8 @@ pub(crate) struct Swing {
     /// Turning points before and after, m.
     low: f64,
     high: f64,
-    /// Angles at the start and at the end.
+    /// What time is an integral over, and its values at the start and at the end.
+    clock: Clock,
     from: f64,
     to: f64,
     /// Duration until the event, s; ∞ if there is none.
@@ -62,9 +69,23 @@ pub(crate) struct Swing {
     pub(crate) turns: bool,
     /// Whether the slide ends near the centre of a contact.
     nears: bool,
+    /// Error allowed of places, in natural lengths.
+    tolerance: f64,
+    /// Last step to a turning point that leaves no more, relative to its distance.
+    last: f64,
     /// Relative error allowed of times.
     allowed: f64,
     pub(crate) evaluations: u64,
+}
+
+/// What time is an integral over.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+enum Clock {
+    /// The angle θ between two turning points.
+    #[default]
+    Angle,
+    /// The way q itself, where both are far.
+    Way,
 }
 
 /// Time (s), position (m) and velocity (m/s).
@@ -76,9 +97,10 @@ pub(crate) struct Place {
 }
 
 impl Swing {
-    /// Room for the contacts of a model.
-    pub(crate) fn of(model: &Model) -> Self {
-        Self { springs: Vec::with_capacity(model.contacts.len()), ..Self::default() }
+    /// Room for the contacts of a model; places in parts of its natural length to a `tolerance`.
+    pub(crate) fn of(model: &Model, tolerance: f64) -> Self {
+        let last = (0.1 * tolerance.cbrt()).clamp(EXACT, ROUGH);
+        Self { tolerance, last, springs: Vec::with_capacity(model.contacts.len()), ..Self::default() }
     }
 
     /// Takes up what an interval has become; false where it has no such form.
@@ -118,9 +140,8 @@ impl Swing {
         self.sense * (self.start.v + self.drift)
     }
 
-    /// Finds the event that ends the motion, to an error of the place of `allowed` (m); false where that fails.
-    /// `length` is the natural one.
-    pub(crate) fn aim(&mut self, length: f64, allowed: f64) -> bool {
+    /// Finds the event that ends the motion; false where that fails. `length` is the natural one, m.
+    pub(crate) fn aim(&mut self, length: f64) -> bool {
         self.evaluations = 0;
         let speed = self.speed();
         if speed.is_nan() || speed < 0.0 || self.reach <= 0.0 {
@@ -129,7 +150,7 @@ impl Swing {
         if self.springs.is_empty() {
             return self.aim_free(speed, length);
         }
-        let [_, pull, bend] = self.force(0.0);
+        let [pull, bend, softening] = self.force_at_start();
         if speed == 0.0 && pull <= 0.0 || bend >= 0.0 {
             return false;
         }
@@ -137,45 +158,54 @@ impl Swing {
         let swing = (pull * pull - bend * speed * speed).sqrt();
         let (short, long) = (speed * speed / (swing + pull.abs()), (swing + pull.abs()) / -bend);
         let (before, after) = if pull > 0.0 { (-short, long) } else { (-long, short) };
-        let low = if speed == 0.0 { Some(0.0) } else { self.turning(speed, before) };
-        let (Some(low), Some(high)) = (low, self.turning(speed, after)) else { return false };
+        let guesses = [softer(before, swing, bend, softening), softer(after, -swing, bend, softening)];
+        let is_done = if self.reach < FAR * short && !self.nears_centre(self.reach) {
+            self.pass()
+        } else {
+            self.swing_between(speed, guesses, length)
+        };
+        is_done && self.set_out(bend, self.tolerance * length)
+    }
+
+    /// The motion passes on to the end of a piece and is far from turning.
+    fn pass(&mut self) -> bool {
+        (self.clock, self.turns, self.nears) = (Clock::Way, false, false);
+        (self.from, self.to) = (0.0, self.reach);
+        true
+    }
+
+    /// The motion is an arc between two turning points near two guesses; false where it is none.
+    fn swing_between(&mut self, speed: f64, guesses: [f64; 2], length: f64) -> bool {
+        let Some([low, high]) = self.turning(speed, guesses) else { return false };
         if !(high > 0.0 && low <= 0.0 && high - low > SMALLEST * length) {
             return false;
         }
         (self.low, self.high) = (low, high);
         self.springs.iter_mut().for_each(|spring| spring.swing_between(low, high));
-        self.turns = high <= self.reach;
+        (self.clock, self.turns) = (Clock::Angle, high <= self.reach);
         self.from = if low < 0.0 { self.angle(0.0) } else { 0.0 };
         self.to = if self.turns { PI } else { self.angle(self.reach) };
+        self.nears = self.nears_centre(self.reach.min(high));
+        true
+    }
+
+    /// Whether a slip front comes near to the centre up to q.
+    fn nears_centre(&self, q: f64) -> bool {
+        self.springs.iter().any(|spring| spring.height - spring.lean * q < BRANCH * spring.height)
+    }
+
+    /// Finds the time of the event.
+    fn set_out(&mut self, bend: f64, allowed: f64) -> bool {
         let span = self.to - self.from;
-        let rough = span * self.slowness(0.5 * (self.from + self.to));
         // What a relative error of time displaces.
-        let way = (0.5 * span * (high - low)).max(self.drift.abs() * rough);
-        self.allowed = allowed / way;
-        let end = self.reach.min(high);
-        self.nears = self.springs.iter().any(|s| s.height - s.lean * end < BRANCH * s.height);
+        let (way, time) = match self.clock {
+            Clock::Angle => (0.5 * span * (self.high - self.low), span / (-bend).sqrt()),
+            Clock::Way => (span, span / self.speed()),
+        };
+        self.allowed = allowed / way.max(self.drift.abs() * time);
         let (duration, is_good) = self.time_between(self.from, self.to, self.allowed, 1.0);
         self.duration = duration;
         is_good && duration > 0.0
-    }
-
-    /// Time from one angle to another, s, `part` of the whole way, and whether its relative error is as allowed.
-    #[inline(always)]
-    fn time_between(&mut self, from: f64, to: f64, allowed: f64, part: f64) -> (f64, bool) {
-        let (span, mean) = if self.nears {
-            // Where slip reaches the centre, M ends as a power 3/2 of the height: the root of the way that is left sees no
-            // such end.
-            let [start, end] = [from, to].map(|angle| (self.to - angle).max(0.0).sqrt());
-            let slowness = |share: f64| {
-                let left = start + (end - start) * share;
-                2.0 * left * self.slowness(self.to - left * left)
-            };
-            (start - end, quadrature::mean(allowed, part, slowness))
-        } else {
-            (to - from, quadrature::mean(allowed, part, |share| self.slowness(from + (to - from) * share)))
-        };
-        self.evaluations += mean.asked;
-        (span * mean.value, mean.error <= allowed)
     }
 
     /// The same in gross slip: a parabola.
@@ -187,84 +217,65 @@ impl Swing {
         speed > 0.0 && (way > SMALLEST * length || !self.turns)
     }
 
-    /// The turning point near a guess: ν₀² + 2∫b = 0 by Halley's method, m.
-    fn turning(&mut self, speed: f64, guess: f64) -> Option<f64> {
-        let mut q = guess;
+    /// The turning points near two guesses: ν₀² + 2∫b = 0 by Halley's method, m.
+    #[inline(always)]
+    fn turning(&mut self, speed: f64, guesses: [f64; 2]) -> Option<[f64; 2]> {
+        let mut q = guesses;
         for _ in 0..HALLEY {
-            self.evaluations += 1;
+            self.evaluations += 2;
             let [mean, force, bend] = self.force(q);
-            let left = speed * speed + 2.0 * q * mean;
-            let step = 2.0 * left * force / (4.0 * force * force - left * bend);
-            q -= step;
+            let step: [f64; 2] = array::from_fn(|i| {
+                let left = speed * speed + 2.0 * q[i] * mean[i];
+                2.0 * left * force[i] / (4.0 * force[i] * force[i] - left * bend[i])
+            });
+            q = array::from_fn(|i| q[i] - step[i]);
             // The last step is exact to the third power of itself.
-            if step.abs() <= 1e-6 * q.abs() {
-                return (force * guess < 0.0).then_some(q);
+            if (0..2).all(|i| step[i].abs() <= self.last * q[i].abs()) {
+                return (0..2).all(|i| force[i] * guesses[i] <= 0.0).then_some(q);
             }
         }
         None
     }
 
+    /// b at the start and its first two derivatives; m/s², 1/s², 1/(m s²).
+    fn force_at_start(&self) -> [f64; 3] {
+        let mut sum = [self.push, 0.0, 0.0];
+        for spring in &self.springs {
+            let start = spring.start();
+            (0..3).for_each(|k| sum[k] += start[k]);
+        }
+        sum
+    }
+
     /// Mean of b from the start to q, b at q (m/s²) and its slope there (1/s²).
-    fn force(&self, q: f64) -> [f64; 3] {
-        let mut sum = [self.push, self.push, 0.0];
+    #[inline(always)]
+    fn force<const N: usize>(&self, q: [f64; N]) -> [[f64; N]; 3] {
+        let mut sum = [[self.push; N], [self.push; N], [0.0; N]];
         for spring in &self.springs {
             let pull = spring.pull(q);
-            (0..3).for_each(|i| sum[i] += pull[i]);
+            (0..3).for_each(|k| (0..N).for_each(|i| sum[k][i] += pull[k][i]));
         }
         sum
     }
 
     /// K at q, 1/s².
     #[inline(always)]
-    fn stiffness(&self, q: f64) -> f64 {
-        match &self.springs[..] {
-            [spring] => spring.stiffness(q),
-            springs => springs.iter().map(|spring| spring.stiffness(q)).sum(),
+    fn stiffness<const N: usize>(&self, q: [f64; N]) -> [f64; N] {
+        let mut sum = [0.0; N];
+        for spring in &self.springs {
+            let stiffness = spring.stiffness(q);
+            (0..N).for_each(|i| sum[i] += stiffness[i]);
         }
-    }
-
-    /// dt/dθ = 1/√(2K), s.
-    #[inline(always)]
-    fn slowness(&self, angle: f64) -> f64 {
-        (0.5 / self.stiffness(self.way(angle))).sqrt()
-    }
-
-    /// q at an angle, m.
-    #[inline(always)]
-    fn way(&self, angle: f64) -> f64 {
-        let half = sine(0.5 * angle);
-        self.low + (self.high - self.low) * half * half
-    }
-
-    /// The angle at q, 0 to π.
-    fn angle(&self, q: f64) -> f64 {
-        2.0 * (q - self.low).max(0.0).sqrt().atan2((self.high - q).max(0.0).sqrt())
+        sum
     }
 }
 
-/// Sine of 0 to π/2 by its series, to 3e-16: a call of the library's for each node would cost more than all else there.
+/// Where ν² would turn if b were a parabola: a Halley step from q, where it would for a straight b, there `force`, of slope
+/// `bend`. Where the parabola turns by itself, the straight b is the better guess.
 #[inline(always)]
-fn sine(x: f64) -> f64 {
-    const TERMS: [f64; 10] = {
-        let (mut terms, mut term, mut k) = ([0.0; 10], 1.0, 0);
-        while k < 10 {
-            terms[9 - k] = term;
-            term /= -(((2 * k + 2) * (2 * k + 3)) as f64);
-            k += 1;
-        }
-        terms
-    };
-    let square = x * x;
-    x * TERMS.iter().fold(0.0, |sum, term| sum * square + term)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_series_is_the_sine() {
-        let worst = (0..=1000).map(|i| 0.5 * PI * f64::from(i) / 1000.0).map(|x| (sine(x) - x.sin()).abs());
-        assert!(worst.fold(0.0, f64::max) < 4e-16);
-    }
+fn softer(q: f64, force: f64, bend: f64, softening: f64) -> f64 {
+    let left = (1.0 / 3.0) * softening * q * q * q;
+    let (steeper, bend) = (force + 0.5 * softening * q * q, bend + softening * q);
+    let step = 2.0 * left * steeper / (4.0 * steeper * steeper - left * bend);
+    if steeper * force > 0.0 { q - step } else { q }
 }

@@ -149,7 +149,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             longest: longest(model, plan),
             jumpy: model.waveforms.iter().any(Waveform::has_jumps),
             interval: Some(Box::new(Interval::of(model))),
-            swing: Box::new(Swing::of(model)),
+            swing: Box::new(Swing::of(model, strict)),
             leaps: false,
             behind: false,
             corner: f64::INFINITY,

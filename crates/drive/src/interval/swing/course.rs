@@ -12,8 +12,9 @@ impl Swing {
         if self.springs.is_empty() {
             return self.freely(t, self.duration);
         }
-        let v = if self.turns { -self.drift } else { self.velocity(self.reach) };
-        self.place((t, self.duration), self.reach.min(self.high), v)
+        let (way, v) =
+            if self.turns { (self.high, -self.drift) } else { (self.reach, self.velocity(self.reach)) };
+        self.place((t, self.duration), way, v)
     }
 
     /// Place and velocity at a time before the event.
@@ -24,34 +25,31 @@ impl Swing {
         }
         let whole = self.to - self.from;
         // Every moment from the start on, not from the one before: rows are the same whatever others there are.
-        let mut angle = self.from + whole * (passed / self.duration).clamp(0.0, 1.0);
+        let mut at = self.from + whole * (passed / self.duration).clamp(0.0, 1.0);
         let (mut known, mut left) = (self.from, passed);
         for _ in 0..NEWTON {
             // The shorter the way, the less its digits count.
-            let part = ((angle - known) / whole).abs();
-            left -= self.time_between(known, angle, self.allowed / part, part).0;
-            known = angle;
-            let step = left / self.slowness(angle);
-            angle = (angle + step).clamp(self.from, self.to);
+            let part = ((at - known) / whole).abs();
+            left -= self.time_between(known, at, self.allowed / part, part).0;
+            known = at;
+            let [slowness] = self.slowness([at]);
+            let step = left / slowness;
+            at = (at + step).clamp(self.from, self.to);
             // What is left after this step is the square of it.
             if step.abs() <= 1e-7 * whole {
                 break;
             }
         }
-        let way = self.way(angle);
+        let way = self.way(at);
         self.place((t, passed), way, self.velocity(way))
-    }
-
-    /// ν at q, m/s.
-    fn speed_at(&self, way: f64) -> f64 {
-        (2.0 * (way - self.low).max(0.0) * (self.high - way).max(0.0) * self.stiffness(way)).sqrt()
     }
 
     /// The slider's velocity at q, m/s: what it has gained, not what the followers' speed leaves of ν, which may be thousands
     /// of times as fast.
     fn velocity(&self, way: f64) -> f64 {
-        let [mean, ..] = self.force(way);
-        let sum = self.speed() + self.speed_at(way);
+        let [[mean], ..] = self.force([way]);
+        let [speed] = self.speed_at([way]);
+        let sum = self.speed() + speed;
         let gain = if sum > 0.0 { 2.0 * way * mean / sum } else { 0.0 };
         self.start.v + self.sense * gain
     }

@@ -1,5 +1,7 @@
 //! A contact in partial slip as a single slider feels it.
 
+use std::array;
+
 /// A contact in partial slip, its heights counted by their roots.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spring {
@@ -34,33 +36,51 @@ impl Spring {
         self.cubic = [scale * product * square / sum, scale * square, scale * sum, scale];
     }
 
-    /// Its part of K at q, 1/s².
+    /// Its parts of b at the start and of its first two derivatives; m/s², 1/s², 1/(m s²).
     #[inline(always)]
-    pub(super) fn stiffness(&self, q: f64) -> f64 {
-        let height = (self.height - self.lean * q).max(0.0);
-        let (y, [a, c], [k0, k1, k2, k3]) = (height.sqrt(), self.ends, self.cubic);
-        if self.beyond < 0.0 {
-            return self.stiffness_beyond(height, y);
-        }
-        (((k3 * y + k2) * y + k1) * y + k0) / ((a + y) * (y + c))
+    pub(super) fn start(&self) -> [f64; 3] {
+        let bend = -3.75 * self.gain * self.lean * self.root;
+        [2.5 * self.gain * self.root * self.height, bend, -0.5 * bend * self.lean / self.height]
     }
 
-    /// The same where the slide would turn only beyond the centre.
-    fn stiffness_beyond(&self, height: f64, y: f64) -> f64 {
-        let a = self.ends[0];
+    /// Its part of K at q, 1/s².
+    #[inline(always)]
+    pub(super) fn stiffness<const N: usize>(&self, q: [f64; N]) -> [f64; N] {
+        let heights = q.map(|q| above(self.height - self.lean * q));
+        if self.beyond < 0.0 {
+            return heights.map(|height| self.stiffness_beyond(height));
+        }
+        let ([a, c], [k0, k1, k2, k3]) = (self.ends, self.cubic);
+        heights.map(f64::sqrt).map(|y| (((k3 * y + k2) * y + k1) * y + k0) / ((a + y) * (y + c)))
+    }
+
+    /// The same at a height where the slide would turn only beyond the centre.
+    fn stiffness_beyond(&self, height: f64) -> f64 {
+        let (a, y) = (self.ends[0], height.sqrt());
         let (inner, outer) = (mean_power(a, y), height * height * y / (height - self.beyond));
         self.gain * self.lean * (inner - outer) / (a * a - self.beyond)
     }
 
     /// Its parts of the mean of b up to q, of b there and of its slope; m/s², m/s², 1/s².
     #[inline(always)]
-    pub(super) fn pull(&self, q: f64) -> [f64; 3] {
-        let height = self.height - self.lean * q;
-        let (y, inside) = (height.max(0.0).sqrt(), height.max(0.0));
-        let start = self.height * self.height * self.root;
-        let mean = if height > 0.0 { mean_power(self.root, y) } else { start / (self.height - height) };
-        [self.gain * mean, 2.5 * self.gain * y * inside, -3.75 * self.gain * self.lean * y]
+    pub(super) fn pull<const N: usize>(&self, q: [f64; N]) -> [[f64; N]; 3] {
+        let heights = q.map(|q| self.height - self.lean * q);
+        let inside = heights.map(above);
+        let roots = inside.map(f64::sqrt);
+        // Beyond the centre the mean goes on over nothing.
+        let share = |i: usize| if heights[i] < 0.0 { self.height / (self.height - heights[i]) } else { 1.0 };
+        [
+            array::from_fn(|i| self.gain * mean_power(self.root, roots[i]) * share(i)),
+            array::from_fn(|i| 2.5 * self.gain * roots[i] * inside[i]),
+            roots.map(|y| -3.75 * self.gain * self.lean * y),
+        ]
     }
+}
+
+/// A height, or nothing.
+#[inline(always)]
+fn above(height: f64) -> f64 {
+    if height > 0.0 { height } else { 0.0 }
 }
 
 /// (a⁵ - b⁵)/(a² - b²) of two roots, not both zero: 5/2 of the mean of h^{3/2} between their squares, without a difference.
@@ -93,7 +113,8 @@ mod tests {
             for q in [-0.3, 0.1, 0.6, 1.1] {
                 let (a, h, c) = (height(low), height(q), height(high));
                 let exact = 3.0 * 0.5 * (divided(a, h) - divided(h, c)) / (a - c);
-                assert!((spring.stiffness(q) / exact - 1.0).abs() < 1e-14, "{low} {high} {q}");
+                let [stiffness] = spring.stiffness([q]);
+                assert!((stiffness / exact - 1.0).abs() < 1e-14, "{low} {high} {q}");
             }
         }
     }
@@ -104,7 +125,8 @@ mod tests {
         let mut spring = Spring::new(3.0, 0.5, 0.8);
         spring.swing_between(-1e-12, 1e-12);
         let curvature = 3.0 * 0.5 * 0.5 * 3.75 * 0.8_f64.sqrt();
-        assert!((spring.stiffness(3e-13) / curvature - 1.0).abs() < 1e-11);
+        let [stiffness] = spring.stiffness([3e-13]);
+        assert!((stiffness / curvature - 1.0).abs() < 1e-11);
     }
 
     #[test]
@@ -114,7 +136,7 @@ mod tests {
             let h = 0.8 - 0.5 * q;
             let root = f64::max(h, 0.0).sqrt();
             let exact = [3.0 * divided(0.8, h), 7.5 * root.powi(3), -3.0 * 0.5 * 3.75 * root];
-            for (found, exact) in spring.pull(q).into_iter().zip(exact) {
+            for (found, exact) in spring.pull([q]).as_flattened().iter().zip(exact) {
                 assert!((found - exact).abs() < 1e-14 * (1.0 + exact.abs()), "{q}: {found} {exact}");
             }
         }

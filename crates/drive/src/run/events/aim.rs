@@ -140,7 +140,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             return None;
         }
         // Any four nodes will do: the place is corrected by what the step finds there.
-        let left = d * quadrature::mean(f64::INFINITY, 1.0, |share| square(d * share).sqrt().recip()).value;
+        let left = d * quadrature::mean(f64::INFINITY, 1.0, |shares| {
+            shares.map(|share| square(d * share).sqrt().recip())
+        })
+        .value;
         left.is_finite().then_some(left)
     }
 

@@ -54,7 +54,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let (Some(interval), [slider]) = (&self.interval, &self.model.free[..]) else { return false };
         let start = Place { t: state.t, x: state.y[0], v: state.y[1] };
         let length = slider.scale.0;
-        self.swing.begin(interval, slider, start) && self.swing.aim(length, self.strict * length)
+        self.swing.begin(interval, slider, start) && self.swing.aim(length)
     }
 
     /// The end of a period with which the steps of the drive are constant, if there is one on the way.

@@ -1,0 +1,100 @@
+//! How long a swing takes.
+
+use super::{Clock, Swing};
+use crate::quadrature::{self, Lanes};
+use std::array;
+
+impl Swing {
+    /// Time from one position of the clock to another, s, `part` of the whole way, and whether its relative error is as allowed.
+    #[inline(always)]
+    pub(super) fn time_between(&mut self, from: f64, to: f64, allowed: f64, part: f64) -> (f64, bool) {
+        let (span, mean) = if self.nears {
+            // Where slip reaches the centre, M ends as a power 3/2 of the height: the root of the way that is left sees no
+            // such end.
+            let [start, end] = [from, to].map(|at| (self.to - at).max(0.0).sqrt());
+            let slowness = |shares: Lanes| {
+                let left = shares.map(|share| start + (end - start) * share);
+                let slowness = self.slowness(left.map(|left| self.to - left * left));
+                array::from_fn(|i| 2.0 * left[i] * slowness[i])
+            };
+            (start - end, quadrature::mean(allowed, part, slowness))
+        } else {
+            let slowness = |shares: Lanes| self.slowness(shares.map(|share| from + (to - from) * share));
+            (to - from, quadrature::mean(allowed, part, slowness))
+        };
+        self.evaluations += mean.asked;
+        (span * mean.value, mean.error <= allowed)
+    }
+
+    /// dt/dθ = 1/√(2K), s; or dt/dq = 1/ν, s/m.
+    #[inline(always)]
+    pub(super) fn slowness<const N: usize>(&self, at: [f64; N]) -> [f64; N] {
+        if self.clock == Clock::Way {
+            return self.speed_at(at).map(f64::recip);
+        }
+        let mut ways = [0.0; N];
+        (0..N).for_each(|i| ways[i] = self.swung(at[i]));
+        self.stiffness(ways).map(|stiffness| (0.5 / stiffness).sqrt())
+    }
+
+    /// q where the clock stands so, m.
+    #[inline(always)]
+    pub(super) fn way(&self, at: f64) -> f64 {
+        if self.clock == Clock::Way { at } else { self.swung(at) }
+    }
+
+    /// q at an angle, m.
+    #[inline(always)]
+    fn swung(&self, angle: f64) -> f64 {
+        let half = sine(0.5 * angle);
+        self.low + (self.high - self.low) * half * half
+    }
+
+    /// ν at q, m/s.
+    #[inline(always)]
+    pub(super) fn speed_at<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
+        if self.clock == Clock::Way {
+            let ([mean, ..], speed) = (self.force(ways), self.speed());
+            return array::from_fn(|i| (speed * speed + 2.0 * ways[i] * mean[i]).sqrt());
+        }
+        let stiffness = self.stiffness(ways);
+        let inside = |q: f64| (q - self.low).max(0.0) * (self.high - q).max(0.0);
+        array::from_fn(|i| (2.0 * inside(ways[i]) * stiffness[i]).sqrt())
+    }
+
+    /// The angle at q, 0 to π.
+    pub(super) fn angle(&self, q: f64) -> f64 {
+        2.0 * (q - self.low).max(0.0).sqrt().atan2((self.high - q).max(0.0).sqrt())
+    }
+}
+
+/// Sine of 0 to π/2 by its series, to 3e-16: a call of the library's for each node would cost more than all else there.
+#[inline(always)]
+fn sine(x: f64) -> f64 {
+    const TERMS: [f64; 10] = {
+        let (mut terms, mut term, mut k) = ([0.0; 10], 1.0, 0);
+        while k < 10 {
+            terms[k] = term;
+            term /= -(((2 * k + 2) * (2 * k + 3)) as f64);
+            k += 1;
+        }
+        terms
+    };
+    let square = x * x;
+    // The small terms odd and even side by side: half as long a chain of sums that wait for each other.
+    let chain =
+        |k: usize| TERMS[k..].iter().step_by(2).rev().fold(0.0, |sum, term| sum * (square * square) + term);
+    x * (1.0 + square * (TERMS[1] + square * (chain(2) + square * chain(3))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn the_series_is_the_sine() {
+        let worst = (0..=1000).map(|i| 0.5 * PI * f64::from(i) / 1000.0).map(|x| (sine(x) - x.sin()).abs());
+        assert!(worst.fold(0.0, f64::max) < 4e-16);
+    }
+}
