@@ -10,6 +10,7 @@
 //! * [`Dop853`]: order 8(5,3) with dense output, one attempt at a time; an event may cut it short.
 //! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities; [`Attempt`]: what both have
 //!   in common.
+//! * [`Paired`]: both, for conservative systems with singular moments.
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`bracket`], [`hermite_dip`]: where inside a step a guard crosses zero.
 //! * [`Rk4`], [`Verlet`]: fixed steps.
@@ -54,6 +55,8 @@ mod dop853;
 pub use dop853::{Dop853, Grade, ORDER as DOP853_ORDER};
 mod nystrom;
 pub use nystrom::{Conservative, Lane, Lanes, Many, Nystrom, ORDER as NYSTROM_ORDER, One, Track};
+mod paired;
+pub use paired::Paired;
 mod control;
 pub use control::{Memory as ControlMemory, StepControl, StepLimits, Verdict};
 mod root;

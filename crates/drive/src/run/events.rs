@@ -35,7 +35,7 @@ use allowance::scale;
 use moving::Moving;
 use path::MOST_PIECES;
 use stickslip_contact::{Engine, Segment};
-use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Nystrom, StepControl, StepLimits};
+use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Paired, StepControl, StepLimits};
 
 /// Scratch of one run; all that its future depends on is in the [`State`].
 pub(super) struct Run<'a, A> {
@@ -109,9 +109,13 @@ pub(super) fn run(
     if model.is_conservative() {
         // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
         if layout.free == 1 {
-            return Run::new(model, plan, tolerance, Nystrom::one()).go(NYSTROM_ORDER, state, record);
+            return Run::new(model, plan, tolerance, Paired::one(layout.total())).go(
+                NYSTROM_ORDER,
+                state,
+                record,
+            );
         }
-        let solver = Nystrom::new(layout.free, 1);
+        let solver = Paired::new(layout.free, 1, layout.total());
         return Run::new(model, plan, tolerance, solver).go(NYSTROM_ORDER, state, record);
     }
     let solver = Dop853::new(layout.dimension(), layout.total());

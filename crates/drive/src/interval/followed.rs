@@ -1,0 +1,58 @@
+//! What followers make of the displacement of a contact, between two events.
+
+use crate::model::{Measure, Model};
+use crate::state::State;
+use crate::{Piece, Sample, Waveform};
+
+/// The part of a displacement that followers and constants make.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Followed<'a> {
+    /// All followers move at constant rates: constant + rate (t - start).
+    Line { constant: f64, rate: f64, start: f64 },
+    /// A single one that does not: constant + factor · waveform.
+    Wave { constant: f64, factor: f64, waveform: &'a Waveform, piece: Piece },
+}
+
+impl<'a> Followed<'a> {
+    /// Of a measure in a state; none where there are several followers, one of them on a curved piece.
+    pub(super) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
+        if let [(w, factor)] = measure.driven[..]
+            && state.pieces[w].line().is_none()
+        {
+            let (constant, waveform) = (measure.constant, &model.waveforms[w]);
+            return Some(Self::Wave { constant, factor, waveform, piece: state.pieces[w] });
+        }
+        let mut start = None;
+        let (mut constant, mut rate) = (measure.constant, 0.0);
+        for &(w, a) in &measure.driven {
+            let line = state.pieces[w].line()?;
+            let from = *start.get_or_insert(line.time);
+            constant += a * line.at(from);
+            rate += a * line.rate;
+        }
+        Some(Self::Line { constant, rate, start: start.unwrap_or(0.0) })
+    }
+
+    /// Value (m) and its derivatives at time t, s.
+    #[inline(always)]
+    pub(super) fn at(&self, t: f64) -> Sample {
+        match self {
+            Self::Line { constant, rate, start } => {
+                Sample { value: constant + rate * (t - start), rate: *rate, acceleration: 0.0 }
+            }
+            Self::Wave { constant, factor, waveform, piece } => {
+                let Sample { value, rate, acceleration } = waveform.sample(piece, t);
+                let value = constant + factor * value;
+                Sample { value, rate: factor * rate, acceleration: factor * acceleration }
+            }
+        }
+    }
+
+    /// The line, [value at the start, rate, start], where it is one.
+    pub(super) fn line(&self) -> Option<[f64; 3]> {
+        match *self {
+            Self::Line { constant, rate, start } => Some([constant, rate, start]),
+            Self::Wave { .. } => None,
+        }
+    }
+}
