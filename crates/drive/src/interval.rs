@@ -1,17 +1,20 @@
 //! The smooth interval between two events, with everything worked out that stays the same in it.
 //!
 //! Between events each contact follows one law and each waveform one piece. Most contacts of most scenes are then pressed
-//! at a constant indentation, cut one piece of their memory and are dragged by straight waveforms alone: for these u is
-//! linear in time and coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
+//! at a constant indentation, cut one piece of their memory and are dragged by a single waveform or by straight ones: for
+//! these u is linear in the coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
 //! not looked at until their gap closes. What is left goes through the general [`Equations`](crate::equations::Equations).
 
+mod followed;
 mod swing;
 
 pub(crate) use swing::{Place, Swing};
 
+use crate::Sample;
 use crate::guard::Guard;
-use crate::model::{Contact, Free, Measure, Model, Motion, Press};
+use crate::model::{Contact, Free, Model, Motion, Press};
 use crate::state::{Mode, State};
+use followed::Followed;
 use stickslip_contact::{Profile, SteadyBranch};
 
 /// What evaluations between two events need. Scratch: made anew after each event.
@@ -88,20 +91,23 @@ pub(crate) struct Steady<'a> {
     /// Those that end the interval.
     pub(crate) guards: &'static [Guard],
     d: f64,
-    /// u = constant + rate (t - start) + Σ coefficient · coordinate.
-    constant: f64,
-    rate: f64,
-    start: f64,
+    /// u = what followers make of it + Σ coefficient · coordinate.
+    followed: Followed<'a>,
     /// Sum of the coefficients: what a single coordinate counts in u.
     pub(crate) arm: f64,
     branch: SteadyBranch,
 }
 
 impl Steady<'_> {
-    /// The part of u that does not hang on the free coordinates, m.
+    /// The part of u that does not hang on the free coordinates, m, and its derivatives.
     #[inline(always)]
-    pub(crate) fn followed(&self, t: f64) -> f64 {
-        self.constant + self.rate * (t - self.start)
+    pub(crate) fn followed(&self, t: f64) -> Sample {
+        self.followed.at(t)
+    }
+
+    /// Its rate where it is the same at all times, m/s.
+    pub(crate) fn constant_rate(&self) -> Option<f64> {
+        self.followed.line().map(|[_, rate, _]| rate)
     }
 
     /// Force along u on the coordinates, N: what the contacts exert, less than zero forward.
@@ -110,23 +116,18 @@ impl Steady<'_> {
         -self.contact.count * self.branch.force(self.contact.law.profile(), u)
     }
 
-    /// Rate of u that followers make, m/s.
-    #[inline(always)]
-    pub(crate) fn driven(&self) -> f64 {
-        self.rate
-    }
-
     /// u at time t, s; `x` reads positions of free coordinates.
     #[inline(always)]
     pub(crate) fn displacement(&self, t: f64, x: impl Fn(usize) -> f64) -> f64 {
         // Two bodies far from their start may be close to each other: their difference first.
-        self.own(x) + self.followed(t)
+        self.own(x) + self.followed(t).value
     }
 
     /// Motion at time t, s; `x` and `v` read positions and velocities of free coordinates.
     #[inline(always)]
     pub(crate) fn motion(&self, t: f64, x: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64) -> Motion {
-        Motion { d: self.d, u: self.displacement(t, x), dd: 0.0, du: self.own(v) + self.rate }
+        let Sample { value, rate, .. } = self.followed(t);
+        Motion { d: self.d, u: self.own(x) + value, dd: 0.0, du: self.own(v) + rate }
     }
 
     /// Value of one of its guards at time t, s: the margin of its piece, or else the speed of its edge.
@@ -140,16 +141,23 @@ impl Steady<'_> {
     ) -> f64 {
         match guard {
             Guard::Piece => self.branch.margin(self.displacement(t, x)),
-            _ => self.branch.sense() * (self.own(v) + self.rate),
+            _ => self.branch.sense() * (self.own(v) + self.followed(t).rate),
         }
     }
 
-    /// Its rate; `v` and `a` read velocities and accelerations.
+    /// Its rate at time t, s; `v` and `a` read velocities and accelerations.
     #[inline(always)]
-    pub(crate) fn guard_rate(&self, guard: Guard, v: impl Fn(usize) -> f64, a: impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn guard_rate(
+        &self,
+        guard: Guard,
+        t: f64,
+        v: impl Fn(usize) -> f64,
+        a: impl Fn(usize) -> f64,
+    ) -> f64 {
+        let followed = self.followed(t);
         match guard {
-            Guard::Piece => -self.branch.sense() * (self.own(v) + self.rate),
-            _ => self.branch.sense() * self.own(a),
+            Guard::Piece => -self.branch.sense() * (self.own(v) + followed.rate),
+            _ => self.branch.sense() * (self.own(a) + followed.acceleration),
         }
     }
 
@@ -161,13 +169,13 @@ impl Steady<'_> {
     /// How far a single coordinate at x (m) may still move before a piece of memory ends, m; ∞ in gross slip.
     #[inline(always)]
     pub(crate) fn reach(&self, t: f64, x: f64) -> f64 {
-        let u = self.arm * x + self.followed(t);
+        let u = self.arm * x + self.followed(t).value;
         if self.branch.is_gross() { f64::INFINITY } else { self.branch.margin(u) / self.arm.abs() }
     }
 
     /// What the free coordinates make of u, or their derivatives of its own.
     #[inline(always)]
-    fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
         self.contact.u.free.iter().map(|(i, a)| a * of(*i)).sum()
     }
 }
@@ -216,7 +224,7 @@ impl<'a> Interval<'a> {
                 self.places.push(None);
                 continue;
             }
-            let steady = steady(c, contact, mode, state);
+            let steady = steady(c, (contact, mode), model, state);
             self.places.push(steady.is_some().then_some(self.steady.len()));
             match steady {
                 _ if *mode == Mode::Open => self.apart.push(c),
@@ -224,7 +232,8 @@ impl<'a> Interval<'a> {
                 None => self.others.push(c),
             }
         }
-        let simple = self.others.is_empty() && model.links.is_empty();
+        let straight = self.steady.iter().all(|steady| steady.followed.line().is_some());
+        let simple = straight && self.others.is_empty() && model.links.is_empty();
         let gross = state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open);
         self.constant = gross && simple;
         self.pulls.clear();
@@ -238,18 +247,19 @@ impl<'a> Interval<'a> {
     fn pull(&mut self, slider: &Free) -> Slider {
         let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
         for steady in &self.steady {
+            let Some([constant, rate, start]) = steady.followed.line() else { continue };
             let arm = steady.arm;
             let ((front, lean), (force, gain)) = (steady.branch.front(), steady.branch.forces());
             let count = steady.contact.count;
-            let (bend, work) = (-slider.mobility * arm * count, count * steady.rate);
+            let (bend, work) = (-slider.mobility * arm * count, count * rate);
             sum.acceleration += bend * force;
             sum.power += work * force;
             if gain != 0.0 {
                 self.pulls.push(Pull {
                     profile: steady.contact.law.profile(),
-                    front: front + lean * steady.constant,
-                    advance: lean * steady.rate,
-                    start: steady.start,
+                    front: front + lean * constant,
+                    advance: lean * rate,
+                    start,
                     lean: lean * arm,
                     acceleration: bend * gain,
                     power: work * gain,
@@ -260,34 +270,23 @@ impl<'a> Interval<'a> {
     }
 }
 
-fn steady<'a>(c: usize, contact: &'a Contact, mode: &Mode, state: &State) -> Option<Steady<'a>> {
+fn steady<'a>(
+    c: usize,
+    (contact, mode): (&'a Contact, &Mode),
+    model: &'a Model,
+    state: &State,
+) -> Option<Steady<'a>> {
     let (Mode::Slip(branch), Press::Constant { d, area }) = (mode, &contact.press) else { return None };
     if contact.damping > 0.0 {
         return None;
     }
-    let [constant, rate, start] = line(&contact.u, state)?;
     Some(Steady {
         index: c,
         contact,
         guards: Guard::of(contact, mode),
         d: *d,
-        constant,
-        rate,
-        start,
+        followed: Followed::of(&contact.u, model, state)?,
         arm: contact.u.free.iter().map(|(_, a)| a).sum(),
         branch: branch.steady(*d, *area),
     })
-}
-
-/// What constants and followers make of a measure, [value at the start, rate, start]; none where a waveform is curved.
-fn line(measure: &Measure, state: &State) -> Option<[f64; 3]> {
-    let mut start = None;
-    let (mut constant, mut rate) = (measure.constant, 0.0);
-    for &(w, a) in &measure.driven {
-        let line = state.pieces[w].line()?;
-        let from = *start.get_or_insert(line.time);
-        constant += a * line.at(from);
-        rate += a * line.rate;
-    }
-    Some([constant, rate, start.unwrap_or(0.0)])
 }

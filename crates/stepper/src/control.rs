@@ -4,8 +4,9 @@
 ///
 /// factor = safety · ε^-α · ε₋₁^β with α = 1/k - 0.75 β, β = 0.2/k for an estimate that falls with hᵏ; ε the error of
 /// this step, ε₋₁ that of the last accepted one, 1 = just at the tolerance.
+/// After a second rejection in a row α is 1/p with the power p that both show.
 /// Source: Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.4 and Hairer, Wanner, *Solving ODEs II*,
-/// section IV.2 (PI control).
+/// section IV.2 (PI control); Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533 (rejections in a row).
 ///
 /// All that it remembers is part of a run's state: cloneable and comparable.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,15 +41,16 @@ impl Default for StepLimits {
 pub struct Memory {
     /// Natural logarithm of the last accepted error, not below that of [`Memory::FLOOR`].
     pub log_error: f64,
-    /// Whether the last attempt was rejected; then the next step does not grow.
-    pub rejected: bool,
+    /// The last attempt, if it was rejected: its length and the natural logarithm of its error. The next step does not
+    /// grow then.
+    pub rejected: Option<(f64, f64)>,
 }
 
 impl Memory {
     /// Errors below this count as this: a step that fell far below the tolerance says nothing about the next one.
     pub const FLOOR: f64 = 1e-4;
     /// Nothing remembered: as after a step with the error [`Memory::FLOOR`], which makes the first factor cautious.
-    pub const BLANK: Self = Self { log_error: -9.210_340_371_976_182, rejected: false };
+    pub const BLANK: Self = Self { log_error: -9.210_340_371_976_182, rejected: None };
 }
 
 /// What becomes of an attempt.
@@ -74,19 +76,20 @@ impl StepControl {
     pub fn propose(&mut self, error: f64, h: f64) -> Verdict {
         let StepLimits { safety, shrink, grow, .. } = self.limits;
         if !error.is_finite() {
-            self.memory.rejected = true;
+            self.memory.rejected = Some((h, f64::INFINITY));
             return Verdict { accepted: false, next: h * shrink };
         }
         if error > 1.0 {
-            self.memory.rejected = true;
-            let factor = safety * (-self.alpha * error.ln()).exp();
+            let log_error = error.ln();
+            let factor = safety * (-self.decay((h, log_error)) * log_error).exp();
+            self.memory.rejected = Some((h, log_error));
             return Verdict { accepted: false, next: h * factor.max(shrink) };
         }
         // Below the smallest normal number the logarithm would leave the range of the exponential.
         let log_error = error.max(f64::MIN_POSITIVE).ln();
         let factor = safety * (self.beta * self.memory.log_error - self.alpha * log_error).exp();
-        let ceiling = if self.memory.rejected { 1.0 } else { grow };
-        self.memory = Memory { log_error: log_error.max(Memory::BLANK.log_error), rejected: false };
+        let ceiling = if self.memory.rejected.is_some() { 1.0 } else { grow };
+        self.memory = Memory { log_error: log_error.max(Memory::BLANK.log_error), rejected: None };
         Verdict { accepted: true, next: self.limit(h * factor.max(shrink).min(ceiling)) }
     }
 
@@ -109,6 +112,14 @@ impl StepControl {
     /// Goes on from a saved memory.
     pub fn set_memory(&mut self, memory: Memory) {
         self.memory = memory;
+    }
+
+    /// The power of the error with which a rejected step is shortened. Two rejections in a row show the power of the step
+    /// with which the error falls: where something is not smooth, less than the method's.
+    fn decay(&self, (h, log_error): (f64, f64)) -> f64 {
+        let power = |(before, log_before): (f64, f64)| (log_before - log_error) / (before / h).ln();
+        let shown = self.memory.rejected.map(power).filter(|power| *power >= 1.0);
+        shown.map_or(self.alpha, |power| power.recip().max(self.alpha))
     }
 
     fn limit(&self, h: f64) -> f64 {
@@ -152,6 +163,17 @@ mod tests {
         assert!(yes.accepted);
         assert_eq!(yes.next, no.next);
         assert!(control.propose(1e-9, 1.0).next > 2.0);
+    }
+
+    /// An error that falls with h² is met by the third attempt; by the method's own power it would take a dozen.
+    #[test]
+    fn two_rejections_show_the_power() {
+        let (mut control, mut h) = (control(), 1.0);
+        for attempt in 1..4 {
+            let verdict = control.propose(1e4 * h * h, h);
+            assert_eq!(verdict.accepted, attempt == 3, "{attempt}: {h}");
+            h = verdict.next;
+        }
     }
 
     #[test]

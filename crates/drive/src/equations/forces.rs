@@ -96,8 +96,9 @@ impl Equations<'_> {
             return;
         };
         for steady in &interval.steady {
-            let force = steady.force(steady.displacement(at.time(), |i| at.component(i)));
-            sum.apply(&steady.contact.u.free, steady.driven(), force);
+            let followed = steady.followed(at.time());
+            let force = steady.force(steady.own(|i| at.component(i)) + followed.value);
+            sum.apply(&steady.contact.u.free, followed.rate, force);
         }
         for &c in &interval.others {
             self.contact(c, at, sum, extra);

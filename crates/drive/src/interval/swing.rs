@@ -20,7 +20,7 @@ mod course;
 mod spring;
 mod time;
 
-use super::Interval;
+use super::{Interval, Steady};
 use crate::Model;
 use crate::model::Free;
 use spring::Spring;
@@ -111,13 +111,15 @@ impl Swing {
             return false;
         }
         self.sense = (first.sense() * first.arm).signum();
-        self.drift = first.driven() / first.arm;
+        // Followers of a slider that is pulled upon move at constant rates.
+        let rate = |steady: &Steady<'_>| steady.constant_rate().unwrap_or(f64::NAN);
+        self.drift = rate(first) / first.arm;
         self.start = start;
         (self.mobility, self.load) = (slider.mobility, slider.force);
         self.push = self.sense * pull.acceleration;
         self.reach = f64::INFINITY;
         for steady in &interval.steady {
-            if steady.sense() * steady.arm * self.sense <= 0.0 || steady.driven() != self.drift * steady.arm {
+            if steady.sense() * steady.arm * self.sense <= 0.0 || rate(steady) != self.drift * steady.arm {
                 return false;
             }
             self.reach = self.reach.min(steady.reach(start.t, start.x));

@@ -224,8 +224,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let (begin, end, n) = (self.solver.begin(), self.solver.end(), self.layout.free);
         match steady {
             Some(steady) => [
-                steady.guard_rate(guard, |i| begin[n + i], |i| self.solver.begin_slope(n + i)),
-                steady.guard_rate(guard, |i| end[n + i], |i| self.solver.end_slope(n + i)),
+                steady.guard_rate(
+                    guard,
+                    self.solver.time(),
+                    |i| begin[n + i],
+                    |i| self.solver.begin_slope(n + i),
+                ),
+                steady.guard_rate(
+                    guard,
+                    self.solver.end_time(),
+                    |i| end[n + i],
+                    |i| self.solver.end_slope(n + i),
+                ),
             ],
             None => [&self.from[index], &self.to[index]]
                 .map(|Moving { motion, second }| guard.rate(contact, &state.modes[index], motion, *second)),
@@ -264,9 +274,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let Some(interval) = eq.interval else { return };
         Watched::each(eq.model, interval, state, |watched| {
             let known = self.fired.iter().any(|(c, _)| *c == watched.index);
-            let g = self.at_end(state, watched);
-            let (_, near) = self.bands(watched);
-            if !known && g < near && g < self.at_begin(state, watched) {
+            let (g0, g) = (self.at_begin(state, watched), self.at_end(state, watched));
+            let (dead, near) = self.bands(watched);
+            // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
+            let falls = g < near && g0 >= near || g < -dead;
+            if !known && falls && g < g0 {
                 self.fired.push((watched.index, watched.guard));
             }
         });

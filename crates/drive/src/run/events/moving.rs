@@ -116,7 +116,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let (t, begin, n) = (self.solver.time(), self.solver.begin(), self.layout.free);
         let (x, v, a) = (|i| begin[i], |i| begin[n + i], |i| self.solver.begin_slope(n + i));
         let guard = |guard| steady.guard(guard, t, x, v);
-        reached(guard(Guard::Piece), guard(Guard::Drag), steady.guard_rate(Guard::Drag, v, a))
+        reached(guard(Guard::Piece), guard(Guard::Drag), steady.guard_rate(Guard::Drag, t, v, a))
     }
 
     pub(super) fn expected_of(&self, state: &State, c: usize) -> f64 {
