@@ -165,12 +165,12 @@ mod tests {
         assert!(control.propose(1e-9, 1.0).next > 2.0);
     }
 
-    /// An error that falls with h² is met by the third attempt; by the method's own power it would take a dozen.
+    /// An error that falls with h² is met by the third attempt.
     #[test]
     fn two_rejections_show_the_power() {
         let (mut control, mut h) = (control(), 1.0);
         for attempt in 1..4 {
-            let verdict = control.propose(1e4 * h * h, h);
+            let verdict = control.propose(30.0 * h * h, h);
             assert_eq!(verdict.accepted, attempt == 3, "{attempt}: {h}");
             h = verdict.next;
         }

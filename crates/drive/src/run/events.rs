@@ -68,6 +68,10 @@ pub(super) struct Run<'a, A> {
     leaps: bool,
     /// Whether the solver has been left behind by leaps.
     behind: bool,
+    /// Longest step since the last event, s.
+    calm: f64,
+    /// Whether a singular moment ahead has made an even step too long.
+    feels: bool,
     /// Earliest corner of a waveform, s.
     corner: f64,
     /// Whether any contact is in partial slip or sticks.
@@ -156,6 +160,8 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             swing: Box::new(Swing::of(model, strict)),
             leaps: false,
             behind: false,
+            calm: 0.0,
+            feels: false,
             corner: f64::INFINITY,
             holds: false,
             rests: false,
@@ -237,6 +243,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
     /// The laws, and perhaps the forces of growing contacts, have changed.
     fn restart(&mut self, state: &State) {
         self.begin_interval(state);
+        (self.calm, self.feels) = (0.0, false);
         self.behind = true;
         if !self.leaps {
             self.catch_up(state);

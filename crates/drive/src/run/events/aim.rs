@@ -17,6 +17,8 @@ pub(super) struct Aim {
     pub(super) grade: Grade,
     /// The longest that it may become, s.
     most: f64,
+    /// Time to a singular moment beyond its end, s; ∞ without one.
+    pub(super) singular: f64,
     /// The guard whose singular fall is expected at its end.
     pub(super) closes: Option<(usize, Guard)>,
 }
@@ -44,6 +46,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             target: aim(state.t, step, corner),
             grade: Grade::Even,
             most: step,
+            singular: f64::INFINITY,
             closes: None,
         };
         if self.solver.coasts() {
@@ -60,15 +63,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let Some(first) = first.min_by(|a, b| a.left.total_cmp(&b.left)) else { return start(step) };
         let over = 0.5 * self.slack() * first.left;
         let to = first.left + over;
-        let far = first.left > 2.0 * step || over < rounding || state.t + to >= corner;
-        if far || !self.is_singular(state, first) {
-            return start(step.min(within(first)));
+        let singular = if self.is_singular(state, first) { first.left } else { f64::INFINITY };
+        // Even steps have become short for what this one is spared.
+        let most = step.max(self.calm / FASTEST).min(longest / FASTEST);
+        let far = first.left > 2.0 * step.max(most) || over < rounding || state.t + to >= corner;
+        if far || singular == f64::INFINITY {
+            return Aim { singular, ..start(step.min(within(first))) };
         }
-        let most = step.min(longest / FASTEST);
         if to > most {
-            return start(0.5 * first.left);
+            return Aim { singular, ..start(step.min(0.5 * first.left)) };
         }
-        Aim { target: state.t + to, grade: Grade::End, most, closes: Some((first.contact, first.guard)) }
+        let closes = Some((first.contact, first.guard));
+        Aim { target: state.t + to, grade: Grade::End, most, singular: f64::INFINITY, closes }
     }
 
     /// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2

@@ -7,7 +7,7 @@ use crate::equations::Equations;
 use crate::record::Record;
 use crate::run::output::Grid;
 use crate::state::State;
-use stickslip_stepper::{Attempt, StepControl, Verdict};
+use stickslip_stepper::{Attempt, Grade, StepControl, Verdict};
 
 /// How a step ends.
 #[derive(Clone, Copy, PartialEq)]
@@ -42,8 +42,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             self.with_equations(state, |run, eq| run.attempt(eq, state, control, (&mut aim, corner)));
         let (target, h) = (aim.target, aim.target - state.t);
         if !verdict.accepted {
+            if aim.closes.is_some() {
+                self.calm = 0.0;
+            }
+            self.feels = aim.singular.is_finite();
             return self.reject(state, verdict.next, record);
         }
+        self.calm = self.calm.max(h);
         if self.steps.due(self.solver.end_time()).is_some() {
             self.take_steps(state, grid);
         }
@@ -64,7 +69,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             (false, true) => state.step.max(verdict.next),
         };
         self.accept(state, grid, record, ending == Ending::Smooth && self.fired.is_empty())?;
-        state.step = if ending == Ending::Smooth { wished } else { control.after_event(wished) };
+        // On the way to a singular moment an even step has the same error as the one before where it is the same part of
+        // what is left.
+        let nearer = if self.feels { (1.0 - h / aim.singular).max(0.0) } else { 1.0 };
+        state.step = if ending == Ending::Smooth { nearer * wished } else { control.after_event(wished) };
         if ending == Ending::Corner || !self.fired.is_empty() {
             self.pass_event(state, ending == Ending::Corner, record)?;
         } else {
@@ -88,7 +96,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     ) -> Verdict {
         let error = self.try_step(eq, state, aim, corner);
         let target = aim.target;
-        let verdict = control.propose(error, target - state.t);
+        // The error of a step from a singular moment falls with the root of its length as that of an even one with its length.
+        let judged = if aim.grade == Grade::Start && error > 1.0 { error * error } else { error };
+        let verdict = control.propose(judged, target - state.t);
         if verdict.accepted {
             self.solver.end_slopes(eq);
             self.arrive(eq);
