@@ -35,3 +35,4 @@ mod stages;
 mod statics;
 mod steady;
 mod swings;
+mod vibrated;
