@@ -1,7 +1,7 @@
 //! The smooth interval between two events, with everything worked out that stays the same in it.
 //!
 //! Between events each contact follows one law and each waveform one piece. Most contacts of most scenes are then pressed
-//! at a constant indentation, cut one piece of their memory and are dragged by a single waveform or by straight ones: for
+//! at a constant indentation, cut one piece of their memory and are dragged by a sum of sines or by straight waveforms: for
 //! these u is linear in the coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
 //! not looked at until their gap closes. What is left goes through the general [`Equations`](crate::equations::Equations).
 
@@ -224,13 +224,13 @@ impl<'a> Interval<'a> {
                 self.places.push(None);
                 continue;
             }
-            let steady = steady(c, (contact, mode), model, state);
-            self.places.push(steady.is_some().then_some(self.steady.len()));
-            match steady {
+            let place = self.steady.len();
+            match steady(c, (contact, mode), model, state) {
                 _ if *mode == Mode::Open => self.apart.push(c),
                 Some(steady) => self.steady.push(steady),
                 None => self.others.push(c),
             }
+            self.places.push((place < self.steady.len()).then_some(place));
         }
         let straight = self.steady.iter().all(|steady| steady.followed.line().is_some());
         let simple = straight && self.others.is_empty() && model.links.is_empty();

@@ -48,6 +48,11 @@ impl Piece {
             _ => None,
         }
     }
+
+    /// Whether the value follows the sines of its waveform.
+    pub(crate) fn is_sines(&self) -> bool {
+        self.law == Law::Sines
+    }
 }
 
 /// Value of a waveform and its derivatives at one time.
@@ -138,8 +143,13 @@ impl Waveform {
         match &piece.law {
             Law::Straight(straight) => straight.at(t),
             Law::Cycloid(cycloid) => cycloid.at(t),
-            Law::Sines => sines::at(&self.shape, &self.timing, t),
+            Law::Sines => self.sines_at(t),
         }
+    }
+
+    /// Its sines at `t`, whatever piece it is on.
+    pub(crate) fn sines_at(&self, t: f64) -> Sample {
+        sines::at(&self.shape, &self.timing, t)
     }
 
     /// Value and slopes at t = 0.

@@ -2,25 +2,25 @@
 
 use crate::model::{Measure, Model};
 use crate::state::State;
-use crate::{Piece, Sample, Waveform};
+use crate::{Sample, Waveform};
 
 /// The part of a displacement that followers and constants make.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Followed<'a> {
     /// All followers move at constant rates: constant + rate (t - start).
     Line { constant: f64, rate: f64, start: f64 },
-    /// A single one that does not: constant + factor · waveform.
-    Wave { constant: f64, factor: f64, waveform: &'a Waveform, piece: Piece },
+    /// A single one on a sum of sines: constant + factor · waveform.
+    Sines { constant: f64, factor: f64, waveform: &'a Waveform },
 }
 
 impl<'a> Followed<'a> {
-    /// Of a measure in a state; none where there are several followers, one of them on a curved piece.
+    /// Of a measure in a state; none where there are several followers, one of them on a curved piece, or a single one on a
+    /// piece that is no sum of sines.
     pub(super) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
         if let [(w, factor)] = measure.driven[..]
-            && state.pieces[w].line().is_none()
+            && state.pieces[w].is_sines()
         {
-            let (constant, waveform) = (measure.constant, &model.waveforms[w]);
-            return Some(Self::Wave { constant, factor, waveform, piece: state.pieces[w] });
+            return Some(Self::Sines { constant: measure.constant, factor, waveform: &model.waveforms[w] });
         }
         let mut start = None;
         let (mut constant, mut rate) = (measure.constant, 0.0);
@@ -40,8 +40,8 @@ impl<'a> Followed<'a> {
             Self::Line { constant, rate, start } => {
                 Sample { value: constant + rate * (t - start), rate: *rate, acceleration: 0.0 }
             }
-            Self::Wave { constant, factor, waveform, piece } => {
-                let Sample { value, rate, acceleration } = waveform.sample(piece, t);
+            Self::Sines { constant, factor, waveform } => {
+                let Sample { value, rate, acceleration } = waveform.sines_at(t);
                 let value = constant + factor * value;
                 Sample { value, rate: factor * rate, acceleration: factor * acceleration }
             }
@@ -52,7 +52,7 @@ impl<'a> Followed<'a> {
     pub(super) fn line(&self) -> Option<[f64; 3]> {
         match *self {
             Self::Line { constant, rate, start } => Some([constant, rate, start]),
-            Self::Wave { .. } => None,
+            Self::Sines { .. } => None,
         }
     }
 }
