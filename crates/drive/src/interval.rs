@@ -238,16 +238,16 @@ impl<'a> Interval<'a> {
         self.constant = gross && simple;
         self.pulls.clear();
         self.slider = match &model.free[..] {
-            [slider] if simple && self.single => Some(self.pull(slider)),
+            [slider] if simple && self.single => self.pull(slider),
             _ => None,
         };
     }
 
-    /// The steady contacts as a single slider feels them.
-    fn pull(&mut self, slider: &Free) -> Slider {
+    /// The steady contacts as a single slider feels them; none where a follower moves at no constant rate.
+    fn pull(&mut self, slider: &Free) -> Option<Slider> {
         let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
         for steady in &self.steady {
-            let Some([constant, rate, start]) = steady.followed.line() else { continue };
+            let [constant, rate, start] = steady.followed.line()?;
             let arm = steady.arm;
             let ((front, lean), (force, gain)) = (steady.branch.front(), steady.branch.forces());
             let count = steady.contact.count;
@@ -266,7 +266,7 @@ impl<'a> Interval<'a> {
                 });
             }
         }
-        sum
+        Some(sum)
     }
 }
 

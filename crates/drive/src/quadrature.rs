@@ -17,7 +17,7 @@ pub(crate) const LANES: usize = 4;
 /// Numbers that are worked on together.
 pub(crate) type Lanes = [f64; LANES];
 
-/// Nodes of one rule.
+/// Four nodes of a rule.
 #[derive(Debug, Clone, Copy, Default)]
 struct Nodes {
     /// Where in the interval, 0 to 1.

@@ -30,8 +30,6 @@ pub trait Attempt<S: ?Sized> {
     fn coasts(&self) -> bool {
         false
     }
-    /// Whether graded steps are any different.
-    const GRADES: bool = false;
     /// Makes the slopes at the end of the step tried known.
     fn end_slopes(&mut self, system: &S);
     /// Makes the dense output of the step tried, at the first call only.
@@ -85,7 +83,6 @@ impl<S: System + ?Sized> Attempt<S> for Dop853 {
     fn coasts(&self) -> bool {
         Self::coasts(self)
     }
-    const GRADES: bool = true;
     fn end_slopes(&mut self, system: &S) {
         Self::end_slopes(self, system);
     }

@@ -4,7 +4,7 @@
 ///
 /// factor = safety · ε^-α · ε₋₁^β with α = 1/k - 0.75 β, β = 0.2/k for an estimate that falls with hᵏ; ε the error of
 /// this step, ε₋₁ that of the last accepted one, 1 = just at the tolerance.
-/// After a second rejection in a row α is 1/p with the power p that both show.
+/// After a second rejection in a row α is 1/p with the power p that both show, no weaker than before and 1 at most.
 /// Source: Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.4 and Hairer, Wanner, *Solving ODEs II*,
 /// section IV.2 (PI control); Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533 (rejections in a row).
 ///
@@ -118,8 +118,8 @@ impl StepControl {
     /// with which the error falls: where something is not smooth, less than the method's.
     fn decay(&self, (h, log_error): (f64, f64)) -> f64 {
         let power = |(before, log_before): (f64, f64)| (log_before - log_error) / (before / h).ln();
-        let shown = self.memory.rejected.map(power).filter(|power| *power >= 1.0);
-        shown.map_or(self.alpha, |power| power.recip().max(self.alpha))
+        let shown = self.memory.rejected.map(power).filter(|power| *power > 0.0);
+        shown.map_or(self.alpha, |power| power.recip().clamp(self.alpha, 1.0))
     }
 
     fn limit(&self, h: f64) -> f64 {

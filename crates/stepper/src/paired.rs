@@ -76,8 +76,6 @@ macro_rules! last {
 }
 
 impl<S: System + Conservative + ?Sized, L: Lanes> Attempt<S> for Paired<L> {
-    const GRADES: bool = true;
-
     fn reach(&self) -> f64 {
         Attempt::<S>::reach(&self.even)
     }

@@ -13,7 +13,7 @@ pub trait System {
     fn dimension(&self) -> usize;
 
     /// Number of positions: the first `positions` components, whose slopes are the `positions` components after them
-    /// (velocities). Only [`Verlet`](crate::Verlet) uses it; 0 if the system has no such structure.
+    /// (velocities). Verlet and steps that coast use it; 0 if the system has no such structure.
     fn positions(&self) -> usize;
 
     /// Number of coupled components and quadratures, at least `dimension`.

@@ -74,7 +74,8 @@ impl Usage {
             let why = "one slider, paraboloids under constant load, straight waveforms: an interval is one quadrature";
             self.skips("steps between events", "", why);
         } else if job.model.is_conservative() {
-            self.uses("method", "", "Runge–Kutta–Nyström 8(6): no force hangs on a velocity");
+            let what = "Runge–Kutta–Nyström 8(6), as no force hangs on a velocity; Dormand–Prince 8(5,3) before singular events";
+            self.uses("method", "", what);
             let why = "no force hangs on one: a third of the evaluations is spared";
             self.skips("stages for velocities", "", why);
         } else {

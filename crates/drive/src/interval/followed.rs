@@ -15,7 +15,7 @@ pub(super) enum Followed<'a> {
 
 impl<'a> Followed<'a> {
     /// Of a measure in a state; none where there are several followers, one of them on a curved piece, or a single one on a
-    /// piece that is no sum of sines.
+    /// piece that is neither a line nor a sum of sines.
     pub(super) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
         if let [(w, factor)] = measure.driven[..]
             && state.pieces[w].is_sines()

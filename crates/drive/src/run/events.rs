@@ -31,13 +31,13 @@ use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError, Waveform};
-use allowance::scale;
+use allowance::{longest, scale};
 use moving::Moving;
 use path::MOST_PIECES;
-use stickslip_contact::{Engine, Segment};
+use stickslip_contact::Segment;
 use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Paired, StepControl, StepLimits};
 
-/// Scratch of one run; all that its future depends on is in the [`State`].
+/// Scratch of one run; all that its future depends on is in the [`State`], or begins anew at every end that a plan may have.
 pub(super) struct Run<'a, A> {
     model: &'a Model,
     end: f64,
@@ -68,7 +68,7 @@ pub(super) struct Run<'a, A> {
     leaps: bool,
     /// Whether the solver has been left behind by leaps.
     behind: bool,
-    /// Longest step since the last event, s.
+    /// Longest step since the last event, or since a graded one was refused, s.
     calm: f64,
     /// Whether a singular moment ahead has made an even step too long.
     feels: bool,
@@ -131,9 +131,6 @@ pub(super) fn run(
 const KINKS: f64 = 1e-3;
 /// Finest tolerance that rounding leaves room for.
 const FINEST: f64 = 1e-13;
-
-/// Steps of a row under a varying load in a period of the load, at least.
-const CHORDS_PER_PERIOD: f64 = 4096.0;
 
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
     fn new(model: &'a Model, plan: &Plan, tolerance: f64, solver: A) -> Self {
@@ -294,12 +291,4 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
 /// The equations on the state as it stands.
 fn equations<'s>(model: &'s Model, layout: Layout, state: &'s State) -> Equations<'s> {
     Equations::on(model, state, layout, false)
-}
-
-/// Longest step, s. A row under a varying load follows chords: it needs steps that leave the load no bend.
-fn longest(model: &Model, plan: &Plan) -> f64 {
-    let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
-    let rows = model.contacts.iter().filter(|c| c.engine != Engine::Curve && !c.is_constant());
-    let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
-    rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
 }

@@ -25,7 +25,7 @@ impl Swing {
         }
         let whole = self.to - self.from;
         // Every moment from the start on, not from the one before: rows are the same whatever others there are.
-        let mut at = self.from + whole * (passed / self.duration).clamp(0.0, 1.0);
+        let mut at = self.guess(passed / self.duration);
         let (mut known, mut left) = (self.from, passed);
         for _ in 0..NEWTON {
             // The shorter the way, the less its digits count.
@@ -36,12 +36,22 @@ impl Swing {
             let step = left / slowness;
             at = (at + step).clamp(self.from, self.to);
             // What is left after this step is the square of it.
-            if step.abs() <= 1e-7 * whole {
+            if step.abs() <= self.near * whole {
                 break;
             }
         }
         let way = self.way(at);
         self.place((t, passed), way, self.velocity(way))
+    }
+
+    /// Where the clock stands about a share of the duration: the cubic with the paces of both ends.
+    fn guess(&self, share: f64) -> f64 {
+        let (whole, share) = (self.to - self.from, share.clamp(0.0, 1.0));
+        let [first, last] =
+            self.slowness([self.from, self.to]).map(|slowness| self.duration / slowness - whole);
+        let rest = 1.0 - share;
+        let guess = self.from + whole * share + share * rest * (rest * first - share * last);
+        if guess > self.from && guess < self.to { guess } else { self.from + whole * share }
     }
 
     /// The slider's velocity at q, m/s: what it has gained, not what the followers' speed leaves of ν, which may be thousands

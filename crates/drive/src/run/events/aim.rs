@@ -1,7 +1,6 @@
 //! Where the next step ends, and how its stages lie in it.
 
 use super::Run;
-use super::moving::OVERSTEP;
 use crate::equations::Equations;
 use crate::guard::Guard;
 use crate::model::{Contact, Measure};
@@ -17,7 +16,7 @@ pub(super) struct Aim {
     pub(super) grade: Grade,
     /// The longest that it may become, s.
     most: f64,
-    /// Time to a singular moment beyond its end, s; ∞ without one.
+    /// Time to a singular moment ahead, s; ∞ without one.
     pub(super) singular: f64,
     /// The guard whose singular fall is expected at its end.
     pub(super) closes: Option<(usize, Guard)>,
@@ -31,10 +30,12 @@ struct Expected {
     guard: Guard,
 }
 
+/// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
+const OVERSTEP: f64 = 1.05;
 /// Time goes by at most this much faster along a graded step than along an even one: so much less is its reach.
 const FASTEST: f64 = 2.0;
-/// A step is not tried again with less than this part of it.
-const SHRINK: f64 = 0.2;
+/// A step is not tried again with less than this part of it, and the next one is no shorter.
+pub(super) const SHRINK: f64 = 0.2;
 /// How often a step is tried again to end nearer to its singular moment.
 const CORRECTIONS: u32 = 2;
 
@@ -53,19 +54,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             return even(longest);
         }
         let step = state.step.min(longest);
-        if !A::GRADES {
-            return even(step.min(self.expected(state)));
-        }
         let rounding = 16.0 * f64::EPSILON * state.t;
         let within = |end: Expected| OVERSTEP * end.left + rounding;
-        let first = [self.piece_end(state), self.lift_off(state, step)].into_iter().flatten();
+        // Even steps have become short for what a graded one is spared.
+        let most = step.max(self.calm / FASTEST).min(longest / FASTEST);
+        let first = [self.piece_end(state), self.lift_off(state, step.max(most))].into_iter().flatten();
         let start = |step: f64| Aim { grade: self.start_grade(state, step), ..even(step) };
         let Some(first) = first.min_by(|a, b| a.left.total_cmp(&b.left)) else { return start(step) };
         let over = 0.5 * self.slack() * first.left;
         let to = first.left + over;
         let singular = if self.is_singular(state, first) { first.left } else { f64::INFINITY };
-        // Even steps have become short for what this one is spared.
-        let most = step.max(self.calm / FASTEST).min(longest / FASTEST);
         let far = first.left > 2.0 * step.max(most) || over < rounding || state.t + to >= corner;
         if far || singular == f64::INFINITY {
             return Aim { singular, ..start(step.min(within(first))) };
@@ -156,7 +154,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
     #[inline(always)]
     pub(super) fn try_step(&mut self, eq: &Equations<'_>, state: &State, aim: &mut Aim, corner: f64) -> f64 {
-        if !A::GRADES || aim.grade == Grade::Even {
+        if aim.grade == Grade::Even {
             return self.solver.attempt_until(eq, aim.target, &self.scale);
         }
         let mut error = self.solver.attempt_graded(eq, aim.target, &self.scale, aim.grade);

@@ -277,7 +277,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             let (g0, g) = (self.at_begin(state, watched), self.at_end(state, watched));
             let (dead, near) = self.bands(watched);
             // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
-            let falls = g < near && g0 >= near || g < -dead;
+            let rises =
+                || self.rates(state, watched)[0] * (self.solver.end_time() - self.solver.time()) > near;
+            let falls = g < -dead || g < near && (g0 >= near || rises());
             if !known && falls && g < g0 {
                 self.fired.push((watched.index, watched.guard));
             }

@@ -16,9 +16,6 @@ pub(super) struct Moving {
     pub(super) second: (f64, f64),
 }
 
-/// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
-pub(super) const OVERSTEP: f64 = 1.05;
-
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// The contacts at the start of the next step, after anything that makes slopes jump.
     pub(super) fn set_out(&mut self, eq: &Equations<'_>) {
@@ -97,15 +94,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             Some(steady) => steady.motion(t, |i| begin[i], |i| begin[n + i]),
             None => self.from[c].motion,
         }
-    }
-
-    /// About when the first piece of memory will be used up, s from now: a step much longer would only be thrown away.
-    pub(super) fn expected(&self, state: &State) -> f64 {
-        let Some(interval) = &self.interval else { return f64::INFINITY };
-        let steady = interval.steady.iter().map(|steady| self.expected_of_steady(steady));
-        let unsteady = interval.unsteady().map(|c| self.expected_of(state, c));
-        let first = unsteady.fold(steady.fold(f64::INFINITY, f64::min), f64::min);
-        OVERSTEP * first + 16.0 * f64::EPSILON * state.t
     }
 
     #[inline(always)]

@@ -1,13 +1,13 @@
 //! One attempt, and what belongs to an accepted step.
 
 use super::Run;
-use super::aim::Aim;
+use super::aim::{Aim, SHRINK};
 use crate::RunError;
 use crate::equations::Equations;
 use crate::record::Record;
 use crate::run::output::Grid;
 use crate::state::State;
-use stickslip_stepper::{Attempt, Grade, StepControl, Verdict};
+use stickslip_stepper::{Attempt, ControlMemory, Grade, StepControl, Verdict};
 
 /// How a step ends.
 #[derive(Clone, Copy, PartialEq)]
@@ -44,6 +44,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         if !verdict.accepted {
             if aim.closes.is_some() {
                 self.calm = 0.0;
+                // The next attempt is an even one: nothing follows from both errors together.
+                let rejected = Some((h, f64::INFINITY));
+                control.set_memory(ControlMemory { rejected, ..control.memory() });
             }
             self.feels = aim.singular.is_finite();
             return self.reject(state, verdict.next, record);
@@ -71,7 +74,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         self.accept(state, grid, record, ending == Ending::Smooth && self.fired.is_empty())?;
         // On the way to a singular moment an even step has the same error as the one before where it is the same part of
         // what is left.
-        let nearer = if self.feels { (1.0 - h / aim.singular).max(0.0) } else { 1.0 };
+        let nearer = if self.feels { (1.0 - h / aim.singular).max(SHRINK) } else { 1.0 };
         state.step = if ending == Ending::Smooth { nearer * wished } else { control.after_event(wished) };
         if ending == Ending::Corner || !self.fired.is_empty() {
             self.pass_event(state, ending == Ending::Corner, record)?;
