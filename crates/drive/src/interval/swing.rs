@@ -274,8 +274,8 @@ mod tests {
         }
     }
 
-    /// From creeping to far too fast to turn: no start is refused, and time is, to 1e-5, what 20 000 strips make of dq/ν, the way that
-    /// is left counted by its root, which has neither of both ends' branch points.
+    /// From creeping to far too fast to turn: no start is refused, and time is, to 1e-5, what 20 000 strips make of dq/ν,
+    /// the way that is left counted by its root, which has neither of both ends' branch points.
     #[test]
     fn every_start_has_its_swing() {
         for push in [-2.5, -1.0, -0.5, -0.1] {

@@ -31,7 +31,7 @@ use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError, Waveform};
-use allowance::{longest, scale};
+use allowance::{longest, scale, slack};
 use moving::Moving;
 use path::MOST_PIECES;
 use stickslip_contact::Segment;
@@ -57,8 +57,6 @@ pub(super) struct Run<'a, A> {
     watch: Watch,
     /// Longest step, s: a fraction of the period of the fastest smooth waveform.
     longest: f64,
-    /// Whether any contact is damped.
-    damped: bool,
     /// Whether any waveform jumps.
     jumpy: bool,
     /// What stays the same until the next event.
@@ -68,6 +66,10 @@ pub(super) struct Run<'a, A> {
     leaps: bool,
     /// Whether the solver has been left behind by leaps.
     behind: bool,
+    /// How near to a singular moment a step must end, as a part of it.
+    slack: f64,
+    /// How much must be left before such a moment for its law to tell, in natural lengths.
+    telling: f64,
     /// Longest step since the last event, or since a graded one was refused, s.
     calm: f64,
     /// Whether a singular moment ahead has made an even step too long.
@@ -144,7 +146,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             every: plan.every,
             tolerance,
             layout,
-            damped: model.contacts.iter().any(|contact| contact.damping > 0.0),
             solver,
             strict,
             scale: scale(model, strict),
@@ -157,6 +158,8 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
             swing: Box::new(Swing::of(model, strict)),
             leaps: false,
             behind: false,
+            slack: slack(model, tolerance),
+            telling: tolerance.powf(2.0 / 3.0),
             calm: 0.0,
             feels: false,
             corner: f64::INFINITY,

@@ -5,7 +5,8 @@ use crate::quadrature::{self, Lanes};
 use std::array;
 
 impl Swing {
-    /// Time from one position of the clock to another, s, `part` of the whole way, and whether its relative error is as allowed.
+    /// Time from one position of the clock to another, s, `part` of the whole way, and whether its relative error is as
+    /// allowed.
     #[inline(always)]
     pub(super) fn time_between(&mut self, from: f64, to: f64, allowed: f64, part: f64) -> (f64, bool) {
         let (span, mean) = if self.nears {

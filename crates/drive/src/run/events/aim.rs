@@ -61,7 +61,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let first = [self.piece_end(state), self.lift_off(state, step.max(most))].into_iter().flatten();
         let start = |step: f64| Aim { grade: self.start_grade(state, step), ..even(step) };
         let Some(first) = first.min_by(|a, b| a.left.total_cmp(&b.left)) else { return start(step) };
-        let over = 0.5 * self.slack() * first.left;
+        let over = 0.5 * self.slack * first.left;
         let to = first.left + over;
         let singular = if self.is_singular(state, first) { first.left } else { f64::INFINITY };
         let far = first.left > 2.0 * step.max(most) || over < rounding || state.t + to >= corner;
@@ -75,17 +75,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         Aim { target: state.t + to, grade: Grade::End, most, singular: f64::INFINITY, closes }
     }
 
-    /// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2
-    /// of the time counts with the power 5/2, of the damping of the stuck springs with the power 3/2.
-    fn slack(&self) -> f64 {
-        0.1 * self.tolerance.powf(if self.damped { 2.0 / 3.0 } else { 0.4 })
-    }
-
     /// Whether a law ends with a force that goes with a power 3/2 of the time left, and enough of it to tell.
     fn is_singular(&self, state: &State, end: Expected) -> bool {
         let (contact, motion) = (&self.model.contacts[end.contact], self.motion_from(end.contact));
         let left = end.guard.value(contact, state.law(end.contact), &motion);
-        let tells = |unit: f64| left > unit * self.tolerance.powf(2.0 / 3.0);
+        let tells = |unit: f64| left > unit * self.telling;
         match &state.modes[end.contact] {
             _ if end.guard == Guard::Contact => tells(contact.natural.depth),
             Mode::Slip(branch) => branch.ends_in_the_centre() && tells(contact.natural.displacement),
@@ -98,7 +92,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             let motion = self.from[c].motion;
             !contact.is_constant()
                 && matches!(state.modes[c], Mode::Grow | Mode::Slip(_))
-                && motion.d <= self.slack() * motion.dd * step
+                && motion.d <= self.slack * motion.dd * step
         };
         if self.model.contacts.iter().enumerate().any(touched) { Grade::Start } else { Grade::Even }
     }
@@ -166,9 +160,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             let value = guard.value(contact, state.law(c), &motion);
             let rate = guard.rate(contact, &state.modes[c], &motion, (0.0, 0.0));
             let missed = -value / rate;
-            let to = aim.target + missed + 0.5 * self.slack() * h;
+            let to = aim.target + missed + 0.5 * self.slack * h;
             let fits = to - state.t > SHRINK * h && to - state.t < aim.most && to < corner;
-            if !(rate < 0.0 && error < 1.0 && missed.abs() > self.slack() * h && fits) {
+            if !(rate < 0.0 && error < 1.0 && missed.abs() > self.slack * h && fits) {
                 break;
             }
             aim.target = to;

@@ -62,3 +62,10 @@ pub(super) fn longest(model: &Model, plan: &Plan) -> f64 {
     let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
     rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
 }
+
+/// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2 of
+/// the time counts with the power 5/2, of the damping of the stuck springs with the power 3/2.
+pub(super) fn slack(model: &Model, tolerance: f64) -> f64 {
+    let damped = model.contacts.iter().any(|contact| contact.damping > 0.0);
+    0.1 * tolerance.powf(if damped { 2.0 / 3.0 } else { 0.4 })
+}

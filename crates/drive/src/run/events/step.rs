@@ -99,7 +99,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     ) -> Verdict {
         let error = self.try_step(eq, state, aim, corner);
         let target = aim.target;
-        // The error of a step from a singular moment falls with the root of its length as that of an even one with its length.
+        // The error of a step from a singular moment falls with the root of its length as that of an even one with its
+        // length.
         let judged = if aim.grade == Grade::Start && error > 1.0 { error * error } else { error };
         let verdict = control.propose(judged, target - state.t);
         if verdict.accepted {
