@@ -49,9 +49,9 @@ fn branches(bench: &mut Criterion) {
     for (name, law) in laws() {
         let (curve, before, last) = nested(&law, 4);
         let branch = curve.branch(&law, (before - last).signum(), 0.0);
-        let (u, area) = (0.7 * last + 0.3 * before, law.profile().area(D));
+        let (u, reduced_force) = (0.7 * last + 0.3 * before, law.profile().reduced_force(D));
         bench.bench_function(&format!("force of a frozen branch, {name}"), |b| {
-            b.iter(|| black_box(&branch).force(&law, black_box(D), black_box(u), area));
+            b.iter(|| black_box(&branch).force(&law, black_box(D), black_box(u), reduced_force));
         });
     }
 }

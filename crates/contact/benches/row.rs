@@ -1,4 +1,4 @@
-//! What a row of springs costs: a plain force, a trial, a commit; and the areas of the profiles beside it.
+//! What a row of springs costs: a plain force, a trial, a commit; and the reduced_forces of the profiles beside it.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
@@ -45,7 +45,7 @@ fn rows(bench: &mut Criterion) {
     }
 }
 
-fn areas(bench: &mut Criterion) {
+fn reduced_forces(bench: &mut Criterion) {
     let profiles = [
         ("paraboloid", Profile::paraboloid(1e-3)),
         ("sphere", Profile::sphere(1e-3)),
@@ -53,11 +53,11 @@ fn areas(bench: &mut Criterion) {
     ];
     for (name, profile) in profiles {
         let profile = profile.unwrap();
-        bench.bench_function(&format!("area, {name}"), |b| b.iter(|| profile.area(black_box(D))));
+        bench.bench_function(&format!("area, {name}"), |b| b.iter(|| profile.reduced_force(black_box(D))));
     }
     let sphere = Profile::sphere(1.0).unwrap();
-    bench.bench_function("area, sphere pressed deep", |b| b.iter(|| sphere.area(black_box(0.9))));
+    bench.bench_function("area, sphere pressed deep", |b| b.iter(|| sphere.reduced_force(black_box(0.9))));
 }
 
-criterion_group!(benches, rows, areas);
+criterion_group!(benches, rows, reduced_forces);
 criterion_main!(benches);

@@ -300,7 +300,8 @@ fn zone(law: &Interface, d: f64, front: Front) -> (ContactState, f64) {
     let profile = law.profile();
     if d <= 0.0 {
         (ContactState::Open, 0.0)
-    } else if front.sense == 0.0 || (front.height > 0.0 && profile.length(front.height) >= profile.length(d))
+    } else if front.sense == 0.0
+        || (front.height > 0.0 && profile.reduced_stiffness(front.height) >= profile.reduced_stiffness(d))
     {
         (ContactState::Stick, profile.radius(d))
     } else if front.height <= 0.0 {

@@ -64,22 +64,22 @@ impl Interface {
 
     /// Normal force F_N = E\* M(d), N (4.26); zero while the contact is open (d ≤ 0).
     pub fn normal_force(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus * self.profile.area(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus * self.profile.reduced_force(d) } else { 0.0 }
     }
 
     /// Normal stiffness ∂F_N/∂d = E\* m(d), N/m.
     pub fn normal_stiffness(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus * self.profile.length(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus * self.profile.reduced_stiffness(d) } else { 0.0 }
     }
 
     /// Elastic energy of the normal deformation E\* N(d), J.
     pub fn normal_energy(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus * self.profile.volume(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus * self.profile.reduced_energy(d) } else { 0.0 }
     }
 
     /// Tangential stiffness of full stick G\* m(d), N/m; 2G\*a for a convex profile.
     pub fn stick_stiffness(&self, d: f64) -> f64 {
-        if d > 0.0 { self.tangential_modulus * self.profile.length(d) } else { 0.0 }
+        if d > 0.0 { self.tangential_modulus * self.profile.reduced_stiffness(d) } else { 0.0 }
     }
 
     /// u_c = κd, m: displacement at which gross slip starts, the same for every profile (4.28).
@@ -89,6 +89,6 @@ impl Interface {
 
     /// Indentation d that carries the normal force, m: the inverse of [`Self::normal_force`]; 0 at 0 N.
     pub fn indentation(&self, normal_force: f64) -> f64 {
-        self.profile.height_of_area(normal_force / self.normal_modulus)
+        self.profile.height_of_reduced_force(normal_force / self.normal_modulus)
     }
 }

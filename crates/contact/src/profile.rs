@@ -17,8 +17,8 @@ use thiserror::Error;
 ///
 /// A profile f(r) is used through its one-dimensional equivalent g(x) (4.20): springs side by side, the spring
 /// at x touching once the indentation h exceeds g(x). For forces all that counts is how much length lies below
-/// a height: m(h) = [`Self::length`], M(h) = ∫₀ʰ m = [`Self::area`] and N(h) = ∫₀ʰ M = [`Self::volume`].
-/// The three are 0 for h ≤ 0.
+/// a height. Normal stiffness, force and energy over E\* are all that a contact asks for: m(h) = [`Self::reduced_stiffness`],
+/// M(h) = ∫₀ʰ m = [`Self::reduced_force`] and N(h) = ∫₀ʰ M = [`Self::reduced_energy`]. The three are 0 for h ≤ 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     law: Law,
@@ -126,55 +126,56 @@ impl Profile {
         Ok(Self { law: Law::Foundation(Foundation::new(heights, lengths)?) })
     }
 
-    /// m(h), m: total length of the foundation with g < h; 2a(h) for a convex profile.
+    /// m(h), m: the normal stiffness over E\*, which is the total length of the foundation with g < h; 2a(h) for a
+    /// convex profile.
     #[inline]
-    pub fn length(&self, h: f64) -> f64 {
+    pub fn reduced_stiffness(&self, h: f64) -> f64 {
         match &self.law {
             _ if h.is_nan() || h <= 0.0 => 0.0,
             Law::Flat { radius } => 2.0 * radius,
-            Law::Power(law) => law.length(h),
-            Law::Sphere(law) => law.length(h),
-            Law::Foundation(law) => law.length(h),
+            Law::Power(law) => law.reduced_stiffness(h),
+            Law::Sphere(law) => law.reduced_stiffness(h),
+            Law::Foundation(law) => law.reduced_stiffness(h),
         }
     }
 
     /// M(h) = ∫₀ʰ m, m²: the normal force over E\* (4.26).
     #[inline(always)]
-    pub fn area(&self, h: f64) -> f64 {
+    pub fn reduced_force(&self, h: f64) -> f64 {
         match &self.law {
-            Law::Power(law) if h > 0.0 => law.area(h),
-            _ => self.other_area(h),
+            Law::Power(law) if h > 0.0 => law.reduced_force(h),
+            _ => self.other_reduced_force(h),
         }
     }
 
     /// The profiles that are no power laws, kept out of the way of those that are.
     #[inline(never)]
-    fn other_area(&self, h: f64) -> f64 {
+    fn other_reduced_force(&self, h: f64) -> f64 {
         match &self.law {
             _ if h.is_nan() || h <= 0.0 => 0.0,
             Law::Flat { radius } => 2.0 * radius * h,
-            Law::Power(law) => law.area(h),
-            Law::Sphere(law) => law.area(h),
-            Law::Foundation(law) => law.area(h),
+            Law::Power(law) => law.reduced_force(h),
+            Law::Sphere(law) => law.reduced_force(h),
+            Law::Foundation(law) => law.reduced_force(h),
         }
     }
 
     /// N(h) = ∫₀ʰ M, m³: the normal elastic energy over E\*.
     #[inline]
-    pub fn volume(&self, h: f64) -> f64 {
+    pub fn reduced_energy(&self, h: f64) -> f64 {
         match &self.law {
             _ if h.is_nan() || h <= 0.0 => 0.0,
             Law::Flat { radius } => radius * h * h,
-            Law::Power(law) => law.volume(h),
-            Law::Sphere(law) => law.volume(h),
-            Law::Foundation(law) => law.volume(h),
+            Law::Power(law) => law.reduced_energy(h),
+            Law::Sphere(law) => law.reduced_energy(h),
+            Law::Foundation(law) => law.reduced_energy(h),
         }
     }
 
     /// a(h) = m(h)/2, m: the contact radius; for a foundation given spring by spring half the length in contact.
     #[inline]
     pub fn radius(&self, h: f64) -> f64 {
-        0.5 * self.length(h)
+        0.5 * self.reduced_stiffness(h)
     }
 
     /// g(a), m: the indentation at which the contact radius is a; 0 for a ≤ 0, infinite where no indentation
@@ -194,7 +195,7 @@ impl Profile {
             }
             Law::Power(law) => law.depth(a),
             Law::Sphere(law) => law.depth(a),
-            Law::Foundation(law) => law.height_of_length(2.0 * a),
+            Law::Foundation(law) => law.height_of_reduced_stiffness(2.0 * a),
         }
     }
 
@@ -210,18 +211,18 @@ impl Profile {
     }
 
     /// Height at which the length m (m) is reached, m: g(m/2), with the conventions of [`Self::depth`].
-    pub fn height_of_length(&self, m: f64) -> f64 {
+    pub fn height_of_reduced_stiffness(&self, m: f64) -> f64 {
         self.depth(0.5 * m)
     }
 
-    /// Height at which the area M (m²) is reached, m: the inverse of [`Self::area`]; 0 for M ≤ 0.
-    pub fn height_of_area(&self, area: f64) -> f64 {
+    /// Height at which M (m²) is reached, m: the inverse of [`Self::reduced_force`]; 0 for M ≤ 0.
+    pub fn height_of_reduced_force(&self, force: f64) -> f64 {
         match &self.law {
-            _ if area.is_nan() || area <= 0.0 => 0.0,
-            Law::Flat { radius } => area / (2.0 * radius),
-            Law::Power(law) => law.height_of_area(area),
-            Law::Sphere(law) => law.height_of_area(area),
-            Law::Foundation(law) => law.height_of_area(area),
+            _ if force.is_nan() || force <= 0.0 => 0.0,
+            Law::Flat { radius } => force / (2.0 * radius),
+            Law::Power(law) => law.height_of_reduced_force(force),
+            Law::Sphere(law) => law.height_of_reduced_force(force),
+            Law::Foundation(law) => law.height_of_reduced_force(force),
         }
     }
 
@@ -265,8 +266,9 @@ impl Profile {
             return law.moment([from, to], [low, (high - low) / width]);
         }
         let (middle, mean, half) = (0.5 * (from + to), 0.5 * (low + high), 0.5 * (high - low));
-        let node =
-            |(x, weight): &(f64, f64)| weight * (mean + half * x) * self.length(middle + 0.5 * width * x);
+        let node = |(x, weight): &(f64, f64)| {
+            weight * (mean + half * x) * self.reduced_stiffness(middle + 0.5 * width * x)
+        };
         width * GAUSS.iter().map(node).sum::<f64>()
     }
 

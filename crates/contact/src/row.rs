@@ -67,7 +67,7 @@ impl Row {
         let mut sum = lanes::shear(springs.first(kept), &self.anchors[..kept], to, slope);
         if after > kept {
             let stretch = Chord::new(self.apex, to, slope).fresh_stretch_per_rise();
-            sum += stretch * lanes::pressed_area(springs.range(kept, after), to.d);
+            sum += stretch * lanes::pressed_force(springs.range(kept, after), to.d);
         }
         law.tangential_modulus() * sum
     }
@@ -84,7 +84,7 @@ impl Row {
         if after > kept {
             let stretch = Chord::new(self.apex, to, slope).fresh_stretch_per_rise();
             let fresh = springs.range(kept, after);
-            tally.shear += stretch * lanes::pressed_area(fresh, to.d);
+            tally.shear += stretch * lanes::pressed_force(fresh, to.d);
             let length: f64 = fresh.lengths.iter().sum();
             match stretch {
                 _ if stretch >= slope => tally.slip += length,

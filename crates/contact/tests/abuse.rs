@@ -132,8 +132,9 @@ impl Scale {
         self.place = self.place.max(EPS * (at.u.abs() + law.stick_slope() * at.d.abs()));
         self.force = self.force.max(law.friction() * law.normal_force(d));
         self.stiffness = self.stiffness.max(law.stick_stiffness(d));
-        self.energy =
-            self.energy.max(law.tangential_modulus() * law.stick_slope().powi(2) * law.profile().volume(d));
+        self.energy = self
+            .energy
+            .max(law.tangential_modulus() * law.stick_slope().powi(2) * law.profile().reduced_energy(d));
     }
 }
 

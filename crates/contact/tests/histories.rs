@@ -190,7 +190,9 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
     let (mut force, mut energy, mut at) = (0.0, 0.0, Apex::default());
     for (d, slope) in [(1e-7, 0.02), (2e-7, 0.05), (3e-7, 0.1)] {
         let end = Apex { d, u: at.u + slope * (d - at.d) };
-        let more = law.tangential_modulus() * slope * (law.profile().area(d) - law.profile().area(at.d));
+        let more = law.tangential_modulus()
+            * slope
+            * (law.profile().reduced_force(d) - law.profile().reduced_force(at.d));
         // ½∫F du over the piece, F linear in M: near enough, since energies enter no force.
         energy += (force + 0.5 * more) * (end.u - at.u);
         force += more;
@@ -208,7 +210,7 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
             assert!((slope / stiffness - 1.0).abs() < 1e-3, "{sense} {beside:e}: {}", slope / stiffness);
         }
         // To second order, on the law's own piece: F + G\*m δ - σ G\*m'δ²/2(κ-σk).
-        let bend = law.tangential_modulus() * law.profile().length(d)
+        let bend = law.tangential_modulus() * law.profile().reduced_stiffness(d)
             / (2.0 * d)
             / (law.stick_slope() - sense * 0.1);
         let beside = -sense * 1e-9;
@@ -217,7 +219,7 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
     }
 }
 
-/// What an edge has dragged lies along it, at its own level to the last place. Where it begins must not hang on that place:
+/// What an edge has dragged lies along it, at its own level to the last place. Where it begins must not depend on that place:
 /// the force does not, but the friction power does.
 #[test]
 fn an_edge_at_rest_begins_where_its_last_move_left_it() {

@@ -61,13 +61,25 @@ fn integral(f: impl Fn(f64) -> f64, h: f64) -> f64 {
 fn the_sphere_agrees_with_80_digit_values() {
     for radius in [1.0, 3.0e-4] {
         let sphere = Profile::sphere(radius).unwrap();
-        for (eta, ratio, area, volume) in SPHERE {
+        for (eta, ratio, reduced_force, reduced_energy) in SPHERE {
             let h = eta * radius;
             assert_relative_eq!(sphere.radius(h), ratio * radius, max_relative = 2e-15);
-            assert_relative_eq!(sphere.area(h), area * radius * radius, max_relative = 4e-15);
-            assert_relative_eq!(sphere.volume(h), volume * radius.powi(3), max_relative = 5e-15);
+            assert_relative_eq!(
+                sphere.reduced_force(h),
+                reduced_force * radius * radius,
+                max_relative = 4e-15
+            );
+            assert_relative_eq!(
+                sphere.reduced_energy(h),
+                reduced_energy * radius.powi(3),
+                max_relative = 5e-15
+            );
             assert_relative_eq!(sphere.depth(ratio * radius), h, max_relative = 2e-15 / (1.0 - ratio));
-            assert_relative_eq!(sphere.height_of_area(area * radius * radius), h, max_relative = 4e-15);
+            assert_relative_eq!(
+                sphere.height_of_reduced_force(reduced_force * radius * radius),
+                h,
+                max_relative = 4e-15
+            );
         }
     }
 }
@@ -85,26 +97,30 @@ fn the_sphere_is_not_the_paraboloid() {
 fn power_laws_have_their_closed_forms() {
     let h = 1.8e-7_f64;
     let paraboloid = Profile::paraboloid(1e-3).unwrap();
-    assert_relative_eq!(paraboloid.area(h), 4.0 / 3.0 * 1e-3_f64.sqrt() * h.powf(1.5), max_relative = 1e-15);
     assert_relative_eq!(
-        paraboloid.volume(h),
+        paraboloid.reduced_force(h),
+        4.0 / 3.0 * 1e-3_f64.sqrt() * h.powf(1.5),
+        max_relative = 1e-15
+    );
+    assert_relative_eq!(
+        paraboloid.reduced_energy(h),
         8.0 / 15.0 * 1e-3_f64.sqrt() * h.powf(2.5),
         max_relative = 1e-15
     );
     let cone = Profile::cone(0.01).unwrap();
     let slope = std::f64::consts::FRAC_PI_2 * 0.01;
-    assert_relative_eq!(cone.area(h), h * h / slope, max_relative = 1e-15);
-    assert_relative_eq!(cone.volume(h), h * h * h / (3.0 * slope), max_relative = 1e-15);
+    assert_relative_eq!(cone.reduced_force(h), h * h / slope, max_relative = 1e-15);
+    assert_relative_eq!(cone.reduced_energy(h), h * h * h / (3.0 * slope), max_relative = 1e-15);
     assert_relative_eq!(cone.depth(2e-5), slope * 2e-5, max_relative = 1e-15);
     let fourth = Profile::foundation_power(1e9, 4.0).unwrap();
-    assert_relative_eq!(fourth.length(h), 2.0 * (h / 1e9).powf(0.25), max_relative = 1e-15);
+    assert_relative_eq!(fourth.reduced_stiffness(h), 2.0 * (h / 1e9).powf(0.25), max_relative = 1e-15);
     assert_eq!(
         (cone.exponent(), paraboloid.exponent(), fourth.exponent()),
         (Some(1.0), Some(2.0), Some(4.0))
     );
     // f = Ar² is the paraboloid of radius 1/2A.
     let square = Profile::power(500.0, 2.0).unwrap();
-    assert_relative_eq!(square.area(h), paraboloid.area(h), max_relative = 1e-15);
+    assert_relative_eq!(square.reduced_force(h), paraboloid.reduced_force(h), max_relative = 1e-15);
 }
 
 #[test]
@@ -118,11 +134,11 @@ fn odd_exponents_keep_their_last_digits_at_small_heights() {
         (5000000000000.0, 6.0, 4.4e-09, 0.0006191232418226784, 2.33497908344553e-12),
         (1.0, 7.3, 1e-30, 0.00015539640039207797, 1.3667394251351438e-34),
     ];
-    for (coefficient, exponent, h, length, area) in cases {
+    for (coefficient, exponent, h, length, reduced_force) in cases {
         let profile = Profile::foundation_power(coefficient, exponent).unwrap();
-        assert_relative_eq!(profile.length(h), length, max_relative = 9e-16);
-        assert_relative_eq!(profile.area(h), area, max_relative = 9e-16);
-        assert_relative_eq!(profile.height_of_area(area), h, max_relative = 9e-16);
+        assert_relative_eq!(profile.reduced_stiffness(h), length, max_relative = 9e-16);
+        assert_relative_eq!(profile.reduced_force(h), reduced_force, max_relative = 9e-16);
+        assert_relative_eq!(profile.height_of_reduced_force(reduced_force), h, max_relative = 9e-16);
     }
 }
 
@@ -133,10 +149,10 @@ fn area_and_volume_are_the_integrals_of_length() {
             continue;
         }
         for h in [1e-12, 3e-9, 1.8e-7, 4e-4] {
-            let area = integral(|y| profile.length(y), h);
-            let volume = integral(|y| profile.area(y), h);
-            assert_relative_eq!(profile.area(h), area, max_relative = 2e-14);
-            assert_relative_eq!(profile.volume(h), volume, max_relative = 2e-14);
+            let reduced_force = integral(|y| profile.reduced_stiffness(y), h);
+            let reduced_energy = integral(|y| profile.reduced_force(y), h);
+            assert_relative_eq!(profile.reduced_force(h), reduced_force, max_relative = 2e-14);
+            assert_relative_eq!(profile.reduced_energy(h), reduced_energy, max_relative = 2e-14);
         }
     }
 }
@@ -145,10 +161,18 @@ fn area_and_volume_are_the_integrals_of_length() {
 fn inverses_give_back_what_went_in() {
     for (name, profile) in profiles() {
         for h in [1e-9, 1.8e-7, 3e-6] {
-            assert_relative_eq!(profile.height_of_area(profile.area(h)), h, max_relative = 2e-15);
+            assert_relative_eq!(
+                profile.height_of_reduced_force(profile.reduced_force(h)),
+                h,
+                max_relative = 2e-15
+            );
             if name != "flat" && name != "list" {
                 assert_relative_eq!(profile.depth(profile.radius(h)), h, max_relative = 4e-15);
-                assert_relative_eq!(profile.height_of_length(profile.length(h)), h, max_relative = 4e-15);
+                assert_relative_eq!(
+                    profile.height_of_reduced_stiffness(profile.reduced_stiffness(h)),
+                    h,
+                    max_relative = 4e-15
+                );
             }
         }
     }
@@ -199,15 +223,18 @@ fn a_list_counts_its_springs_by_hand() {
     // Ascending: 0 (2 µm), 10 nm (3), 200 nm (4), 300 nm (1 + 1). A spring at h = g(x) does not touch yet.
     let lengths = [(0.0, 0.0), (1e-8, 2e-6), (1.1e-8, 5e-6), (2e-7, 5e-6), (3e-7, 9e-6), (4e-7, 11e-6)];
     for (h, length) in lengths {
-        assert_relative_eq!(list.length(h), length, max_relative = 1e-15);
+        assert_relative_eq!(list.reduced_stiffness(h), length, max_relative = 1e-15);
     }
     // M(250 nm) = 250·2 + 240·3 + 50·4 nm·µm; N is half the sum with squares.
-    assert_relative_eq!(list.area(2.5e-7), 1420e-15, max_relative = 1e-15);
-    let volume = 0.5 * (250.0 * 250.0 * 2.0 + 240.0 * 240.0 * 3.0 + 50.0 * 50.0 * 4.0) * 1e-24;
-    assert_relative_eq!(list.volume(2.5e-7), volume, max_relative = 1e-15);
-    assert_relative_eq!(list.height_of_area(1420e-15), 2.5e-7, max_relative = 1e-15);
-    assert_eq!((list.height_of_length(4.9e-6), list.height_of_length(5.1e-6)), (1e-8, 2e-7));
-    assert_eq!(list.height_of_length(12e-6), f64::INFINITY);
+    assert_relative_eq!(list.reduced_force(2.5e-7), 1420e-15, max_relative = 1e-15);
+    let reduced_energy = 0.5 * (250.0 * 250.0 * 2.0 + 240.0 * 240.0 * 3.0 + 50.0 * 50.0 * 4.0) * 1e-24;
+    assert_relative_eq!(list.reduced_energy(2.5e-7), reduced_energy, max_relative = 1e-15);
+    assert_relative_eq!(list.height_of_reduced_force(1420e-15), 2.5e-7, max_relative = 1e-15);
+    assert_eq!(
+        (list.height_of_reduced_stiffness(4.9e-6), list.height_of_reduced_stiffness(5.1e-6)),
+        (1e-8, 2e-7)
+    );
+    assert_eq!(list.height_of_reduced_stiffness(12e-6), f64::INFINITY);
 }
 
 #[test]
@@ -221,8 +248,8 @@ fn a_long_list_tends_to_the_smooth_profile() {
         .collect();
     let list = Profile::foundation(&heights, &vec![cell; heights.len()]).unwrap();
     for h in [5e-8, 1.8e-7, 3e-7] {
-        assert_relative_eq!(list.area(h), paraboloid.area(h), max_relative = 1e-7);
-        assert_relative_eq!(list.volume(h), paraboloid.volume(h), max_relative = 1e-7);
+        assert_relative_eq!(list.reduced_force(h), paraboloid.reduced_force(h), max_relative = 1e-7);
+        assert_relative_eq!(list.reduced_energy(h), paraboloid.reduced_energy(h), max_relative = 1e-7);
     }
 }
 
@@ -230,12 +257,12 @@ fn a_long_list_tends_to_the_smooth_profile() {
 fn nothing_touches_at_or_below_zero() {
     for (_, profile) in profiles() {
         for h in [0.0, -0.0, -1e-9, f64::NEG_INFINITY, f64::NAN] {
-            assert_eq!(profile.length(h), 0.0);
-            assert_eq!(profile.area(h), 0.0);
-            assert_eq!(profile.volume(h), 0.0);
+            assert_eq!(profile.reduced_stiffness(h), 0.0);
+            assert_eq!(profile.reduced_force(h), 0.0);
+            assert_eq!(profile.reduced_energy(h), 0.0);
             assert_eq!(profile.radius(h), 0.0);
             assert_eq!(profile.depth(h), 0.0);
-            assert_eq!(profile.height_of_area(h), 0.0);
+            assert_eq!(profile.height_of_reduced_force(h), 0.0);
         }
     }
 }
@@ -243,17 +270,21 @@ fn nothing_touches_at_or_below_zero() {
 #[test]
 fn a_flat_punch_touches_at_once_and_a_sphere_has_an_end() {
     let flat = Profile::flat(2e-3).unwrap();
-    assert_eq!(flat.length(1e-30), 4e-3);
-    assert_relative_eq!(flat.area(1e-9), 4e-12, max_relative = 1e-15);
-    assert_relative_eq!(flat.volume(2e-9), 8e-21, max_relative = 1e-15);
+    assert_eq!(flat.reduced_stiffness(1e-30), 4e-3);
+    assert_relative_eq!(flat.reduced_force(1e-9), 4e-12, max_relative = 1e-15);
+    assert_relative_eq!(flat.reduced_energy(2e-9), 8e-21, max_relative = 1e-15);
     assert_eq!((flat.depth(2e-3), flat.depth(2.1e-3)), (0.0, f64::INFINITY));
     assert_eq!((flat.exponent(), flat.reach()), (None, None));
     let sphere = Profile::sphere(2.0).unwrap();
     // 0.999 artanh 0.999 = 3.79640096608295 (mpmath)
     assert_relative_eq!(sphere.reach().unwrap(), 2.0 * 3.79640096608295, max_relative = 1e-13);
     assert_eq!(sphere.depth(2.0), f64::INFINITY);
-    assert!(sphere.area(1e6).is_finite() && sphere.volume(1e6).is_finite() && sphere.radius(1e6) <= 2.0);
-    assert_relative_eq!(sphere.height_of_area(sphere.area(1e6)), 1e6, max_relative = 1e-14);
+    assert!(
+        sphere.reduced_force(1e6).is_finite()
+            && sphere.reduced_energy(1e6).is_finite()
+            && sphere.radius(1e6) <= 2.0
+    );
+    assert_relative_eq!(sphere.height_of_reduced_force(sphere.reduced_force(1e6)), 1e6, max_relative = 1e-14);
 }
 
 #[test]

@@ -191,9 +191,9 @@ impl Conservative for Equations<'_> {
             ([x], [acceleration, input], Some(Interval { slider: Some(slider), pulls, .. })) => {
                 (*acceleration, *input) = (slider.acceleration, slider.power);
                 let mut add = |pull: &Pull<'_>| {
-                    let area = pull.area(t, *x);
-                    *acceleration += pull.acceleration * area;
-                    *input += pull.power * area;
+                    let reduced_force = pull.reduced_force(t, *x);
+                    *acceleration += pull.acceleration * reduced_force;
+                    *input += pull.power * reduced_force;
                 };
                 match &pulls[..] {
                     [pull] => add(pull),

@@ -1,6 +1,6 @@
 //! The start of a run: given, or the static equilibrium under what acts at t = 0.
 //!
-//! The loads are put on in proportion, and the contacts remember the way: which of them slips hangs on it. A body that
+//! The loads are put on in proportion, and the contacts remember the way: which of them slips depends on it. A body that
 //! is drawn above what will hold it is first set down by a millionth of its loads.
 
 mod balance;

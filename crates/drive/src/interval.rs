@@ -27,7 +27,7 @@ pub(crate) struct Interval<'a> {
     pub(crate) apart: Vec<usize>,
     /// By contact: its place among the steady ones.
     places: Vec<Option<usize>>,
-    /// Whether the scene has a single slider on which no force hangs on a velocity.
+    /// Whether the scene has a single slider on which no force depends on a velocity.
     single: bool,
     /// That slider, where nothing but steady contacts acts on it.
     pub(crate) slider: Option<Slider>,
@@ -65,8 +65,8 @@ pub(crate) struct Pull<'a> {
 impl Pull<'_> {
     /// M at the slip front, m².
     #[inline(always)]
-    pub(crate) fn area(&self, t: f64, x: f64) -> f64 {
-        self.profile.area(self.height(t, x))
+    pub(crate) fn reduced_force(&self, t: f64, x: f64) -> f64 {
+        self.profile.reduced_force(self.height(t, x))
     }
 
     /// Height of the slip front, m.
@@ -78,7 +78,7 @@ impl Pull<'_> {
     /// N of one metre (m³), the height now (m) and how it leans on the coordinate, where M is a power 3/2 of the height.
     fn root_law(&self, t: f64, x: f64) -> Option<(f64, f64, f64)> {
         let is_paraboloid = self.profile.exponent() == Some(2.0);
-        is_paraboloid.then(|| (self.profile.volume(1.0), self.height(t, x), self.lean))
+        is_paraboloid.then(|| (self.profile.reduced_energy(1.0), self.height(t, x), self.lean))
     }
 }
 
@@ -99,7 +99,7 @@ pub(crate) struct Steady<'a> {
 }
 
 impl Steady<'_> {
-    /// The part of u that does not hang on the free coordinates, m, and its derivatives.
+    /// The part of u that does not depend on the free coordinates, m, and its derivatives.
     #[inline(always)]
     pub(crate) fn followed(&self, t: f64) -> Sample {
         self.followed.at(t)
@@ -276,7 +276,9 @@ fn steady<'a>(
     model: &'a Model,
     state: &State,
 ) -> Option<Steady<'a>> {
-    let (Mode::Slip(branch), Press::Constant { d, area }) = (mode, &contact.press) else { return None };
+    let (Mode::Slip(branch), Press::Constant { d, reduced_force }) = (mode, &contact.press) else {
+        return None;
+    };
     if contact.damping > 0.0 {
         return None;
     }
@@ -287,6 +289,6 @@ fn steady<'a>(
         d: *d,
         followed: Followed::of(&contact.u, model, state)?,
         arm: contact.u.free.iter().map(|(_, a)| a).sum(),
-        branch: branch.steady(*d, *area),
+        branch: branch.steady(*d, *reduced_force),
     })
 }

@@ -9,7 +9,7 @@
 //! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down.
 //!
 //! Coordinates are x, z and the small pitch of each body, displacements from the position drawn, in SI: free, fixed or
-//! following a waveform. Where no force hangs on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere,
+//! following a waveform. Where no force depends on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere,
 //! and before singular moments, Dormand and Prince's of order 8.
 
 mod equations;

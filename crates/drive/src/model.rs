@@ -112,7 +112,7 @@ pub(crate) struct Natural {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Press {
     /// Constant d (m) with M(d) (m²) at hand.
-    Constant { d: f64, area: f64 },
+    Constant { d: f64, reduced_force: f64 },
     /// A waveform of the normal force, N.
     Force(usize),
     /// A waveform of the indentation, m.

@@ -1,6 +1,6 @@
 //! The Runge–Kutta–Nyström pair RKN8(6)9 for forces without velocities: order 8, error estimate of order 6.
 //!
-//! Where accelerations hang on time and positions alone, positions need no stages of their own for the velocities: a
+//! Where accelerations depend on time and positions alone, positions need no stages of their own for the velocities: a
 //! step costs 8 evaluations instead of the 12 of [`Dop853`](crate::Dop853), and each carries half the components.
 //!
 //! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*,
@@ -24,7 +24,7 @@ use track::dot;
 /// Power of the step with which the error estimate falls.
 pub const ORDER: u32 = 7;
 
-/// A system whose accelerations, and the rates of whose quadratures, hang on time and positions alone.
+/// A system whose accelerations, and the rates of whose quadratures, depend on time and positions alone.
 ///
 /// Its state has n positions, n velocities and then the quadratures.
 pub trait Conservative {

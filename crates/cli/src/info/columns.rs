@@ -14,7 +14,7 @@ const NAMED: usize = 4;
 const ABOUT_STROKE: &str = "\
 S₀ is that of the quasi-static, damped limit: flyback in no time, slow way back, load against the
 steps. Strokes below it make no step there. A real slider rings after the flyback, and its steps
-near S₀ hang on the ringing.";
+near S₀ depend on the ringing.";
 
 /// The contacts side by side, as many as fit, and what to know of them.
 pub(super) fn contacts(contacts: &[(String, ContactInfo)]) -> String {

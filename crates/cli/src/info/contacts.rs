@@ -42,7 +42,7 @@ pub(super) struct ContactInfo {
     pub(super) most: Option<Pressed>,
 }
 
-/// What hangs on the indentation. Forces, radius and pressure are those of one contact, stiffnesses of all `count`.
+/// What depends on the indentation. Forces, radius and pressure are those of one contact, stiffnesses of all `count`.
 #[derive(Debug, Serialize)]
 pub(super) struct Pressed {
     /// F_N of one contact.
@@ -80,7 +80,7 @@ pub(super) struct Pressed {
     pub(super) resonance: Option<Real>,
 }
 
-/// A constant load on a body that hangs on one contact only.
+/// A constant load on a body that depends on one contact only.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct Loaded {
     /// Loads and gravity along x.

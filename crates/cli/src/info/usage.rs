@@ -74,15 +74,15 @@ impl Usage {
             let why = "one slider, paraboloids under constant load, straight waveforms: an interval is one quadrature";
             self.skips("steps between events", "", why);
         } else if job.model.is_conservative() {
-            let what = "Runge–Kutta–Nyström 8(6), as no force hangs on a velocity; Dormand–Prince 8(5,3) before singular events";
+            let what = "Runge–Kutta–Nyström 8(6), as no force depends on a velocity; Dormand–Prince 8(5,3) before singular events";
             self.uses("method", "", what);
-            let why = "no force hangs on one: a third of the evaluations is spared";
+            let why = "no force depends on one: a third of the evaluations is spared";
             self.skips("stages for velocities", "", why);
         } else {
             self.uses("method", "", "Dormand–Prince 8(5,3)");
         }
         for name in job.model.travellers() {
-            self.uses("position", &format!("{name}.x"), "counted from near by: only contacts hang on it");
+            self.uses("position", &format!("{name}.x"), "counted from near by: only contacts depend on it");
         }
     }
 

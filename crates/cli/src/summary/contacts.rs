@@ -245,11 +245,11 @@ fn fretting(
 /// of amplitude u_c has `E_d = 4μE*κ(Md - 2N)` and crosses F_x = 0 where M(h) = M(d)/2: A = 1 - 2N/(Md), D = 2h/d - 1; for
 /// f ~ rⁿ these are 1/(2n+1) and 2^{1/(n+1)} - 1. None for an open contact.
 fn thresholds(profile: &Profile, d: f64) -> Option<Thresholds> {
-    let area = profile.area(d);
-    let energy = 1.0 - 2.0 * profile.volume(d) / (area * d);
-    let slip = 2.0 * profile.height_of_area(0.5 * area) / d - 1.0;
+    let reduced_force = profile.reduced_force(d);
+    let energy = 1.0 - 2.0 * profile.reduced_energy(d) / (reduced_force * d);
+    let slip = 2.0 * profile.height_of_reduced_force(0.5 * reduced_force) / d - 1.0;
     let positive = |value: f64| value > ROUNDING;
-    (area > 0.0 && d > 0.0).then(|| Thresholds {
+    (reduced_force > 0.0 && d > 0.0).then(|| Thresholds {
         energy_ratio: Some(energy),
         system_free_ratio: (positive(energy) && positive(slip)).then(|| energy / slip),
         slip_ratio: Some(slip),

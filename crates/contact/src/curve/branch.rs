@@ -77,13 +77,13 @@ impl Branch {
 
     /// F_x at (d, u), N, with M(d) at hand.
     #[inline]
-    pub fn force(&self, law: &Interface, d: f64, u: f64, area: f64) -> f64 {
+    pub fn force(&self, law: &Interface, d: f64, u: f64, reduced_force: f64) -> f64 {
         let front = if self.is_gross() {
             0.0
         } else {
-            self.excess * law.profile().area(self.front(d, u)) + self.offset
+            self.excess * law.profile().reduced_force(self.front(d, u)) + self.offset
         };
-        self.factor * (front + self.slope * area)
+        self.factor * (front + self.slope * reduced_force)
     }
 
     /// Height h_c of the slip front at (d, u), m; beyond its piece the branch goes on straight.
@@ -146,14 +146,14 @@ impl SteadyBranch {
     #[inline(always)]
     pub fn force(&self, profile: &Profile, u: f64) -> f64 {
         let front = self.height + self.margin(u) * self.flow;
-        self.base + self.gain * profile.area(front)
+        self.base + self.gain * profile.reduced_force(front)
     }
 }
 
 impl Branch {
     /// The branch at a constant indentation d (m), with M(d) at hand.
-    pub fn steady(&self, d: f64, area: f64) -> SteadyBranch {
-        let limit = self.slope * area;
+    pub fn steady(&self, d: f64, reduced_force: f64) -> SteadyBranch {
+        let limit = self.slope * reduced_force;
         if self.is_gross() {
             let base = self.factor * limit;
             return SteadyBranch { sense: self.sense, level: 0.0, flow: 0.0, height: 0.0, base, gain: 0.0 };
@@ -182,16 +182,22 @@ impl Branch {
     /// Force, N, and friction power, W, of a moving apex with M(d) at hand, as [`Branch::force`] and
     /// [`Branch::friction_power`] have them: what both need of the profile is asked for once.
     #[inline]
-    pub fn drag(&self, law: &Interface, (d, dd): (f64, f64), (u, du): (f64, f64), area: f64) -> [f64; 2] {
+    pub fn drag(
+        &self,
+        law: &Interface,
+        (d, dd): (f64, f64),
+        (u, du): (f64, f64),
+        reduced_force: f64,
+    ) -> [f64; 2] {
         let drive = law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd);
         if self.is_gross() {
-            return [self.factor * (self.slope * area), drive * area];
+            return [self.factor * (self.slope * reduced_force), drive * reduced_force];
         }
         let (profile, front) = (law.profile(), self.front(d, u));
-        let inner = profile.area(front);
-        let force = self.factor * (self.excess * inner + self.offset + self.slope * area);
+        let inner = profile.reduced_force(front);
+        let force = self.factor * (self.excess * inner + self.offset + self.slope * reduced_force);
         if front >= 0.0 && front <= d {
-            return [force, drive * (area - inner - (d - front) * profile.length(front))];
+            return [force, drive * (reduced_force - inner - (d - front) * profile.reduced_stiffness(front))];
         }
         [force, self.friction_power(law, front, (d, dd), du)]
     }
@@ -201,7 +207,9 @@ impl Branch {
     pub fn friction_power(&self, law: &Interface, front: f64, (d, dd): (f64, f64), du: f64) -> f64 {
         let profile = law.profile();
         let front = if self.is_gross() { 0.0 } else { front.clamp(0.0, d.max(0.0)) };
-        let limit = profile.area(d) - profile.area(front) - (d - front) * profile.length(front);
+        let limit = profile.reduced_force(d)
+            - profile.reduced_force(front)
+            - (d - front) * profile.reduced_stiffness(front);
         law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd) * limit
     }
 }
@@ -253,7 +261,7 @@ impl Curve {
             entry: if foot < top { reach(end) } else { f64::NEG_INFINITY },
             flow: 1.0 / (slope - sense * end.slope),
             height: base.h,
-            offset: sense * base.shear - gain * base.area,
+            offset: sense * base.shear - gain * base.reduced_force,
             excess: gain - slope,
             ..gross
         }

@@ -64,14 +64,15 @@ pub(super) fn runs_along(slope: f64, sense: f64, end: &Knot) -> bool {
 /// begins, also beyond that piece.
 pub(super) fn onward(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> (f64, f64) {
     let slope = law.stick_slope();
-    let (edge, whole) = (sense * slope, law.profile().area(to.d));
+    let (edge, whole) = (sense * slope, law.profile().reduced_force(to.d));
     // What the edge has dragged so far lies along it, at its own level: rounding would decide where on it the edge begins.
     let dragged = knots.iter().rev().take_while(|end| end.h > 0.0 && runs_along(slope, sense, end)).count();
     let knots = &knots[..knots.len() - dragged];
     let Edge { kept, height, .. } = Edge::find(law, knots, sense, to);
     let Some(base) = kept.min(knots.len() - 1).checked_sub(1).map(|i| &knots[i]) else {
         // Gross slip, or no piece to go on along.
-        let base = knots.first().filter(|_| kept > 0).map_or((0.0, 0.0), |base| (base.shear, base.area));
+        let base =
+            knots.first().filter(|_| kept > 0).map_or((0.0, 0.0), |base| (base.shear, base.reduced_force));
         return (base.0 + edge * (whole - base.1), height);
     };
     let end = &knots[kept.min(knots.len() - 1)];
@@ -79,8 +80,8 @@ pub(super) fn onward(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> (
     let rise = sense * base.p - slope * base.h - level;
     let height =
         if runs_along(slope, sense, end) { base.h } else { base.h + rise / (slope - sense * end.slope) };
-    let area = law.profile().area(height);
-    (base.shear + end.gain * (area - base.area) + edge * (whole - area), height)
+    let reduced_force = law.profile().reduced_force(height);
+    (base.shear + end.gain * (reduced_force - base.reduced_force) + edge * (whole - reduced_force), height)
 }
 
 impl Edge {
@@ -132,7 +133,9 @@ impl Edge {
     pub(super) fn end(&self, law: &Interface, foot: &Knot, top: Option<&Knot>, to: Apex) -> Knot {
         let slope = self.sense * law.stick_slope();
         match top {
-            Some(top) if top.h == to.d => foot.extend(to.d, to.u, slope, slope, top.area, top.volume),
+            Some(top) if top.h == to.d => {
+                foot.extend(to.d, to.u, slope, slope, top.reduced_force, top.reduced_energy)
+            }
             _ => foot.grow(law, to.d, slope, to.u),
         }
     }
@@ -155,14 +158,16 @@ impl Edge {
     pub(super) fn shear(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
         let edge = self.sense * law.stick_slope();
         let whole = match knots.last() {
-            Some(top) if top.h == to.d => top.area,
-            _ => law.profile().area(to.d),
+            Some(top) if top.h == to.d => top.reduced_force,
+            _ => law.profile().reduced_force(to.d),
         };
         let Some(base) = self.kept.checked_sub(1).map(|i| &knots[i]) else { return edge * whole };
         if !self.splits {
-            return base.shear + edge * (whole - base.area);
+            return base.shear + edge * (whole - base.reduced_force);
         }
-        let area = law.profile().area(self.height);
-        base.shear + knots[self.kept].gain * (area - base.area) + edge * (whole - area)
+        let reduced_force = law.profile().reduced_force(self.height);
+        base.shear
+            + knots[self.kept].gain * (reduced_force - base.reduced_force)
+            + edge * (whole - reduced_force)
     }
 }

@@ -14,9 +14,9 @@ pub(super) struct Knot {
     /// Force per ΔM of the piece that ends here: its slope, or the mean of a curved path of growth.
     pub(super) gain: f64,
     /// M(h), m².
-    pub(super) area: f64,
+    pub(super) reduced_force: f64,
     /// N(h), m³.
-    pub(super) volume: f64,
+    pub(super) reduced_energy: f64,
     /// ∫₀ʰ p' m dh, m²; G\* times this is F_x of a contact that ends here.
     pub(super) shear: f64,
     /// ∫₀ʰ (p(h)-p)² dm, m³; ½G\* times this is the elastic energy of a contact that ends here.
@@ -33,8 +33,8 @@ impl Knot {
             p: u,
             slope: 0.0,
             gain: 0.0,
-            area: 0.0,
-            volume: 0.0,
+            reduced_force: 0.0,
+            reduced_energy: 0.0,
             shear: 0.0,
             square: 0.0,
             joined: false,
@@ -51,7 +51,7 @@ impl Knot {
     #[inline]
     pub(super) fn grow(&self, law: &Interface, h: f64, slope: f64, p: f64) -> Self {
         let profile = law.profile();
-        self.extend(h, p, slope, slope, profile.area(h), profile.volume(h))
+        self.extend(h, p, slope, slope, profile.reduced_force(h), profile.reduced_energy(h))
     }
 
     /// The end of a straight piece of growth in full stick.
@@ -65,18 +65,29 @@ impl Knot {
     /// ∫(p₂-p)²dm grows by 2S₁Δp + 2kγ(ΔN - ΔhM₁) over a piece of slope k and gain γ, where S₁ is the shear
     /// below: dB = 2S dp, S = S₁ + γ(M-M₁).
     #[inline]
-    pub(super) fn extend(&self, h: f64, p: f64, slope: f64, gain: f64, area: f64, volume: f64) -> Self {
+    pub(super) fn extend(
+        &self,
+        h: f64,
+        p: f64,
+        slope: f64,
+        gain: f64,
+        reduced_force: f64,
+        reduced_energy: f64,
+    ) -> Self {
         let rise = h - self.h;
         Self {
             h,
             p,
             slope,
             gain,
-            area,
-            volume,
-            shear: self.shear + gain * (area - self.area),
+            reduced_force,
+            reduced_energy,
+            shear: self.shear + gain * (reduced_force - self.reduced_force),
             square: self.square
-                + 2.0 * slope * (rise * self.shear + gain * (volume - self.volume - rise * self.area)),
+                + 2.0
+                    * slope
+                    * (rise * self.shear
+                        + gain * (reduced_energy - self.reduced_energy - rise * self.reduced_force)),
             joined: false,
         }
     }
@@ -84,15 +95,15 @@ impl Knot {
     /// The end of a curved path of growth, with the sums integrated along it.
     pub(super) fn grow_by(&self, law: &Interface, to: Apex, shear: f64, square: f64) -> Self {
         let profile = law.profile();
-        let (area, volume) = (profile.area(to.d), profile.volume(to.d));
-        let (rise, swell) = (to.d - self.h, area - self.area);
+        let (reduced_force, reduced_energy) = (profile.reduced_force(to.d), profile.reduced_energy(to.d));
+        let (rise, swell) = (to.d - self.h, reduced_force - self.reduced_force);
         Self {
             h: to.d,
             p: to.u,
             slope: if rise > 0.0 { (to.u - self.p) / rise } else { 0.0 },
             gain: if swell > 0.0 { (shear - self.shear) / swell } else { 0.0 },
-            area,
-            volume,
+            reduced_force,
+            reduced_energy,
             shear,
             square,
             joined: false,
@@ -106,9 +117,11 @@ impl Knot {
     pub(super) fn point(&self, law: &Interface, end: &Self, h: f64) -> Self {
         let profile = law.profile();
         let p = self.p + end.slope * (h - self.h);
-        let mut point = self.extend(h, p, end.slope, end.gain, profile.area(h), profile.volume(h));
+        let mut point =
+            self.extend(h, p, end.slope, end.gain, profile.reduced_force(h), profile.reduced_energy(h));
         if end.gain != end.slope {
-            let straight = self.extend(end.h, end.p, end.slope, end.gain, end.area, end.volume);
+            let straight =
+                self.extend(end.h, end.p, end.slope, end.gain, end.reduced_force, end.reduced_energy);
             point.square += (end.square - straight.square) * (h - self.h) / (end.h - self.h);
         }
         point

@@ -107,7 +107,7 @@ impl Curve {
                 (old.slope, old.gain)
             };
             let joined = old.joined;
-            self.knots[i] = below.extend(old.h, old.p, slope, gain, old.area, old.volume);
+            self.knots[i] = below.extend(old.h, old.p, slope, gain, old.reduced_force, old.reduced_energy);
             self.knots[i].joined = joined;
         }
         self.merged.knots += 1;

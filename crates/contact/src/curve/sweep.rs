@@ -155,5 +155,6 @@ fn strip(profile: &Profile, lower: &Knot, upper: &Knot, low: f64, high: f64) -> 
         return -profile.moment([lower.h, upper.h], [low, high]);
     }
     let curvature = (high - low) / width;
-    curvature * (upper.volume - lower.volume) - (high * upper.area - low * lower.area)
+    curvature * (upper.reduced_energy - lower.reduced_energy)
+        - (high * upper.reduced_force - low * lower.reduced_force)
 }

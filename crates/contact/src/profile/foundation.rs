@@ -21,9 +21,9 @@ pub(crate) struct Foundation {
 /// m, M and N at a height.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Sums {
-    length: f64,
-    area: f64,
-    volume: f64,
+    reduced_stiffness: f64,
+    reduced_force: f64,
+    reduced_energy: f64,
 }
 
 /// A sum with the rounding error it has made so far (Neumaier, ZAMM 54, 1974).
@@ -78,26 +78,26 @@ impl Foundation {
         if count == 0 { (Sums::default(), 0.0) } else { (self.sums[count - 1], h - self.heights[count - 1]) }
     }
 
-    pub(super) fn length(&self, h: f64) -> f64 {
-        self.below(h).0.length
+    pub(super) fn reduced_stiffness(&self, h: f64) -> f64 {
+        self.below(h).0.reduced_stiffness
     }
 
-    pub(super) fn area(&self, h: f64) -> f64 {
+    pub(super) fn reduced_force(&self, h: f64) -> f64 {
         let (sums, rise) = self.below(h);
-        sums.area + sums.length * rise
+        sums.reduced_force + sums.reduced_stiffness * rise
     }
 
-    pub(super) fn volume(&self, h: f64) -> f64 {
+    pub(super) fn reduced_energy(&self, h: f64) -> f64 {
         let (sums, rise) = self.below(h);
-        sums.volume + (sums.area + 0.5 * sums.length * rise) * rise
+        sums.reduced_energy + (sums.reduced_force + 0.5 * sums.reduced_stiffness * rise) * rise
     }
 
     /// ∫ w m dh between two heights, w straight from a value with a slope: one term per height in between.
     pub(super) fn moment(&self, [from, to]: [f64; 2], [value, slope]: [f64; 2]) -> f64 {
-        let (mut at, mut length, mut sum) = (from, self.below(from).0.length, 0.0);
+        let (mut at, mut length, mut sum) = (from, self.below(from).0.reduced_stiffness, 0.0);
         let first = self.heights.partition_point(|&height| height < from);
         let inside = self.heights[first..].iter().zip(&self.sums[first..]).take_while(|(h, _)| **h < to);
-        for (edge, next) in inside.map(|(h, sums)| (*h, sums.length)).chain([(to, 0.0)]) {
+        for (edge, next) in inside.map(|(h, sums)| (*h, sums.reduced_stiffness)).chain([(to, 0.0)]) {
             let middle = value + slope * (0.5 * ((at - from) + (edge - from)));
             sum += length * middle * (edge - at);
             (at, length) = (edge, next);
@@ -106,17 +106,17 @@ impl Foundation {
     }
 
     /// Lowest height whose spring completes the length m > 0; infinite beyond all springs.
-    pub(super) fn height_of_length(&self, length: f64) -> f64 {
-        let place = self.sums.partition_point(|sums| sums.length < length);
+    pub(super) fn height_of_reduced_stiffness(&self, length: f64) -> f64 {
+        let place = self.sums.partition_point(|sums| sums.reduced_stiffness < length);
         self.heights.get(place).copied().unwrap_or(f64::INFINITY)
     }
 
     /// Height at which M > 0 is reached.
-    pub(super) fn height_of_area(&self, area: f64) -> f64 {
+    pub(super) fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
         // M is 0 at the lowest height, so at least one spring lies below.
-        let place = self.sums.partition_point(|sums| sums.area < area).max(1) - 1;
+        let place = self.sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
         let sums = self.sums[place];
-        self.heights[place] + (area - sums.area) / sums.length
+        self.heights[place] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
     }
 }
 
@@ -139,15 +139,15 @@ fn check(heights: &[f64], lengths: &[f64]) -> Result<(), ProfileError> {
 }
 
 fn sums(heights: &[f64], lengths: &[f64]) -> Vec<Sums> {
-    let (mut length, mut area, mut volume) =
+    let (mut stiffness, mut force, mut energy) =
         (Compensated::default(), Compensated::default(), Compensated::default());
     let (mut at, mut last) = (Sums::default(), 0.0);
     let step = |(&height, &own): (&f64, &f64)| {
         let rise = height - last;
         let before = at;
-        at.volume = volume.add((before.area + 0.5 * before.length * rise) * rise);
-        at.area = area.add(before.length * rise);
-        at.length = length.add(own);
+        at.reduced_energy = energy.add((before.reduced_force + 0.5 * before.reduced_stiffness * rise) * rise);
+        at.reduced_force = force.add(before.reduced_stiffness * rise);
+        at.reduced_stiffness = stiffness.add(own);
         last = height;
         at
     };

@@ -10,9 +10,9 @@ pub(super) struct Power {
     exponent: f64,
     root: Root,
     /// 2n/(n+1).
-    area_factor: f64,
+    force_factor: f64,
     /// n/(2n+1).
-    volume_factor: f64,
+    energy_factor: f64,
 }
 
 /// How the n-th root is taken: by the cheapest exact operation there is.
@@ -62,8 +62,8 @@ impl Power {
             scale,
             exponent: n,
             root,
-            area_factor: 2.0 * n / (n + 1.0),
-            volume_factor: n / (2.0 * n + 1.0),
+            force_factor: 2.0 * n / (n + 1.0),
+            energy_factor: n / (2.0 * n + 1.0),
         }
     }
 
@@ -96,18 +96,18 @@ impl Power {
     }
 
     #[inline]
-    pub(super) fn length(&self, h: f64) -> f64 {
+    pub(super) fn reduced_stiffness(&self, h: f64) -> f64 {
         2.0 * self.radius(h)
     }
 
     #[inline]
-    pub(super) fn area(&self, h: f64) -> f64 {
-        self.area_factor * h * self.radius(h)
+    pub(super) fn reduced_force(&self, h: f64) -> f64 {
+        self.force_factor * h * self.radius(h)
     }
 
     #[inline]
-    pub(super) fn volume(&self, h: f64) -> f64 {
-        self.volume_factor * h * self.area(h)
+    pub(super) fn reduced_energy(&self, h: f64) -> f64 {
+        self.energy_factor * h * self.reduced_force(h)
     }
 
     #[inline]
@@ -123,17 +123,21 @@ impl Power {
     }
 
     /// h^{n+1} = (M/k)ⁿ/s with k = 2n/(n+1).
-    pub(super) fn height_of_area(&self, area: f64) -> f64 {
-        let y = area / self.area_factor;
+    pub(super) fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
+        let y = reduced_force / self.force_factor;
         match self.root {
             Root::First => (y / self.scale).sqrt(),
             Root::Second => (y / self.scale * y).cbrt(),
             _ => {
                 let n = self.exponent;
                 let h = y.powf(n / (n + 1.0)) / self.scale.powf(1.0 / (n + 1.0));
-                // The rounded exponents cost a few ulps at small areas: one Newton step gives them back.
-                let slope = self.length(h);
-                if slope > 0.0 && slope.is_finite() { h - (self.area(h) - area) / slope } else { h }
+                // The rounded exponents cost a few ulps at small reduced_forces: one Newton step gives them back.
+                let slope = self.reduced_stiffness(h);
+                if slope > 0.0 && slope.is_finite() {
+                    h - (self.reduced_force(h) - reduced_force) / slope
+                } else {
+                    h
+                }
             }
         }
     }

@@ -134,34 +134,34 @@ impl Sphere {
     }
 
     #[inline]
-    pub(super) fn length(&self, h: f64) -> f64 {
+    pub(super) fn reduced_stiffness(&self, h: f64) -> f64 {
         2.0 * self.radius * ratio(h / self.radius)
     }
 
     #[inline]
-    pub(super) fn area(&self, h: f64) -> f64 {
-        self.radius * self.radius * area(h / self.radius)
+    pub(super) fn reduced_force(&self, h: f64) -> f64 {
+        self.radius * self.radius * reduced_force(h / self.radius)
     }
 
-    pub(super) fn volume(&self, h: f64) -> f64 {
+    pub(super) fn reduced_energy(&self, h: f64) -> f64 {
         let eta = h / self.radius;
-        let volume = if eta <= SERIES_END {
+        let reduced_energy = if eta <= SERIES_END {
             eta * eta * eta.sqrt() * sum(&VOLUME, eta)
         } else {
             let t = invert(eta);
-            volume_beyond(eta, t)
+            reduced_energy_beyond(eta, t)
         };
-        self.radius * self.radius * self.radius * volume
+        self.radius * self.radius * self.radius * reduced_energy
     }
 
     /// Newton's method on M, which is convex in h: after the first step it descends on the root monotonically.
-    pub(super) fn height_of_area(&self, area_wanted: f64) -> f64 {
+    pub(super) fn height_of_reduced_force(&self, force: f64) -> f64 {
         const STEPS: usize = 60;
-        let wanted = area_wanted / (self.radius * self.radius);
+        let wanted = force / (self.radius * self.radius);
         let hertz = (0.5625 * wanted * wanted).cbrt();
         let mut eta = if wanted < 1.0 { hertz * (1.0 + hertz / 15.0) } else { 0.5 * (wanted + 1.0) };
         for _ in 0..STEPS {
-            let step = (area(eta) - wanted) / (2.0 * ratio(eta));
+            let step = (reduced_force(eta) - wanted) / (2.0 * ratio(eta));
             if !step.is_finite() {
                 break;
             }
@@ -182,7 +182,7 @@ fn ratio(eta: f64) -> f64 {
 
 /// M/R² at η.
 #[inline]
-fn area(eta: f64) -> f64 {
+fn reduced_force(eta: f64) -> f64 {
     if eta <= SERIES_END {
         return eta * eta.sqrt() * sum(&AREA, eta);
     }
@@ -192,7 +192,7 @@ fn area(eta: f64) -> f64 {
 }
 
 /// N/R³ at η beyond the series.
-fn volume_beyond(eta: f64, t: f64) -> f64 {
+fn reduced_energy_beyond(eta: f64, t: f64) -> f64 {
     const TWELFTH_PI2: f64 = std::f64::consts::PI * std::f64::consts::PI / 12.0;
     let s = eta / t;
     let log1q = (-2.0 * t).exp().ln_1p();

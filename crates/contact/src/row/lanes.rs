@@ -81,7 +81,7 @@ pub(super) fn tally(cells: Cells<'_>, anchors: &[f64], to: Apex, slope: f64) -> 
 }
 
 /// Σ length·(d-h), m².
-pub(super) fn pressed_area(cells: Cells<'_>, d: f64) -> f64 {
+pub(super) fn pressed_force(cells: Cells<'_>, d: f64) -> f64 {
     cells.heights.iter().zip(cells.lengths).map(|(h, length)| length * (d - h)).sum()
 }
 

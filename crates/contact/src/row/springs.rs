@@ -183,6 +183,6 @@ fn reach(profile: &Profile, span: f64) -> Result<f64, SpringsError> {
     if depth > 0.0 {
         return Ok(depth.min(profile.reach().unwrap_or(f64::INFINITY)));
     }
-    let width = profile.length(1.0);
+    let width = profile.reduced_stiffness(1.0);
     Err(SpringsError::Narrow { span, width })
 }

@@ -14,11 +14,11 @@ impl Equations<'_> {
         match &self.modes[c] {
             Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => self.dragged(c, branch, motion).0,
             Mode::Slip(branch) => {
-                let area = match &contact.press {
-                    Press::Constant { area, .. } => *area,
-                    _ => contact.law.profile().area(motion.d),
+                let reduced_force = match &contact.press {
+                    Press::Constant { reduced_force, .. } => *reduced_force,
+                    _ => contact.law.profile().reduced_force(motion.d),
                 };
-                branch.force(&contact.law, motion.d, motion.u, area)
+                branch.force(&contact.law, motion.d, motion.u, reduced_force)
             }
             Mode::Whole { .. } if contact.inert => 0.0,
             Mode::Whole { .. } => self.whole(c, motion),
@@ -110,26 +110,26 @@ impl Equations<'_> {
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
         let u = self.read(&contact.u, at);
-        let (d, dd, area) = match &contact.press {
+        let (d, dd, reduced_force) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
-                let area = contact.law.profile().area(d.value);
+                let reduced_force = contact.law.profile().reduced_force(d.value);
                 // Decreed apart, it is so beyond the touch that will end the step.
                 if self.modes[c] != Mode::Open {
-                    let press = contact.count * (contact.law.normal_modulus() * area);
+                    let press = contact.count * (contact.law.normal_modulus() * reduced_force);
                     sum.apply(&measure.free, d.driven, -press);
                 }
-                (d.value, d.rate, area)
+                (d.value, d.rate, reduced_force)
             }
             _ => {
                 let (d, dd) = self.pressed(contact, at.time());
-                (d, dd, contact.law.profile().area(d))
+                (d, dd, contact.law.profile().reduced_force(d))
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
         let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
-                let [force, friction] = branch.drag(&contact.law, (d, dd), (u.value, u.rate), area);
+                let [force, friction] = branch.drag(&contact.law, (d, dd), (u.value, u.rate), reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }

@@ -168,7 +168,9 @@ fn press(
         return Err(SceneError::new(path, message));
     }
     let press = match (value, part.normal) {
-        (Varying::Constant(v), _) => Press::Constant { d: depth(v), area: law.profile().area(depth(v)) },
+        (Varying::Constant(v), _) => {
+            Press::Constant { d: depth(v), reduced_force: law.profile().reduced_force(depth(v)) }
+        }
         (Varying::Follows(w), Normal::Force(_)) => Press::Force(w),
         (Varying::Follows(w), Normal::Radius(_)) => Press::Radius(w),
         (Varying::Follows(w), _) => Press::Indentation(w),

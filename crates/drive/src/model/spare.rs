@@ -4,14 +4,14 @@ use super::{Contact, Link, Model, Stroke};
 use stickslip_contact::Engine;
 
 impl Model {
-    /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts hangs on
+    /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts depends on
     /// where they are.
     pub fn travellers(&self) -> impl Iterator<Item = &str> {
         let travelling = self.free.iter().filter(|free| free.travels);
         travelling.map(|free| self.bodies[free.body].name.as_str())
     }
 
-    /// Whether the stepper `event` may take the Nyström method, for no force hangs on a velocity: no damper, no load whose
+    /// Whether the stepper `event` may take the Nyström method, for no force depends on a velocity: no damper, no load whose
     /// power does, no contact that grows along a curved path.
     pub fn is_conservative(&self) -> bool {
         let undamped = self.links.iter().all(|link| link.damping == 0.0);

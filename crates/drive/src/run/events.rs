@@ -102,7 +102,7 @@ pub(super) struct Run<'a, A> {
     for_output: u64,
 }
 
-/// Runs by the method that the model allows: where no force hangs on a velocity, one that spares a third of the
+/// Runs by the method that the model allows: where no force depends on a velocity, one that spares a third of the
 /// evaluations.
 pub(super) fn run(
     model: &Model,

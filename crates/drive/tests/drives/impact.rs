@@ -7,7 +7,7 @@ use stickslip_drive::scene::{
 };
 use stickslip_drive::{EventKind, Model, State, Stepper};
 
-/// Radius, mass, friction and speed of approach of the ball: the results do not hang on them.
+/// Radius, mass, friction and speed of approach of the ball: the results do not depend on them.
 const RADIUS: f64 = 0.01;
 const MASS: f64 = 0.03;
 const FRICTION: f64 = 0.25;

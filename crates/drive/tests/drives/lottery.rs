@@ -101,7 +101,7 @@ fn scales(contact: &Contact, force: f64) -> (f64, f64) {
 
 /// The scene of a seed.
 ///
-/// A slider on one to three contacts of a foot. The foot follows a waveform or hangs on a piezo stack that does. By
+/// A slider on one to three contacts of a foot. The foot follows a waveform or depends on a piezo stack that does. By
 /// turns: a second contact between slider and ground, spring and damper to ground, load, gravity along an incline, a
 /// normal force that varies. A damper never joins what follows a waveform with corners: its force would jump there,
 /// which costs fixed steps their order.

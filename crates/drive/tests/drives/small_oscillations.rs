@@ -194,7 +194,7 @@ fn the_matrices_of_a_model_are_those_written_out_by_hand() {
     }
 }
 
-/// On flat punches no stiffness hangs on the depth: what the model expects is what happens.
+/// On flat punches no stiffness depends on the depth: what the model expects is what happens.
 #[test]
 fn verlet_stays_bounded_below_the_longest_step_and_is_refused_beyond_it() {
     let mut scene = stage(&THREE, HEIGHT, 0.5);

@@ -72,7 +72,7 @@ impl Swing {
         Place { t, x: x + (v + 0.5 * gain) * passed, v: if turned { -self.drift } else { v + gain } }
     }
 
-    /// `passed` is what `t` would be from the start on without its rounding: a fast follower's way hangs on it.
+    /// `passed` is what `t` would be from the start on without its rounding: a fast follower's way depends on it.
     fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> Place {
         Place { t, x: self.start.x + (self.sense * way - self.drift * passed), v }
     }

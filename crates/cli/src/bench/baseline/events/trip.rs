@@ -36,7 +36,7 @@ impl<'a, const D: usize> Trip<'a, D> {
             let natural = tie.slide.free.iter().zip(scales).filter(|(factor, _)| **factor != 0.0);
             let rest = natural.map(|(_, (_, speed))| REST * speed).fold(f64::INFINITY, f64::min);
             let branch = tie.start.branch(&tie.law, 1.0, 0.0);
-            let area = tie.law.profile().area(d);
+            let area = tie.law.profile().reduced_force(d);
             Held { tie, curve: tie.start.clone(), branch, d, area, origin: 0.0, rest }
         });
         let start = |i: usize| {
