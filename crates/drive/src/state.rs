@@ -87,15 +87,15 @@ impl Mode {
 
     /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
     pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
-        match (memory, course) {
+        match (memory.branching(), course) {
             _ if contact.inert && contact.coupling().is_none() => Self::Open,
             (_, Course::Open) => Self::Open,
             // Without friction there is nothing to remember, but the bodies still press on each other.
             _ if contact.inert => Self::Whole { sense: 0.0 },
-            (Memory::Row { .. }, course) => Self::Whole { sense: course.sense() },
-            (Memory::Curve(_), Course::Grow) => Self::Grow,
-            (Memory::Curve(curve), Course::Forward | Course::Backward) => {
-                Self::Slip(curve.branch(&contact.law, course.sense(), slack))
+            (None, course) => Self::Whole { sense: course.sense() },
+            (Some(_), Course::Grow) => Self::Grow,
+            (Some(branching), Course::Forward | Course::Backward) => {
+                Self::Slip(branching.branch(&contact.law, course.sense(), slack))
             }
         }
     }

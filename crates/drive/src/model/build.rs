@@ -27,8 +27,7 @@ impl Model {
         let mut growing = 0;
         for named in &scene.contacts {
             let (mut contact, deep) = contact::build(named, &around)?;
-            if !contact.is_constant() && !contact.inert && contact.engine == stickslip_contact::Engine::Curve
-            {
+            if !contact.is_constant() && !contact.inert && contact.engine.branches() {
                 contact.slot = Some(growing);
                 growing += 1;
             }

@@ -1,7 +1,6 @@
 //! What a model spares its runs.
 
 use super::{Contact, Link, Model, Stroke};
-use stickslip_contact::Engine;
 
 impl Model {
     /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts depends on
@@ -24,7 +23,7 @@ impl Model {
     pub fn swings(&self) -> bool {
         let is_straight = |w: usize| self.waveforms[w].resolution() == f64::INFINITY;
         let has_form = |contact: &&Contact| {
-            let is_curve = contact.engine == Engine::Curve && contact.law.profile().exponent() == Some(2.0);
+            let is_curve = contact.engine.branches() && contact.law.profile().exponent() == Some(2.0);
             is_curve && contact.is_constant() && contact.u.driven.iter().all(|(w, _)| is_straight(*w))
         };
         let mut pressed = self.contacts.iter().filter(|contact| !contact.is_never_pressed());

@@ -5,7 +5,6 @@ use crate::equations::Equations;
 use crate::model::Contact;
 use crate::state::State;
 use crate::{Model, Plan, Waveform};
-use stickslip_contact::Engine;
 use stickslip_stepper::Attempt;
 
 /// Steps of a row under a varying load in a period of the load, at least.
@@ -58,7 +57,7 @@ pub(super) fn scale(model: &Model, tolerance: f64) -> Vec<f64> {
 /// Longest step, s. A row under a varying load follows chords: it needs steps that leave the load no bend.
 pub(super) fn longest(model: &Model, plan: &Plan) -> f64 {
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
-    let rows = model.contacts.iter().filter(|c| c.engine != Engine::Curve && !c.is_constant());
+    let rows = model.contacts.iter().filter(|c| !c.engine.branches() && !c.is_constant());
     let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
     rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
 }

@@ -48,8 +48,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
                 contact.count * state.memories[c].commit(&contact.law, Segment::Jump(to)).unwrap_or(0.0);
             state.friction[c] += work;
             friction += work;
-            if let (Memory::Curve(curve), true) = (&state.memories[c], to != from) {
-                let course = curve.course(&contact.law, to.d - from.d, to.u - from.u);
+            if let (Some(branching), true) = (state.memories[c].branching(), to != from) {
+                let course = branching.course(&contact.law, to.d - from.d, to.u - from.u);
                 self.decree(state, c, course, 0.0);
             }
         }
@@ -140,12 +140,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         if motion.du.abs() <= near && contact.law.stick_slope() * motion.dd.abs() <= near {
             (motion.dd, motion.du) = self.push(state, c, &motion);
         }
-        let course = match &state.memories[c] {
-            Memory::Curve(curve) => curve.course(&contact.law, motion.dd, motion.du),
-            Memory::Row { .. } if motion.d < 0.0 => Course::Open,
-            Memory::Row { .. } if motion.du < 0.0 => Course::Backward,
-            Memory::Row { .. } => Course::Forward,
-        };
+        let course = state.memories[c].course(&contact.law, motion.d, motion.dd, motion.du);
         let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
         // A branch that goes on in its sense is still anchored where it was.
         if !same || !matches!(state.modes[c], Mode::Slip(_)) {
