@@ -179,7 +179,7 @@ impl System for Equations<'_> {
 
     /// Flight and gross slip under constant loads.
     fn coasts(&self) -> bool {
-        self.model.loads.is_empty() && self.interval.is_some_and(|interval| interval.constant)
+        self.interval.is_some_and(Interval::is_constant)
     }
 }
 
@@ -206,6 +206,6 @@ impl Conservative for Equations<'_> {
 
     /// Gross slip under constant loads: a parabola.
     fn coasts(&self) -> bool {
-        self.interval.is_some_and(|interval| interval.constant)
+        self.interval.is_some_and(Interval::is_constant)
     }
 }

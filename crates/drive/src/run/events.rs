@@ -27,6 +27,7 @@ use crate::equations::Equations;
 use crate::event::EventKind;
 use crate::guard::Guard;
 use crate::interval::{Interval, Swing};
+use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
@@ -112,7 +113,7 @@ pub(super) fn run(
     record: &mut dyn Record,
 ) -> Result<(), RunError> {
     let layout = model.layout();
-    if model.is_conservative() {
+    if stepping(&SceneTraits::of(model)).0 == Method::Nystrom {
         // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
         if layout.free == 1 {
             return Run::new(model, plan, tolerance, Paired::one(layout.total())).go(
@@ -265,13 +266,8 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Run<'a, A> {
         if let Some(interval) = &mut self.interval {
             interval.begin(self.model, state);
         }
-        self.leaps = self.interval.as_ref().is_some_and(|interval| self.may_leap(interval));
+        self.leaps = self.interval.as_ref().is_some_and(|interval| interval.traits.leaps(&interval.scene));
         self.holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
-    }
-
-    /// Whether steady contacts alone act on a single slider, and nothing else is looked out for.
-    fn may_leap(&self, interval: &Interval<'_>) -> bool {
-        interval.slider.is_some() && interval.apart.iter().all(|c| self.model.contacts[*c].unguarded)
     }
 
     /// Waveforms are on new pieces.
