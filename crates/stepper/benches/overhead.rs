@@ -3,7 +3,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use stickslip_stepper::{Dop853, Rk4, System, Verlet};
+use stickslip_stepper::{Attempt, Completion, Dop853, Rk4, Step, System, Target, Verlet};
 
 /// `pairs` uncoupled oscillators ẍ = -x and two quadratures.
 struct Oscillators {
@@ -58,8 +58,12 @@ fn overhead(c: &mut Criterion) {
                 stepper.start(&system, 0.0, &start);
                 let mut worst = 0.0_f64;
                 for _ in 0..100 {
-                    worst = worst.max(stepper.attempt(&system, black_box(0.1), &scale));
-                    stepper.end_slopes(&system);
+                    worst = worst.max(stepper.attempt(
+                        &system,
+                        Target::even(stepper.span().time + black_box(0.1)),
+                        &scale,
+                    ));
+                    stepper.complete(&system, Completion::EndSlopes);
                     stepper.accept();
                 }
                 worst
@@ -70,11 +74,11 @@ fn overhead(c: &mut Criterion) {
             b.iter(|| {
                 stepper.start(&system, 0.0, &start);
                 for _ in 0..100 {
-                    stepper.attempt(&system, black_box(0.1), &scale);
-                    stepper.dense(&system);
+                    stepper.attempt(&system, Target::even(stepper.span().time + black_box(0.1)), &scale);
+                    stepper.complete(&system, Completion::Dense);
                     stepper.accept();
                 }
-                stepper.begin()[0]
+                stepper.span().begin[0]
             });
         });
         c.bench_function(&format!("rk4 x100 steps, {dimension} components"), |b| {

@@ -11,7 +11,7 @@ mod tableau;
 
 pub use grade::Grade;
 
-use crate::System;
+use crate::{Attempt, Completion, End, Method, Span, Step, System, Target};
 use tableau::{
     NODES, Row, Slopes, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9, Stage10, Stage11,
     Stage12, Weights,
@@ -21,12 +21,6 @@ use tableau::{
 pub const ORDER: u32 = 8;
 
 /// One step of DOP853 at a time: it attempts, someone else accepts.
-///
-/// ```text
-/// start ──► attempt ──► (dense, value, …) ──► accept ──► attempt …
-///             ▲  │ error too large, or an event inside: same start, other step
-///             └──┘
-/// ```
 ///
 /// A step costs 11 evaluations and one more for the slopes at its end, which are the next step's first; the dense
 /// output costs three more, only when asked for. Nothing is allocated after construction.
@@ -85,22 +79,8 @@ impl Dop853 {
         }
     }
 
-    /// Puts the stepper at time `t` and state `y` (`total` components; missing ones are 0) and evaluates the slopes
-    /// there.
-    pub fn start<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64]) {
-        self.time = t;
-        self.begin.fill(0.0);
-        for (to, from) in self.begin.iter_mut().zip(y) {
-            *to = *from;
-        }
-        self.restart_slopes(system);
-    }
-
-    /// Evaluates the slopes at the current point again.
-    ///
-    /// Due after anything that makes them jump: an event, a waveform's corner, a state changed through
-    /// [`begin_mut`](Self::begin_mut). What was attempted from here is forgotten.
-    pub fn restart_slopes<S: System + ?Sized>(&mut self, system: &S) {
+    /// Evaluates the slopes at the start of the step.
+    fn restart_slopes<S: System + ?Sized>(&mut self, system: &S) {
         self.forget_step();
         system.slopes(self.time, &self.begin[..self.dimension], &mut self.first);
         self.evaluations += 1;
@@ -108,36 +88,8 @@ impl Dop853 {
         self.first_known = true;
     }
 
-    /// Tries a step of length `h` and returns its error: 1 is just at the tolerance.
-    ///
-    /// `scale` is the absolute tolerance of each coupled component, above 0. The error is
-    /// h e₅² / √(e₅² + 0.01 e₃²), where e₅ and e₃ are the largest components of the two embedded estimates in units of
-    /// `scale`; it falls with h⁸. [`f64::INFINITY`] if anything is not finite.
-    ///
-    /// May be called any number of times from the same start; [`accept`](Self::accept) moves on.
-    pub fn attempt<S: System + ?Sized>(&mut self, system: &S, h: f64, scale: &[f64]) -> f64 {
-        self.attempt_span(system, h, (self.time + h, Grade::Even), scale)
-    }
-
-    /// Like [`attempt_until`](Self::attempt_until), with stages that crowd towards a singular end of the step.
-    pub fn attempt_graded<S: System + ?Sized>(
-        &mut self,
-        system: &S,
-        end: f64,
-        scale: &[f64],
-        grade: Grade,
-    ) -> f64 {
-        self.attempt_span(system, end - self.time, (end, grade), scale)
-    }
-
-    /// Like [`attempt`](Self::attempt), but ends at the time `end` to the last bit, as a waveform's corner wants it.
-    pub fn attempt_until<S: System + ?Sized>(&mut self, system: &S, end: f64, scale: &[f64]) -> f64 {
-        self.attempt_graded(system, end, scale, Grade::Even)
-    }
-
-    /// Evaluates the slopes at the end of the step tried, at the first call only; [`end_slope`](Self::end_slope) reads
-    /// them.
-    pub fn end_slopes<S: System + ?Sized>(&mut self, system: &S) {
+    /// Evaluates the slopes at the end of the step tried.
+    fn end_slopes<S: System + ?Sized>(&mut self, system: &S) {
         if !self.last_known {
             system.slopes(self.end_time, &self.end[..self.dimension], &mut self.last);
             self.evaluations += 1;
@@ -145,89 +97,17 @@ impl Dop853 {
         }
     }
 
-    /// Ends the step tried at an earlier time `t` of it, in the state that the dense output has there.
-    ///
-    /// For an event: its state by the dense output is as good as one more attempt up to it, and free. Without dense
-    /// output nothing happens.
-    pub fn cut(&mut self, t: f64) {
-        if !self.dense_known {
-            return;
-        }
-        let mut end = std::mem::take(&mut self.end);
-        self.values(t, &mut end);
-        self.end = end;
-        self.end_time = t;
-        self.last_known = false;
-    }
-
-    /// Moves to the end of the step tried. Slopes evaluated there become the first ones of the next step.
-    pub fn accept(&mut self) {
-        std::mem::swap(&mut self.begin, &mut self.end);
-        self.time = self.end_time;
-        std::mem::swap(&mut self.first, &mut self.last);
-        self.first_known = self.last_known;
-        self.forget_step();
-    }
-
-    /// Time at the start of the step, s.
-    #[must_use]
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// Time at the end of the step tried, s.
-    #[must_use]
-    pub fn end_time(&self) -> f64 {
-        self.end_time
-    }
-
-    /// State at the start of the step, `total` components.
-    #[must_use]
-    pub fn begin(&self) -> &[f64] {
-        &self.begin
-    }
-
-    /// State at the start of the step, to be changed by an event. [`restart_slopes`](Self::restart_slopes) is due
-    /// afterwards.
-    pub fn begin_mut(&mut self) -> &mut [f64] {
-        &mut self.begin
-    }
-
-    /// State at the end of the step tried, `total` components.
-    #[must_use]
-    pub fn end(&self) -> &[f64] {
-        &self.end
-    }
-
-    /// Slope of component `i` at the start of the step; NaN where it is not known yet.
-    #[must_use]
-    pub fn begin_slope(&self, i: usize) -> f64 {
-        self.first.get(i).filter(|_| self.first_known).map_or(f64::NAN, |slope| *slope)
-    }
-
-    /// Slope of component `i` at the end of the step tried; NaN before [`end_slopes`](Self::end_slopes).
-    #[must_use]
-    pub fn end_slope(&self, i: usize) -> f64 {
-        self.last.get(i).filter(|_| self.last_known).map_or(f64::NAN, |slope| *slope)
-    }
-
-    /// Evaluations of the slopes since construction.
-    #[must_use]
-    pub fn evaluations(&self) -> u64 {
-        self.evaluations
-    }
-
     fn attempt_span<S: System + ?Sized>(
         &mut self,
         system: &S,
-        h: f64,
-        (end, grade): (f64, Grade),
+        Target { end, grade }: Target,
         scale: &[f64],
     ) -> f64 {
         if !self.first_known {
             self.restart_slopes(system);
         }
         self.forget_step();
+        let h = end - self.time;
         (self.step, self.grade) = (h, if self.coasts { Grade::Even } else { grade });
         (self.end_time, self.reach) = (end, end);
         if self.coasts {
@@ -308,5 +188,99 @@ impl Dop853 {
     fn forget_step(&mut self) {
         self.last_known = false;
         self.dense_known = false;
+    }
+}
+
+impl Method for Dop853 {
+    /// The region of stability ends on the imaginary axis at 6.0, on the real axis at -6.4. Steps that events cut end on
+    /// the dense output, which near there is no longer that of a swing.
+    fn reach(&self) -> f64 {
+        5.0
+    }
+
+    /// As [`System::coasts`] said at the last evaluation of a start.
+    fn coasts(&self) -> bool {
+        self.coasts
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
+
+impl Step for Dop853 {
+    /// States have `total` components.
+    fn span(&self) -> Span<'_> {
+        Span { time: self.time, end_time: self.end_time, begin: &self.begin, end: &self.end }
+    }
+
+    /// Of any component; NaN where it is not known.
+    fn slope(&self, i: usize, at: End) -> f64 {
+        let (slopes, known) = match at {
+            End::Start => (&self.first, self.first_known),
+            End::End => (&self.last, self.last_known),
+        };
+        slopes.get(i).filter(|_| known).map_or(f64::NAN, |slope| *slope)
+    }
+
+    /// NaN where there is no dense output.
+    #[inline]
+    fn value(&self, i: usize, t: f64) -> f64 {
+        self.polynomial(i).map_or(f64::NAN, |c| dense::value(c, self.fraction(t)))
+    }
+
+    /// For an event: its state by the dense output is as good as one more attempt up to it, and free. Without dense
+    /// output nothing happens.
+    fn cut(&mut self, t: f64) {
+        if !self.dense_known {
+            return;
+        }
+        let mut end = std::mem::take(&mut self.end);
+        self.values(t, &mut end);
+        self.end = end;
+        self.end_time = t;
+        self.last_known = false;
+    }
+
+    /// Slopes evaluated at the end become the first ones of the next step.
+    fn accept(&mut self) {
+        std::mem::swap(&mut self.begin, &mut self.end);
+        self.time = self.end_time;
+        std::mem::swap(&mut self.first, &mut self.last);
+        self.first_known = self.last_known;
+        self.forget_step();
+    }
+}
+
+impl<S: System + ?Sized> Attempt<S> for Dop853 {
+    /// Components of `y` that are missing are 0.
+    fn start(&mut self, system: &S, t: f64, y: &[f64]) {
+        self.time = t;
+        self.begin.fill(0.0);
+        for (to, from) in self.begin.iter_mut().zip(y) {
+            *to = *from;
+        }
+        self.restart_slopes(system);
+    }
+
+    /// Hairer, Nørsett, Wanner, section II.4; one evaluation.
+    fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
+        self.starting_step(system, longest, scale)
+    }
+
+    /// `scale` is the absolute tolerance of each coupled component, above 0. The error is
+    /// h e₅² / √(e₅² + 0.01 e₃²), where e₅ and e₃ are the largest components of the two embedded estimates in units of
+    /// `scale`; it falls with h⁸.
+    #[inline]
+    fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
+        self.attempt_span(system, to, scale)
+    }
+
+    /// The slopes at the end cost one evaluation, the dense output three more.
+    fn complete(&mut self, system: &S, what: Completion) {
+        match what {
+            Completion::EndSlopes => self.end_slopes(system),
+            Completion::Dense => self.interpolate(system),
+        }
     }
 }

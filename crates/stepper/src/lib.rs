@@ -7,9 +7,9 @@
 //! In reading order:
 //!
 //! * [`System`]: coupled components and quadratures.
-//! * [`Dop853`]: order 8(5,3) with dense output, one attempt at a time; an event may cut it short.
-//! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities; [`Attempt`]: what both have
-//!   in common.
+//! * [`Attempt`]: one attempt at a time, by a [`Method`], of a [`Step`] that an event may cut short.
+//! * [`Dop853`]: order 8(5,3) with dense output.
+//! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities.
 //! * [`Paired`]: both, for conservative systems with singular moments.
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`bracket`], [`hermite_dip`]: where inside a step a guard crosses zero.
@@ -17,7 +17,7 @@
 //! * [`reference`](mod@reference): a driver for the solver `Dopri5` of the crate `ode_solvers`, without events.
 //!
 //! ```
-//! use stickslip_stepper::{Dop853, StepControl, StepLimits, System};
+//! use stickslip_stepper::{Attempt, Completion, Dop853, Step, StepControl, StepLimits, System, Target};
 //!
 //! /// ẍ = -x, and the work ∫ẋ² dt of a damper that is not there.
 //! struct Oscillator;
@@ -34,23 +34,24 @@
 //! let (mut stepper, mut control) = (Dop853::new(2, 3), StepControl::new(8, StepLimits::default()));
 //! stepper.start(&Oscillator, 0.0, &[1.0, 0.0, 0.0]);
 //! let mut h: f64 = 0.1;
-//! while stepper.time() < 1.0 {
-//!     let end = (stepper.time() + h).min(1.0);
-//!     let error = stepper.attempt_until(&Oscillator, end, &[1e-9, 1e-9]);
-//!     let verdict = control.propose(error, end - stepper.time());
+//! while stepper.span().time < 1.0 {
+//!     let time = stepper.span().time;
+//!     let end = (time + h).min(1.0);
+//!     let error = stepper.attempt(&Oscillator, Target::even(end), &[1e-9, 1e-9]);
+//!     let verdict = control.propose(error, end - time);
 //!     if verdict.accepted {
-//!         stepper.end_slopes(&Oscillator);
+//!         stepper.complete(&Oscillator, Completion::EndSlopes);
 //!         stepper.accept();
 //!     }
 //!     h = verdict.next;
 //! }
-//! assert!((stepper.begin()[0] - 1.0_f64.cos()).abs() < 1e-8);
+//! assert!((stepper.span().begin[0] - 1.0_f64.cos()).abs() < 1e-8);
 //! ```
 
 mod system;
 pub use system::System;
 mod attempt;
-pub use attempt::Attempt;
+pub use attempt::{Attempt, Completion, End, Method, Span, Step, Target};
 mod dop853;
 pub use dop853::{Dop853, Grade, ORDER as DOP853_ORDER};
 mod nystrom;

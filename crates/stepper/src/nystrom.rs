@@ -14,7 +14,7 @@ mod track;
 pub use lanes::{Lane, Lanes, Many, One};
 pub use track::Track;
 
-use crate::Attempt;
+use crate::{Attempt, Completion, End, Method, Span, Step, Target};
 use tableau::{
     END, NODES, POSITION_ERROR, POSITIONS, REFINED, REFINED_POSITIONS, SAMPLED, STAGES, VELOCITY,
     VELOCITY_ERROR,
@@ -210,22 +210,8 @@ impl<L: Lanes> Nystrom<L> {
         self.last_known = false;
         self.dense_known = false;
     }
-}
 
-impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
-    /// Swings grow from 3.3 on; they fade fastest here.
-    fn reach(&self) -> f64 {
-        3.0
-    }
-
-    fn start(&mut self, system: &S, t: f64, y: &[f64]) {
-        self.time = t;
-        let begin = self.begin.as_mut();
-        begin.copy_from_slice(&y[..begin.len()]);
-        self.restart_slopes(system);
-    }
-
-    fn restart_slopes(&mut self, system: &S) {
+    fn restart_slopes<S: Conservative + ?Sized>(&mut self, system: &S) {
         self.forget_step();
         self.set_out();
         let n = self.positions();
@@ -233,6 +219,90 @@ impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
         self.evaluate(system, self.time, 0);
         self.constant = system.coasts();
         self.first_known = true;
+    }
+
+    fn end_slopes<S: Conservative + ?Sized>(&mut self, system: &S) {
+        if !self.last_known {
+            let n = self.positions();
+            self.stage.as_mut().copy_from_slice(&self.end.as_ref()[..n]);
+            self.evaluate(system, self.end_time, END);
+            self.last_known = true;
+        }
+    }
+
+    fn interpolate<S: Conservative + ?Sized>(&mut self, system: &S) {
+        if self.dense_known {
+            return;
+        }
+        if !self.constant {
+            self.refine(system);
+        }
+        self.tracks.as_mut().iter_mut().for_each(Track::interpolate);
+        self.dense_known = true;
+    }
+}
+
+impl<L: Lanes> Method for Nystrom<L> {
+    /// Swings grow from 3.3 on; they fade fastest here.
+    fn reach(&self) -> f64 {
+        3.0
+    }
+
+    /// Never: the error of a parabola is its rounding, and its evaluations are spared all the same.
+    fn coasts(&self) -> bool {
+        false
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
+
+impl<L: Lanes> Step for Nystrom<L> {
+    fn span(&self) -> Span<'_> {
+        Span { time: self.time, end_time: self.end_time, begin: self.begin.as_ref(), end: self.end.as_ref() }
+    }
+
+    fn slope(&self, i: usize, at: End) -> f64 {
+        let stage = match at {
+            End::Start => 0,
+            End::End => END,
+        };
+        self.tracks.as_ref()[i - self.positions()].k[stage]
+    }
+
+    fn value(&self, i: usize, t: f64) -> f64 {
+        self.at(i, (t - self.time) / self.step)
+    }
+
+    fn cut(&mut self, t: f64) {
+        let share = (t - self.time) / self.step;
+        for i in 0..self.end.as_ref().len() {
+            self.end.as_mut()[i] = self.at(i, share);
+        }
+        self.end_time = t;
+        self.last_known = false;
+    }
+
+    fn accept(&mut self) {
+        std::mem::swap(&mut self.begin, &mut self.end);
+        self.time = self.end_time;
+        self.set_out();
+        let known = self.last_known;
+        if known {
+            self.tracks.as_mut().iter_mut().for_each(|track| track.k[0] = track.k[END]);
+        }
+        self.forget_step();
+        self.first_known = known;
+    }
+}
+
+impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
+    fn start(&mut self, system: &S, t: f64, y: &[f64]) {
+        self.time = t;
+        let begin = self.begin.as_mut();
+        begin.copy_from_slice(&y[..begin.len()]);
+        self.restart_slopes(system);
     }
 
     fn first_step(&mut self, _: &S, longest: f64, scale: &[f64]) -> f64 {
@@ -251,7 +321,8 @@ impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
         (0.01 * step).min(longest)
     }
 
-    fn attempt_until(&mut self, system: &S, end: f64, scale: &[f64]) -> f64 {
+    /// Stages lie evenly, whatever grade is asked for.
+    fn attempt(&mut self, system: &S, Target { end, .. }: Target, scale: &[f64]) -> f64 {
         if !self.first_known {
             self.restart_slopes(system);
         }
@@ -275,80 +346,11 @@ impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
         self.error(scale)
     }
 
-    fn end_slopes(&mut self, system: &S) {
-        if !self.last_known {
-            let n = self.positions();
-            self.stage.as_mut().copy_from_slice(&self.end.as_ref()[..n]);
-            self.evaluate(system, self.end_time, END);
-            self.last_known = true;
+    /// The slopes at the end are known already, but for a step that was cut; the dense output costs the samples inside.
+    fn complete(&mut self, system: &S, what: Completion) {
+        match what {
+            Completion::EndSlopes => self.end_slopes(system),
+            Completion::Dense => self.interpolate(system),
         }
-    }
-
-    fn dense(&mut self, system: &S) {
-        if self.dense_known {
-            return;
-        }
-        if !self.constant {
-            self.refine(system);
-        }
-        self.tracks.as_mut().iter_mut().for_each(Track::interpolate);
-        self.dense_known = true;
-    }
-
-    fn cut(&mut self, t: f64) {
-        let share = (t - self.time) / self.step;
-        for i in 0..self.end.as_ref().len() {
-            self.end.as_mut()[i] = self.at(i, share);
-        }
-        self.end_time = t;
-        self.last_known = false;
-    }
-
-    fn accept(&mut self) {
-        std::mem::swap(&mut self.begin, &mut self.end);
-        self.time = self.end_time;
-        self.set_out();
-        let known = self.last_known;
-        if known {
-            self.tracks.as_mut().iter_mut().for_each(|track| track.k[0] = track.k[END]);
-        }
-        self.forget_step();
-        self.first_known = known;
-    }
-
-    fn value(&self, i: usize, t: f64) -> f64 {
-        self.at(i, (t - self.time) / self.step)
-    }
-
-    fn time(&self) -> f64 {
-        self.time
-    }
-
-    fn end_time(&self) -> f64 {
-        self.end_time
-    }
-
-    fn begin(&self) -> &[f64] {
-        self.begin.as_ref()
-    }
-
-    fn begin_mut(&mut self) -> &mut [f64] {
-        self.begin.as_mut()
-    }
-
-    fn end(&self) -> &[f64] {
-        self.end.as_ref()
-    }
-
-    fn begin_slope(&self, i: usize) -> f64 {
-        self.tracks.as_ref()[i - self.positions()].k[0]
-    }
-
-    fn end_slope(&self, i: usize) -> f64 {
-        self.tracks.as_ref()[i - self.positions()].k[END]
-    }
-
-    fn evaluations(&self) -> u64 {
-        self.evaluations
     }
 }

@@ -3,7 +3,10 @@
 //! Grading a step multiplies ẍ by the pace of time and adds a term with ẋ: what a Nyström method spares is lost there, and
 //! with it its order. Such steps are few, one before each start of gross slip; they go by [`Dop853`].
 
-use crate::{Attempt, Conservative, Dop853, Grade, Lanes, Many, Nystrom, One, System};
+use crate::{
+    Attempt, Completion, Conservative, Dop853, End, Grade, Lanes, Many, Method, Nystrom, One, Span, Step,
+    System, Target,
+};
 
 /// [`Nystrom`] for even steps, [`Dop853`] for graded ones, of one and the same motion.
 #[derive(Debug, Clone)]
@@ -11,13 +14,13 @@ pub struct Paired<L: Lanes = Many> {
     even: Nystrom<L>,
     graded: Dop853,
     /// Which of both made the last attempt; it is where the motion is.
-    last: Method,
+    last: By,
     /// Whether the other one is there, too.
     both: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Method {
+enum By {
     Even,
     Graded,
 }
@@ -40,22 +43,35 @@ impl Paired<One> {
 
 impl<L: Lanes> Paired<L> {
     fn of(even: Nystrom<L>, graded: Dop853) -> Self {
-        Self { even, graded, last: Method::Even, both: false }
+        Self { even, graded, last: By::Even, both: false }
     }
 
     /// Puts one of both where the motion is.
-    fn take<S: System + Conservative + ?Sized>(&mut self, system: &S, method: Method) {
-        if self.last != method && !self.both {
-            match method {
-                Method::Even => self.even.start(system, self.graded.time(), self.graded.begin()),
-                Method::Graded => {
-                    let time = Attempt::<S>::time(&self.even);
-                    self.graded.start(system, time, Attempt::<S>::begin(&self.even));
+    fn take<S: System + Conservative + ?Sized>(&mut self, system: &S, by: By) {
+        if self.last != by && !self.both {
+            match by {
+                By::Even => {
+                    let Span { time, begin, .. } = self.graded.span();
+                    self.even.start(system, time, begin);
+                }
+                By::Graded => {
+                    let Span { time, begin, .. } = self.even.span();
+                    self.graded.start(system, time, begin);
                 }
             }
             self.both = true;
         }
-        self.last = method;
+        self.last = by;
+    }
+
+    fn attempt_graded<S: System + Conservative + ?Sized>(
+        &mut self,
+        system: &S,
+        to: Target,
+        scale: &[f64],
+    ) -> f64 {
+        self.take(system, By::Graded);
+        self.graded.attempt(system, to, scale)
     }
 }
 
@@ -63,67 +79,35 @@ impl<L: Lanes> Paired<L> {
 macro_rules! last {
     ($self:ident, $method:ident($($argument:expr),*)) => {
         match $self.last {
-            Method::Even => Attempt::<S>::$method(&$self.even $(, $argument)*),
-            Method::Graded => Attempt::<S>::$method(&$self.graded $(, $argument)*),
-        }
-    };
-    (mut $self:ident, $method:ident($($argument:expr),*)) => {
-        match $self.last {
-            Method::Even => Attempt::<S>::$method(&mut $self.even $(, $argument)*),
-            Method::Graded => Attempt::<S>::$method(&mut $self.graded $(, $argument)*),
+            By::Even => $self.even.$method($($argument),*),
+            By::Graded => $self.graded.$method($($argument),*),
         }
     };
 }
 
-impl<S: System + Conservative + ?Sized, L: Lanes> Attempt<S> for Paired<L> {
+impl<L: Lanes> Method for Paired<L> {
     fn reach(&self) -> f64 {
-        Attempt::<S>::reach(&self.even)
+        self.even.reach()
     }
 
-    fn start(&mut self, system: &S, t: f64, y: &[f64]) {
-        self.even.start(system, t, y);
-        (self.last, self.both) = (Method::Even, false);
+    fn coasts(&self) -> bool {
+        false
     }
 
-    fn restart_slopes(&mut self, system: &S) {
-        last!(mut self, restart_slopes(system));
-        self.both = false;
+    fn evaluations(&self) -> u64 {
+        self.even.evaluations() + self.graded.evaluations()
     }
+}
 
-    fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
-        self.take(system, Method::Even);
-        self.even.first_step(system, longest, scale)
+impl<L: Lanes> Step for Paired<L> {
+    #[inline]
+    fn span(&self) -> Span<'_> {
+        last!(self, span())
     }
 
     #[inline]
-    fn attempt_until(&mut self, system: &S, end: f64, scale: &[f64]) -> f64 {
-        self.take(system, Method::Even);
-        self.even.attempt_until(system, end, scale)
-    }
-
-    fn attempt_graded(&mut self, system: &S, end: f64, scale: &[f64], grade: Grade) -> f64 {
-        if grade == Grade::Even {
-            return self.attempt_until(system, end, scale);
-        }
-        self.take(system, Method::Graded);
-        self.graded.attempt_graded(system, end, scale, grade)
-    }
-
-    fn end_slopes(&mut self, system: &S) {
-        last!(mut self, end_slopes(system));
-    }
-
-    fn dense(&mut self, system: &S) {
-        last!(mut self, dense(system));
-    }
-
-    fn cut(&mut self, t: f64) {
-        last!(mut self, cut(t));
-    }
-
-    fn accept(&mut self) {
-        last!(mut self, accept());
-        self.both = false;
+    fn slope(&self, i: usize, at: End) -> f64 {
+        last!(self, slope(i, at))
     }
 
     #[inline]
@@ -131,42 +115,38 @@ impl<S: System + Conservative + ?Sized, L: Lanes> Attempt<S> for Paired<L> {
         last!(self, value(i, t))
     }
 
-    #[inline]
-    fn time(&self) -> f64 {
-        last!(self, time())
+    fn cut(&mut self, t: f64) {
+        last!(self, cut(t));
     }
 
-    #[inline]
-    fn end_time(&self) -> f64 {
-        last!(self, end_time())
-    }
-
-    #[inline]
-    fn begin(&self) -> &[f64] {
-        last!(self, begin())
-    }
-
-    fn begin_mut(&mut self) -> &mut [f64] {
+    fn accept(&mut self) {
+        last!(self, accept());
         self.both = false;
-        last!(mut self, begin_mut())
+    }
+}
+
+impl<S: System + Conservative + ?Sized, L: Lanes> Attempt<S> for Paired<L> {
+    fn start(&mut self, system: &S, t: f64, y: &[f64]) {
+        self.even.start(system, t, y);
+        (self.last, self.both) = (By::Even, false);
+    }
+
+    fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
+        self.take(system, By::Even);
+        self.even.first_step(system, longest, scale)
     }
 
     #[inline]
-    fn end(&self) -> &[f64] {
-        last!(self, end())
+    fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
+        if to.grade == Grade::Even {
+            self.take(system, By::Even);
+            self.even.attempt(system, to, scale)
+        } else {
+            self.attempt_graded(system, to, scale)
+        }
     }
 
-    #[inline]
-    fn begin_slope(&self, i: usize) -> f64 {
-        last!(self, begin_slope(i))
-    }
-
-    #[inline]
-    fn end_slope(&self, i: usize) -> f64 {
-        last!(self, end_slope(i))
-    }
-
-    fn evaluations(&self) -> u64 {
-        Attempt::<S>::evaluations(&self.even) + self.graded.evaluations()
+    fn complete(&mut self, system: &S, what: Completion) {
+        last!(self, complete(system, what));
     }
 }

@@ -2,7 +2,7 @@
 
 mod systems;
 
-use stickslip_stepper::{Attempt, Conservative, Grade, Paired, System};
+use stickslip_stepper::{Attempt, Completion, Conservative, Grade, Paired, Step, System, Target};
 use systems::order;
 
 /// ẍ = (35/4) s^{3/2} - ω² (x - s^{7/2}) with s the time left until T, and the rate x of a quadrature: x = s^{7/2} from
@@ -64,8 +64,8 @@ fn graded_steps_keep_their_order() {
             let system = Closing { singular: h, omega: 3.0 };
             let mut stepper = Paired::one(3);
             system.start(&mut stepper);
-            stepper.attempt_graded(&system, h, &[1.0; 3], grade);
-            (h, error(Attempt::<Closing>::end(&stepper), system.exact(h)))
+            stepper.attempt(&system, Target { end: h, grade }, &[1.0; 3]);
+            (h, error(stepper.span().end, system.exact(h)))
         })
     };
     let (graded, even) = (errors(Grade::End), errors(Grade::Even));
@@ -81,23 +81,23 @@ fn both_methods_follow_one_motion() {
     let system = Closing { singular: 2.0, omega: 3.0 };
     let mut stepper = Paired::one(3);
     system.start(&mut stepper);
-    let time = |stepper: &Paired<_>| Attempt::<Closing>::time(stepper);
+    let time = |stepper: &Paired<_>| stepper.span().time;
     for k in 0..24 {
         let end = time(&stepper) + 0.05;
         let grade = if k % 2 == 0 { Grade::Even } else { Grade::Start };
         let other = if k % 3 == 0 { Grade::End } else { Grade::Even };
-        stepper.attempt_graded(&system, end, &[1.0; 3], other);
-        let begun = Attempt::<Closing>::begin(&stepper)[0];
-        stepper.attempt_graded(&system, end, &[1.0; 3], grade);
-        assert_eq!(begun, Attempt::<Closing>::begin(&stepper)[0], "an attempt leaves no trace");
-        stepper.end_slopes(&system);
+        stepper.attempt(&system, Target { end, grade: other }, &[1.0; 3]);
+        let begun = stepper.span().begin[0];
+        stepper.attempt(&system, Target { end, grade }, &[1.0; 3]);
+        assert_eq!(begun, stepper.span().begin[0], "an attempt leaves no trace");
+        stepper.complete(&system, Completion::EndSlopes);
         if k % 4 == 3 {
-            stepper.dense(&system);
-            Attempt::<Closing>::cut(&mut stepper, end - 0.01);
+            stepper.complete(&system, Completion::Dense);
+            stepper.cut(end - 0.01);
         }
-        Attempt::<Closing>::accept(&mut stepper);
+        stepper.accept();
         let t = time(&stepper);
-        let off = error(Attempt::<Closing>::begin(&stepper), system.exact(t));
+        let off = error(stepper.span().begin, system.exact(t));
         assert!(off < 1e-6, "step {k} to {t}: {off:e}");
     }
     assert!(time(&stepper) > 1.0);

@@ -1,6 +1,6 @@
 //! How far a step may reach before motions that fade or swing begin to grow.
 
-use stickslip_stepper::{Attempt, Conservative, Dop853, Nystrom, System};
+use stickslip_stepper::{Attempt, Conservative, Dop853, Method, Nystrom, Step, System, Target};
 
 /// ẏ = λy, λ = rate e^{i angle}.
 struct Fades {
@@ -29,13 +29,13 @@ fn growth(angle: f64, reach: f64) -> f64 {
     let system = Fades { real: angle.cos(), imaginary: angle.sin() };
     let mut stepper = Dop853::new(2, 2);
     stepper.start(&system, 0.0, &[1.0, 0.0]);
-    stepper.attempt_until(&system, reach, &[1.0; 2]);
-    stepper.end()[0].hypot(stepper.end()[1])
+    stepper.attempt(&system, Target::even(reach), &[1.0; 2]);
+    stepper.span().end[0].hypot(stepper.span().end[1])
 }
 
 #[test]
 fn in_reach_of_dop853_nothing_grows_that_fades_or_swings() {
-    let reach = Attempt::<Fades>::reach(&Dop853::new(2, 2));
+    let reach = Dop853::new(2, 2).reach();
     for k in 0..=90 {
         let angle = f64::from(90 + k).to_radians();
         for part in 1..=50 {
@@ -60,9 +60,9 @@ impl Conservative for Swings {
 fn spectral_radius(reach: f64) -> f64 {
     let column = |start: [f64; 2]| {
         let mut stepper = Nystrom::new(1, 0);
-        Attempt::start(&mut stepper, &Swings, 0.0, &start);
-        Attempt::attempt_until(&mut stepper, &Swings, reach, &[1.0; 2]);
-        let end = Attempt::<Swings>::end(&stepper);
+        stepper.start(&Swings, 0.0, &start);
+        stepper.attempt(&Swings, Target::even(reach), &[1.0; 2]);
+        let end = stepper.span().end;
         [end[0], end[1]]
     };
     let ([a, c], [b, d]) = (column([1.0, 0.0]), column([0.0, 1.0]));
@@ -73,7 +73,7 @@ fn spectral_radius(reach: f64) -> f64 {
 
 #[test]
 fn in_reach_of_nystrom_no_swing_grows() {
-    let reach = Attempt::<Swings>::reach(&Nystrom::new(1, 0));
+    let reach = Nystrom::new(1, 0).reach();
     for part in 1..=100 {
         let within = spectral_radius(reach * f64::from(part) / 100.0);
         assert!(within < 1.0 + 1e-12, "{part}: {within}");

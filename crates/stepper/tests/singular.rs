@@ -2,7 +2,7 @@
 
 mod systems;
 
-use stickslip_stepper::{Dop853, Grade, System};
+use stickslip_stepper::{Attempt, Completion, Dop853, Grade, Method, Step, System, Target};
 use systems::order;
 
 /// ẏ = ±(3/2) √s y with s the time from a singular moment T, or to it: y = e^{s^{3/2}} up to a factor.
@@ -36,8 +36,8 @@ impl System for Root {
 fn errors(system: &Root, h: f64, grade: Grade) -> [f64; 2] {
     let mut stepper = Dop853::new(1, 1);
     stepper.start(system, 0.0, &[system.exact(0.0)]);
-    stepper.attempt_graded(system, h, &[1.0], grade);
-    stepper.dense(system);
+    stepper.attempt(system, Target { end: h, grade }, &[1.0]);
+    stepper.complete(system, Completion::Dense);
     let error = |t: f64| (stepper.value(0, t) / system.exact(t) - 1.0).abs();
     let inside = (1..100).map(|k| error(h * f64::from(k) / 100.0)).fold(0.0, f64::max);
     [error(h), inside]
@@ -85,8 +85,8 @@ impl System for Stone {
 fn what_coasts_is_exact_at_any_length_and_free() {
     let mut stepper = Dop853::new(2, 3);
     stepper.start(&Stone, 1.0, &[2.0, 20.0, 0.5]);
-    assert_eq!(stepper.attempt_until(&Stone, 4.0, &[1.0; 2]), 0.0);
-    stepper.dense(&Stone);
+    assert_eq!(stepper.attempt(&Stone, Target::even(4.0), &[1.0; 2]), 0.0);
+    stepper.complete(&Stone, Completion::Dense);
     let exact = |s: f64| [2.0 + 20.0 * s - 0.5 * 9.81 * s * s, 20.0 - 9.81 * s, 0.5 + 3.0 * s];
     for t in [1.0, 1.3, 2.5, 4.0] {
         for (i, exact) in exact(t - 1.0).into_iter().enumerate() {
@@ -94,7 +94,7 @@ fn what_coasts_is_exact_at_any_length_and_free() {
         }
     }
     stepper.cut(2.5);
-    assert!((stepper.end()[0] - exact(1.5)[0]).abs() < 1e-13);
+    assert!((stepper.span().end[0] - exact(1.5)[0]).abs() < 1e-13);
     stepper.accept();
     assert_eq!(stepper.evaluations(), 1);
 }

@@ -4,13 +4,6 @@ use super::Dop853;
 use crate::System;
 
 impl Dop853 {
-    /// Whether the coming steps are parabolas, exact at any length and free, as [`System::coasts`] said at the last
-    /// evaluation.
-    #[must_use]
-    pub fn coasts(&self) -> bool {
-        self.coasts
-    }
-
     /// The end of a parabola and its slopes, without an evaluation; 0, or infinity where it is not finite.
     pub(super) fn coast<S: System + ?Sized>(&mut self, system: &S) -> f64 {
         let (h, n) = (self.step, system.positions());

@@ -11,7 +11,7 @@ pub(super) type Polynomial = [f64; 8];
 impl Dop853 {
     /// Makes the dense output of the step tried: the end slopes if they are not known yet, and three evaluations.
     /// Nothing happens if it is there already.
-    pub fn dense<S: System + ?Sized>(&mut self, system: &S) {
+    pub(super) fn interpolate<S: System + ?Sized>(&mut self, system: &S) {
         if self.dense_known {
             return;
         }
@@ -58,19 +58,6 @@ impl Dop853 {
         self.dense_known = true;
     }
 
-    /// Whether [`dense`](Self::dense) has been called for the step tried.
-    #[must_use]
-    pub fn has_dense(&self) -> bool {
-        self.dense_known
-    }
-
-    /// Component `i` at time `t` of the step, by the dense output; NaN where there is none.
-    #[must_use]
-    #[inline]
-    pub fn value(&self, i: usize, t: f64) -> f64 {
-        self.polynomial(i).map_or(f64::NAN, |c| value(c, self.fraction(t)))
-    }
-
     /// All components at time `t` of the step, by the dense output; NaN where there is none.
     pub fn values(&self, t: f64, out: &mut [f64]) {
         if !self.dense_known {
@@ -93,13 +80,13 @@ impl Dop853 {
     }
 
     #[inline]
-    fn polynomial(&self, i: usize) -> Option<&Polynomial> {
+    pub(super) fn polynomial(&self, i: usize) -> Option<&Polynomial> {
         self.polynomials.get(i).filter(|_| self.dense_known)
     }
 
     /// σ at time `t` of the step attempted, exactly 0 and 1 at its ends.
     #[inline]
-    fn fraction(&self, t: f64) -> f64 {
+    pub(super) fn fraction(&self, t: f64) -> f64 {
         if t == self.reach {
             1.0
         } else {
@@ -109,7 +96,7 @@ impl Dop853 {
 }
 
 #[inline]
-fn value(c: &Polynomial, s: f64) -> f64 {
+pub(super) fn value(c: &Polynomial, s: f64) -> f64 {
     let r = 1.0 - s;
     c[0] + s * (c[1] + r * (c[2] + s * (c[3] + r * (c[4] + s * (c[5] + r * (c[6] + s * c[7]))))))
 }

@@ -6,7 +6,12 @@ use crate::System;
 
 impl Dop853 {
     /// A first step for a fresh start (Hairer, Nørsett, Wanner, section II.4), at most `longest`; one evaluation.
-    pub fn first_step<S: System + ?Sized>(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
+    pub(super) fn starting_step<S: System + ?Sized>(
+        &mut self,
+        system: &S,
+        longest: f64,
+        scale: &[f64],
+    ) -> f64 {
         if !self.first_known {
             self.restart_slopes(system);
         }

@@ -6,7 +6,7 @@ use crate::guard::Guard;
 use crate::model::{Contact, Measure};
 use crate::quadrature;
 use crate::state::{Mode, State};
-use stickslip_stepper::{Attempt, Grade};
+use stickslip_stepper::{Attempt, Grade, Target};
 
 /// What the next step is to be.
 #[derive(Clone, Copy)]
@@ -148,14 +148,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
     #[inline(always)]
     pub(super) fn try_step(&mut self, eq: &Equations<'_>, state: &State, aim: &mut Aim, corner: f64) -> f64 {
-        if aim.grade == Grade::Even {
-            return self.solver.attempt_until(eq, aim.target, &self.scale);
-        }
-        let mut error = self.solver.attempt_graded(eq, aim.target, &self.scale, aim.grade);
+        let mut error = self.solver.attempt(eq, Target { end: aim.target, grade: aim.grade }, &self.scale);
         let Some((c, guard)) = aim.closes else { return error };
         let contact = &self.model.contacts[c];
         for _ in 0..CORRECTIONS {
-            let (end, h) = (self.solver.end(), aim.target - state.t);
+            let (end, h) = (self.solver.span().end, aim.target - state.t);
             let motion = eq.motion(contact, aim.target, |i| end[i]);
             let value = guard.value(contact, state.law(c), &motion);
             let rate = guard.rate(contact, &state.modes[c], &motion, (0.0, 0.0));
@@ -166,7 +163,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
                 break;
             }
             aim.target = to;
-            error = self.solver.attempt_graded(eq, to, &self.scale, aim.grade);
+            error = self.solver.attempt(eq, Target { end: to, grade: aim.grade }, &self.scale);
         }
         error
     }

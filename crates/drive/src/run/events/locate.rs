@@ -7,7 +7,7 @@ use crate::guard::{Guard, NEARNESS};
 use crate::interval::{Interval, Steady};
 use crate::model::{Contact, Motion};
 use crate::state::State;
-use stickslip_stepper::{Attempt, hermite_dip, hermite_root, root, root_near};
+use stickslip_stepper::{Attempt, Completion, End, hermite_dip, hermite_root, root, root_near};
 
 /// A guard of a contact: of a steady one a straight function of the state, of any other one a function of its motion.
 #[derive(Clone, Copy)]
@@ -55,7 +55,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         Watched::each(eq.model, eq.interval?, state, |watched| {
             let g1 = self.at_end(state, watched);
             let low = if g1 < 0.0 && self.has_fallen(state, watched, g1) {
-                Some((self.solver.end_time(), g1))
+                Some((self.solver.span().end_time, g1))
             } else {
                 self.dip(eq, state, watched, g1)
             };
@@ -116,7 +116,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             }
             _ => {}
         }
-        let (t0, h) = (self.solver.time(), self.solver.end_time() - self.solver.time());
+        let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
         let (g0, rates) = (self.at_begin(state, watched), self.rates(state, watched));
         let (share, lowest) = hermite_dip(g0, rates[0], g1, rates[1], h)?;
         if lowest > 0.1 * g0.min(g1).max(0.0) {
@@ -128,7 +128,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// The first of some moments inside the step at which a guard has fallen, and its value there.
     fn looks<'e>(&mut self, eq: &Equations<'e>, state: &State, watched: Watched<'e>) -> Option<(f64, f64)> {
-        let (t0, h) = (self.solver.time(), self.solver.end_time() - self.solver.time());
+        let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
         let mut looks = LOOKS.into_iter().map(|share| self.look(eq, state, watched, t0 + share * h));
         let (t, g) = looks.find(|(_, g)| *g < 0.0)?;
         self.has_fallen(state, watched, g).then_some((t, g))
@@ -136,7 +136,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// A moment inside the step and the value of a guard there.
     fn look<'e>(&mut self, eq: &Equations<'e>, state: &State, watched: Watched<'e>, t: f64) -> (f64, f64) {
-        self.solver.dense(eq);
+        self.solver.complete(eq, Completion::Dense);
         (t, self.inside(eq, state, watched, t))
     }
 
@@ -149,8 +149,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         watched: Watched<'e>,
         (low, below): (f64, f64),
     ) -> f64 {
-        self.solver.dense(eq);
-        let (t0, g0) = (self.solver.time(), self.at_begin(state, watched));
+        self.solver.complete(eq, Completion::Dense);
+        let (t0, g0) = (self.solver.span().time, self.at_begin(state, watched));
         let (_, near) = self.bands(watched);
         // A flight may be one step from a lift-off to the next touch: its start is as good as a touch.
         if g0 <= 0.0 || self.solver.coasts() && g0 < near {
@@ -170,11 +170,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
     /// both ends of the step where its rates are known there.
     fn guess(&self, state: &State, watched: Watched<'_>, (g0, low, below): (f64, f64, f64)) -> f64 {
-        if low < self.solver.end_time() || watched.contact.press.waveform().is_some() {
+        if low < self.solver.span().end_time || watched.contact.press.waveform().is_some() {
             return 0.5;
         }
         let rates = self.rates(state, watched);
-        hermite_root(g0, rates[0], below, rates[1], low - self.solver.time())
+        hermite_root(g0, rates[0], below, rates[1], low - self.solver.span().time)
     }
 
     /// A guard that starts within its deadband: it may first rise and then fall.
@@ -194,13 +194,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Value of a guard at the start of the step.
     #[inline(always)]
     fn at_begin(&self, state: &State, watched: Watched<'_>) -> f64 {
-        self.value(state, watched, (self.solver.time(), self.solver.begin()), &self.from)
+        self.value(state, watched, (self.solver.span().time, self.solver.span().begin), &self.from)
     }
 
     /// Its value at the end of the step.
     #[inline(always)]
     fn at_end(&self, state: &State, watched: Watched<'_>) -> f64 {
-        self.value(state, watched, (self.solver.end_time(), self.solver.end()), &self.to)
+        self.value(state, watched, (self.solver.span().end_time, self.solver.span().end), &self.to)
     }
 
     /// Its value at one end of the step: time and state there, and the contacts that are not steady.
@@ -221,20 +221,20 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Its rates at both ends.
     #[inline(always)]
     fn rates(&self, state: &State, Watched { index, contact, guard, steady }: Watched<'_>) -> [f64; 2] {
-        let (begin, end, n) = (self.solver.begin(), self.solver.end(), self.layout.free);
+        let (begin, end, n) = (self.solver.span().begin, self.solver.span().end, self.layout.free);
         match steady {
             Some(steady) => [
                 steady.guard_rate(
                     guard,
-                    self.solver.time(),
+                    self.solver.span().time,
                     |i| begin[n + i],
-                    |i| self.solver.begin_slope(n + i),
+                    |i| self.solver.slope(n + i, End::Start),
                 ),
                 steady.guard_rate(
                     guard,
-                    self.solver.end_time(),
+                    self.solver.span().end_time,
                     |i| end[n + i],
-                    |i| self.solver.end_slope(n + i),
+                    |i| self.solver.slope(n + i, End::End),
                 ),
             ],
             None => [&self.from[index], &self.to[index]]
@@ -261,7 +261,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Its deadband and how near to zero it is as good as there.
     fn bands(&self, Watched { index, contact, guard, steady }: Watched<'_>) -> (f64, f64) {
         let u = match steady {
-            Some(steady) => steady.displacement(self.solver.time(), |i| self.solver.begin()[i]),
+            Some(steady) => steady.displacement(self.solver.span().time, |i| self.solver.span().begin[i]),
             None => self.from[index].motion.u,
         };
         guard.bands(contact, self.tolerance, u)
@@ -277,8 +277,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             let (g0, g) = (self.at_begin(state, watched), self.at_end(state, watched));
             let (dead, near) = self.bands(watched);
             // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
-            let rises =
-                || self.rates(state, watched)[0] * (self.solver.end_time() - self.solver.time()) > near;
+            let rises = || {
+                self.rates(state, watched)[0] * (self.solver.span().end_time - self.solver.span().time) > near
+            };
             let falls = g < -dead || g < near && (g0 >= near || rises());
             if !known && falls && g < g0 {
                 self.fired.push((watched.index, watched.guard));

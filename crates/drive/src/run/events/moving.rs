@@ -6,7 +6,7 @@ use crate::guard::Guard;
 use crate::interval::{Interval, Steady};
 use crate::model::{Contact, Measure, Motion};
 use crate::state::{Mode, State};
-use stickslip_stepper::Attempt;
+use stickslip_stepper::{Attempt, End};
 
 /// A contact at one end of a step. Steady contacts have none: their motion is read off the state where it is asked for.
 #[derive(Debug, Clone, Copy, Default)]
@@ -23,8 +23,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             return;
         }
         let mut from = std::mem::take(&mut self.from);
-        let (t, begin) = (self.solver.time(), self.solver.begin());
-        self.follow(eq, &mut from, t, begin, |i| self.solver.begin_slope(i));
+        let (t, begin) = (self.solver.span().time, self.solver.span().begin);
+        self.follow(eq, &mut from, t, begin, |i| self.solver.slope(i, End::Start));
         self.from = from;
     }
 
@@ -34,8 +34,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             return;
         }
         let mut to = std::mem::take(&mut self.to);
-        let (t, end) = (self.solver.end_time(), self.solver.end());
-        self.follow(eq, &mut to, t, end, |i| self.solver.end_slope(i));
+        let (t, end) = (self.solver.span().end_time, self.solver.span().end);
+        self.follow(eq, &mut to, t, end, |i| self.solver.slope(i, End::End));
         self.to = to;
     }
 
@@ -71,7 +71,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Motion of contact `c` at the end of the step.
     pub(super) fn motion_at_end(&self, c: usize) -> Motion {
-        self.motion(c, self.solver.end_time(), self.solver.end())
+        self.motion(c, self.solver.span().end_time, self.solver.span().end)
     }
 
     /// The same once the state has moved there.
@@ -89,7 +89,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// The motion of a contact at the start of the step.
     pub(super) fn motion_from(&self, c: usize) -> Motion {
-        let (t, begin, n) = (self.solver.time(), self.solver.begin(), self.layout.free);
+        let (t, begin, n) = (self.solver.span().time, self.solver.span().begin, self.layout.free);
         match self.interval.as_ref().and_then(|interval| interval.steady(c)) {
             Some(steady) => steady.motion(t, |i| begin[i], |i| begin[n + i]),
             None => self.from[c].motion,
@@ -101,8 +101,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         if !steady.guards.contains(&Guard::Piece) {
             return f64::INFINITY;
         }
-        let (t, begin, n) = (self.solver.time(), self.solver.begin(), self.layout.free);
-        let (x, v, a) = (|i| begin[i], |i| begin[n + i], |i| self.solver.begin_slope(n + i));
+        let (t, begin, n) = (self.solver.span().time, self.solver.span().begin, self.layout.free);
+        let (x, v, a) = (|i| begin[i], |i| begin[n + i], |i| self.solver.slope(n + i, End::Start));
         let guard = |guard| steady.guard(guard, t, x, v);
         reached(guard(Guard::Piece), guard(Guard::Drag), steady.guard_rate(Guard::Drag, t, v, a))
     }

@@ -7,7 +7,7 @@ use crate::interval::Steady;
 use crate::model::Motion;
 use crate::state::{Mode, State};
 use stickslip_contact::Segment;
-use stickslip_stepper::Attempt;
+use stickslip_stepper::{Attempt, Completion};
 
 /// Most pieces into which a step's path of growth is cut.
 pub(super) const MOST_PIECES: f64 = 256.0;
@@ -37,7 +37,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
                 let mut segments = std::mem::take(&mut self.segments);
                 self.with_equations(state, |run, eq| {
-                    run.solver.dense(eq);
+                    run.solver.complete(eq, Completion::Dense);
                     run.trace_growth(eq, state, (c, slot), (t, &motion), |piece| segments.push((c, piece)));
                 });
                 self.segments = segments;
@@ -78,12 +78,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Component `i` at a time inside the step; before its end by the dense output.
     #[inline]
     pub(super) fn component(&self, i: usize, t: f64) -> f64 {
-        if t == self.solver.end_time() { self.solver.end()[i] } else { self.solver.value(i, t) }
+        if t == self.solver.span().end_time { self.solver.span().end[i] } else { self.solver.value(i, t) }
     }
 
     /// The same, with the integrals of the state that this run has no need to integrate.
     pub(super) fn component_at(&self, state: &State, i: usize, t: f64) -> f64 {
-        if i < self.solver.end().len() { self.solver.value(i, t) } else { state.y[i] }
+        if i < self.solver.span().end.len() { self.solver.value(i, t) } else { state.y[i] }
     }
 
     /// Moves the memories of steady contacts to where a run stops short of an event.

@@ -4,7 +4,7 @@ use super::Run;
 use crate::equations::Equations;
 use crate::model::Free;
 use crate::state::State;
-use stickslip_stepper::Attempt;
+use stickslip_stepper::{Attempt, End};
 
 /// Velocities this small, relative to the natural ones, are rounding: some hundred of their last places.
 const REST: f64 = 1e-13;
@@ -27,7 +27,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     pub(super) fn is_at_rest(&self, state: &State) -> bool {
         let velocity = |i: usize| self.layout.velocity(i);
         let still = |(i, free): (usize, &Free)| {
-            let ((length, speed), pull) = (free.scale, self.solver.begin_slope(velocity(i)));
+            let ((length, speed), pull) = (free.scale, self.solver.slope(velocity(i), End::Start));
             state.y[velocity(i)].abs() <= REST * speed && pull.abs() * length <= REST * speed * speed
         };
         self.model.free.iter().enumerate().all(still)

@@ -4,17 +4,17 @@ use super::Run;
 use crate::equations::Equations;
 use crate::run::output::Grid;
 use crate::state::State;
-use stickslip_stepper::Attempt;
+use stickslip_stepper::{Attempt, Completion};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Takes the steps that the attempt just made brings to their end; the one with which they are constant ends the
     /// attempt and the run. Until then nothing is changed: the places are read off the dense output.
     #[inline(never)]
     pub(super) fn take_steps(&mut self, state: &State, grid: &mut Grid) {
-        let (t, i) = (self.solver.end_time(), self.steps.coordinate);
+        let (t, i) = (self.solver.span().end_time, self.steps.coordinate);
         while let Some(due) = self.steps.due(t) {
             if due < t {
-                self.with_equations(state, |run, eq| run.solver.dense(eq));
+                self.with_equations(state, |run, eq| run.solver.complete(eq, Completion::Dense));
             }
             if !self.steps.take(state.shifts[i], self.component(i, due)) {
                 continue;

@@ -7,7 +7,7 @@ use crate::equations::Equations;
 use crate::record::Record;
 use crate::run::output::Grid;
 use crate::state::State;
-use stickslip_stepper::{Attempt, ControlMemory, Grade, StepControl, Verdict};
+use stickslip_stepper::{Attempt, Completion, ControlMemory, Grade, StepControl, Verdict};
 
 /// How a step ends.
 #[derive(Clone, Copy, PartialEq)]
@@ -52,10 +52,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             return self.reject(state, verdict.next, record);
         }
         self.calm = self.calm.max(h);
-        if self.steps.due(self.solver.end_time()).is_some() {
+        if self.steps.due(self.solver.span().end_time).is_some() {
             self.take_steps(state, grid);
         }
-        let cut = self.solver.end_time() < target;
+        let cut = self.solver.span().end_time < target;
         let ending = if cut {
             Ending::Event
         } else if target == corner {
@@ -104,7 +104,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let judged = if aim.grade == Grade::Start && error > 1.0 { error * error } else { error };
         let verdict = control.propose(judged, target - state.t);
         if verdict.accepted {
-            self.solver.end_slopes(eq);
+            self.solver.complete(eq, Completion::EndSlopes);
             self.arrive(eq);
             self.fired.clear();
             if let Some(fall) = self.first_fall(eq, state) {
@@ -138,13 +138,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         record: &mut dyn Record,
         goes_on: bool,
     ) -> Result<(), RunError> {
-        let t = self.solver.end_time();
+        let t = self.solver.span().end_time;
         self.trace_segments(state, t, goes_on);
         self.lags = goes_on;
         if grid.due(t).is_some() || self.looks.due(t).is_some() {
             self.write(state, t, grid, record);
         }
-        let end = self.solver.end();
+        let end = self.solver.span().end;
         if let Some(i) = end.iter().position(|y| !y.is_finite()) {
             return Err(self.model.not_finite(t, i));
         }

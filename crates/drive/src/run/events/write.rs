@@ -6,7 +6,7 @@ use crate::record::Record;
 use crate::run::output::Grid;
 use crate::state::{Mode, State};
 use stickslip_contact::{ContactError, Memory, Segment};
-use stickslip_stepper::Attempt;
+use stickslip_stepper::{Attempt, Completion};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Rows and looks that are due up to the end of the step. Kept out of the way of steps without any.
@@ -14,7 +14,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     pub(super) fn write(&mut self, state: &State, t: f64, grid: &mut Grid, record: &mut dyn Record) {
         let eq = equations(self.model, self.layout, state);
         let asked = self.solver.evaluations();
-        self.with_equations(state, |run, eq| run.solver.dense(eq));
+        self.with_equations(state, |run, eq| run.solver.complete(eq, Completion::Dense));
         while let Some(due) = grid.due(t) {
             grid.write(&eq, state, due, &|i| self.component_at(state, i, due), record);
         }
