@@ -1,7 +1,9 @@
 //! From a scene to a model: bodies, links and loads.
 
 use super::contact::{self, Surroundings};
-use super::{Body, Free, Link, Load, Measure, Model, Place, Stroke, check, dampers, held, scale, used};
+use super::{
+    Body, Free, Link, Load, Measure, Model, Place, Spared, Stroke, check, dampers, held, scale, used,
+};
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{SceneError, Waveform};
 
@@ -36,14 +38,31 @@ impl Model {
         }
         dampers::check(scene, &links, &contacts, &waveforms)?;
         held::check(&bodies, &free, &contacts, &links)?;
+        let mut spared = Spared { loads: spared_loads(scene, &bodies), ..Spared::default() };
+        for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {
+            match i.checked_sub(scene.springs.len()) {
+                None => spared.springs.push(i),
+                Some(i) => spared.actuators.push(i),
+            }
+        }
         links.retain(Link::acts);
         for link in &links {
             link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
         }
-        used::hold_the_others(&mut waveforms, &bodies, &contacts, &links, &loads);
+        spared.waveforms = used::hold_the_others(&mut waveforms, &bodies, &contacts, &links, &loads);
         scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
-        let constants =
-            Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium, fastest: 0.0 };
+        let constants = Self {
+            waveforms,
+            bodies,
+            free,
+            contacts,
+            links,
+            loads,
+            growing,
+            equilibrium,
+            spared,
+            fastest: 0.0,
+        };
         Ok(Self { fastest: constants.largest_rate(), ..constants })
     }
 }
@@ -160,4 +179,10 @@ fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
         }
     }
     varying
+}
+
+/// Loads on bodies that nothing lets move.
+fn spared_loads(scene: &Scene, bodies: &[Body]) -> Vec<usize> {
+    let is_held = |load: &scene::Load| !bodies[load.on].places.iter().any(|p| matches!(p, Place::Free(_)));
+    scene.loads.iter().enumerate().filter(|(_, load)| is_held(load)).map(|(i, _)| i).collect()
 }
