@@ -38,7 +38,12 @@ impl<'a> Equations<'a> {
     }
 }
 
-impl Equations<'_> {
+impl<'a> Equations<'a> {
+    /// What a contact remembers, and its mode.
+    pub(crate) fn law(&self, c: usize) -> (&'a Memory, &'a Mode) {
+        (&self.memories[c], &self.modes[c])
+    }
+
     /// Waveform `w` at time t. Within a smooth piece this is exact up to and including its end.
     #[inline(always)]
     pub(crate) fn sample(&self, w: usize, t: f64) -> Sample {

@@ -13,7 +13,7 @@ pub(crate) use swing::{Place, Swing};
 
 use crate::Sample;
 use crate::guard::Guard;
-use crate::method::{IntervalTraits, SceneTraits, Treatment, treatment};
+use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, treatment};
 use crate::model::{Contact, Free, Model, Motion, Press};
 use crate::state::{Mode, State};
 use stickslip_contact::{Profile, SteadyBranch};
@@ -240,7 +240,7 @@ impl<'a> Interval<'a> {
             straight: self.steady.iter().all(|steady| steady.followed.line().is_some()),
             general: !self.others.is_empty(),
             gap: self.apart.iter().any(|c| !model.contacts[*c].unguarded),
-            refused: false,
+            asked: false,
         };
         self.pulls.clear();
         self.slider = match &model.free[..] {
@@ -249,6 +249,19 @@ impl<'a> Interval<'a> {
             }
             _ => None,
         };
+    }
+
+    /// Whether the motion is to be taken in one leap to the next event.
+    #[inline(always)]
+    pub(crate) fn leaps(&self) -> bool {
+        self.traits.leaps(&self.scene)
+    }
+
+    /// Counts what is done about each contact.
+    pub(crate) fn count(&self, tally: &mut Tally) {
+        self.steady.iter().for_each(|steady| tally.interval(steady.index, Treatment::Closed));
+        self.others.iter().for_each(|c| tally.interval(*c, Treatment::General));
+        self.apart.iter().for_each(|c| tally.interval(*c, Treatment::Apart));
     }
 
     /// Whether accelerations and powers are the same throughout.

@@ -76,8 +76,8 @@ pub(crate) struct IntervalTraits {
     pub(crate) general: bool,
     /// Whether a gap may close.
     pub(crate) gap: bool,
-    /// Whether the closed form of a swing has been asked for and refused.
-    pub(crate) refused: bool,
+    /// Whether the closed form of a swing has been asked for: what has none now has none until the next event.
+    pub(crate) asked: bool,
 }
 
 impl SceneTraits {
@@ -119,7 +119,7 @@ impl IntervalTraits {
     /// Whether the interval of a single slider is to be taken in one leap to its next event.
     #[inline(always)]
     pub(crate) fn leaps(&self, scene: &SceneTraits) -> bool {
-        scene.free == 1 && scene.velocities.is_none() && self.is_simple(scene) && !self.gap && !self.refused
+        scene.free == 1 && scene.velocities.is_none() && self.is_simple(scene) && !self.gap && !self.asked
     }
 }
 

@@ -1,12 +1,12 @@
 //! Runs: a model and a plan move a state, a record watches.
 
+mod bounds;
 mod chords;
-mod events;
 mod fixed;
+mod located;
 mod output;
 mod reference;
 mod steady;
-mod watch;
 
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper};
@@ -18,7 +18,7 @@ use crate::{Model, Plan, RunError, State, Stepper};
 #[inline(never)]
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
     match model.effective(plan.stepper) {
-        Stepper::Event { tolerance } => events::run(model, plan, tolerance, state, record),
+        Stepper::Event { tolerance } => located::run(model, plan, tolerance, state, record),
         Stepper::Verlet { step } => fixed::run(model, plan, fixed::Method::Verlet, step, state, record),
         Stepper::Rk4 { step } => fixed::run(model, plan, fixed::Method::Rk4, step, state, record),
         Stepper::Dopri5 { tolerance } => reference::run(model, plan, tolerance, state, record),

@@ -1,5 +1,6 @@
 //! All that the future of a run depends on.
 
+use crate::method::Tally;
 use crate::model::{Contact, Place};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
@@ -34,6 +35,7 @@ pub struct State {
     pub(crate) stuck_step: f64,
     pub(crate) control: Option<StepControl>,
     pub(crate) counts: Counts,
+    pub(crate) tally: Tally,
 }
 
 /// Work done so far.
@@ -172,6 +174,7 @@ impl Model {
             stuck_step: f64::INFINITY,
             control: None,
             counts: Counts::default(),
+            tally: Tally::of(self.contacts.len()),
         }
     }
 
@@ -239,6 +242,11 @@ impl State {
     /// Work done so far.
     pub fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// The methods by which it was done.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
     }
 
     /// Memories of the contacts, in the scene's order. Displacements are counted from near by: of a body that has travelled

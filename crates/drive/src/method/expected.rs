@@ -107,7 +107,7 @@ impl Model {
             && traits.leaps(scene)
         {
             let start = Place { t: state.t, x: state.y[0], v: state.y[1] };
-            traits = IntervalTraits { refused: !swing.begin(&interval, slider, start), ..traits };
+            traits = IntervalTraits { asked: !swing.begin(&interval, slider, start), ..traits };
         }
         expected.add(choice(scene, &traits));
         for (c, contact) in self.contacts.iter().enumerate() {

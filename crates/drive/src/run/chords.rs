@@ -1,8 +1,8 @@
 //! Steps without located events: every accepted step is one chord of every contact.
 
+use super::bounds::Bounds;
 use super::output::{Grid, Looks};
 use super::steady::Steps;
-use super::watch::Watch;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
 use crate::model::{Model, Motion};
@@ -20,7 +20,7 @@ pub(super) struct Chords<'a> {
     steps: Steps,
     grid: Grid,
     looks: Looks,
-    watch: Watch,
+    bounds: Bounds,
     record: &'a mut dyn Record,
     /// Sense of sliding and state of each contact after the last step.
     standings: Vec<(f64, ContactState)>,
@@ -46,9 +46,9 @@ impl<'a> Chords<'a> {
         steps.begin(state);
         let grid = Grid::new(plan.every, state.t, end);
         let looks = Looks::begin(model, state, record);
-        let watch = Watch::new(model, plan.limits);
+        let bounds = Bounds::new(model, plan.limits);
         let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
-        Self { model, state, layout, end, steps, grid, looks, watch, record, standings, row: Vec::new() }
+        Self { model, state, layout, end, steps, grid, looks, bounds, record, standings, row: Vec::new() }
     }
 
     pub(super) fn equations(&self) -> Equations<'_> {
@@ -125,7 +125,7 @@ impl<'a> Chords<'a> {
         if self.record.wants_events() {
             self.notice(&motions);
         }
-        self.watch.step(self.state, self.record)
+        self.bounds.step(self.state, self.record)
     }
 
     /// Rows and looks up to time t of the step that leads to `to`.

@@ -14,14 +14,14 @@ const STRIDE: u64 = 1024;
 const SPRINGS_PER_STEP: usize = 1000;
 
 /// Watches limits, the clock, and events that accumulate.
-pub(super) struct Watch {
+pub(super) struct Bounds {
     limits: Limits,
     begun: Instant,
     stride: u64,
     windows: Vec<(f64, u32)>,
 }
 
-impl Watch {
+impl Bounds {
     pub(super) fn new(model: &Model, limits: Limits) -> Self {
         let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();

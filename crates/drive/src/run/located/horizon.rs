@@ -1,0 +1,55 @@
+//! Where a run ends, and the next moment that a step may not cross.
+
+use super::Located;
+use crate::equations::Equations;
+use crate::run::steady::Steps;
+use crate::state::State;
+use crate::{Model, Plan};
+use stickslip_stepper::{Attempt, Completion};
+
+/// Moments ahead.
+pub(super) struct Horizon {
+    /// End of the run, s.
+    pub(super) end: f64,
+    /// Earliest corner of a waveform, s.
+    pub(super) corner: f64,
+    /// The steps of the drive, where they may end the run.
+    pub(super) steps: Steps,
+}
+
+impl Horizon {
+    pub(super) fn new(model: &Model, plan: &Plan) -> Self {
+        Self { end: plan.duration, corner: f64::INFINITY, steps: Steps::of(model, plan) }
+    }
+
+    /// The first moment that a step may not cross, s.
+    pub(super) fn next(&self) -> f64 {
+        self.corner.min(self.end)
+    }
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Takes the steps of the drive that the attempt just made brings to their end; the one with which they are constant
+    /// ends the attempt and the run. Until then nothing is changed: the places are read off the dense output.
+    #[inline(never)]
+    pub(super) fn take_steps(&mut self, state: &State) {
+        let (t, i) = (self.motion.solver.span().end_time, self.horizon.steps.coordinate);
+        while let Some(due) = self.horizon.steps.due(t) {
+            let eq = self.setting.equations(state, &self.interval);
+            if due < t {
+                self.motion.solver.complete(&eq, Completion::Dense);
+            }
+            if !self.horizon.steps.take(state.shifts[i], self.motion.component(i, due)) {
+                continue;
+            }
+            self.horizon.end = due;
+            self.output.end_at(due);
+            if due < t {
+                self.motion.solver.cut(due);
+                self.watch.arrive(&eq, &self.motion.solver);
+                self.watch.fired.clear();
+            }
+            return;
+        }
+    }
+}
