@@ -3,6 +3,8 @@
 mod bounds;
 mod chords;
 mod fixed;
+mod horizon;
+mod ledger;
 mod located;
 mod output;
 mod reference;

@@ -13,19 +13,21 @@
 
 mod aim;
 mod allowance;
-mod horizon;
 mod laws;
 mod leap;
-mod ledger;
 mod motion;
+mod path;
 mod search;
 mod shift;
+mod steady;
 mod step;
 mod turning;
 mod watch;
 mod write;
 
 use super::bounds::Bounds;
+use super::horizon::Horizon;
+use super::ledger::{Books, Ledger};
 use super::output::Output;
 use crate::equations::Equations;
 use crate::interval::{Interval, Swing};
@@ -34,9 +36,8 @@ use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError};
-use horizon::Horizon;
-use ledger::{Books, Ledger};
 use motion::{Grip, Motion, Whereabouts};
+use path::MOST_PIECES;
 use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Paired, StepControl, StepLimits};
 use turning::Turning;
 use watch::Watch;
@@ -125,7 +126,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             swing: Swing::of(model, motion.allowance.strict),
             motion,
             watch: Watch::new(model, setting.tolerance),
-            ledger: Ledger::new(model),
+            ledger: Ledger::new(model, MOST_PIECES as usize),
             turning: Turning::new(model),
             output: Output::new(plan.every, setting.layout),
             bounds: Bounds::new(model, plan.limits),

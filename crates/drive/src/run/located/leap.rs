@@ -1,13 +1,13 @@
 //! Intervals that are taken in one go, without the stepper.
 
 use super::Located;
-use super::ledger::Books;
 use crate::RunError;
 use crate::equations::Equations;
 use crate::guard::Guard;
 use crate::interval::{Place, Steady};
 use crate::method::Method;
 use crate::record::Record;
+use crate::run::ledger::Books;
 use crate::state::State;
 use stickslip_stepper::Attempt;
 
@@ -103,7 +103,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.tally.step(if self.swing.is_free() { Method::Parabola } else { Method::Swing });
         self.ledger.books = Books::Current;
         self.trace_steady(state);
-        self.ledger.commit(self.setting.model, state)
+        self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }
 
     /// The guards that end the motion: all edges turn at once; of pieces those that are used up, or as good as.

@@ -1,7 +1,6 @@
 //! One attempt, and what belongs to an accepted step.
 
 use super::aim::Aim;
-use super::ledger::Books;
 use super::motion::{Pace, Whereabouts};
 use super::watch::Watch;
 use super::{Located, Motion};
@@ -9,6 +8,7 @@ use crate::RunError;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::record::Record;
+use crate::run::ledger::Books;
 use crate::state::State;
 use stickslip_stepper::{Attempt, Completion, ControlMemory, Grade, StepControl, Verdict};
 
@@ -141,7 +141,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.t = t;
         state.counts.steps += 1;
         self.motion.solver.accept();
-        self.ledger.commit(self.setting.model, state)
+        self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }
 
     /// Takes away what rounding has left of the velocities: it would add up over a long rest.

@@ -1,7 +1,7 @@
 //! What is written of a step: rows and looks on its dense output.
 
 use super::Located;
-use super::ledger::Growth;
+use super::path::Growth;
 use crate::equations::Equations;
 use crate::record::Record;
 use crate::state::{Mode, State};

@@ -1,32 +1,9 @@
-//! Where a run ends, and the next moment that a step may not cross.
+//! The early end of a run whose steps have become constant.
 
 use super::Located;
 use crate::equations::Equations;
-use crate::run::steady::Steps;
 use crate::state::State;
-use crate::{Model, Plan};
 use stickslip_stepper::{Attempt, Completion};
-
-/// Moments ahead.
-pub(super) struct Horizon {
-    /// End of the run, s.
-    pub(super) end: f64,
-    /// Earliest corner of a waveform, s.
-    pub(super) corner: f64,
-    /// The steps of the drive, where they may end the run.
-    pub(super) steps: Steps,
-}
-
-impl Horizon {
-    pub(super) fn new(model: &Model, plan: &Plan) -> Self {
-        Self { end: plan.duration, corner: f64::INFINITY, steps: Steps::of(model, plan) }
-    }
-
-    /// The first moment that a step may not cross, s.
-    pub(super) fn next(&self) -> f64 {
-        self.corner.min(self.end)
-    }
-}
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Takes the steps of the drive that the attempt just made brings to their end; the one with which they are constant
