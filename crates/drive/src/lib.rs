@@ -33,7 +33,7 @@ pub use error::{RunError, SceneError};
 pub use event::{Event, EventKind, Source};
 pub use linearised::{Indentations, Linearised, NormalMode};
 pub use model::{Model, NaturalScale};
-pub use plan::{Limits, Plan, Stepper, UntilSteady};
+pub use plan::{Accuracy, Limits, Plan, Stepper, UntilSteady};
 pub use record::{Channel, Record, Trace, state_name};
 pub use run::run;
 pub use scene::Scene;
