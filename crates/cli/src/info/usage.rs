@@ -4,7 +4,6 @@ use super::contacts::name;
 use super::motion;
 use crate::job::Job;
 use serde::Serialize;
-use stickslip_drive::Stepper;
 use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Normal, Scene, Side, Varying};
 
 /// What is computed and what is not.
@@ -46,9 +45,10 @@ impl Usage {
         let names = job.model.linearised(&job.start, |d| d.start).coordinates().to_vec();
         let (stepper, _, _) = job.stepper();
         if names.is_empty() {
-            let asked = match job.scenario.plan.stepper {
-                Stepper::Event { .. } => "",
-                _ => ", whatever stepper is asked for",
+            let asked = if job.scenario.plan.stepper.locates_events() {
+                ""
+            } else {
+                ", whatever stepper is asked for"
             };
             self.skips(
                 "equations of motion",
@@ -239,7 +239,7 @@ impl Usage {
 
 /// Whether events are located: they are crossed by all other steppers.
 fn is_located(job: &Job) -> bool {
-    matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. })
+    job.model.effective(job.scenario.plan.stepper).locates_events()
 }
 
 /// Whether whatever a body follows is straight between its corners.
