@@ -4,7 +4,7 @@ use crate::job::Job;
 use crate::series::Series;
 use crate::trail::Trail;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
-use stickslip_drive::{Stepper, Waveform};
+use stickslip_drive::Waveform;
 
 /// Samples between the limit forces of one sign and the other.
 const FINENESS: f64 = 128.0;
@@ -16,7 +16,7 @@ pub(crate) fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
     let Some((name, law)) = job.model.contacts().nth(c) else { return Trail::default() };
     let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
     let jumps = job.scenario.scene.waveforms.iter().any(|w| Waveform::has_jumps(&w.part));
-    let turns_known = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
+    let turns_known = job.model.effective(job.scenario.plan.stepper).locates_events();
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
     match job.start.memories().get(c) {
         Some(memory) if turns_known && !jumps && job.has_law_without_time(c) => {

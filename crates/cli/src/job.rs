@@ -10,7 +10,7 @@ use std::sync::Arc;
 use stickslip_contact::Springs;
 use stickslip_drive::scene::Normal;
 use stickslip_drive::scene::Varying::Constant;
-use stickslip_drive::{Channel, Model, SceneError, State, Stepper};
+use stickslip_drive::{Accuracy, Channel, Model, SceneError, State};
 use stickslip_scenario::{Scenario, ScenarioError, suggestion};
 use thiserror::Error;
 
@@ -129,11 +129,10 @@ impl Job {
 
     /// Name of the stepper that the run takes and its tolerance or step with that word.
     pub(crate) fn stepper(&self) -> (&'static str, &'static str, f64) {
-        match self.model.effective(self.scenario.plan.stepper) {
-            Stepper::Event { tolerance } => ("event", "tolerance", tolerance),
-            Stepper::Verlet { step } => ("verlet", "step_s", step),
-            Stepper::Rk4 { step } => ("rk4", "step_s", step),
-            Stepper::Dopri5 { tolerance } => ("dopri5", "tolerance", tolerance),
+        let stepper = self.model.effective(self.scenario.plan.stepper);
+        match stepper.accuracy() {
+            Accuracy::Tolerance(tolerance) => (stepper.name(), "tolerance", tolerance),
+            Accuracy::Step(step) => (stepper.name(), "step_s", step),
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::record;
 use crate::scene::Axis;
 use crate::state::State;
-use crate::{Plan, SceneError, Stepper};
+use crate::{Accuracy, Plan, SceneError, Stepper};
 use balance::{Balance, Search};
 use nalgebra::DVector;
 use stickslip_contact::Segment;
@@ -30,9 +30,8 @@ impl Model {
     /// plan's stepper cannot follow the model's waveforms, and where its fixed step is unstable.
     pub fn start(&self, plan: &Plan) -> Result<State, SceneError> {
         plan.check()?;
-        let fixed =
-            matches!(plan.stepper, Stepper::Verlet { .. } | Stepper::Rk4 { .. } | Stepper::Dopri5 { .. });
-        if fixed && !self.free.is_empty() && self.waveforms.iter().any(crate::Waveform::has_jumps) {
+        let jumps = !self.free.is_empty() && self.waveforms.iter().any(crate::Waveform::has_jumps);
+        if jumps && !plan.stepper.locates_events() {
             return Err(SceneError::new(
                 "run.stepper",
                 "only the stepper \"event\" follows waveforms that jump",
@@ -56,8 +55,7 @@ impl Model {
 
     /// Refuses a fixed step with which the stiffest motion grows.
     fn check_step(&self, stepper: Stepper) -> Result<(), SceneError> {
-        let (Stepper::Verlet { step } | Stepper::Rk4 { step }) = stepper else { return Ok(()) };
-        let name = if matches!(stepper, Stepper::Verlet { .. }) { "verlet" } else { "rk4" };
+        let Accuracy::Step(step) = stepper.accuracy() else { return Ok(()) };
         let limit = self.longest_step(stepper).unwrap_or(f64::INFINITY);
         if step < limit {
             return Ok(());
@@ -65,7 +63,7 @@ impl Model {
         let message = format!(
             "expected less than {limit:.3e} s, from where on the stiffest motion grows, got {step:e} s"
         );
-        Err(SceneError::new(format!("run.stepper.{name}.step"), message)
+        Err(SceneError::new(format!("run.stepper.{}.step", stepper.name()), message)
             .help("take a twentieth of that for accuracy, or the event stepper, which needs no step"))
     }
 

@@ -35,7 +35,7 @@ pub use event::{Event, EventKind, Source};
 pub use linearised::{Indentations, Linearised, NormalMode};
 pub use method::{Expected, Method, Tally, Treatment, Why};
 pub use model::{Model, NaturalScale, Pressing, Spared};
-pub use plan::{Limits, Plan, Stepper, UntilSteady};
+pub use plan::{Accuracy, Limits, Plan, Stepper, UntilSteady};
 pub use record::{Channel, Record, Trace, state_name};
 pub use run::run;
 pub use scene::Scene;

@@ -119,12 +119,7 @@ impl Model {
     /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get; infinite where
     /// nothing swings. None for steppers that choose their steps.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
-        let stiffest = || self.linearised(&self.rest(), |d| d.most);
-        match stepper {
-            Stepper::Verlet { .. } => Some(stiffest().longest_verlet_step()),
-            Stepper::Rk4 { .. } => Some(stiffest().longest_rk4_step()),
-            Stepper::Event { .. } | Stepper::Dopri5 { .. } => None,
-        }
+        stepper.longest_step(|| self.linearised(&self.rest(), |d| d.most))
     }
 }
 
@@ -202,7 +197,7 @@ impl Linearised {
     /// Velocity Verlet with the predicted velocity in the damping, see `stickslip_stepper::Verlet`: a motion x ξⁿ obeys
     /// [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0, which leaves the unit circle at ξ = -1, where an eigenvalue of
     /// M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω, with one damped mode (hω)² + 8ζhω = 4.
-    fn longest_verlet_step(&self) -> f64 {
+    pub(crate) fn longest_verlet_step(&self) -> f64 {
         let (stiffness, damping) = (self.by_mass(&self.stiffness), self.by_mass(&self.damping));
         let largest =
             |h: f64| symmetric(&stiffness * (0.25 * h * h) + &damping * h).map(|e| e.eigenvalues.max());
@@ -217,7 +212,7 @@ impl Linearised {
 
     /// Classical Runge–Kutta: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for every λ of λ²M + λC + K. Without damping
     /// h = √8/ω.
-    fn longest_rk4_step(&self) -> f64 {
+    pub(crate) fn longest_rk4_step(&self) -> f64 {
         let frequency = self.highest_frequency();
         if self.damping.amax() == 0.0 {
             return 2.0 * SQRT_2 / frequency;

@@ -12,7 +12,6 @@ pub use expected::Expected;
 pub use tally::Tally;
 pub use why::Why;
 
-use crate::Stepper;
 use crate::model::{Contact, Model, Press};
 use crate::state::Mode;
 
@@ -31,12 +30,8 @@ pub enum Method {
     DormandPrince,
     /// Such a step whose stages crowd towards a singular moment at one of its ends.
     Graded,
-    /// Velocity Verlet at a fixed step.
-    Verlet,
-    /// Classical Runge–Kutta of order 4 at a fixed step.
-    Rk4,
-    /// Dormand–Prince 5(4) of `ode_solvers`, without events.
-    Dopri5,
+    /// Steps of whichever stepper was asked for, one without located events.
+    AskedFor,
 }
 
 /// What is done about one contact between two events.
@@ -140,16 +135,6 @@ pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
         _ if scene.free == 0 => (Method::Walk, Why::NothingFree),
         None => (Method::Nystrom, Why::NoVelocities),
         Some(why) => (Method::DormandPrince, why),
-    }
-}
-
-/// The method of a stepper that locates no events.
-pub(crate) fn unlocated(stepper: Stepper) -> Option<Method> {
-    match stepper {
-        Stepper::Event { .. } => None,
-        Stepper::Verlet { .. } => Some(Method::Verlet),
-        Stepper::Rk4 { .. } => Some(Method::Rk4),
-        Stepper::Dopri5 { .. } => Some(Method::Dopri5),
     }
 }
 

@@ -1,6 +1,7 @@
 //! How a scene is run: how long, by which stepper, what is written down.
 
 use crate::SceneError;
+use crate::linearised::Linearised;
 
 /// How a scene is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,12 +45,11 @@ impl Plan {
         above_zero("run.duration", self.duration)?;
         self.every.map_or(Ok(()), |every| above_zero("output.every", every))?;
         self.until_steady.map_or(Ok(()), |steady| above_zero("run.until_steady", steady.change))?;
-        match self.stepper {
-            Stepper::Event { tolerance } => above_zero("run.stepper.event.tolerance", tolerance),
-            Stepper::Dopri5 { tolerance } => above_zero("run.stepper.dopri5.tolerance", tolerance),
-            Stepper::Verlet { step } => above_zero("run.stepper.verlet.step", step),
-            Stepper::Rk4 { step } => above_zero("run.stepper.rk4.step", step),
-        }
+        let (key, value) = match self.stepper.accuracy() {
+            Accuracy::Tolerance(tolerance) => ("tolerance", tolerance),
+            Accuracy::Step(step) => ("step", step),
+        };
+        above_zero(&format!("run.stepper.{}.{key}", self.stepper.name()), value)
     }
 }
 
@@ -76,6 +76,68 @@ pub enum Stepper {
         /// Local error per step, 1e-13 to 1e-2.
         tolerance: f64,
     },
+}
+
+/// The number that sets how exact a stepper is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Accuracy {
+    /// Local error per step, relative to natural scales: the stepper chooses its steps.
+    Tolerance(f64),
+    /// Fixed step, s.
+    Step(f64),
+}
+
+/// What is known of a stepper without a model.
+struct Facts {
+    name: &'static str,
+    accuracy: Accuracy,
+    locates_events: bool,
+    /// The longest step, s, with which small motions do not grow; steppers with a tolerance find it themselves.
+    longest_step: Option<fn(&Linearised) -> f64>,
+}
+
+impl Stepper {
+    /// The table of all steppers.
+    fn facts(self) -> Facts {
+        let adaptive = |name, tolerance, locates_events| Facts {
+            name,
+            accuracy: Accuracy::Tolerance(tolerance),
+            locates_events,
+            longest_step: None,
+        };
+        let fixed = |name, step, longest_step| Facts {
+            name,
+            accuracy: Accuracy::Step(step),
+            locates_events: false,
+            longest_step: Some(longest_step),
+        };
+        match self {
+            Self::Event { tolerance } => adaptive("event", tolerance, true),
+            Self::Verlet { step } => fixed("verlet", step, Linearised::longest_verlet_step),
+            Self::Rk4 { step } => fixed("rk4", step, Linearised::longest_rk4_step),
+            Self::Dopri5 { tolerance } => adaptive("dopri5", tolerance, false),
+        }
+    }
+
+    /// Its name, in scenario files and results.
+    pub fn name(self) -> &'static str {
+        self.facts().name
+    }
+
+    /// Its tolerance or its step.
+    pub fn accuracy(self) -> Accuracy {
+        self.facts().accuracy
+    }
+
+    /// Whether its steps end at events, jumps of waveforms among them; others step across them.
+    pub fn locates_events(self) -> bool {
+        self.facts().locates_events
+    }
+
+    /// Longest stable step, s, for motions about a state; none where it chooses its steps.
+    pub(crate) fn longest_step(self, motions: impl FnOnce() -> Linearised) -> Option<f64> {
+        self.facts().longest_step.map(|longest| longest(&motions()))
+    }
 }
 
 /// Guards against endless work.

@@ -12,6 +12,7 @@ mod steady;
 
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper};
+use stickslip_stepper::{Rk4, Verlet};
 
 /// Moves `state` along `plan` to its end: its duration, or earlier where it asks for no more than steady steps. What was
 /// computed before an error is in `state` and `record`.
@@ -21,8 +22,8 @@ use crate::{Model, Plan, RunError, State, Stepper};
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
     match model.effective(plan.stepper) {
         Stepper::Event { tolerance } => located::run(model, plan, tolerance, state, record),
-        Stepper::Verlet { step } => fixed::run(model, plan, fixed::Method::Verlet, step, state, record),
-        Stepper::Rk4 { step } => fixed::run(model, plan, fixed::Method::Rk4, step, state, record),
+        Stepper::Verlet { step } => fixed::run::<Verlet>(model, plan, step, state, record),
+        Stepper::Rk4 { step } => fixed::run::<Rk4>(model, plan, step, state, record),
         Stepper::Dopri5 { tolerance } => reference::run(model, plan, tolerance, state, record),
     }
 }
@@ -31,12 +32,10 @@ impl Model {
     /// The stepper that a run really takes. Where nothing is free there is nothing to integrate: the contacts are
     /// walked along their prescribed path from event to event, whatever was asked for.
     pub fn effective(&self, asked: Stepper) -> Stepper {
-        match asked {
-            Stepper::Verlet { .. } | Stepper::Rk4 { .. } | Stepper::Dopri5 { .. } if self.free.is_empty() => {
-                Stepper::Event { tolerance: WALK_TOLERANCE }
-            }
-            asked => asked,
+        if self.free.is_empty() && !asked.locates_events() {
+            return Stepper::Event { tolerance: WALK_TOLERANCE };
         }
+        asked
     }
 }
 

@@ -3,7 +3,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use stickslip_stepper::{Attempt, Completion, Dop853, Rk4, Step, System, Target, Verlet};
+use stickslip_stepper::{Attempt, Completion, Dop853, FixedStep, Rk4, Step, System, Target, Verlet};
 
 /// `pairs` uncoupled oscillators ẍ = -x and two quadratures.
 struct Oscillators {
@@ -39,67 +39,68 @@ impl System for Oscillators {
 fn overhead(c: &mut Criterion) {
     for pairs in [1, 2, 5] {
         let system = Oscillators { pairs };
-        let (dimension, total) = (system.dimension(), system.total());
-        let start = vec![1.0; total];
-        let scale = vec![1e-8; dimension];
-        c.bench_function(&format!("evaluation alone x1200, {dimension} components"), |b| {
-            let (mut y, mut dy) = (start.clone(), vec![0.0; total]);
-            b.iter(|| {
-                for _ in 0..1200 {
-                    system.slopes(0.0, black_box(&y[..dimension]), black_box(&mut dy));
-                    y[0] = dy[1];
-                }
-                y[0]
-            });
-        });
-        c.bench_function(&format!("dop853 x100 steps, {dimension} components"), |b| {
-            let mut stepper = Dop853::new(dimension, total);
-            b.iter(|| {
-                stepper.start(&system, 0.0, &start);
-                let mut worst = 0.0_f64;
-                for _ in 0..100 {
-                    worst = worst.max(stepper.attempt(
-                        &system,
-                        Target::even(stepper.span().time + black_box(0.1)),
-                        &scale,
-                    ));
-                    stepper.complete(&system, Completion::EndSlopes);
-                    stepper.accept();
-                }
-                worst
-            });
-        });
-        c.bench_function(&format!("dop853 dense x100 steps, {dimension} components"), |b| {
-            let mut stepper = Dop853::new(dimension, total);
-            b.iter(|| {
-                stepper.start(&system, 0.0, &start);
-                for _ in 0..100 {
-                    stepper.attempt(&system, Target::even(stepper.span().time + black_box(0.1)), &scale);
-                    stepper.complete(&system, Completion::Dense);
-                    stepper.accept();
-                }
-                stepper.span().begin[0]
-            });
-        });
-        c.bench_function(&format!("rk4 x100 steps, {dimension} components"), |b| {
-            let (mut stepper, mut y) = (Rk4::new(dimension, total), start.clone());
-            b.iter(|| {
-                for _ in 0..100 {
-                    stepper.step(&system, 0.0, &mut y, black_box(0.01));
-                }
-                y[0]
-            });
-        });
-        c.bench_function(&format!("verlet x100 steps, {dimension} components"), |b| {
-            let (mut stepper, mut y) = (Verlet::new(pairs, dimension, total), start.clone());
-            b.iter(|| {
-                for _ in 0..100 {
-                    stepper.step(&system, 0.0, &mut y, black_box(0.01));
-                }
-                y[0]
-            });
-        });
+        evaluation(c, &system);
+        dop853(c, &system);
+        fixed::<Rk4>(c, &system, "rk4");
+        fixed::<Verlet>(c, &system, "verlet");
     }
+}
+
+fn evaluation(c: &mut Criterion, system: &Oscillators) {
+    let (dimension, total) = (system.dimension(), system.total());
+    c.bench_function(&format!("evaluation alone x1200, {dimension} components"), |b| {
+        let (mut y, mut dy) = (vec![1.0; total], vec![0.0; total]);
+        b.iter(|| {
+            for _ in 0..1200 {
+                system.slopes(0.0, black_box(&y[..dimension]), black_box(&mut dy));
+                y[0] = dy[1];
+            }
+            y[0]
+        });
+    });
+}
+
+fn dop853(c: &mut Criterion, system: &Oscillators) {
+    let (dimension, total) = (system.dimension(), system.total());
+    let (start, scale) = (vec![1.0; total], vec![1e-8; dimension]);
+    let next = |stepper: &Dop853| Target::even(stepper.span().time + black_box(0.1));
+    c.bench_function(&format!("dop853 x100 steps, {dimension} components"), |b| {
+        let mut stepper = Dop853::new(dimension, total);
+        b.iter(|| {
+            stepper.start(system, 0.0, &start);
+            let mut worst = 0.0_f64;
+            for _ in 0..100 {
+                worst = worst.max(stepper.attempt(system, next(&stepper), &scale));
+                stepper.complete(system, Completion::EndSlopes);
+                stepper.accept();
+            }
+            worst
+        });
+    });
+    c.bench_function(&format!("dop853 dense x100 steps, {dimension} components"), |b| {
+        let mut stepper = Dop853::new(dimension, total);
+        b.iter(|| {
+            stepper.start(system, 0.0, &start);
+            for _ in 0..100 {
+                stepper.attempt(system, next(&stepper), &scale);
+                stepper.complete(system, Completion::Dense);
+                stepper.accept();
+            }
+            stepper.span().begin[0]
+        });
+    });
+}
+
+fn fixed<F: FixedStep>(c: &mut Criterion, system: &Oscillators, name: &str) {
+    c.bench_function(&format!("{name} x100 steps, {} components", system.dimension()), |b| {
+        let (mut stepper, mut y) = (F::of(system), vec![1.0; system.total()]);
+        b.iter(|| {
+            for _ in 0..100 {
+                stepper.step(system, 0.0, &mut y, black_box(0.01));
+            }
+            y[0]
+        });
+    });
 }
 
 criterion_group!(benches, overhead);

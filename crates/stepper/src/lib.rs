@@ -13,7 +13,7 @@
 //! * [`Paired`]: both, for conservative systems with singular moments.
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`bracket`], [`hermite_dip`]: where inside a step a guard crosses zero.
-//! * [`Rk4`], [`Verlet`]: fixed steps.
+//! * [`FixedStep`], [`Rk4`], [`Verlet`]: steps of a given length.
 //! * [`reference`](mod@reference): a driver for the solver `Dopri5` of the crate `ode_solvers`, without events.
 //!
 //! ```
@@ -62,6 +62,8 @@ mod control;
 pub use control::{Memory as ControlMemory, StepControl, StepLimits, Verdict};
 mod root;
 pub use root::{bracket, hermite_dip, hermite_root, root, root_near};
+mod fixed_step;
+pub use fixed_step::FixedStep;
 mod rk4;
 pub use rk4::Rk4;
 mod verlet;

@@ -1,11 +1,9 @@
 //! The classical Runge–Kutta method of order 4 at a fixed step.
 
-use crate::System;
+use crate::{FixedStep, System};
 
 /// Classical Runge–Kutta method (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2): four evaluations
 /// per step, no error estimate.
-///
-/// A step evaluates through `&System` only; the owner moves the system's memory after it.
 #[derive(Debug, Clone)]
 pub struct Rk4 {
     dimension: usize,
@@ -29,8 +27,28 @@ impl Rk4 {
         }
     }
 
-    /// Moves `y` (`total` components) from `t` to `t + h`.
-    pub fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
+    #[inline(always)]
+    fn stage<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64], reach: f64) {
+        for ((to, y), k) in self.stage.iter_mut().zip(y).zip(&self.slope) {
+            *to = y + reach * k;
+        }
+        system.slopes(t, &self.stage, &mut self.slope);
+    }
+
+    #[inline(always)]
+    fn add(&mut self, weight: f64) {
+        for (sum, k) in self.sum.iter_mut().zip(&self.slope) {
+            *sum += weight * k;
+        }
+    }
+}
+
+impl FixedStep for Rk4 {
+    fn of<S: System + ?Sized>(system: &S) -> Self {
+        Self::new(system.dimension(), system.total())
+    }
+
+    fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
         let half = 0.5 * h;
         for (to, from) in self.stage.iter_mut().zip(y.iter()) {
             *to = *from;
@@ -49,24 +67,10 @@ impl Rk4 {
         self.evaluations += 4;
     }
 
-    /// Evaluations of the slopes since construction.
-    #[must_use]
-    pub fn evaluations(&self) -> u64 {
+    /// It keeps none.
+    fn restart(&mut self) {}
+
+    fn evaluations(&self) -> u64 {
         self.evaluations
-    }
-
-    #[inline(always)]
-    fn stage<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64], reach: f64) {
-        for ((to, y), k) in self.stage.iter_mut().zip(y).zip(&self.slope) {
-            *to = y + reach * k;
-        }
-        system.slopes(t, &self.stage, &mut self.slope);
-    }
-
-    #[inline(always)]
-    fn add(&mut self, weight: f64) {
-        for (sum, k) in self.sum.iter_mut().zip(&self.slope) {
-            *sum += weight * k;
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! Velocity Verlet at a fixed step.
 
-use crate::System;
+use crate::{FixedStep, System};
 
 /// Velocity Verlet (Swope et al., J. Chem. Phys. 76, 637, 1982): order 2, one evaluation per step.
 ///
@@ -13,7 +13,7 @@ use crate::System;
 /// ```
 ///
 /// The slopes at the end are kept as the next step's first ones. They were made with the predicted velocity, which
-/// keeps the order; [`restart`](Self::restart) drops them, as due when they jump (a corner of a waveform, a state
+/// keeps the order; [`restart`](FixedStep::restart) drops them, as due when they jump (a corner of a waveform, a state
 /// changed from outside).
 #[derive(Debug, Clone)]
 pub struct Verlet {
@@ -42,11 +42,6 @@ impl Verlet {
         }
     }
 
-    /// Forgets the slopes of the last step: the next step evaluates its first ones anew.
-    pub fn restart(&mut self) {
-        self.known = false;
-    }
-
     /// Slopes at the end of the last step, `total` components; none before the first step and after a restart.
     /// They belong to a run's state.
     #[must_use]
@@ -61,9 +56,14 @@ impl Verlet {
         }
         self.known = slopes.len() >= self.first.len();
     }
+}
 
-    /// Moves `y` (`total` components) from `t` to `t + h`.
-    pub fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
+impl FixedStep for Verlet {
+    fn of<S: System + ?Sized>(system: &S) -> Self {
+        Self::new(system.positions(), system.dimension(), system.total())
+    }
+
+    fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
         if !self.known {
             for (to, from) in self.stage.iter_mut().zip(y.iter()) {
                 *to = *from;
@@ -93,9 +93,12 @@ impl Verlet {
         self.known = true;
     }
 
-    /// Evaluations of the slopes since construction.
-    #[must_use]
-    pub fn evaluations(&self) -> u64 {
+    /// The next step evaluates its first slopes anew.
+    fn restart(&mut self) {
+        self.known = false;
+    }
+
+    fn evaluations(&self) -> u64 {
         self.evaluations
     }
 }

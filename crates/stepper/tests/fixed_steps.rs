@@ -2,11 +2,11 @@
 
 mod systems;
 
-use stickslip_stepper::{Rk4, System, Verlet};
+use stickslip_stepper::{FixedStep, Rk4, System, Verlet};
 use systems::{Driven, Forced, Oscillator, order};
 
 fn rk4<S: System>(system: &S, mut y: Vec<f64>, t1: f64, steps: u32) -> Vec<f64> {
-    let mut stepper = Rk4::new(system.dimension(), system.total());
+    let mut stepper = Rk4::of(system);
     let h = t1 / f64::from(steps);
     for i in 0..steps {
         stepper.step(system, f64::from(i) * h, &mut y, h);
@@ -16,7 +16,7 @@ fn rk4<S: System>(system: &S, mut y: Vec<f64>, t1: f64, steps: u32) -> Vec<f64> 
 }
 
 fn verlet<S: System>(system: &S, mut y: Vec<f64>, t1: f64, steps: u32) -> Vec<f64> {
-    let mut stepper = Verlet::new(system.positions(), system.dimension(), system.total());
+    let mut stepper = Verlet::of(system);
     let h = t1 / f64::from(steps);
     for i in 0..steps {
         stepper.step(system, f64::from(i) * h, &mut y, h);

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::samples::{Nothing, Sampler, Samples};
 use crate::interrupt::Interrupt;
 use stickslip_drive::scene::EngineChoice;
-use stickslip_drive::{Counts, Limits, Model, Plan, RunError, Scene, Stepper};
+use stickslip_drive::{Accuracy, Counts, Limits, Model, Plan, RunError, Scene, Stepper};
 
 /// A method that solves a problem at a tolerance or by a step.
 pub(super) trait Contestant {
@@ -50,17 +50,12 @@ impl Stepping {
     pub(super) const ALL: [Self; 4] = [Self::Event, Self::Dopri5, Self::Rk4, Self::Verlet];
 
     pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Event => "event",
-            Self::Dopri5 => "dopri5",
-            Self::Rk4 => "rk4",
-            Self::Verlet => "verlet",
-        }
+        self.at(0.0).name()
     }
 
     /// Whether it takes a fixed step instead of a tolerance.
     pub(super) fn is_fixed(self) -> bool {
-        matches!(self, Self::Rk4 | Self::Verlet)
+        matches!(self.at(0.0).accuracy(), Accuracy::Step(_))
     }
 
     fn at(self, value: f64) -> Stepper {

@@ -5,7 +5,7 @@ use crate::real::Real;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use stickslip_drive::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
-use stickslip_drive::{Linearised, NormalMode, Stepper, Waveform};
+use stickslip_drive::{Linearised, NormalMode, Waveform};
 
 /// Events of a contact in a period of ringing: two reversals, and about one loop closes; where bodies press it by their
 /// own motion it reverses, grows in full stick and slips again, and one loop closes.
@@ -63,7 +63,7 @@ impl Events {
         let modes = linear.modes();
         let contacts = (0..scene.contacts.len()).map(|c| of_contact(job, c, (&linear, &modes))).sum();
         // At fixed steps corners are crossed, not located.
-        let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
+        let located = job.model.effective(job.scenario.plan.stepper).locates_events();
         let corners = scene.waveforms.iter().map(|w| corners(&w.part, duration));
         // The sum of nothing is -0.
         let corners = if located { corners.fold(0.0, |sum, corners| sum + corners) } else { 0.0 };

@@ -4,7 +4,7 @@ use super::contacts::name;
 use crate::job::Job;
 use serde::Serialize;
 use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Side};
-use stickslip_drive::{Expected, Method, Pressing, Stepper, Treatment, Why};
+use stickslip_drive::{Expected, Method, Pressing, Treatment, Why};
 
 /// What is computed and what is not.
 #[derive(Debug, Default, Serialize)]
@@ -46,9 +46,10 @@ impl Usage {
         let names = job.model.linearised(&job.start, |d| d.start).coordinates().to_vec();
         let (stepper, _, _) = job.stepper();
         if names.is_empty() {
-            let asked = match job.scenario.plan.stepper {
-                Stepper::Event { .. } => "",
-                _ => ", whatever stepper is asked for",
+            let asked = if job.scenario.plan.stepper.locates_events() {
+                ""
+            } else {
+                ", whatever stepper is asked for"
             };
             self.skips("equations of motion", "", format!("{}{asked}", Why::NothingFree));
             return;
@@ -198,7 +199,7 @@ impl Usage {
 
 /// Whether events are located: they are crossed by all other steppers.
 fn is_located(expected: &Expected) -> bool {
-    ![Method::Verlet, Method::Rk4, Method::Dopri5].iter().any(|method| expected.takes(*method))
+    !expected.takes(Method::AskedFor)
 }
 
 /// Adds to what stands there for the same reason, if anything does.

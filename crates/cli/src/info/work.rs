@@ -5,7 +5,7 @@ use crate::job::Job;
 use crate::real::Real;
 use crate::series::Series;
 use serde::Serialize;
-use stickslip_drive::Stepper;
+use stickslip_drive::{Accuracy, Stepper};
 
 /// Bytes of a number with its comma in a table: 13.9 to 19.7 on the examples.
 const BYTES_PER_VALUE: f64 = 19.0;
@@ -89,11 +89,9 @@ impl Expected {
         let columns = job.columns.len();
         let series = Series::new(&job.model.channels(), &job.scenario.plots);
         let kept = series.width() as f64 * (rows + events.total());
-        let steps = match job.model.effective(plan.stepper) {
-            Stepper::Verlet { step } | Stepper::Rk4 { step } => {
-                Some(Real((plan.duration / step - SAME).ceil()))
-            }
-            Stepper::Event { .. } | Stepper::Dopri5 { .. } => None,
+        let steps = match job.model.effective(plan.stepper).accuracy() {
+            Accuracy::Step(step) => Some(Real((plan.duration / step - SAME).ceil())),
+            Accuracy::Tolerance(_) => None,
         };
         let springs: usize = job.grids.iter().flatten().map(|grid| grid.count()).sum();
         let spring_lines =

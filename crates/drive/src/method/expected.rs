@@ -1,6 +1,6 @@
 //! What a run will do, known beforehand.
 
-use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment, unlocated};
+use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
 use crate::interval::{Followed, Interval, Place, Swing};
 use crate::model::{Contact, Model};
 use crate::state::{Mode, State};
@@ -76,8 +76,8 @@ impl Model {
     pub fn expected(&self, start: &State, stepper: Stepper) -> Expected {
         let mut expected =
             Expected { contacts: vec![Vec::new(); self.contacts.len()], ..Expected::default() };
-        if let Some(method) = unlocated(self.effective(stepper)) {
-            expected.add((method, Why::AskedFor));
+        if !self.effective(stepper).locates_events() {
+            expected.add((Method::AskedFor, Why::AskedFor));
             return expected;
         }
         let scene = SceneTraits::of(self);

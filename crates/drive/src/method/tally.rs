@@ -12,19 +12,17 @@ pub struct Tally {
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 7] = [
         Self::Walk,
         Self::Swing,
         Self::Parabola,
         Self::Nystrom,
         Self::DormandPrince,
         Self::Graded,
-        Self::Verlet,
-        Self::Rk4,
-        Self::Dopri5,
+        Self::AskedFor,
     ];
 
-    /// Its name in the literature.
+    /// What a user reads.
     pub fn name(self) -> &'static str {
         match self {
             Self::Walk => "walk from event to event",
@@ -33,9 +31,7 @@ impl Method {
             Self::Nystrom => "Runge–Kutta–Nyström 8(6)",
             Self::DormandPrince => "Dormand–Prince 8(5,3)",
             Self::Graded => "Dormand–Prince 8(5,3) with crowded stages",
-            Self::Verlet => "velocity Verlet",
-            Self::Rk4 => "Runge–Kutta 4",
-            Self::Dopri5 => "Dormand–Prince 5(4)",
+            Self::AskedFor => "the stepper asked for",
         }
     }
 }

@@ -6,7 +6,7 @@ use super::ledger::Ledger;
 use super::output::Output;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
-use crate::method::{Method, unlocated};
+use crate::method::Method;
 use crate::model::{Model, Motion};
 use crate::record::Record;
 use crate::state::{Layout, Mode, State};
@@ -18,7 +18,6 @@ pub(super) struct Chords<'a> {
     pub(super) model: &'a Model,
     pub(super) state: &'a mut State,
     pub(super) layout: Layout,
-    method: Method,
     horizon: Horizon,
     output: Output,
     ledger: Ledger,
@@ -52,9 +51,7 @@ impl<'a> Chords<'a> {
         let (ledger, bounds) = (Ledger::new(model, 0), Bounds::new(model, plan.limits));
         let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
         let motions = Vec::with_capacity(model.contacts.len());
-        // Located runs are no runs by chords.
-        let method = unlocated(plan.stepper).unwrap_or(Method::Walk);
-        Self { model, state, layout, method, horizon, output, ledger, bounds, record, standings, motions }
+        Self { model, state, layout, horizon, output, ledger, bounds, record, standings, motions }
     }
 
     pub(super) fn equations(&self) -> Equations<'_> {
@@ -124,7 +121,7 @@ impl<'a> Chords<'a> {
         self.state.y.copy_from_slice(y);
         self.state.t = t;
         self.state.counts.steps += 1;
-        self.state.tally.step(self.method);
+        self.state.tally.step(Method::AskedFor);
         if self.record.wants_events() {
             self.notice();
         }

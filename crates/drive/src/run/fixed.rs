@@ -1,28 +1,14 @@
-//! Fixed steps: velocity Verlet and classical Runge–Kutta, without events.
+//! Fixed steps, without events.
 
 use super::chords::Chords;
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State};
-use stickslip_stepper::{Rk4, System, Verlet};
-
-/// Which method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Method {
-    Verlet,
-    Rk4,
-}
-
-/// The two methods behind one call.
-enum Stepping {
-    Verlet(Verlet),
-    Rk4(Rk4),
-}
+use stickslip_stepper::FixedStep;
 
 /// Runs in steps of `step`; the last one is shorter where the end asks for it.
-pub(super) fn run(
+pub(super) fn run<F: FixedStep>(
     model: &Model,
     plan: &Plan,
-    method: Method,
     step: f64,
     state: &mut State,
     record: &mut dyn Record,
@@ -33,11 +19,7 @@ pub(super) fn run(
     }
     let from = state.t;
     let mut chords = Chords::new(model, plan, state, record);
-    let (dimension, total) = (chords.layout.dimension(), chords.layout.total());
-    let mut stepping = match method {
-        Method::Verlet => Stepping::Verlet(Verlet::new(chords.layout.free, dimension, total)),
-        Method::Rk4 => Stepping::Rk4(Rk4::new(dimension, total)),
-    };
+    let mut stepper = F::of(&chords.equations());
     let mut y = chords.state.y.clone();
     chords.write_now();
     let mut outcome = Ok(());
@@ -49,35 +31,13 @@ pub(super) fn run(
         // A remainder below round-off belongs to this step.
         let end = if aim > plan.duration - 1e-9 * step { plan.duration } else { aim };
         if chords.enter(end) {
-            stepping.restart();
+            // Slopes kept from the step before belong to the other side of the corner.
+            stepper.restart();
         }
-        stepping.step(&chords.equations(), t, &mut y, end - t);
+        stepper.step(&chords.equations(), t, &mut y, end - t);
         outcome = chords.accept(end, &y);
     }
     chords.write_now();
-    chords.state.counts.evaluations += stepping.evaluations();
+    chords.state.counts.evaluations += stepper.evaluations();
     outcome
-}
-
-impl Stepping {
-    fn step(&mut self, system: &impl System, t: f64, y: &mut [f64], h: f64) {
-        match self {
-            Self::Verlet(verlet) => verlet.step(system, t, y, h),
-            Self::Rk4(rk4) => rk4.step(system, t, y, h),
-        }
-    }
-
-    /// After a corner the slopes kept from the step before belong to its other side.
-    fn restart(&mut self) {
-        if let Self::Verlet(verlet) = self {
-            verlet.restart();
-        }
-    }
-
-    fn evaluations(&self) -> u64 {
-        match self {
-            Self::Verlet(verlet) => verlet.evaluations(),
-            Self::Rk4(rk4) => rk4.evaluations(),
-        }
-    }
 }

@@ -6,7 +6,7 @@ use crate::schema::{above_zero, duration_or_cycles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use stickslip_drive::Limits;
+use stickslip_drive::{Limits, Stepper};
 
 /// How long, from where and by which stepper.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -70,6 +70,18 @@ pub(crate) enum StepperForm {
     /// Dormand–Prince 5(4) without events: the plain explicit reference.
     #[schemars(example = json!({ "dopri5": { "tolerance": 1e-8 } }))]
     Dopri5(ToleranceForm),
+}
+
+impl StepperForm {
+    /// The stepper asked for, its number not yet checked.
+    pub(crate) fn asked(&self) -> Stepper {
+        match self {
+            Self::Event(form) => Stepper::Event { tolerance: form.tolerance },
+            Self::Verlet(form) => Stepper::Verlet { step: form.step.si },
+            Self::Rk4(form) => Stepper::Rk4 { step: form.step.si },
+            Self::Dopri5(form) => Stepper::Dopri5 { tolerance: form.tolerance },
+        }
+    }
 }
 
 impl Default for StepperForm {

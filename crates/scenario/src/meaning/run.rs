@@ -4,9 +4,10 @@ use super::{Builder, Figures, range};
 use crate::fault::Fault;
 use crate::form::{LimitsForm, StepperForm};
 use crate::path::At;
+use crate::quantity::Time;
 use crate::suggest;
 use stickslip_drive::scene::Freedom;
-use stickslip_drive::{Limits, Plan, Stepper, UntilSteady};
+use stickslip_drive::{Accuracy, Limits, Plan, Stepper, UntilSteady};
 
 /// Tolerances that the steppers take.
 const TOLERANCE: (f64, f64) = (1e-13, 1e-2);
@@ -130,27 +131,24 @@ impl Builder<'_> {
 }
 
 fn stepper(at: &At<'_>, form: &StepperForm, duration: f64) -> Result<Stepper, Fault> {
-    let tolerance = |name: &str, value: f64| {
-        let at = at.key(name);
-        range::number_between(&at.key("tolerance"), value, TOLERANCE.0, TOLERANCE.1)
-            .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most scenes"))
-    };
-    let step = |name: &str, value: crate::quantity::Time| {
-        let at = at.key(name);
-        let at = at.key("step");
-        let step = range::above_zero(&at, value)?;
-        if step <= duration {
-            return Ok(step);
+    let stepper = form.asked();
+    let at = at.key(stepper.name());
+    match stepper.accuracy() {
+        Accuracy::Tolerance(tolerance) => {
+            let (least, most) = TOLERANCE;
+            range::number_between(&at.key("tolerance"), tolerance, least, most)
+                .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most scenes"))?;
         }
-        let duration = range::short(duration);
-        Err(at.expected(format_args!("a time up to the duration of the run, {duration} s")))
-    };
-    Ok(match form {
-        StepperForm::Event(form) => Stepper::Event { tolerance: tolerance("event", form.tolerance)? },
-        StepperForm::Verlet(form) => Stepper::Verlet { step: step("verlet", form.step)? },
-        StepperForm::Rk4(form) => Stepper::Rk4 { step: step("rk4", form.step)? },
-        StepperForm::Dopri5(form) => Stepper::Dopri5 { tolerance: tolerance("dopri5", form.tolerance)? },
-    })
+        Accuracy::Step(step) => {
+            let at = at.key("step");
+            if range::above_zero(&at, Time::new(step))? > duration {
+                let duration = range::short(duration);
+                let most = format_args!("a time up to the duration of the run, {duration} s");
+                return Err(at.expected(most));
+            }
+        }
+    }
+    Ok(stepper)
 }
 
 fn limits(at: &At<'_>, form: &LimitsForm) -> Result<Limits, Fault> {
