@@ -1,6 +1,6 @@
 //! How a scene is run: how long, by which stepper, what is written down.
 
-use crate::SceneError;
+use crate::{Field, Part, SceneError, SceneFault};
 
 /// How a scene is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,22 +33,22 @@ pub struct UntilSteady {
 }
 
 impl Plan {
-    /// Fails for a number out of its range, named by its key path in a scenario file.
+    /// Fails for a number out of its range.
     pub(crate) fn check(&self) -> Result<(), SceneError> {
-        let above_zero = |path: &str, value: f64| {
+        let above_zero = |field: Field, value: f64| {
             if value > 0.0 && value.is_finite() {
                 return Ok(());
             }
-            Err(SceneError::new(path, format!("expected a finite number above 0, got {value}")))
+            Err(SceneFault::NotAboveZero(value).of(Part::Run, field))
         };
-        above_zero("run.duration", self.duration)?;
-        self.every.map_or(Ok(()), |every| above_zero("output.every", every))?;
-        self.until_steady.map_or(Ok(()), |steady| above_zero("run.until_steady", steady.change))?;
+        above_zero(Field::Duration, self.duration)?;
+        self.every.map_or(Ok(()), |every| above_zero(Field::Interval, every))?;
+        self.until_steady.map_or(Ok(()), |steady| above_zero(Field::SteadyChange, steady.change))?;
         match self.stepper {
-            Stepper::Event { tolerance } => above_zero("run.stepper.event.tolerance", tolerance),
-            Stepper::Dopri5 { tolerance } => above_zero("run.stepper.dopri5.tolerance", tolerance),
-            Stepper::Verlet { step } => above_zero("run.stepper.verlet.step", step),
-            Stepper::Rk4 { step } => above_zero("run.stepper.rk4.step", step),
+            Stepper::Event { tolerance } | Stepper::Dopri5 { tolerance } => {
+                above_zero(Field::Tolerance, tolerance)
+            }
+            Stepper::Verlet { step } | Stepper::Rk4 { step } => above_zero(Field::Step, step),
         }
     }
 }
