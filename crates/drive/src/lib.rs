@@ -30,7 +30,7 @@ mod schedule;
 mod state;
 mod waveform;
 
-pub use error::{RunError, SceneError};
+pub use error::{Field, Part, RunError, SceneError, SceneFault};
 pub use event::{Event, EventKind, Source};
 pub use linearised::{Indentations, Linearised, NormalMode};
 pub use method::{Expected, Method, Tally, Treatment, Why};
