@@ -3,11 +3,12 @@
 mod forces;
 mod sum;
 
+use crate::contact::{Contact, Mode, Motion, Press};
 pub(crate) use sum::{Components, Reading, View};
 
 use crate::interval::{Interval, Pull};
-use crate::model::{Contact, Measure, Motion, Place, Press};
-use crate::state::{Layout, Mode, State};
+use crate::model::{Measure, Place};
+use crate::state::{Layout, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::Memory;
 use stickslip_stepper::{Conservative, System};

@@ -8,14 +8,14 @@
 mod followed;
 mod swing;
 
+use crate::contact::{Contact, Guard, Mode, Motion, Press};
 pub(crate) use followed::Followed;
 pub(crate) use swing::{Place, Swing};
 
 use crate::Sample;
-use crate::guard::Guard;
 use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, treatment};
-use crate::model::{Contact, Free, Model, Motion, Press};
-use crate::state::{Mode, State};
+use crate::model::{Free, Model};
+use crate::state::State;
 use stickslip_contact::{Profile, SteadyBranch};
 
 /// What evaluations between two events need. Scratch: made anew after each event.

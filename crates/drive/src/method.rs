@@ -8,12 +8,12 @@ mod expected;
 mod tally;
 mod why;
 
+use crate::contact::{Contact, Mode, Press};
 pub use expected::Expected;
 pub use tally::Tally;
 pub use why::Why;
 
-use crate::model::{Contact, Model, Press};
-use crate::state::Mode;
+use crate::model::Model;
 
 /// How a stretch of time is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,11 +1,12 @@
 //! What is written down: rows on a regular grid, events, and their channels; looks into the contacts.
 
 use crate::Model;
+use crate::contact::{Contact, Mode};
 use crate::equations::{Components, Equations};
 use crate::event::{Event, Source};
-use crate::model::{Body, Contact, Link, Place};
+use crate::model::{Body, Link, Place};
 use crate::scene::Axis;
-use crate::state::{Mode, State};
+use crate::state::State;
 use stickslip_contact::{ContactState, Memory, Outcome};
 
 /// Receiver of a run's output. Whatever it does, the trajectory stays the same.
@@ -236,7 +237,7 @@ fn contact_columns(
     }
     let damping = match contact.damping {
         0.0 => 0.0,
-        beta => beta * equations.stuck_stiffness(c, &motion) * motion.du,
+        _ => contact.damping_coefficient(equations.law(c), &motion) * motion.du,
     };
     books.elastic += normal + count * outcome.elastic;
     books.friction += friction;

@@ -2,91 +2,10 @@
 
 use super::sum::{Sum, View};
 use super::{Equations, Sample};
-use crate::model::{Link, Motion, Press, Stroke};
-use crate::state::Mode;
-use stickslip_contact::{Branch, Move};
+use crate::contact::{Mode, Motion, Press};
+use crate::model::{Link, Stroke};
 
 impl Equations<'_> {
-    /// F_x of one contact, N, under its decreed law.
-    #[inline(always)]
-    pub(crate) fn force(&self, c: usize, motion: &Motion, y: impl Fn(usize) -> f64) -> f64 {
-        let contact = &self.model.contacts[c];
-        match &self.modes[c] {
-            Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => self.dragged(c, branch, motion).0,
-            Mode::Slip(branch) => {
-                let reduced_force = match &contact.press {
-                    Press::Constant { reduced_force, .. } => *reduced_force,
-                    _ => contact.law.profile().reduced_force(motion.d),
-                };
-                branch.force(&contact.law, motion.d, motion.u, reduced_force)
-            }
-            Mode::Whole { .. } if contact.inert => 0.0,
-            Mode::Whole { .. } => self.whole(c, motion),
-            Mode::Grow => contact.slot.map_or(0.0, |slot| y(self.layout.force(slot))),
-            Mode::Open => 0.0,
-        }
-    }
-
-    /// Force by the whole law on the committed memory.
-    #[inline(never)]
-    fn whole(&self, c: usize, motion: &Motion) -> f64 {
-        self.memories[c].force(&self.model.contacts[c].law, motion.apex())
-    }
-
-    /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
-    #[inline(never)]
-    fn dragged(&self, c: usize, branch: &Branch, motion: &Motion) -> (f64, f64) {
-        let branching = self.memories[c].branching();
-        let law = &self.model.contacts[c].law;
-        branching.map_or((0.0, 0.0), |branching| branching.dragged(law, branch.sense(), motion.apex()))
-    }
-
-    /// Height of the slip front, m.
-    pub(crate) fn front(&self, c: usize, branch: &Branch, motion: &Motion) -> f64 {
-        if branch.covers(motion.d, motion.u) {
-            branch.front(motion.d, motion.u)
-        } else {
-            self.dragged(c, branch, motion).1
-        }
-    }
-
-    /// Stiffness of the springs that stick, N/m: what carries a contact's own damping.
-    pub(crate) fn stuck_stiffness(&self, c: usize, motion: &Motion) -> f64 {
-        let law = &self.model.contacts[c].law;
-        match &self.modes[c] {
-            Mode::Open => 0.0,
-            Mode::Grow => law.stick_stiffness(motion.d),
-            Mode::Slip(branch) if branch.is_gross() => 0.0,
-            Mode::Slip(branch) => {
-                law.stick_stiffness(self.front(c, branch, motion).clamp(0.0, motion.d.max(0.0)))
-            }
-            Mode::Whole { .. } => self.memories[c].trial(law, Move::Chord(motion.apex())).stiffness,
-        }
-    }
-
-    /// Slopes of the extra components of a growing contact: Ḟ = G\*m(d)u̇ and Ė = Fu̇ in full stick, friction power
-    /// where an edge drags. `extra` begins after the velocities.
-    #[inline(never)]
-    fn grow(&self, c: usize, slot: usize, motion: &Motion, force: f64, extra: &mut [f64]) {
-        let contact = &self.model.contacts[c];
-        let (mut rate, mut elastic, mut friction) = (0.0, 0.0, 0.0);
-        match &self.modes[c] {
-            Mode::Grow => {
-                rate = contact.law.stick_stiffness(motion.d) * motion.du;
-                elastic = force * motion.du;
-            }
-            Mode::Slip(branch) => {
-                let front = self.front(c, branch, motion);
-                friction = branch.friction_power(&contact.law, front, (motion.d, motion.dd), motion.du);
-            }
-            Mode::Open | Mode::Whole { .. } => {}
-        }
-        let from = 2 * self.layout.free;
-        extra[self.layout.force(slot) - from] = rate;
-        extra[self.layout.elastic(slot) - from] = elastic;
-        extra[self.layout.friction(slot) - from] = friction;
-    }
-
     /// Forces of all contacts, and the slopes of their extra components.
     #[inline(always)]
     pub(super) fn contacts(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
@@ -113,7 +32,7 @@ impl Equations<'_> {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
                 let reduced_force = contact.law.profile().reduced_force(d.value);
-                // Decreed apart, it is so beyond the touch that will end the step.
+                // Apart by its law, it is so beyond the touch that will end the step.
                 if self.modes[c] != Mode::Open {
                     let press = contact.count * (contact.law.normal_modulus() * reduced_force);
                     sum.apply(&measure.free, d.driven, -press);
@@ -133,19 +52,29 @@ impl Equations<'_> {
                 force
             }
             (_, slot) => {
-                let force = self.force(c, &motion, |i| at.component(i));
+                let grown = || contact.slot.map_or(0.0, |slot| at.component(self.layout.force(slot)));
+                let force = contact.force(self.law(c), &motion, grown);
                 if let Some(slot) = slot {
-                    self.grow(c, slot, &motion, force, extra);
+                    self.grow((c, slot), &motion, force, extra);
                 }
                 force
             }
         };
         if contact.damping > 0.0 {
-            let damping = contact.damping * self.stuck_stiffness(c, &motion);
+            let damping = contact.damping_coefficient(self.law(c), &motion);
             sum.damping += contact.count * damping * motion.du * motion.du;
             force += damping * motion.du;
         }
         sum.apply(&contact.u.free, u.driven, -contact.count * force);
+    }
+
+    /// Slopes of the extra components of a growing contact. `extra` begins after the velocities.
+    fn grow(&self, (c, slot): (usize, usize), motion: &Motion, force: f64, extra: &mut [f64]) {
+        let rates = self.model.contacts[c].growth_rates(self.law(c), motion, force);
+        let from = 2 * self.layout.free;
+        extra[self.layout.force(slot) - from] = rates.force;
+        extra[self.layout.elastic(slot) - from] = rates.elastic;
+        extra[self.layout.friction(slot) - from] = rates.friction;
     }
 
     #[inline(never)]

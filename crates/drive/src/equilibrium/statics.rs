@@ -1,8 +1,9 @@
 //! The static forces on the free coordinates, and how they change.
 
 use crate::Model;
+use crate::contact::Contact;
 use crate::equations::Components;
-use crate::model::{Contact, Measure};
+use crate::model::Measure;
 use crate::state::State;
 use nalgebra::{DMatrix, DVector};
 use stickslip_contact::{Apex, Memory, Move};

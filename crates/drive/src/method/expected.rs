@@ -1,9 +1,10 @@
 //! What a run will do, known beforehand.
 
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
+use crate::contact::{Contact, Mode};
 use crate::interval::{Followed, Interval, Place, Swing};
-use crate::model::{Contact, Model};
-use crate::state::{Mode, State};
+use crate::model::Model;
+use crate::state::State;
 use crate::{Stepper, Waveform};
 use stickslip_contact::{Apex, Course, Memory, Segment};
 

@@ -1,6 +1,7 @@
 //! From a scene's contact to its constants.
 
-use super::{Body, Contact, Free, Link, Load, Measure, Natural, Press, reach};
+use super::{Body, Free, Link, Load, Measure, reach};
+use crate::contact::{Contact, Natural, Press};
 use crate::scene::{self, ContactStart, Direction, EngineChoice, Named, Normal, Varying};
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
 use std::sync::Arc;

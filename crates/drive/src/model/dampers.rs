@@ -1,6 +1,7 @@
 //! A damper has no answer to a jump in no time: its impulse would be a matter of definition.
 
-use super::{Contact, Link, Measure, Stroke};
+use super::{Link, Measure, Stroke};
+use crate::contact::Contact;
 use crate::scene::Scene;
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
 

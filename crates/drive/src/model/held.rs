@@ -1,6 +1,7 @@
 //! Whether anything holds the free coordinates.
 
-use super::{Contact, Free, Link, Measure};
+use super::{Free, Link, Measure};
+use crate::contact::Contact;
 use crate::scene::Axis;
 use crate::{Field, Part, SceneError, SceneFault};
 

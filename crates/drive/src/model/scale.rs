@@ -1,7 +1,8 @@
 //! Natural scales: one tolerance suits every scene because errors are measured against these.
 
-use super::{Contact, Free, Link, Natural};
+use super::{Free, Link};
 use crate::Waveform;
+use crate::contact::{Contact, Natural};
 use crate::scene::Axis;
 
 /// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and the velocities they

@@ -1,6 +1,7 @@
 //! What a model spares its runs.
 
-use super::{Contact, Link, Model, Press, Stroke};
+use super::{Link, Model, Stroke};
+use crate::contact::Press;
 
 /// Parts of a scene that a model leaves out, by their places in the scene.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -54,13 +55,6 @@ impl Model {
     pub fn travellers(&self) -> impl Iterator<Item = &str> {
         let travelling = self.free.iter().filter(|free| free.travels);
         travelling.map(|free| self.bodies[free.body].name.as_str())
-    }
-}
-
-impl Contact {
-    /// Whether nothing will ever press it.
-    pub(crate) fn is_never_pressed(&self) -> bool {
-        self.natural.depth == 0.0
     }
 }
 

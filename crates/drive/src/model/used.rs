@@ -1,7 +1,8 @@
 //! Waveforms that nothing follows.
 
-use super::{Body, Contact, Link, Load, Place, Stroke};
+use super::{Body, Link, Load, Place, Stroke};
 use crate::Waveform;
+use crate::contact::Contact;
 
 /// Holds all waveforms still that nothing follows: their corners would end steps for nothing. Gives their places.
 pub(super) fn hold_the_others(

@@ -4,12 +4,13 @@ use super::bounds::Bounds;
 use super::horizon::Horizon;
 use super::ledger::Ledger;
 use super::output::Output;
+use crate::contact::{Mode, Motion};
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
 use crate::method::Method;
-use crate::model::{Model, Motion};
+use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Layout, Mode, State};
+use crate::state::{Layout, State};
 use crate::{Plan, RunError};
 use stickslip_contact::{ContactState, Segment};
 

@@ -2,12 +2,12 @@
 
 use super::Located;
 use super::watch::Watch;
+use crate::contact::{Contact, Guard, Mode};
 use crate::equations::Equations;
-use crate::guard::Guard;
 use crate::interval::Steady;
-use crate::model::{Contact, Measure};
+use crate::model::Measure;
 use crate::quadrature;
-use crate::state::{Mode, State};
+use crate::state::State;
 use stickslip_stepper::{Attempt, Grade};
 
 /// What the next step is to be.

@@ -1,7 +1,7 @@
 //! What error each component of a step may have.
 
 use crate::Model;
-use crate::model::Contact;
+use crate::contact::Contact;
 use crate::state::State;
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,

@@ -2,12 +2,12 @@
 
 use super::Located;
 use crate::RunError;
+use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
-use crate::guard::Guard;
-use crate::model::{Contact, Measure, Motion};
+use crate::model::Measure;
 use crate::record::Record;
-use crate::state::{Mode, State};
+use crate::state::State;
 use stickslip_contact::Course;
 use stickslip_stepper::{Attempt, System};
 

@@ -2,8 +2,8 @@
 
 use super::Located;
 use crate::RunError;
+use crate::contact::Guard;
 use crate::equations::Equations;
-use crate::guard::Guard;
 use crate::interval::{Place, Steady};
 use crate::method::Method;
 use crate::record::Record;

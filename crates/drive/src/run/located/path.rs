@@ -2,10 +2,10 @@
 
 use super::Located;
 use super::motion::Motion;
+use crate::contact::{Mode, Motion as ContactMotion};
 use crate::equations::Equations;
 use crate::interval::Steady;
-use crate::model::Motion as ContactMotion;
-use crate::state::{Mode, State};
+use crate::state::State;
 use stickslip_contact::Segment;
 use stickslip_stepper::{Attempt, Completion};
 

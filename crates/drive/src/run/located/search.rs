@@ -1,10 +1,9 @@
 //! Finding the first guard that falls inside a step.
 
 use super::watch::{Moving, Watch};
+use crate::contact::{Contact, Guard, Motion, NEARNESS};
 use crate::equations::Equations;
-use crate::guard::{Guard, NEARNESS};
 use crate::interval::Steady;
-use crate::model::{Contact, Motion};
 use stickslip_stepper::{Attempt, Completion, End, hermite_dip, hermite_root, root, root_near};
 
 /// A guard of a contact: of a steady one a straight function of the state, of any other one a function of its motion.

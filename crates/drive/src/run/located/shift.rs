@@ -1,7 +1,8 @@
 //! Coordinates that travel: counted from near by, so that a million periods cost no digit.
 
 use crate::Model;
-use crate::state::{Mode, State};
+use crate::contact::Mode;
+use crate::state::State;
 
 /// A coordinate this many natural lengths away from its origin takes it along.
 const FAR: f64 = 1024.0;

@@ -2,11 +2,12 @@
 
 use super::Located;
 use crate::Waveform;
+use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
-use crate::model::{Contact, Model};
+use crate::model::Model;
 use crate::record::{self, Record};
-use crate::state::{Mode, State};
+use crate::state::State;
 use stickslip_contact::{Memory, Segment};
 use stickslip_stepper::Attempt;
 

@@ -1,10 +1,9 @@
 //! The contacts at both ends of a step, and the guards that fell at its end.
 
+use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::Equations;
-use crate::guard::Guard;
 use crate::interval::{Interval, Steady};
-use crate::model::{Contact, Measure, Model, Motion};
-use crate::state::Mode;
+use crate::model::{Measure, Model};
 use stickslip_stepper::{End, Step};
 
 /// A contact at one end of a step. Steady contacts have none: their motion is read off the state where it is asked for.

@@ -2,9 +2,10 @@
 
 use super::Located;
 use super::path::Growth;
+use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::record::Record;
-use crate::state::{Mode, State};
+use crate::state::State;
 use stickslip_contact::{ContactError, Memory, Segment};
 use stickslip_stepper::{Attempt, Completion};
 

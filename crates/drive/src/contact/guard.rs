@@ -1,8 +1,7 @@
-//! Guards: functions that are positive while a contact's decreed mode holds.
+//! Guards: functions that are positive while a contact's mode holds.
 
+use super::{Contact, Mode, Motion};
 use crate::EventKind;
-use crate::model::{Contact, Motion};
-use crate::state::Mode;
 use stickslip_contact::{Course, Memory};
 
 /// A function that falls through zero where a mode ends.

@@ -1,0 +1,140 @@
+//! Contacts as components of a drive: constants, what they are doing, their guards and forces.
+
+mod component;
+mod force;
+mod guard;
+mod mode;
+
+pub(crate) use guard::{Guard, NEARNESS};
+pub(crate) use mode::Mode;
+
+use crate::Sample;
+use crate::model::Measure;
+use stickslip_contact::{Apex, Engine, Interface};
+
+/// A contact's constants.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Contact {
+    pub(crate) name: String,
+    /// u = x(first) - x(second) at the contact point, counted from the start.
+    pub(crate) u: Measure,
+    pub(crate) law: Interface,
+    pub(crate) engine: Engine,
+    pub(crate) press: Press,
+    /// Number of identical contacts.
+    pub(crate) count: f64,
+    /// Displacement reached before the start, m.
+    pub(crate) start: f64,
+    /// Time constant β of the stuck springs, s.
+    pub(crate) damping: f64,
+    /// Whether the contact can never carry a tangential force: no friction, or never pressed.
+    pub(crate) inert: bool,
+    /// Whether nothing that it does ends a step: never pressed, or neither friction nor bodies that press it.
+    pub(crate) unguarded: bool,
+    /// Place among the growing contacts.
+    pub(crate) slot: Option<usize>,
+    pub(crate) natural: Natural,
+}
+
+/// Natural scales of a contact at its largest indentation.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Natural {
+    /// That indentation, m.
+    pub(crate) depth: f64,
+    /// u_c, m.
+    pub(crate) displacement: f64,
+    /// μF_N, N.
+    pub(crate) force: f64,
+    /// Angular frequency of what the contact holds, rad/s.
+    pub(crate) frequency: f64,
+}
+
+/// What sets the indentation.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Press {
+    /// Constant d (m) with M(d) (m²) at hand.
+    Constant { d: f64, reduced_force: f64 },
+    /// A waveform of the normal force, N.
+    Force(usize),
+    /// A waveform of the indentation, m.
+    Indentation(usize),
+    /// A waveform of the contact radius, m.
+    Radius(usize),
+    /// The bodies' motion: d = z(first) - z(second) - gap at the contact point.
+    Coupled(Measure),
+}
+
+/// Motion of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Motion {
+    pub(crate) d: f64,
+    pub(crate) u: f64,
+    /// ḋ, m/s.
+    pub(crate) dd: f64,
+    /// u̇, m/s.
+    pub(crate) du: f64,
+}
+
+impl Motion {
+    pub(crate) fn apex(&self) -> Apex {
+        Apex { d: self.d, u: self.u }
+    }
+}
+
+impl Press {
+    /// The waveform that presses, if any.
+    pub(crate) fn waveform(&self) -> Option<usize> {
+        match self {
+            Self::Constant { .. } | Self::Coupled(_) => None,
+            Self::Force(w) | Self::Indentation(w) | Self::Radius(w) => Some(*w),
+        }
+    }
+}
+
+impl Contact {
+    /// Natural velocity u_c ω, m/s.
+    pub(crate) fn natural_velocity(&self) -> f64 {
+        self.natural.displacement * self.natural.frequency
+    }
+
+    /// Indentation d (m) and its rate (m/s) from a sample of the waveform that presses.
+    #[inline(never)]
+    pub(crate) fn pressed(&self, sample: Sample) -> (f64, f64) {
+        match self.press {
+            Press::Constant { d, .. } => (d, 0.0),
+            Press::Indentation(_) | Press::Coupled(_) => (sample.value, sample.rate),
+            Press::Force(_) => {
+                let d = self.law.indentation(sample.value.max(0.0));
+                let stiffness = self.law.normal_stiffness(d);
+                (d, if stiffness > 0.0 { sample.rate / stiffness } else { 0.0 })
+            }
+            Press::Radius(_) => {
+                let (radius, profile) = (sample.value.max(0.0), self.law.profile());
+                (profile.depth(radius), sample.rate * profile.depth_slope(radius))
+            }
+        }
+    }
+
+    /// μF_N at the natural indentation, N.
+    pub(crate) fn friction_limit(&self) -> f64 {
+        self.natural.force
+    }
+
+    /// Whether the indentation never changes.
+    pub(crate) fn is_constant(&self) -> bool {
+        matches!(self.press, Press::Constant { .. })
+    }
+
+    /// Whether nothing will ever press it.
+    pub(crate) fn is_never_pressed(&self) -> bool {
+        self.natural.depth == 0.0
+    }
+
+    /// How the bodies' motion sets the indentation, if it does.
+    pub(crate) fn coupling(&self) -> Option<&Measure> {
+        match &self.press {
+            Press::Coupled(measure) => Some(measure),
+            _ => None,
+        }
+    }
+}

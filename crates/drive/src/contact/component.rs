@@ -1,0 +1,59 @@
+//! Contacts as components: the first of them.
+
+use super::{Contact, Guard, Mode, Motion};
+use crate::EventKind;
+use crate::component::{Component, Moment, Standing, States};
+use stickslip_contact::{ContactError, Memory, Segment};
+
+impl Component for Contact {
+    type Law = Mode;
+    type Memory = Memory;
+    type Guard = Guard;
+    type Inputs = Motion;
+    type Segment = Segment;
+    type Error = ContactError;
+
+    /// The force of a contact that may grow in full stick, beside it the integrals of its elastic energy and friction.
+    fn states(&self) -> States {
+        match self.slot {
+            None => States::default(),
+            Some(_) => {
+                let limit = self.friction_limit();
+                States { scales: vec![if limit > 0.0 { limit } else { 1.0 }], integrals: 2 }
+            }
+        }
+    }
+
+    fn guards(&self, law: &Mode) -> &[Guard] {
+        Guard::of(self, law)
+    }
+
+    #[inline]
+    fn guard(&self, guard: Guard, standing: Standing<'_, Mode, Memory>, at: &Moment<'_, Motion>) -> f64 {
+        guard.value(self, (standing.memory, standing.law), at.inputs)
+    }
+
+    fn next(
+        &self,
+        guard: Guard,
+        standing: Standing<'_, Mode, Memory>,
+        at: &Moment<'_, Motion>,
+    ) -> (EventKind, Mode) {
+        let (kind, course) = guard.fired(self, standing.law, at.inputs);
+        (kind, Mode::of(self, standing.memory, course, 0.0))
+    }
+
+    fn commit(&self, memory: &mut Memory, segment: &Segment) -> Result<f64, ContactError> {
+        memory.commit(&self.law, *segment)
+    }
+
+    /// Normal and tangential, of one contact.
+    fn energy(&self, standing: Standing<'_, Mode, Memory>, at: &Moment<'_, Motion>) -> f64 {
+        let normal = self.law.normal_energy(at.inputs.d);
+        normal + standing.memory.preview(&self.law, at.inputs.apex()).elastic
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        vec!["u_m", "d_m", "fx_N", "fn_N", "stick_m", "state", "elastic_J", "friction_J"]
+    }
+}

@@ -1,0 +1,104 @@
+//! What a contact exerts along the slide under its law.
+
+use super::{Contact, Mode, Motion, Press};
+use stickslip_contact::{Branch, Memory, Move};
+
+/// Slopes of the states of a contact that grows, and of the integrals beside them.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct GrowthRates {
+    /// Ḟ = G\*m(d)u̇ in full stick, N/s.
+    pub(crate) force: f64,
+    /// Ė = Fu̇ in full stick, W.
+    pub(crate) elastic: f64,
+    /// Friction power where an edge drags, W.
+    pub(crate) friction: f64,
+}
+
+impl Contact {
+    /// F_x of one contact, N, under its law; `grown` is what a contact that grows in full stick carries as a state.
+    #[inline(always)]
+    pub(crate) fn force(
+        &self,
+        (memory, mode): (&Memory, &Mode),
+        motion: &Motion,
+        grown: impl FnOnce() -> f64,
+    ) -> f64 {
+        match mode {
+            Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => {
+                self.dragged(memory, branch, motion).0
+            }
+            Mode::Slip(branch) => {
+                let reduced_force = match &self.press {
+                    Press::Constant { reduced_force, .. } => *reduced_force,
+                    _ => self.law.profile().reduced_force(motion.d),
+                };
+                branch.force(&self.law, motion.d, motion.u, reduced_force)
+            }
+            Mode::Whole { .. } if self.inert => 0.0,
+            Mode::Whole { .. } => self.whole(memory, motion),
+            Mode::Grow => grown(),
+            Mode::Open => 0.0,
+        }
+    }
+
+    /// Force by the whole law on the committed memory.
+    #[inline(never)]
+    fn whole(&self, memory: &Memory, motion: &Motion) -> f64 {
+        memory.force(&self.law, motion.apex())
+    }
+
+    /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
+    #[inline(never)]
+    fn dragged(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> (f64, f64) {
+        let dragged = |branching: &dyn stickslip_contact::Branching| {
+            branching.dragged(&self.law, branch.sense(), motion.apex())
+        };
+        memory.branching().map_or((0.0, 0.0), dragged)
+    }
+
+    /// Height of the slip front, m.
+    fn front(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> f64 {
+        if branch.covers(motion.d, motion.u) {
+            branch.front(motion.d, motion.u)
+        } else {
+            self.dragged(memory, branch, motion).1
+        }
+    }
+
+    /// Force of the contact's own damping, N: that of the springs that stick, β times their stiffness.
+    pub(crate) fn damping_coefficient(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
+        let stuck = match mode {
+            Mode::Open => 0.0,
+            Mode::Grow => self.law.stick_stiffness(motion.d),
+            Mode::Slip(branch) if branch.is_gross() => 0.0,
+            Mode::Slip(branch) => {
+                self.law.stick_stiffness(self.front(memory, branch, motion).clamp(0.0, motion.d.max(0.0)))
+            }
+            Mode::Whole { .. } => memory.trial(&self.law, Move::Chord(motion.apex())).stiffness,
+        };
+        self.damping * stuck
+    }
+
+    /// Slopes of what a growing contact carries beside its motion.
+    #[inline(never)]
+    pub(crate) fn growth_rates(
+        &self,
+        (memory, mode): (&Memory, &Mode),
+        motion: &Motion,
+        force: f64,
+    ) -> GrowthRates {
+        match mode {
+            Mode::Grow => GrowthRates {
+                force: self.law.stick_stiffness(motion.d) * motion.du,
+                elastic: force * motion.du,
+                friction: 0.0,
+            },
+            Mode::Slip(branch) => {
+                let front = self.front(memory, branch, motion);
+                let friction = branch.friction_power(&self.law, front, (motion.d, motion.dd), motion.du);
+                GrowthRates { friction, ..GrowthRates::default() }
+            }
+            Mode::Open | Mode::Whole { .. } => GrowthRates::default(),
+        }
+    }
+}

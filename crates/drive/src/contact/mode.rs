@@ -1,0 +1,56 @@
+//! What a contact is doing.
+
+use super::Contact;
+use stickslip_contact::{Branch, Course, Memory};
+
+/// What a contact is doing, set at the last event: the smooth law that is integrated until the next one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Mode {
+    /// No contact.
+    Open,
+    /// Grows in full stick; its force is a state.
+    Grow,
+    /// Slip spreads along one branch of the curve.
+    Slip(Branch),
+    /// The whole law from the committed memory, kinks and all, in one sense of sliding: a row of springs, or a
+    /// stepper without events.
+    Whole {
+        /// Sense of sliding.
+        sense: f64,
+    },
+}
+
+impl Mode {
+    /// +1 forward, -1 backward, 0 otherwise.
+    pub(crate) fn sense(&self) -> f64 {
+        match self {
+            Self::Open | Self::Grow => 0.0,
+            Self::Slip(branch) => branch.sense(),
+            Self::Whole { sense } => *sense,
+        }
+    }
+
+    pub(crate) fn is_gross(&self) -> bool {
+        matches!(self, Self::Slip(branch) if branch.is_gross())
+    }
+
+    /// Whether a contact in this mode has springs that stick.
+    pub(crate) fn holds(&self) -> bool {
+        !self.is_gross() && *self != Self::Open
+    }
+
+    /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
+    pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
+        match (memory.branching(), course) {
+            _ if contact.inert && contact.coupling().is_none() => Self::Open,
+            (_, Course::Open) => Self::Open,
+            // Without friction there is nothing to remember, but the bodies still press on each other.
+            _ if contact.inert => Self::Whole { sense: 0.0 },
+            (None, course) => Self::Whole { sense: course.sense() },
+            (Some(_), Course::Grow) => Self::Grow,
+            (Some(branching), Course::Forward | Course::Backward) => {
+                Self::Slip(branching.branch(&contact.law, course.sense(), slack))
+            }
+        }
+    }
+}
