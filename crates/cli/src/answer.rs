@@ -1,10 +1,10 @@
 //! The answer of a command, on stdout.
 
-use crate::complaint::words;
 use crate::verdict::Verdict;
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
+use stickslip_results::complaint::words;
 
 /// Why some of the answer was lost.
 static LOST: OnceLock<io::Error> = OnceLock::new();

@@ -3,7 +3,6 @@
 use crate::answer::say;
 use crate::arguments::RunArguments;
 use crate::interrupt::Interrupt;
-use crate::job::{Job, Refusal};
 use crate::progress::Progress;
 use crate::report::{Report, warn};
 use crate::run::run as run_job;
@@ -13,6 +12,7 @@ use std::collections::HashMap;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
+use stickslip_results::{Job, Refusal};
 
 /// Prepares and runs all scenarios; the worst ending counts. A file that is refused does not keep the others from
 /// running.

@@ -28,10 +28,7 @@ mod turns;
 pub(crate) use arguments::{ABOUT, BenchArguments, EXAMPLES};
 
 use crate::answer::say;
-use crate::complaint::words;
-use crate::folder::{self, Folder};
 use crate::interrupt::Interrupt;
-use crate::job::{Job, Refusal};
 use crate::progress::Progress;
 use crate::verdict::Verdict;
 use contestant::Stop;
@@ -41,6 +38,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stickslip_drive::RunError;
 use stickslip_plot::PlotError;
+use stickslip_results::complaint::words;
+use stickslip_results::folder::{self, Folder};
+use stickslip_results::{Job, Refusal};
 use thiserror::Error;
 
 /// Name of the table.
@@ -130,7 +130,7 @@ fn measure(
 ) -> Result<Option<Chapter>, BenchFailure> {
     let problem = Problem::new(job, known, interrupt)?;
     let mut families = family::families(&problem);
-    let bar = progress.budget(&job.name, arguments.budget);
+    let bar = progress.budget(&job.name, arguments.budget, interrupt);
     turns::measure(&problem, &mut families, arguments.budget, &bar, interrupt).map_err(
         |stop| match stop {
             Stop::Interrupted => BenchFailure::Interrupted(job.name.clone()),

@@ -2,12 +2,12 @@
 
 use crate::answer::say;
 use crate::arguments::CheckArguments;
-use crate::job::{Job, Refusal};
 use crate::report::warn;
 use crate::verdict::Verdict;
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
+use stickslip_results::{Job, Refusal};
 use stickslip_scenario::Report;
 
 /// What is found of a file, for machines.

@@ -1,32 +1,37 @@
 //! `stickslip compare`: two folders of results, channel by channel, event by event, figure by figure.
-//!
-//! In reading order: [`arguments`]; [`results`] (a folder read back); [`allowance`] with [`scales`] and [`names`] (what
-//! may differ by how much); [`channels`]; [`events`] with [`alignment`]; [`figures`]; [`comparison`] (all of it, and what
-//! it comes to); [`account`] (what people read); [`picture`]; [`error`].
 
 mod account;
-mod alignment;
-mod allowance;
 mod arguments;
-mod channels;
-mod comparison;
-mod error;
-mod events;
-mod figures;
-mod names;
 mod picture;
-mod results;
-mod scales;
 
 use crate::answer::say;
 use crate::verdict::Verdict;
-use comparison::Comparison;
-use error::CompareError;
 use picture::Form;
-use results::Results;
-use std::io::Write;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use stickslip_plot::PlotError;
+use stickslip_results::compare::{CompareError, Comparison, Results};
+use stickslip_results::complaint::words;
+use thiserror::Error;
 
 pub(crate) use arguments::{ABOUT, CompareArguments, EXAMPLES};
+
+/// Why two folders are not compared, or not drawn.
+#[derive(Debug, Error)]
+enum CompareFailure {
+    /// What the comparison says; it names what was asked as the options do.
+    #[error("{}{error}", dashes(.error))]
+    Compare { error: CompareError },
+    /// A picture of a form that is not drawn.
+    #[error("--plot {}  expected a file name that ends in .png or .svg", .0.display())]
+    NoPicture(PathBuf),
+    /// The picture cannot be drawn.
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    /// The picture cannot be written.
+    #[error("--plot {}  cannot be written: {}", .path.display(), words(.source))]
+    NotWritten { path: PathBuf, source: io::Error },
+}
 
 /// Compares two folders and prints what was found.
 pub(crate) fn run(arguments: &CompareArguments) -> Verdict {
@@ -43,22 +48,39 @@ pub(crate) fn run(arguments: &CompareArguments) -> Verdict {
             if comparison.same { Verdict::Done } else { Verdict::Differs }
         }
         Err(error) => {
-            let _ = writeln!(std::io::stderr(), "{error}");
+            let _ = writeln!(io::stderr(), "{error}");
             Verdict::BadInput
         }
     }
 }
 
-fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareError> {
-    if let Some(file) = &arguments.plot {
-        // Before anything is read: a large comparison for nothing helps nobody.
-        Form::of(file)?;
+impl From<CompareError> for CompareFailure {
+    fn from(error: CompareError) -> Self {
+        Self::Compare { error }
     }
-    let (a, b) = (Results::read(&arguments.a)?, Results::read(&arguments.b)?);
-    let (mut comparison, rows) = Comparison::new(&a, &b, arguments)?;
-    if let Some(file) = &arguments.plot {
-        let names = picture::draw((&a, &b), &comparison, &rows, file)?;
+}
+
+fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
+    // Before anything is read: a large comparison for nothing helps nobody.
+    let form = |file: &PathBuf| Form::of(file).ok_or_else(|| CompareFailure::NoPicture(file.clone()));
+    let form = arguments.plot.as_ref().map(form).transpose()?;
+    let read =
+        |folder| Results::read(folder).map_err(|error| CompareFailure::from(CompareError::from(error)));
+    let (a, b) = (read(&arguments.a)?, read(&arguments.b)?);
+    let (mut comparison, rows) = Comparison::new(&a, &b, &arguments.terms())?;
+    if let (Some(file), Some(form)) = (&arguments.plot, form) {
+        let (bytes, names) = picture::draw((&a, &b), &comparison, &rows, form)?;
+        stickslip_results::folder::write(file, &bytes)
+            .map_err(|source| CompareFailure::NotWritten { path: file.clone(), source })?;
         comparison.notes.push(format!("drawn in {}: {}", file.display(), names.join(", ")));
     }
     Ok(comparison)
+}
+
+/// What makes the name of a term that of an option.
+fn dashes(error: &CompareError) -> &'static str {
+    match error {
+        CompareError::UnknownName { .. } | CompareError::Absolute { .. } => "--",
+        CompareError::Results(_) | CompareError::NoCommonRow => "",
+    }
 }

@@ -9,17 +9,17 @@ mod phase;
 mod state;
 mod trajectory;
 
-use crate::curves;
-use crate::frame::FrameError;
-use crate::insides::{MEMORY, SPRINGS};
-use crate::job::Job;
-use crate::kept::Kept;
 use crate::look::{Look, Pen, Picture};
-use crate::provenance::provenance;
-use crate::series::ENERGY;
-use crate::springs;
 use std::path::{Path, PathBuf};
 use stickslip_plot::PlotError;
+use stickslip_results::ENERGY;
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::curves;
+use stickslip_results::files::{MEMORY, SPRINGS};
+use stickslip_results::frame::FrameError;
+use stickslip_results::provenance::provenance;
+use stickslip_results::springs;
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
@@ -78,7 +78,7 @@ fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<P
         PlotName::Events => events::draw(job, kept, pen),
         PlotName::State => {
             check_written(plot, SPRINGS, &sources.springs)?;
-            state::draw(job, &springs::read(&sources.springs).map_err(table)?, pen)
+            state::draw(job, springs::read(&sources.springs).map_err(table)?, pen)
         }
         PlotName::Memory => {
             check_written(plot, MEMORY, &sources.memory)?;

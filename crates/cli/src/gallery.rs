@@ -4,22 +4,21 @@ mod page;
 
 use crate::answer::say;
 use crate::arguments::GalleryArguments;
-use crate::complaint::words;
 use crate::figures::{self, FigureError, Sources};
-use crate::folder::Folder;
-use crate::insides::{MEMORY, SPRINGS};
 use crate::interrupt::Interrupt;
-use crate::job::{Job, Refusal};
 use crate::look::{Colours, Format, Look, Picture};
 use crate::progress::Progress;
-use crate::record::Recorder;
-use crate::run;
 use crate::verdict::Verdict;
 use page::Exhibit;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stickslip_drive::RunError;
+use stickslip_results::Recorder;
+use stickslip_results::complaint::words;
+use stickslip_results::files::{MEMORY, SPRINGS};
+use stickslip_results::folder::Folder;
+use stickslip_results::{Job, Refusal};
 use thiserror::Error;
 
 /// Name of the page.
@@ -105,10 +104,10 @@ fn draw(job: &Job, interrupt: &Interrupt, progress: &Progress) -> Result<Vec<Pic
     let failed = |source| GalleryFailure::File { path: job.folder.clone(), source };
     let tables = tempfile::tempdir().map_err(failed)?;
     let mut folder = Folder::make(tables.path()).map_err(failed)?;
-    let bar = progress.start(&job.name, job.scenario.plan.duration);
-    let recorder = Recorder::new(job, interrupt, &bar).fingerprinted();
+    let bar = progress.start(&job.name, job.scenario.plan.duration, interrupt);
+    let recorder = Recorder::new(job, &bar).fingerprinted();
     let recorder = recorder.with_tables(&folder).map_err(failed)?;
-    let (outcome, drafts) = run::simulate(job, recorder).map_err(failed)?;
+    let (outcome, drafts) = job.run_recorded(recorder).map_err(failed)?;
     drop(bar);
     if let Some(source) = outcome.error {
         return Err(GalleryFailure::Stopped { name: job.name.clone(), source });

@@ -11,15 +11,15 @@ mod work;
 
 use crate::answer::say;
 use crate::arguments::InfoArguments;
-use crate::job::Job;
 use crate::report::Report;
-use crate::summary::Parts;
 use crate::verdict::Verdict;
 use contacts::ContactInfo;
 use motion::{BodyInfo, ModeInfo, WaveformInfo};
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
+use stickslip_results::Job;
+use stickslip_results::Parts;
 use usage::Usage;
 use work::{Expected, Stepping};
 

@@ -1,60 +1,30 @@
 //! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
 //!
-//! In reading order: [`arguments`]; the commands around a run, [`new`], [`check`], [`info`], [`schema`]; [`batch`] (several
-//! files, messages in order) and its [`verdict`]; [`answer`] and [`complaint`] (what is printed); [`job`] (a scenario that was found good, with everything a run needs)
-//! within its [`limits`]; [`run`] (one job from start to files); [`record`] with [`table`], [`insides`], [`sheet`],
-//! [`kept`], [`series`], [`tracks`] and [`books`] (what a run leaves behind); [`contact_path`], [`trail`] and [`periods`]
-//! (series prepared for the analysis); [`summary`], [`report`] (what is told); [`figures`] with [`look`],
-//! [`provenance`] and [`fingerprint`] (pictures and what they carry); [`folder`] (how files are written); [`progress`],
-//! [`interrupt`]; [`results`] with [`replay`], [`rows`], [`springs`] and [`curves`] (what is read back from a folder) and
-//! [`redraw`]; [`origin`] (what is read back from a picture) and [`repro`]; [`gallery`]; [`frame`] (tables read back whole);
-//! [`markdown`] (pages); [`compare`] (tells two runs apart); [`mod@bench`] (what accuracy costs).
+//! In reading order: [`arguments`]; the commands around a run, [`mod@new`], [`check`], [`info`], [`schema`]; [`batch`] (several
+//! files, messages in order) and its [`verdict`]; [`answer`] (what is printed); [`run`] (one job from start to files) and
+//! [`report`] (what is told); [`figures`] with [`look`] (pictures); [`progress`], [`interrupt`]; [`redraw`]; [`origin`] (what is
+//! read back from a picture) and [`repro`]; [`gallery`]; [`compare`] (tells two runs apart); [`mod@bench`] (what accuracy
+//! costs).
 
 mod answer;
 mod arguments;
 mod batch;
 mod bench;
-mod books;
 mod check;
 mod compare;
-mod complaint;
-mod contact_path;
-mod curves;
 mod figures;
-mod fingerprint;
-mod folder;
-mod frame;
 mod gallery;
 mod info;
-mod insides;
 mod interrupt;
-mod job;
-mod kept;
-mod limits;
 mod look;
-mod markdown;
 mod new;
 mod origin;
-mod periods;
 mod progress;
-mod provenance;
-mod real;
-mod record;
 mod redraw;
-mod replay;
 mod report;
 mod repro;
-mod results;
-mod rows;
 mod run;
 mod schema;
-mod series;
-mod sheet;
-mod springs;
-mod summary;
-mod table;
-mod tracks;
-mod trail;
 mod verdict;
 
 use arguments::{Arguments, Command};

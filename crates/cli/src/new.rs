@@ -2,11 +2,11 @@
 
 use crate::answer::say;
 use crate::arguments::NewArguments;
-use crate::complaint::words;
-use crate::folder;
 use crate::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use stickslip_results::complaint::words;
+use stickslip_results::folder;
 use stickslip_scenario::{Scenario, schema};
 use thiserror::Error;
 

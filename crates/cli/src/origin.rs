@@ -1,13 +1,13 @@
 //! What a picture comes from, read back from the picture.
 
-use crate::complaint::words;
-use crate::fingerprint::{Fingerprint, FingerprintError};
-use crate::job::{Job, hash};
-use crate::provenance::{END, FINGERPRINT, HASH, PROGRAM, SCENARIO, TITLE};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use stickslip_plot::{PlotError, read_text};
+use stickslip_results::complaint::words;
+use stickslip_results::fingerprint::{Fingerprint, FingerprintError};
+use stickslip_results::provenance::{END, FINGERPRINT, HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_results::{Job, hash};
 use stickslip_scenario::{Scenario, ScenarioError};
 use thiserror::Error;
 

@@ -2,14 +2,14 @@
 
 use crate::answer::say;
 use crate::arguments::PlotArguments;
-use crate::complaint::words;
 use crate::figures::{self, FigureError, Sources};
-use crate::folder::Folder;
-use crate::insides::{MEMORY, SPRINGS};
-use crate::results::{Results, ResultsError};
 use crate::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use stickslip_results::complaint::words;
+use stickslip_results::files::{MEMORY, SPRINGS};
+use stickslip_results::folder::Folder;
+use stickslip_results::{Results, ResultsError};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 

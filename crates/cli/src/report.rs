@@ -1,13 +1,13 @@
 //! What a run tells people, and how it ended.
 
-use crate::complaint::words;
-use crate::job::{Job, Refusal};
-use crate::real::Real;
-use crate::run::Outcome;
-use crate::summary::{Status, Summary};
 use crate::verdict::Verdict;
 use std::io::{self, Write};
 use stickslip_analysis::Prefix;
+use stickslip_results::Outcome;
+use stickslip_results::Real;
+use stickslip_results::complaint::words;
+use stickslip_results::summary::{Status, Summary};
+use stickslip_results::{Job, Refusal};
 use stickslip_scenario::Scenario;
 
 /// A spread below this share of the step does not show in its digits.

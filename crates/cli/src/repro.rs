@@ -2,18 +2,18 @@
 
 use crate::answer::say;
 use crate::arguments::ReproArguments;
-use crate::complaint::words;
-use crate::fingerprint::{Difference, Differing, Fingerprint};
-use crate::folder::Folder;
 use crate::interrupt::Interrupt;
-use crate::job::this_program;
 use crate::origin::{Origin, OriginError};
 use crate::progress::Progress;
-use crate::record::Recorder;
 use crate::run;
 use crate::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::PathBuf;
+use stickslip_results::Recorder;
+use stickslip_results::complaint::words;
+use stickslip_results::fingerprint::{Difference, Differing, Fingerprint};
+use stickslip_results::folder::Folder;
+use stickslip_results::program::this_program;
 use thiserror::Error;
 
 /// Most differences of a table that are shown.
@@ -82,8 +82,8 @@ fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
 fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint, ReproFailure> {
     let job = &origin.job;
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
-    let bar = progress.start(&job.name, job.scenario.plan.duration);
-    let mut recorder = Recorder::new(job, &interrupt, &bar).fingerprinted();
+    let bar = progress.start(&job.name, job.scenario.plan.duration, &interrupt);
+    let mut recorder = Recorder::new(job, &bar).fingerprinted();
     if !origin.is_whole() {
         recorder = recorder.until(origin.end);
     }
@@ -92,7 +92,7 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     if let Some(folder) = &folder {
         recorder = recorder.with_tables(folder).map_err(written)?;
     }
-    let (outcome, drafts) = run::simulate(job, recorder).map_err(written)?;
+    let (outcome, drafts) = job.run_recorded(recorder).map_err(written)?;
     drop(bar);
     if let Some(folder) = folder {
         run::write(job, &arguments.look, folder, (&outcome, drafts)).map_err(written)?;

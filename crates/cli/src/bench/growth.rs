@@ -9,15 +9,16 @@ mod scenes;
 use super::BenchFailure;
 use super::clock::{Stopwatch, Times};
 use super::samples::Nothing;
-use crate::folder::Folder;
 use crate::interrupt::Interrupt;
-use crate::job::this_program;
 use crate::progress::Progress;
-use crate::provenance;
 use kinds::Kind;
 use std::path::Path;
 use stickslip_drive::{Counts, Model, Plan, RunError, State};
 use stickslip_plot::{Figure, GrowthCurve, PlotError, Theme, draw_png, draw_svg, growth_figure};
+use stickslip_results::Watcher;
+use stickslip_results::folder::Folder;
+use stickslip_results::program::this_program;
+use stickslip_results::provenance;
 
 /// Names of the files.
 pub(super) const TABLE: &str = "growth.csv";
@@ -57,7 +58,7 @@ pub(super) fn measure(out: &Path, interrupt: &Interrupt, progress: &Progress) ->
         error => BenchFailure::Stopped { name: PICTURE.to_owned(), why: error.to_string() },
     };
     let wrong = |why: String| BenchFailure::Stopped { name: PICTURE.to_owned(), why };
-    let bar = progress.budget(PICTURE, f64::from(TURNS));
+    let bar = progress.budget(PICTURE, f64::from(TURNS), interrupt);
     let mut curves = Vec::new();
     for kind in Kind::ALL {
         curves.push(Curve { kind, points: kind.points().map_err(wrong)? });
@@ -66,7 +67,7 @@ pub(super) fn measure(out: &Path, interrupt: &Interrupt, progress: &Progress) ->
         for point in curves.iter_mut().flat_map(|curve| &mut curve.points) {
             point.turn(turn, interrupt).map_err(stopped)?;
         }
-        bar.at(f64::from(turn + 1));
+        bar.reached(f64::from(turn + 1));
     }
     drop(bar);
     let pictures =

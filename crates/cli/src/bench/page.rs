@@ -5,11 +5,11 @@ use super::family::{Family, Method};
 use super::front::{Cost, Front};
 use super::problem::{CHECK, Problem};
 use super::{BenchArguments, TABLE, growth, machine, picture};
-use crate::job::Job;
-use crate::markdown::{link, plain, relative, word};
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
+use stickslip_results::Job;
+use stickslip_results::markdown::{link, plain, relative, word};
 
 /// Errors at which methods are compared.
 const ERRORS: [f64; 4] = [1e-3, 1e-6, 1e-8, 1e-9];

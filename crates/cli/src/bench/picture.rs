@@ -3,12 +3,12 @@
 use super::contestant::Stepping;
 use super::family::{Family, LOOPS, Method};
 use super::problem::Problem;
-use crate::job::Job;
 use crate::look::Picture;
-use crate::provenance;
 use stickslip_plot::{
     Dash, Figure, Ink, PlotError, Theme, WorkCurve, draw_png, draw_svg, work_precision_figure,
 };
+use stickslip_results::Job;
+use stickslip_results::provenance;
 
 /// Name of the picture's files, without ending.
 pub(super) const NAME: &str = "work-precision";

@@ -5,10 +5,10 @@ use super::contestant::with_engine;
 use super::norm::{self, Coordinate, Errors, Norm};
 use super::samples::{Sampler, Samples};
 use crate::interrupt::Interrupt;
-use crate::job::Job;
 use stickslip_contact::Interface;
 use stickslip_drive::scene::Side;
 use stickslip_drive::{Limits, Model, Plan, RunError, Scene, SceneError, Stepper};
+use stickslip_results::Job;
 use thiserror::Error;
 
 /// Tolerance of the reference: two orders below the finest run …

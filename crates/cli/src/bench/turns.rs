@@ -8,6 +8,7 @@ use super::samples::Samples;
 use crate::interrupt::Interrupt;
 use crate::progress::Bar;
 use std::time::Instant;
+use stickslip_results::Watcher;
 
 /// Turns of each run at most.
 const TURNS: u32 = 12;
@@ -25,13 +26,13 @@ pub(super) fn measure(
     problem: &Problem,
     families: &mut [Family<'_>],
     budget: f64,
-    bar: &Bar,
+    bar: &Bar<'_>,
     interrupt: &Interrupt,
 ) -> Result<(), Stop> {
     let share = 0.5 * budget / families.len() as f64;
     for (done, family) in families.iter_mut().enumerate() {
         sample(problem, family, share, interrupt)?;
-        bar.at(share * (done + 1) as f64);
+        bar.reached(share * (done + 1) as f64);
     }
     time(families, budget, bar, interrupt)
 }
@@ -68,7 +69,7 @@ fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, interrupt: &In
 }
 
 /// Every measured run in turn, several rounds.
-fn time(families: &mut [Family<'_>], budget: f64, bar: &Bar, interrupt: &Interrupt) -> Result<(), Stop> {
+fn time(families: &mut [Family<'_>], budget: f64, bar: &Bar<'_>, interrupt: &Interrupt) -> Result<(), Stop> {
     let runs: usize = families.iter().map(|family| family.measured().count()).sum();
     let share = 0.5 * budget / runs.max(1) as f64;
     let begun = Instant::now();
@@ -90,7 +91,7 @@ fn time(families: &mut [Family<'_>], budget: f64, bar: &Bar, interrupt: &Interru
             if interrupt.is_raised() {
                 return Err(Stop::Interrupted);
             }
-            bar.at(0.5 * budget + begun.elapsed().as_secs_f64().min(0.5 * budget));
+            bar.reached(0.5 * budget + begun.elapsed().as_secs_f64().min(0.5 * budget));
         }
         if turn > 0 && begun.elapsed().as_secs_f64() > 0.5 * budget {
             break;

@@ -1,11 +1,8 @@
 //! What a comparison tells people.
 
-use super::channels::ChannelDifference;
-use super::comparison::Comparison;
-use super::events::Lone;
-use super::figures::FigureDifference;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 use serde_json::Value;
+use stickslip_results::compare::{ChannelDifference, Comparison, FigureDifference, Lone, time};
 
 /// Events and figures shown of each sort; `--json` has all.
 const SHOWN: usize = 5;
@@ -139,9 +136,4 @@ fn figure(figure: &FigureDifference) -> String {
 fn amount(value: f64, unit: &str) -> String {
     let digits = if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") };
     format!("{digits} {unit}").trim_end().to_owned()
-}
-
-/// Nine digits tell when, without the noise of binary fractions.
-pub(crate) fn time(t: f64) -> String {
-    format!("{t:.8e}").parse::<f64>().map_or_else(|_| t.to_string(), |t| format!("{t:?}"))
 }

@@ -3,6 +3,7 @@
 use crate::arguments::assignment;
 use clap::Args;
 use std::path::PathBuf;
+use stickslip_results::compare::Terms;
 use stickslip_scenario::quantity;
 
 /// Long help; paragraphs are broken where the terminal ends.
@@ -73,6 +74,18 @@ pub(crate) struct CompareArguments {
     /// Print errors only; the exit code tells the rest
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+impl CompareArguments {
+    /// What is asked to be allowed.
+    pub(crate) fn terms(&self) -> Terms {
+        Terms {
+            tolerance: self.tolerance,
+            absolute: self.absolute.clone(),
+            time_tolerance: self.time_tolerance,
+            ignore: self.ignore.clone(),
+        }
+    }
 }
 
 /// A number of 0 or more.

@@ -1,12 +1,9 @@
 //! The picture of a comparison: the channels that differ most, both runs and the difference.
 
-use super::channels::{ChannelDifference, CommonRows};
-use super::comparison::Comparison;
-use super::error::CompareError;
-use super::results::Results;
-use crate::folder;
 use std::path::Path;
 use stickslip_plot::{ComparedChannel, Figure, PlotError, compare_figure, draw_png, draw_svg};
+use stickslip_results::compare::{ChannelDifference, CommonRows, Comparison, Results};
+use stickslip_results::program::this_program;
 
 /// Channels shown at most.
 const SHOWN: usize = 3;
@@ -28,13 +25,13 @@ struct Curve<'a> {
 }
 
 impl Form {
-    /// Of a file.
-    pub(crate) fn of(file: &Path) -> Result<Self, CompareError> {
+    /// Of a file; none of another form.
+    pub(crate) fn of(file: &Path) -> Option<Self> {
         let end = file.extension().map(|end| end.to_string_lossy().to_lowercase());
         match end.as_deref() {
-            Some("png") => Ok(Self::Png),
-            Some("svg") => Ok(Self::Svg),
-            _ => Err(CompareError::NoPicture(file.to_owned())),
+            Some("png") => Some(Self::Png),
+            Some("svg") => Some(Self::Svg),
+            _ => None,
         }
     }
 
@@ -46,13 +43,13 @@ impl Form {
     }
 }
 
-/// Draws into a file; returns the names of the channels that are shown.
+/// Draws; returns the bytes of the file and the names of the channels that are shown.
 pub(crate) fn draw(
     (a, b): (&Results, &Results),
     comparison: &Comparison,
     rows: &CommonRows,
-    file: &Path,
-) -> Result<Vec<String>, CompareError> {
+    form: Form,
+) -> Result<(Vec<u8>, Vec<String>), PlotError> {
     let curves = curves((a, b), comparison, rows);
     let channels: Vec<ComparedChannel<'_>> = curves
         .iter()
@@ -67,10 +64,8 @@ pub(crate) fn draw(
     let names = (legend(a), legend(b));
     let mut figure = compare_figure(&comparison.verdict(), (&names.0, &names.1), &channels);
     figure.provenance = provenance(comparison);
-    let bytes = Form::of(file)?.draw(&figure)?;
-    folder::write(file, &bytes)
-        .map_err(|source| CompareError::NotWritten { path: file.to_owned(), source })?;
-    Ok(curves.iter().map(|curve| curve.channel.name.clone()).collect())
+    let bytes = form.draw(&figure)?;
+    Ok((bytes, curves.iter().map(|curve| curve.channel.name.clone()).collect()))
 }
 
 /// The channels of numbers that differ most for what is allowed; where none does so too much, all have a chance.
@@ -108,7 +103,7 @@ fn provenance(comparison: &Comparison) -> Vec<(String, String)> {
     let (a, b) = (&comparison.a, &comparison.b);
     let entries = [
         ("Title", comparison.verdict()),
-        ("Software", format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"))),
+        ("Software", this_program()),
         ("Scenario SHA-256 of A", a.scenario_sha256.clone()),
         ("Scenario SHA-256 of B", b.scenario_sha256.clone()),
     ];

@@ -1,10 +1,10 @@
 //! The energy book of the whole.
 
-use crate::job::Job;
-use crate::kept::Kept;
 use crate::look::{Pen, Picture};
-use crate::series::ENERGY;
 use stickslip_plot::{EnergyBook, PlotError, energy_figure};
+use stickslip_results::ENERGY;
+use stickslip_results::Job;
+use stickslip_results::Kept;
 use stickslip_scenario::PlotName;
 
 /// Quantities of the book.

@@ -1,11 +1,11 @@
 //! Events over time.
 
-use crate::job::Job;
-use crate::kept::Kept;
 use crate::look::{Pen, Picture};
-use crate::tracks::Track;
 use std::collections::HashMap;
 use stickslip_plot::{EventTrack, PlotError, events_figure};
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::Track;
 use stickslip_scenario::PlotName;
 
 /// One line for each kind of event of each contact and waveform, contacts first.

@@ -1,12 +1,12 @@
 //! Hysteresis loops of the contacts.
 
-use crate::contact_path::contact_path;
-use crate::job::Job;
-use crate::kept::Kept;
 use crate::look::{Pen, Picture};
-use crate::summary::periods;
-use crate::trail::Trail;
 use stickslip_plot::{HysteresisLoop, Ink, PlotError, loop_figure};
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::Periods;
+use stickslip_results::Trail;
+use stickslip_results::contact_path;
 use stickslip_scenario::PlotName;
 
 /// A curve in the figure of loops.
@@ -75,7 +75,7 @@ fn curves(job: &Job, kept: &Kept, c: usize) -> Vec<Curve> {
         is_muted,
     };
     let path = contact_path(job, c, &kept.series);
-    let Some(periods) = periods(job, c, kept.end()) else { return vec![curve("", path, false)] };
+    let Some(periods) = Periods::of_contact(job, c, kept.end()) else { return vec![curve("", path, false)] };
     let last = path.part(periods.last());
     if last.is_closed() {
         return vec![curve("", path, false)];

@@ -1,6 +1,5 @@
 //! The scene, to scale.
 
-use crate::job::Job;
 use crate::look::{Pen, Picture};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
@@ -11,6 +10,7 @@ use stickslip_plot::{
     Amount, Fixture, LinkKind, Mobility, PlotError, Press, SceneBody, SceneContact, SceneGravity, SceneLink,
     SceneLoad, layout_figure,
 };
+use stickslip_results::Job;
 use stickslip_scenario::PlotName;
 
 /// What there is, before anything moves.

@@ -1,9 +1,9 @@
 //! The memory curves of the contacts at some moments, each in its wedge.
 
-use crate::curves::MemoryCurve;
-use crate::job::Job;
 use crate::look::{Pen, Picture};
 use stickslip_plot::{MemoryMoment, PlotError, memory_figure};
+use stickslip_results::Job;
+use stickslip_results::curves::MemoryCurve;
 use stickslip_scenario::PlotName;
 
 /// One panel for each curve.

@@ -1,12 +1,12 @@
 //! Velocity over displacement.
 
-use crate::job::Job;
-use crate::kept::Kept;
 use crate::look::{Pen, Picture};
-use crate::periods::Periods;
-use crate::trail::Trail;
 use stickslip_drive::scene::{Axis, Freedom};
 use stickslip_plot::{Coordinate, PhasePath, PlotError, phase_figure};
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::Periods;
+use stickslip_results::Trail;
 use stickslip_scenario::PlotName;
 
 /// A body whose stroke is a smaller share of the largest one in a coordinate is at rest: what moves it is rounding.

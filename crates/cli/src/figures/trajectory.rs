@@ -1,11 +1,11 @@
 //! The motion of the bodies over time.
 
-use crate::job::Job;
-use crate::kept::Kept;
 use crate::look::{Pen, Picture};
-use crate::series::Series;
 use stickslip_drive::scene::{Axis, Body, Freedom, Named, Side};
 use stickslip_plot::{Coordinate, Motion, PlotError, Track, Trajectory, trajectory_figure};
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::Series;
 use stickslip_scenario::PlotName;
 
 /// Positions over time, heights and angles where there are any, displacements of the contacts below.

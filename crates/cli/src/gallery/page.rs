@@ -1,12 +1,12 @@
 //! The page of the gallery, in Markdown.
 
 use crate::arguments::GalleryArguments;
-use crate::job::Job;
 use crate::look::{Colours, Format, Look};
-use crate::markdown::{link, plain, relative, word};
 use std::fmt::Write;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_results::Job;
+use stickslip_results::markdown::{link, plain, relative, word};
 use stickslip_scenario::PlotName;
 
 /// The pictures of a scenario.

@@ -3,8 +3,8 @@
 use super::contacts::{ContactInfo, Loaded, Pressed};
 use super::digits::digits;
 use super::tables::{WIDTH, grid, unbroken};
-use crate::real::Real;
 use crate::report::quantity;
+use stickslip_results::Real;
 
 /// Space that a column takes beside its text.
 const PADDING: usize = 2;

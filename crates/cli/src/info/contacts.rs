@@ -1,12 +1,12 @@
 //! Contacts: pair, scales, stiffness.
 
-use crate::job::Job;
-use crate::real::Real;
-use crate::summary::Parts;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use stickslip_contact::{FirstLoading, Interface, NormalGiven, TangentialGiven};
 use stickslip_drive::scene::{Freedom, Side, Varying};
+use stickslip_results::Job;
+use stickslip_results::Parts;
+use stickslip_results::Real;
 
 /// Rounding of Dundurs' β of two materials that are similar.
 const ROUNDING: f64 = 1e-12;

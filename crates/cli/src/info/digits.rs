@@ -1,8 +1,8 @@
 //! Numbers as they stand in the tables.
 
-use crate::real::Real;
 use crate::report::quantity;
 use stickslip_analysis::Prefix;
+use stickslip_results::Real;
 
 /// From here on a count is written with its power of ten.
 const MOST: f64 = 1e12;

@@ -1,11 +1,11 @@
 //! How many events a run may be expected to have: corners are counted, what contacts do is estimated.
 
-use crate::job::Job;
-use crate::real::Real;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use stickslip_drive::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
 use stickslip_drive::{Linearised, NormalMode, Stepper, Waveform};
+use stickslip_results::Job;
+use stickslip_results::Real;
 
 /// Events of a contact in a period of ringing: two reversals, and about one loop closes; where bodies press it by their
 /// own motion it reverses, grows in full stick and slips again, and one loop closes.

@@ -1,12 +1,12 @@
 //! What moves: bodies, waveforms, normal modes.
 
-use crate::job::Job;
-use crate::real::Real;
-use crate::summary::Parts;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Axis, Coordinate, Freedom, Normal, Scene, Varying};
+use stickslip_results::Job;
+use stickslip_results::Parts;
+use stickslip_results::Real;
 
 /// A body.
 #[derive(Debug, Serialize)]

@@ -5,9 +5,9 @@ use super::columns::{self, span};
 use super::digits::{bytes, digits, mass, two_digits, whole};
 use super::motion::{BodyInfo, Freed, ModeInfo, WaveformInfo};
 use super::usage::Item;
-use crate::real::Real;
 use crate::report::quantity;
 use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
+use stickslip_results::Real;
 
 /// Widest line.
 pub(super) const WIDTH: u16 = 100;

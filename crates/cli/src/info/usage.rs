@@ -2,10 +2,10 @@
 
 use super::contacts::name;
 use super::motion;
-use crate::job::Job;
 use serde::Serialize;
 use stickslip_drive::Stepper;
 use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Normal, Scene, Side, Varying};
+use stickslip_results::Job;
 
 /// What is computed and what is not.
 #[derive(Debug, Default, Serialize)]

@@ -1,11 +1,11 @@
 //! What a run will take: steps, rows, files, memory.
 
 use super::events::Events;
-use crate::job::Job;
-use crate::real::Real;
-use crate::series::Series;
 use serde::Serialize;
 use stickslip_drive::Stepper;
+use stickslip_results::Job;
+use stickslip_results::Real;
+use stickslip_results::Series;
 
 /// Bytes of a number with its comma in a table: 13.9 to 19.7 on the examples.
 const BYTES_PER_VALUE: f64 = 19.0;
