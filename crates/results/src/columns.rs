@@ -26,6 +26,11 @@ impl Columns {
         self.chosen.len()
     }
 
+    /// Whether there are none: even the time is left out.
+    pub fn is_empty(&self) -> bool {
+        self.chosen.is_empty()
+    }
+
     /// The chosen of all channels' values. What is missing is NaN.
     pub fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = (f64, &'a Channel)> {
         self.chosen.iter().map(|(place, channel)| (values.get(*place).copied().unwrap_or(f64::NAN), channel))

@@ -1,8 +1,8 @@
 //! The command line of a measurement.
 
-use super::problem::Known;
 use clap::Args;
 use std::path::PathBuf;
+use stickslip_bench::{Known, Request};
 use stickslip_scenario::quantity;
 
 /// Long help; paragraphs are broken where the terminal ends.
@@ -61,6 +61,21 @@ pub(crate) struct BenchArguments {
     /// No progress, no result; errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+impl BenchArguments {
+    /// What is asked to be measured.
+    pub(crate) fn request(&self) -> Request {
+        Request {
+            files: self.files.clone(),
+            out: self.out.clone(),
+            budget: self.budget,
+            set: self.set.clone(),
+            known: self.known.clone(),
+            growth: self.growth,
+            page: self.page.clone(),
+        }
+    }
 }
 
 /// Reads a time above 0.

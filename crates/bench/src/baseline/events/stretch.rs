@@ -1,6 +1,6 @@
 //! Between two events: laws that do not change, and when they end.
 
-use crate::bench::baseline::{Free, Tie, Track};
+use crate::baseline::{Free, Tie, Track};
 use nalgebra::SVector;
 use ode_solvers::System;
 use ode_solvers::continuous_output_model::ContinuousOutputModel;

@@ -1,7 +1,7 @@
 //! What is driven, step by step.
 
-use crate::bench::baseline::Track;
-use crate::bench::contestant::Stop;
+use crate::baseline::Track;
+use crate::contestant::Stop;
 
 /// Longest table of driven places.
 const TABLE: usize = 1 << 22;

@@ -6,11 +6,9 @@
 mod kinds;
 mod scenes;
 
-use super::BenchFailure;
-use super::clock::{Stopwatch, Times};
-use super::samples::Nothing;
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
+use crate::clock::{Stopwatch, Times};
+use crate::error::BenchError;
+use crate::samples::Nothing;
 use kinds::Kind;
 use std::path::Path;
 use stickslip_drive::{Counts, Model, Plan, RunError, State};
@@ -20,11 +18,12 @@ use stickslip_results::folder::Folder;
 use stickslip_results::program::this_program;
 use stickslip_results::provenance;
 
-/// Names of the files.
-pub(super) const TABLE: &str = "growth.csv";
-pub(super) const PICTURE: &str = "growth";
+/// Name of the table.
+pub const TABLE: &str = "growth.csv";
+/// Name of the picture's files, without ending; it stands for the whole in messages, too.
+pub const PICTURE: &str = "growth";
 /// Turns of every size.
-const TURNS: u32 = 9;
+pub const TURNS: u32 = 9;
 /// A turn repeats its run until it takes about so long, s.
 const TURN: f64 = 4e-3;
 /// What is drawn and written of the costs.
@@ -51,28 +50,29 @@ struct Curve {
     points: Vec<Point>,
 }
 
-/// Measures and writes `growth.csv` and the picture into a folder.
-pub(super) fn measure(out: &Path, interrupt: &Interrupt, progress: &Progress) -> Result<(), BenchFailure> {
+/// Measures and writes `growth.csv` and the picture into a folder; the watcher is told the turns that are done, of [`TURNS`].
+///
+/// # Errors
+/// A run that stops itself, a file that cannot be written, or the watcher's wish.
+pub fn measure(out: &Path, watcher: &dyn Watcher) -> Result<(), BenchError> {
     let stopped = |error: RunError| match error {
-        RunError::Interrupted { .. } => BenchFailure::Interrupted(PICTURE.to_owned()),
-        error => BenchFailure::Stopped { name: PICTURE.to_owned(), why: error.to_string() },
+        RunError::Interrupted { .. } => BenchError::Interrupted(PICTURE.to_owned()),
+        error => BenchError::Stopped { name: PICTURE.to_owned(), why: error.to_string() },
     };
-    let wrong = |why: String| BenchFailure::Stopped { name: PICTURE.to_owned(), why };
-    let bar = progress.budget(PICTURE, f64::from(TURNS), interrupt);
+    let wrong = |why: String| BenchError::Stopped { name: PICTURE.to_owned(), why };
     let mut curves = Vec::new();
     for kind in Kind::ALL {
         curves.push(Curve { kind, points: kind.points().map_err(wrong)? });
     }
     for turn in 0..TURNS {
         for point in curves.iter_mut().flat_map(|curve| &mut curve.points) {
-            point.turn(turn, interrupt).map_err(stopped)?;
+            point.turn(turn, watcher).map_err(stopped)?;
         }
-        bar.reached(f64::from(turn + 1));
+        watcher.reached(f64::from(turn + 1));
     }
-    drop(bar);
     let pictures =
-        draw(&curves).map_err(|source| BenchFailure::Picture { name: PICTURE.to_owned(), source })?;
-    let failed = |source| BenchFailure::File { path: out.to_owned(), source };
+        draw(&curves).map_err(|source| BenchError::Picture { name: PICTURE.to_owned(), source })?;
+    let failed = |source| BenchError::File { path: out.to_owned(), source };
     let mut folder = Folder::make(out).map_err(failed)?;
     folder.write(TABLE, table(&curves).as_bytes()).map_err(failed)?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes)).map_err(failed)?;
@@ -93,11 +93,11 @@ impl Point {
         Self { size, model, plan, start, span, cost, times: 1, counts: Counts::default() }
     }
 
-    fn turn(&mut self, turn: u32, interrupt: &Interrupt) -> Result<(), RunError> {
+    fn turn(&mut self, turn: u32, watcher: &dyn Watcher) -> Result<(), RunError> {
         let mut states = vec![self.start.clone(); self.times as usize];
         let watch = Stopwatch::start();
         for state in &mut states {
-            stickslip_drive::run(&self.model, &self.plan, state, &mut Nothing(interrupt))?;
+            stickslip_drive::run(&self.model, &self.plan, state, &mut Nothing(watcher))?;
         }
         self.cost = self.cost.shorter(watch.each(self.times));
         if let (0, Some(end)) = (turn, states.last()) {

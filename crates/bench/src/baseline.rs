@@ -8,10 +8,10 @@ mod form;
 mod half;
 mod spring_loop;
 
-pub(super) use events::Outside;
-pub(super) use spring_loop::SpringLoop;
+pub(crate) use events::Outside;
+pub(crate) use spring_loop::SpringLoop;
 
-use super::norm;
+use crate::norm;
 use form::Form;
 use stickslip_contact::{Curve, Interface, Memory};
 use stickslip_drive::scene::{Axis, Direction, Named, Normal, Varying};
@@ -19,7 +19,7 @@ use stickslip_drive::{Model, Scene, State, Waveform};
 
 /// A scene as the baselines see it: masses, constant forces, contacts.
 #[derive(Debug, Clone)]
-pub(super) struct Mechanism {
+pub(crate) struct Mechanism {
     /// In the order of the free coordinates.
     free: Vec<Free>,
     ties: Vec<Tie>,
@@ -62,7 +62,7 @@ struct Tie {
 
 impl Mechanism {
     /// The mechanism of a scene in its state at t = 0; or what the baselines do not know.
-    pub(super) fn new(scene: &Scene, model: &Model, start: &State) -> Result<Self, String> {
+    pub(crate) fn new(scene: &Scene, model: &Model, start: &State) -> Result<Self, String> {
         refuse(scene)?;
         let coordinates = norm::coordinates(scene);
         let places: Vec<(usize, Axis)> = coordinates.iter().map(|c| (c.body, c.axis)).collect();
@@ -102,7 +102,7 @@ impl Mechanism {
     }
 
     /// Whether no indentation ever changes.
-    pub(super) fn has_constant_loads(&self) -> bool {
+    pub(crate) fn has_constant_loads(&self) -> bool {
         self.ties.iter().all(|tie| tie.press.is_none())
     }
 }

@@ -2,8 +2,8 @@
 
 use super::stretch::{Held, Stretch};
 use super::{Output, Outside};
-use crate::bench::contestant::Stop;
-use crate::bench::samples::Samples;
+use crate::contestant::Stop;
+use crate::samples::Samples;
 use nalgebra::SVector;
 use ode_solvers::continuous_output_model::ContinuousOutputModel;
 use ode_solvers::{Dopri5, OutputType, System};
@@ -96,7 +96,7 @@ impl<'a, const D: usize> Trip<'a, D> {
     pub(super) fn run(mut self, tolerance: f64, output: &mut Output<'_>) -> Result<Counts, Stop> {
         let (mut step, duration) = (0.0, self.outside.duration);
         while self.t < duration {
-            if output.interrupt.is_raised() {
+            if !output.watcher.goes_on() {
                 return Err(Stop::Interrupted);
             }
             if output.until.is_some_and(|until| Instant::now() > until) {

@@ -10,13 +10,13 @@ const CORNERS: usize = 200;
 const ROUNDING: f64 = 1e-10;
 
 /// Tolerances 1e-1 to 1e-12.
-pub(super) fn tolerances() -> Vec<f64> {
+pub(crate) fn tolerances() -> Vec<f64> {
     (1..=12).map(|exponent| 10_f64.powi(-exponent)).collect()
 }
 
 /// Steps from half of `longest` (s) down by halves. All corners of the waveforms fall on them where corners have a common
 /// measure: a step across a corner would cost the method its order, and whoever writes a loop chooses the step so.
-pub(super) fn fixed(scene: &Scene, duration: f64, longest: f64) -> Vec<f64> {
+pub(crate) fn fixed(scene: &Scene, duration: f64, longest: f64) -> Vec<f64> {
     let measure = common_measure(scene, duration, longest);
     let first = (measure / (0.5 * longest).min(measure)).ceil();
     (0..LEVELS).map(|level| measure / (first * 2_f64.powi(level))).collect()

@@ -9,20 +9,20 @@ mod watch;
 use super::Mechanism;
 use super::form::Form;
 use super::half::Half;
-use crate::bench::clock::{Stopwatch, Times};
-use crate::bench::contestant::{Contestant, Stop};
-use crate::bench::samples::Samples;
-use crate::interrupt::Interrupt;
+use crate::clock::{Stopwatch, Times};
+use crate::contestant::{Contestant, Stop};
+use crate::samples::Samples;
 use driven::{Driven, Table};
 use std::time::Instant;
 use stickslip_drive::Counts;
+use stickslip_results::Watcher;
 use watch::{Blind, Keen, Watch};
 
 /// Most free coordinates; each number of them has its own loop.
 const MOST: usize = 6;
 
 /// The loop over rows of so many springs.
-pub(in crate::bench) struct SpringLoop {
+pub(crate) struct SpringLoop {
     mechanism: Mechanism,
     duration: f64,
     /// A row for each contact as it stands at the start.
@@ -31,7 +31,7 @@ pub(in crate::bench) struct SpringLoop {
 
 impl SpringLoop {
     /// Rows of `springs` over `spans` (m; none: the contact's width at the start).
-    pub(in crate::bench) fn new(
+    pub(crate) fn new(
         mechanism: Mechanism,
         duration: f64,
         springs: usize,
@@ -179,7 +179,7 @@ impl<const F: usize> Row<F> {
 }
 
 impl Contestant for SpringLoop {
-    fn sample(&self, step: f64, wall: f64, interrupt: &Interrupt) -> Result<(Samples, Counts), Stop> {
+    fn sample(&self, step: f64, wall: f64, watcher: &dyn Watcher) -> Result<(Samples, Counts), Stop> {
         let tables = self.tables(step)?;
         let starts = self.mechanism.free.iter().map(|free| free.start);
         let mut keen = Keen {
@@ -189,7 +189,7 @@ impl Contestant for SpringLoop {
             last: starts.unzip(),
             begun: Instant::now(),
             wall,
-            interrupt,
+            watcher,
             stop: None,
         };
         self.go(step, &tables, &mut keen);
@@ -201,13 +201,13 @@ impl Contestant for SpringLoop {
         Ok((keen.samples, Counts { steps, evaluations: steps + 1, ..Counts::default() }))
     }
 
-    fn time(&self, step: f64, times: u32, interrupt: &Interrupt) -> Result<Times, Stop> {
+    fn time(&self, step: f64, times: u32, watcher: &dyn Watcher) -> Result<Times, Stop> {
         let tables = self.tables(step)?;
         let watch = Stopwatch::start();
         for _ in 0..times {
-            self.go(step, &tables, &mut Blind(interrupt));
+            self.go(step, &tables, &mut Blind(watcher));
         }
-        if interrupt.is_raised() {
+        if !watcher.goes_on() {
             return Err(Stop::Interrupted);
         }
         Ok(watch.each(times))

@@ -1,12 +1,10 @@
 //! The measurement: errors once, then times by turns, so that all share the machine's noise.
 
-use super::clock::Stopwatch;
-use super::contestant::Stop;
-use super::family::{Family, Measured};
-use super::problem::Problem;
-use super::samples::Samples;
-use crate::interrupt::Interrupt;
-use crate::progress::Bar;
+use crate::clock::Stopwatch;
+use crate::contestant::Stop;
+use crate::family::{Family, Measured};
+use crate::problem::Problem;
+use crate::samples::Samples;
 use std::time::Instant;
 use stickslip_results::Watcher;
 
@@ -22,23 +20,22 @@ const GROWTH: f64 = 2.0;
 /// Measures all families in about `budget` s of wall time. Half of it is for the errors, in equal shares; what a share does
 /// not hold is left out, with a note. The other half is for the times: every run has one turn, then further ones as long as
 /// its share lasts.
-pub(super) fn measure(
+pub(crate) fn measure(
     problem: &Problem,
     families: &mut [Family<'_>],
     budget: f64,
-    bar: &Bar<'_>,
-    interrupt: &Interrupt,
+    watcher: &dyn Watcher,
 ) -> Result<(), Stop> {
     let share = 0.5 * budget / families.len() as f64;
     for (done, family) in families.iter_mut().enumerate() {
-        sample(problem, family, share, interrupt)?;
-        bar.reached(share * (done + 1) as f64);
+        sample(problem, family, share, watcher)?;
+        watcher.reached(share * (done + 1) as f64);
     }
-    time(families, budget, bar, interrupt)
+    time(families, budget, watcher)
 }
 
 /// Runs a family once, from coarse to fine, while its share of time lasts.
-fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, interrupt: &Interrupt) -> Result<(), Stop> {
+fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, watcher: &dyn Watcher) -> Result<(), Stop> {
     let begun = Instant::now();
     let (mut last, mut slow) = (0.0, false);
     for run in &mut family.runs {
@@ -49,7 +46,7 @@ fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, interrupt: &In
             continue;
         }
         let watch = Stopwatch::start();
-        match family.contestant.sample(run.value, left, interrupt) {
+        match family.contestant.sample(run.value, left, watcher) {
             Ok((samples, counts)) if samples.len() == Samples::complete() => {
                 let cost = watch.each(1);
                 last = cost.wall;
@@ -69,7 +66,7 @@ fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, interrupt: &In
 }
 
 /// Every measured run in turn, several rounds.
-fn time(families: &mut [Family<'_>], budget: f64, bar: &Bar<'_>, interrupt: &Interrupt) -> Result<(), Stop> {
+fn time(families: &mut [Family<'_>], budget: f64, watcher: &dyn Watcher) -> Result<(), Stop> {
     let runs: usize = families.iter().map(|family| family.measured().count()).sum();
     let share = 0.5 * budget / runs.max(1) as f64;
     let begun = Instant::now();
@@ -84,14 +81,14 @@ fn time(families: &mut [Family<'_>], budget: f64, bar: &Bar<'_>, interrupt: &Int
                 if turn == 0 {
                     result.times = (TURN / result.cost.wall).clamp(1.0, REPEATS) as u32;
                 }
-                let cost = family.contestant.time(run.value, result.times, interrupt)?;
+                let cost = family.contestant.time(run.value, result.times, watcher)?;
                 result.cost = if turn == 0 { cost } else { result.cost.shorter(cost) };
                 result.turns += 1;
             }
-            if interrupt.is_raised() {
+            if !watcher.goes_on() {
                 return Err(Stop::Interrupted);
             }
-            bar.reached(0.5 * budget + begun.elapsed().as_secs_f64().min(0.5 * budget));
+            watcher.reached(0.5 * budget + begun.elapsed().as_secs_f64().min(0.5 * budget));
         }
         if turn > 0 && begun.elapsed().as_secs_f64() > 0.5 * budget {
             break;

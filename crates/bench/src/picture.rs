@@ -1,9 +1,8 @@
 //! The work-precision diagram of a scenario.
 
-use super::contestant::Stepping;
-use super::family::{Family, LOOPS, Method};
-use super::problem::Problem;
-use crate::look::Picture;
+use crate::contestant::Stepping;
+use crate::family::{Family, LOOPS, Method};
+use crate::problem::Problem;
 use stickslip_plot::{
     Dash, Figure, Ink, PlotError, Theme, WorkCurve, draw_png, draw_svg, work_precision_figure,
 };
@@ -11,7 +10,7 @@ use stickslip_results::Job;
 use stickslip_results::provenance;
 
 /// Name of the picture's files, without ending.
-pub(super) const NAME: &str = "work-precision";
+pub const NAME: &str = "work-precision";
 
 /// Series of one family.
 struct Points {
@@ -23,7 +22,11 @@ struct Points {
 }
 
 /// Draws the diagram light, dark and as SVG.
-pub(super) fn draw(job: &Job, problem: &Problem, families: &[Family<'_>]) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(
+    job: &Job,
+    problem: &Problem,
+    families: &[Family<'_>],
+) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
     let points: Vec<Points> = families.iter().map(|family| Points::new(family, problem.duration)).collect();
     let curves: Vec<WorkCurve<'_>> = points.iter().map(Points::curve).collect();
     let error = format!("largest error, parts of {}", problem.norm.of);

@@ -1,7 +1,7 @@
 //! The machine that measured.
 
 /// Processor, cores and system, in words.
-pub(super) fn words() -> String {
+pub(crate) fn words() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let (system, kind) = (std::env::consts::OS, std::env::consts::ARCH);
     let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| processor(&text));

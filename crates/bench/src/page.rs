@@ -1,15 +1,19 @@
 //! The page of a measurement, in Markdown.
 
-use super::contestant::Stepping;
-use super::family::{Family, Method};
-use super::front::{Cost, Front};
-use super::problem::{CHECK, Problem};
-use super::{BenchArguments, TABLE, growth, machine, picture};
+use crate::contestant::Stepping;
+use crate::error::BenchError;
+use crate::family::{Family, Method};
+use crate::front::{Cost, Front};
+use crate::measurement::TABLE;
+use crate::problem::{CHECK, Problem};
+use crate::request::Request;
+use crate::{growth, machine, picture};
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
-use stickslip_results::Job;
 use stickslip_results::markdown::{link, plain, relative, word};
+use stickslip_results::program::this_program;
+use stickslip_results::{Job, folder};
 
 /// Errors at which methods are compared.
 const ERRORS: [f64; 4] = [1e-3, 1e-6, 1e-8, 1e-9];
@@ -31,7 +35,7 @@ const fn own(stepping: Stepping) -> Method {
 }
 
 /// What the page says of one scenario.
-pub(super) struct Chapter {
+pub struct Chapter {
     /// Lines of the table of ratios.
     ratios: String,
     /// Everything else.
@@ -40,7 +44,7 @@ pub(super) struct Chapter {
 
 impl Chapter {
     /// The chapter of a measurement; `page` is the file that it is for, the pictures are written already.
-    pub(super) fn new(
+    pub(crate) fn new(
         (job, file): (&Job, &Path),
         problem: &Problem,
         families: &[Family<'_>],
@@ -138,23 +142,32 @@ fn ratios(name: &str, problem: &Problem, families: &[Family<'_>]) -> String {
     lines
 }
 
+/// Writes the page of all chapters.
+///
+/// # Errors
+/// A file that cannot be written, or whose place cannot be told from that of the pictures.
+pub fn write_page(chapters: &[Chapter], request: &Request, file: &Path) -> Result<(), BenchError> {
+    let failed = |source| BenchError::File { path: file.to_owned(), source };
+    let text = text(chapters, request, file).map_err(failed)?;
+    folder::write(file, text.as_bytes()).map_err(failed)
+}
+
 /// The page.
-pub(super) fn text(chapters: &[Chapter], arguments: &BenchArguments, file: &Path) -> io::Result<String> {
+fn text(chapters: &[Chapter], request: &Request, file: &Path) -> io::Result<String> {
     let mut page = format!(
         "# Performance\n\nWhat accuracy costs: every stepper on the exact curve and on rows of 64, 256 and 1 024 springs, \
-         and what others would do.\nThis page and its pictures are written by\n\n```sh\n{}\n```\n\non {}, by {} {}, built with \
+         and what others would do.\nThis page and its pictures are written by\n\n```sh\n{}\n```\n\non {}, by {}, built with \
          `--release`.\n\n{TIMES}\n\n{NORM}\n\n{OTHERS}\n\n",
-        command(arguments),
+        command(request),
         machine::words(),
-        env!("CARGO_PKG_NAME"),
-        env!("CARGO_PKG_VERSION"),
+        this_program(),
     );
     if !chapters.is_empty() {
         page.push_str(&ratio_table(chapters));
     }
     chapters.iter().for_each(|chapter| page.push_str(&chapter.text));
-    if arguments.growth {
-        page.push_str(&grown(&relative(&arguments.out, parent(file))?));
+    if request.growth {
+        page.push_str(&grown(&relative(&request.out, parent(file))?));
     }
     Ok(page)
 }
@@ -220,16 +233,16 @@ measured runs by the straight line through their logarithms; ≈ beyond the fine
 last two decades; \"not reached\" where finer runs have no smaller errors, or where the finest is more than three decades away.";
 
 /// The command that writes the page.
-fn command(arguments: &BenchArguments) -> String {
+fn command(request: &Request) -> String {
     let mut command = "stickslip bench".to_owned();
-    arguments.files.iter().for_each(|file| command += &format!(" {}", word(file)));
-    arguments.set.iter().for_each(|(path, value)| command += &format!(" --set {path}=\"{value}\""));
-    for (name, known) in &arguments.known {
+    request.files.iter().for_each(|file| command += &format!(" {}", word(file)));
+    request.set.iter().for_each(|(path, value)| command += &format!(" --set {path}=\"{value}\""));
+    for (name, known) in &request.known {
         command += &format!(" --known {name}:{}={:e}", known.channel, known.value);
     }
-    command += &format!(" --budget \"{} s\" --out {}", arguments.budget, word(&arguments.out));
-    command += if arguments.growth { " --growth" } else { "" };
-    arguments.page.iter().for_each(|page| command += &format!(" --page {}", word(page)));
+    command += &format!(" --budget \"{} s\" --out {}", request.budget, word(&request.out));
+    command += if request.growth { " --growth" } else { "" };
+    request.page.iter().for_each(|page| command += &format!(" --page {}", word(page)));
     command
 }
 

@@ -1,6 +1,6 @@
 //! The table of all runs.
 
-use super::family::Family;
+use crate::family::Family;
 use std::io::{self, Write};
 
 const HEAD: [&str; 16] = [
@@ -23,7 +23,7 @@ const HEAD: [&str; 16] = [
 ];
 
 /// Writes a line for each run; `duration` is the simulated time, s. Fields of runs without result are empty.
-pub(super) fn write(file: impl Write, families: &[Family<'_>], duration: f64) -> io::Result<()> {
+pub(crate) fn write(file: impl Write, families: &[Family<'_>], duration: f64) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(file);
     writer.write_record(HEAD)?;
     for family in families {

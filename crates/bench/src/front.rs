@@ -1,18 +1,18 @@
 //! What an error costs: the lower left edge of a cloud of runs.
 
-use super::family::Family;
-use super::norm::Errors;
+use crate::family::Family;
+use crate::norm::Errors;
 
 /// Runs that no other run beats in both error and time, from coarse to fine.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Front {
+pub(crate) struct Front {
     /// Errors and seconds.
     points: Vec<(f64, f64)>,
 }
 
 /// Time for an error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Cost {
+pub(crate) enum Cost {
     /// Between measured runs, s.
     Measured(f64),
     /// Beyond the finest run, along the order of the last runs, s.
@@ -31,7 +31,7 @@ const LEAST_ORDER: f64 = 0.3;
 
 impl Front {
     /// The front of some runs.
-    pub(super) fn new(mut runs: Vec<(f64, f64)>) -> Self {
+    pub(crate) fn new(mut runs: Vec<(f64, f64)>) -> Self {
         runs.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.total_cmp(&b.0)));
         let mut points: Vec<(f64, f64)> = Vec::new();
         for (error, wall) in runs {
@@ -43,7 +43,7 @@ impl Front {
     }
 
     /// The front of families together.
-    pub(super) fn of<'f, 'p: 'f>(
+    pub(crate) fn of<'f, 'p: 'f>(
         families: impl Iterator<Item = &'f Family<'p>>,
         error: impl Fn(&Errors) -> f64,
     ) -> Self {
@@ -53,12 +53,12 @@ impl Front {
 
     /// Points in order of time.
     #[cfg(test)]
-    pub(super) fn points(&self) -> &[(f64, f64)] {
+    pub(crate) fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
 
     /// Time for an error, s: straight between neighbours in the logarithms. None without runs.
-    pub(super) fn cost(&self, error: f64) -> Option<Cost> {
+    pub(crate) fn cost(&self, error: f64) -> Option<Cost> {
         let (_, coarsest) = *self.points.first()?;
         let Some(place) = self.points.iter().position(|(reached, _)| *reached <= error) else {
             return Some(self.beyond(error));

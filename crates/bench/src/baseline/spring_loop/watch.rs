@@ -1,10 +1,10 @@
 //! What a run of the loop hands over.
 
-use crate::bench::contestant::Stop;
-use crate::bench::samples::Samples;
-use crate::interrupt::Interrupt;
+use crate::contestant::Stop;
+use crate::samples::Samples;
 use std::hint::black_box;
 use std::time::Instant;
+use stickslip_results::Watcher;
 
 /// Steps between two looks at the clock.
 const STRIDE: usize = 4096;
@@ -16,13 +16,13 @@ pub(super) trait Watch {
 }
 
 /// Watches nothing but the wish to stop.
-pub(super) struct Blind<'a>(pub(super) &'a Interrupt);
+pub(super) struct Blind<'a>(pub(super) &'a dyn Watcher);
 
 impl Watch for Blind<'_> {
     #[inline]
     fn step<const F: usize>(&mut self, n: usize, x: &[f64; F], _: &[f64; F]) -> bool {
         black_box(x);
-        !n.is_multiple_of(STRIDE) || !self.0.is_raised()
+        !n.is_multiple_of(STRIDE) || self.0.goes_on()
     }
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Keen<'a> {
     pub(super) last: (Vec<f64>, Vec<f64>),
     pub(super) begun: Instant,
     pub(super) wall: f64,
-    pub(super) interrupt: &'a Interrupt,
+    pub(super) watcher: &'a dyn Watcher,
     pub(super) stop: Option<Stop>,
 }
 
@@ -55,7 +55,7 @@ impl Watch for Keen<'_> {
         self.last.0.copy_from_slice(x);
         self.last.1.copy_from_slice(v);
         if n.is_multiple_of(STRIDE) {
-            if self.interrupt.is_raised() {
+            if !self.watcher.goes_on() {
                 self.stop = Some(Stop::Interrupted);
             } else if self.begun.elapsed().as_secs_f64() > self.wall {
                 self.stop = Some(Stop::Slow);

@@ -1,24 +1,24 @@
 //! Who takes part in a measurement: the program's own steppers on either engine.
 
-use super::clock::{Stopwatch, Times};
-use super::problem::Problem;
-use super::samples::{Nothing, Sampler, Samples};
-use crate::interrupt::Interrupt;
+use crate::clock::{Stopwatch, Times};
+use crate::problem::Problem;
+use crate::samples::{Nothing, Sampler, Samples};
 use stickslip_drive::scene::EngineChoice;
 use stickslip_drive::{Counts, Limits, Model, Plan, RunError, Scene, Stepper};
+use stickslip_results::Watcher;
 
 /// A method that solves a problem at a tolerance or by a step.
-pub(super) trait Contestant {
+pub(crate) trait Contestant {
     /// Runs once; where the free coordinates were, and what it took. Stops after `wall` s.
-    fn sample(&self, value: f64, wall: f64, interrupt: &Interrupt) -> Result<(Samples, Counts), Stop>;
+    fn sample(&self, value: f64, wall: f64, watcher: &dyn Watcher) -> Result<(Samples, Counts), Stop>;
 
     /// Runs some times without output; times of one run.
-    fn time(&self, value: f64, times: u32, interrupt: &Interrupt) -> Result<Times, Stop>;
+    fn time(&self, value: f64, times: u32, watcher: &dyn Watcher) -> Result<Times, Stop>;
 }
 
 /// Why a contestant has no result.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Stop {
+pub(crate) enum Stop {
     /// It takes longer than there is time.
     Slow,
     /// Somebody interrupted it.
@@ -39,7 +39,7 @@ impl From<RunError> for Stop {
 
 /// A stepper of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stepping {
+pub(crate) enum Stepping {
     Event,
     Dopri5,
     Rk4,
@@ -47,9 +47,9 @@ pub(super) enum Stepping {
 }
 
 impl Stepping {
-    pub(super) const ALL: [Self; 4] = [Self::Event, Self::Dopri5, Self::Rk4, Self::Verlet];
+    pub(crate) const ALL: [Self; 4] = [Self::Event, Self::Dopri5, Self::Rk4, Self::Verlet];
 
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Event => "event",
             Self::Dopri5 => "dopri5",
@@ -59,7 +59,7 @@ impl Stepping {
     }
 
     /// Whether it takes a fixed step instead of a tolerance.
-    pub(super) fn is_fixed(self) -> bool {
+    pub(crate) fn is_fixed(self) -> bool {
         matches!(self, Self::Rk4 | Self::Verlet)
     }
 
@@ -74,7 +74,7 @@ impl Stepping {
 }
 
 /// The scene with all contacts on the exact curve, or on rows of as many springs over these spans.
-pub(super) fn with_engine(scene: &Scene, springs: Option<(usize, &[Option<f64>])>) -> Scene {
+pub(crate) fn with_engine(scene: &Scene, springs: Option<(usize, &[Option<f64>])>) -> Scene {
     let mut scene = scene.clone();
     for (c, contact) in scene.contacts.iter_mut().enumerate() {
         contact.part.engine = match springs {
@@ -86,14 +86,14 @@ pub(super) fn with_engine(scene: &Scene, springs: Option<(usize, &[Option<f64>])
 }
 
 /// A stepper of the program on one of its engines.
-pub(super) struct Own<'p> {
+pub(crate) struct Own<'p> {
     problem: &'p Problem,
     model: Model,
     stepping: Stepping,
 }
 
 impl<'p> Own<'p> {
-    pub(super) fn new(problem: &'p Problem, model: Model, stepping: Stepping) -> Self {
+    pub(crate) fn new(problem: &'p Problem, model: Model, stepping: Stepping) -> Self {
         Self { problem, model, stepping }
     }
 
@@ -110,21 +110,21 @@ impl<'p> Own<'p> {
 }
 
 impl Contestant for Own<'_> {
-    fn sample(&self, value: f64, wall: f64, interrupt: &Interrupt) -> Result<(Samples, Counts), Stop> {
+    fn sample(&self, value: f64, wall: f64, watcher: &dyn Watcher) -> Result<(Samples, Counts), Stop> {
         let plan = self.plan(value, Some(wall), Some(Samples::interval(self.problem.duration)));
-        let mut sampler = Sampler::new(&self.problem.columns, interrupt);
+        let mut sampler = Sampler::new(&self.problem.columns, watcher);
         let mut state = self.model.start(&plan).map_err(|error| Stop::Failed(error.to_string()))?;
         stickslip_drive::run(&self.model, &plan, &mut state, &mut sampler)?;
         Ok((sampler.samples, state.counts()))
     }
 
-    fn time(&self, value: f64, times: u32, interrupt: &Interrupt) -> Result<Times, Stop> {
+    fn time(&self, value: f64, times: u32, watcher: &dyn Watcher) -> Result<Times, Stop> {
         let plan = self.plan(value, None, None);
         let start = self.model.start(&plan).map_err(|error| Stop::Failed(error.to_string()))?;
         let mut states = vec![start; times as usize];
         let watch = Stopwatch::start();
         for state in &mut states {
-            stickslip_drive::run(&self.model, &plan, state, &mut Nothing(interrupt))?;
+            stickslip_drive::run(&self.model, &plan, state, &mut Nothing(watcher))?;
         }
         Ok(watch.each(times))
     }

@@ -1,21 +1,21 @@
 //! Methods, each with its runs from coarse to fine.
 
-use super::baseline::{Outside, SpringLoop};
-use super::clock::Times;
-use super::contestant::{Contestant, Own, Stepping, with_engine};
-use super::norm::Errors;
-use super::problem::Problem;
-use super::steps;
+use crate::baseline::{Outside, SpringLoop};
+use crate::clock::Times;
+use crate::contestant::{Contestant, Own, Stepping, with_engine};
+use crate::norm::Errors;
+use crate::problem::Problem;
+use crate::steps;
 use stickslip_drive::{Counts, Model, Stepper};
 
 /// Springs of a row.
-pub(super) const ROWS: [usize; 3] = [64, 256, 1024];
+pub(crate) const ROWS: [usize; 3] = [64, 256, 1024];
 /// Springs of the rows of the loop, whose runs are short enough for more.
-pub(super) const LOOPS: [usize; 4] = [64, 256, 1024, 4096];
+pub(crate) const LOOPS: [usize; 4] = [64, 256, 1024, 4096];
 
 /// A way to solve a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Method {
+pub(crate) enum Method {
     /// A stepper of the program on the exact curve, or on rows of so many springs.
     Own { stepping: Stepping, springs: Option<usize> },
     /// The loop of a researcher over rows of so many springs.
@@ -25,40 +25,40 @@ pub(super) enum Method {
 }
 
 /// A method with its runs, from coarse to fine.
-pub(super) struct Family<'p> {
-    pub(super) method: Method,
-    pub(super) contestant: Box<dyn Contestant + 'p>,
-    pub(super) runs: Vec<Run>,
+pub(crate) struct Family<'p> {
+    pub(crate) method: Method,
+    pub(crate) contestant: Box<dyn Contestant + 'p>,
+    pub(crate) runs: Vec<Run>,
 }
 
 /// A method at one tolerance or step.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Run {
+pub(crate) struct Run {
     /// Tolerance, or step in s.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// What came of it; none of a run that was left out.
-    pub(super) result: Option<Measured>,
+    pub(crate) result: Option<Measured>,
     /// Why there is no result.
-    pub(super) note: String,
+    pub(crate) note: String,
 }
 
 /// What came of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Measured {
-    pub(super) errors: Errors,
+pub(crate) struct Measured {
+    pub(crate) errors: Errors,
     /// Error at the end against what is known from elsewhere.
-    pub(super) known: Option<f64>,
-    pub(super) counts: Counts,
+    pub(crate) known: Option<f64>,
+    pub(crate) counts: Counts,
     /// Times of one run: the shortest of all turns.
-    pub(super) cost: Times,
+    pub(crate) cost: Times,
     /// Turns that the time was measured in, and runs in each.
-    pub(super) turns: u32,
-    pub(super) times: u32,
+    pub(crate) turns: u32,
+    pub(crate) times: u32,
 }
 
 impl Method {
     /// Name of the method proper.
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Own { stepping, .. } => stepping.name(),
             Self::Loop { .. } => "loop",
@@ -67,7 +67,7 @@ impl Method {
     }
 
     /// How the contact is computed.
-    pub(super) fn engine(self) -> &'static str {
+    pub(crate) fn engine(self) -> &'static str {
         match self {
             Self::Own { springs: None, .. } | Self::Outside => "curve",
             Self::Own { springs: Some(_), .. } | Self::Loop { .. } => "springs",
@@ -75,7 +75,7 @@ impl Method {
     }
 
     /// Springs of a row.
-    pub(super) fn springs(self) -> Option<usize> {
+    pub(crate) fn springs(self) -> Option<usize> {
         match self {
             Self::Own { springs, .. } => springs,
             Self::Loop { springs } => Some(springs),
@@ -84,7 +84,7 @@ impl Method {
     }
 
     /// Whether its runs differ by their step; otherwise by their tolerance.
-    pub(super) fn is_fixed(self) -> bool {
+    pub(crate) fn is_fixed(self) -> bool {
         match self {
             Self::Own { stepping, .. } => stepping.is_fixed(),
             Self::Loop { .. } => true,
@@ -93,7 +93,7 @@ impl Method {
     }
 
     /// For people.
-    pub(super) fn title(self) -> String {
+    pub(crate) fn title(self) -> String {
         match self {
             Self::Own { stepping, springs: None } => stepping.name().to_owned(),
             Self::Own { stepping, springs: Some(n) } => format!("{}, {n} springs", stepping.name()),
@@ -110,13 +110,13 @@ impl<'p> Family<'p> {
     }
 
     /// Name and, where measured, result of each run.
-    pub(super) fn measured(&self) -> impl Iterator<Item = (&Run, &Measured)> {
+    pub(crate) fn measured(&self) -> impl Iterator<Item = (&Run, &Measured)> {
         self.runs.iter().filter_map(|run| run.result.as_ref().map(|result| (run, result)))
     }
 }
 
 /// All families of a problem.
-pub(super) fn families(problem: &Problem) -> Vec<Family<'_>> {
+pub(crate) fn families(problem: &Problem) -> Vec<Family<'_>> {
     let longest = problem.model.longest_step(Stepper::Verlet { step: 0.0 }).unwrap_or(f64::INFINITY);
     let tolerances = steps::tolerances();
     let steps = steps::fixed(&problem.scene, problem.duration, longest);

@@ -1,69 +1,95 @@
 //! A scenario as a problem to be solved: its reference, and how far an answer is from it.
 
-use super::baseline::Mechanism;
-use super::contestant::with_engine;
-use super::norm::{self, Coordinate, Errors, Norm};
-use super::samples::{Sampler, Samples};
-use crate::interrupt::Interrupt;
+use crate::baseline::Mechanism;
+use crate::contestant::with_engine;
+use crate::norm::{self, Coordinate, Errors, Norm};
+use crate::samples::{Sampler, Samples};
 use stickslip_contact::Interface;
 use stickslip_drive::scene::Side;
 use stickslip_drive::{Limits, Model, Plan, RunError, Scene, SceneError, Stepper};
 use stickslip_results::Job;
+use stickslip_results::Watcher;
 use thiserror::Error;
 
 /// Tolerance of the reference: two orders below the finest run …
-pub(super) const REFERENCE: f64 = 1e-14;
+pub(crate) const REFERENCE: f64 = 1e-14;
 /// … and of the run that tells how sure the reference is of itself.
-pub(super) const CHECK: f64 = 1e-13;
+pub(crate) const CHECK: f64 = 1e-13;
 /// A row of springs reaches this much further than the deepest indentation of the reference.
 const REACH: f64 = 1.05;
 
 /// A scenario with its reference.
-pub(super) struct Problem {
-    pub(super) scene: Scene,
+pub(crate) struct Problem {
+    pub(crate) scene: Scene,
     /// Simulated time, s.
-    pub(super) duration: f64,
+    pub(crate) duration: f64,
     /// The exact model.
-    pub(super) model: Model,
+    pub(crate) model: Model,
     /// Columns of the free coordinates in a row.
-    pub(super) columns: Vec<usize>,
-    pub(super) norm: Norm,
-    pub(super) reference: Samples,
+    pub(crate) columns: Vec<usize>,
+    pub(crate) norm: Norm,
+    pub(crate) reference: Samples,
     /// Difference between the reference and a run at ten times its tolerance.
-    pub(super) doubt: Errors,
+    pub(crate) doubt: Errors,
     /// Lengths of the rows of springs that hold a contact at its deepest, m; none where the load is constant.
-    pub(super) spans: Vec<Option<f64>>,
+    pub(crate) spans: Vec<Option<f64>>,
     /// The scene as the baselines see it, or what they do not know of it.
-    pub(super) mechanism: Result<Mechanism, String>,
+    pub(crate) mechanism: Result<Mechanism, String>,
     /// Coordinates at the end known from elsewhere, m or rad.
-    pub(super) known: Vec<(usize, f64)>,
+    pub(crate) known: Vec<(usize, f64)>,
 }
 
 /// A channel's value at the end, known from elsewhere.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Known {
-    pub(crate) channel: String,
-    pub(crate) value: f64,
+pub struct Known {
+    /// Name of the channel, such as `slider.x_m`.
+    pub channel: String,
+    /// Its value, m or rad.
+    pub value: f64,
 }
 
 /// Why a scenario is no problem to measure by.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub(super) enum ProblemError {
+pub enum ProblemError {
+    /// Without equations of motion.
     #[error("{0}: nothing is free, so there is nothing to integrate")]
     NothingFree(String),
+    /// Without a length to measure by.
     #[error("{0}: nothing moves, so there is no length to measure errors by")]
     NothingMoves(String),
+    /// Something known of what is no free coordinate.
     #[error("{name}: --known {channel}: expected a free coordinate, one of {choice}")]
-    Channel { name: String, channel: String, choice: String },
+    Channel {
+        /// The scenario.
+        name: String,
+        /// What stands there.
+        channel: String,
+        /// What could.
+        choice: String,
+    },
+    /// A scene that the exact engine refuses.
     #[error("{name}: {source}")]
-    Scene { name: String, source: SceneError },
+    Scene {
+        /// The scenario.
+        name: String,
+        /// What is wrong with it.
+        source: SceneError,
+    },
+    /// A reference that did not come to its end.
     #[error("{name}: the reference at a tolerance of {tolerance:e}: {source}")]
-    Reference { name: String, tolerance: f64, source: RunError },
+    Reference {
+        /// The scenario.
+        name: String,
+        /// Tolerance of the run.
+        tolerance: f64,
+        /// What the run says.
+        source: RunError,
+    },
 }
 
 impl Problem {
     /// Computes the reference of a scenario.
-    pub(super) fn new(job: &Job, known: &[Known], interrupt: &Interrupt) -> Result<Self, ProblemError> {
+    pub(crate) fn new(job: &Job, known: &[Known], watcher: &dyn Watcher) -> Result<Self, ProblemError> {
         let name = || job.name.clone();
         let scenario = &job.scenario;
         let coordinates = norm::coordinates(&scenario.scene);
@@ -96,7 +122,7 @@ impl Problem {
             };
             let mut state =
                 model.start(&plan).map_err(|source| ProblemError::Scene { name: name(), source })?;
-            let mut sampler = Sampler::new(&columns, interrupt).watching(depths.iter().copied());
+            let mut sampler = Sampler::new(&columns, watcher).watching(depths.iter().copied());
             stickslip_drive::run(&model, &plan, &mut state, &mut sampler)
                 .map_err(|source| ProblemError::Reference { name: name(), tolerance, source })?;
             Ok((sampler.samples, sampler.largest))
@@ -119,7 +145,7 @@ impl Problem {
     }
 
     /// Natural length (m) and velocity (m/s) of each free coordinate: those of the first contact that it moves.
-    pub(super) fn scales(&self) -> Vec<(f64, f64)> {
+    pub(crate) fn scales(&self) -> Vec<(f64, f64)> {
         let touches =
             |body: usize, c: &usize| self.scene.contacts[*c].part.between.contains(&Side::Body(body));
         let natural = |coordinate: &Coordinate| {
@@ -131,7 +157,7 @@ impl Problem {
     }
 
     /// Errors against the reference, and the largest against what is known from elsewhere.
-    pub(super) fn errors(&self, samples: &Samples) -> (Errors, Option<f64>) {
+    pub(crate) fn errors(&self, samples: &Samples) -> (Errors, Option<f64>) {
         let known = self.known.iter().map(|(i, value)| self.norm.against(*i, samples.end()[*i], *value));
         (self.norm.errors(samples, &self.reference), known.reduce(f64::max))
     }

@@ -4,26 +4,26 @@ use std::time::Instant;
 
 /// Times of one run, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Times {
+pub(crate) struct Times {
     /// Of the processor, spent on this thread: on a busy machine, wall time counts what others do meanwhile.
-    pub(super) processor: f64,
+    pub(crate) processor: f64,
     /// On the wall.
-    pub(super) wall: f64,
+    pub(crate) wall: f64,
 }
 
 /// A stopwatch, running.
-pub(super) struct Stopwatch {
+pub(crate) struct Stopwatch {
     wall: Instant,
     processor: Option<f64>,
 }
 
 impl Stopwatch {
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self { wall: Instant::now(), processor: processor() }
     }
 
     /// Times since the start, each of one of so many runs.
-    pub(super) fn each(&self, runs: u32) -> Times {
+    pub(crate) fn each(&self, runs: u32) -> Times {
         let spent = processor().zip(self.processor).map(|(now, then)| now - then);
         let wall = self.wall.elapsed().as_secs_f64();
         let processor = spent.unwrap_or(wall);
@@ -33,7 +33,7 @@ impl Stopwatch {
 
 impl Times {
     /// The shorter ones of two runs.
-    pub(super) fn shorter(self, other: Self) -> Self {
+    pub(crate) fn shorter(self, other: Self) -> Self {
         Self { processor: self.processor.min(other.processor), wall: self.wall.min(other.wall) }
     }
 }

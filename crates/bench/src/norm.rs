@@ -1,18 +1,18 @@
 //! How far off a run is, as one number.
 
-use super::samples::Samples;
+use crate::samples::Samples;
 use stickslip_drive::Scene;
 use stickslip_drive::scene::{Axis, Freedom, Side, Varying};
 use stickslip_scenario::Figures;
 
 /// A free coordinate of the scene.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Coordinate {
+pub(crate) struct Coordinate {
     /// Place of its body in the scene.
-    pub(super) body: usize,
-    pub(super) axis: Axis,
+    pub(crate) body: usize,
+    pub(crate) axis: Axis,
     /// Name of its channel, such as `slider.x_m`.
-    pub(super) channel: String,
+    pub(crate) channel: String,
     /// 1, or what turns an angle into a way: the distance of the farthest contact point from the reference point, m.
     arm: f64,
 }
@@ -20,25 +20,25 @@ pub(super) struct Coordinate {
 /// The norm: the largest error of any free coordinate, in parts of a length. An angle counts as the way it makes at the
 /// farthest contact point.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Norm {
-    pub(super) coordinates: Vec<Coordinate>,
+pub(crate) struct Norm {
+    pub(crate) coordinates: Vec<Coordinate>,
     /// m.
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// What the length is.
-    pub(super) of: String,
+    pub(crate) of: String,
 }
 
 /// Errors of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Errors {
+pub(crate) struct Errors {
     /// At the end.
-    pub(super) end: f64,
+    pub(crate) end: f64,
     /// The largest over the common moments.
-    pub(super) trajectory: f64,
+    pub(crate) trajectory: f64,
 }
 
 /// The free coordinates of a scene.
-pub(super) fn coordinates(scene: &Scene) -> Vec<Coordinate> {
+pub(crate) fn coordinates(scene: &Scene) -> Vec<Coordinate> {
     let mut coordinates = Vec::new();
     for (body, named) in scene.bodies.iter().enumerate() {
         for (axis, coordinate) in named.part.coordinates() {
@@ -65,7 +65,7 @@ fn arm(scene: &Scene, body: usize) -> f64 {
 impl Norm {
     /// In parts of the stroke of the scenario's waveform where bodies or actuators follow it, otherwise of the largest travel
     /// of the reference. None where nothing moves.
-    pub(super) fn new(
+    pub(crate) fn new(
         scene: &Scene,
         figures: Figures,
         coordinates: Vec<Coordinate>,
@@ -85,7 +85,7 @@ impl Norm {
     }
 
     /// Errors of a run that came to its end.
-    pub(super) fn errors(&self, samples: &Samples, reference: &Samples) -> Errors {
+    pub(crate) fn errors(&self, samples: &Samples, reference: &Samples) -> Errors {
         let moments = samples.moments().zip(reference.moments());
         let trajectory = moments.map(|(a, b)| self.distance(a, b)).fold(0.0, f64::max);
         Errors { end: self.distance(samples.end(), reference.end()), trajectory }
@@ -97,7 +97,7 @@ impl Norm {
     }
 
     /// Error of a coordinate against a value known from elsewhere.
-    pub(super) fn against(&self, coordinate: usize, value: f64, known: f64) -> f64 {
+    pub(crate) fn against(&self, coordinate: usize, value: f64, known: f64) -> f64 {
         self.coordinates[coordinate].arm * (value - known).abs() / self.length
     }
 }

@@ -9,16 +9,16 @@ mod stretch;
 mod trip;
 
 use super::Mechanism;
-use crate::bench::clock::{Stopwatch, Times};
-use crate::bench::contestant::{Contestant, Stop};
-use crate::bench::samples::Samples;
-use crate::interrupt::Interrupt;
+use crate::clock::{Stopwatch, Times};
+use crate::contestant::{Contestant, Stop};
+use crate::samples::Samples;
 use std::time::{Duration, Instant};
 use stickslip_drive::Counts;
+use stickslip_results::Watcher;
 use trip::Trip;
 
 /// ode_solvers' Dopri5 with events by hand.
-pub(in crate::bench) struct Outside {
+pub(crate) struct Outside {
     mechanism: Mechanism,
     duration: f64,
     /// Natural length (m) and velocity (m/s) of each free coordinate: tolerances are relative to them.
@@ -26,11 +26,7 @@ pub(in crate::bench) struct Outside {
 }
 
 impl Outside {
-    pub(in crate::bench) fn new(
-        mechanism: Mechanism,
-        duration: f64,
-        scales: Vec<(f64, f64)>,
-    ) -> Result<Self, String> {
+    pub(crate) fn new(mechanism: Mechanism, duration: f64, scales: Vec<(f64, f64)>) -> Result<Self, String> {
         if !mechanism.has_constant_loads() {
             return Err("contacts that bodies press".to_owned());
         }
@@ -53,22 +49,22 @@ impl Outside {
 struct Output<'a> {
     samples: Option<Samples>,
     until: Option<Instant>,
-    interrupt: &'a Interrupt,
+    watcher: &'a dyn Watcher,
 }
 
 impl Contestant for Outside {
-    fn sample(&self, tolerance: f64, wall: f64, interrupt: &Interrupt) -> Result<(Samples, Counts), Stop> {
+    fn sample(&self, tolerance: f64, wall: f64, watcher: &dyn Watcher) -> Result<(Samples, Counts), Stop> {
         let until = Instant::now().checked_add(Duration::from_secs_f64(wall.max(0.0)));
         let samples = Some(Samples::new(self.mechanism.free.len()));
-        let mut output = Output { samples, until, interrupt };
+        let mut output = Output { samples, until, watcher };
         let counts = self.go(tolerance, &mut output)?;
         Ok((output.samples.unwrap_or_default(), counts))
     }
 
-    fn time(&self, tolerance: f64, times: u32, interrupt: &Interrupt) -> Result<Times, Stop> {
+    fn time(&self, tolerance: f64, times: u32, watcher: &dyn Watcher) -> Result<Times, Stop> {
         let watch = Stopwatch::start();
         for _ in 0..times {
-            self.go(tolerance, &mut Output { samples: None, until: None, interrupt })?;
+            self.go(tolerance, &mut Output { samples: None, until: None, watcher })?;
         }
         Ok(watch.each(times))
     }
