@@ -4,7 +4,7 @@ mod pictures;
 
 use crate::bench::{self, BenchArguments};
 use crate::compare::{self, CompareArguments};
-use crate::look::Look;
+use crate::look::LookArguments;
 use crate::new;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
@@ -187,7 +187,7 @@ pub(crate) struct RunArguments {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) look: Look,
+    pub(crate) look: LookArguments,
 }
 
 /// Splits `path=value`.

@@ -20,12 +20,13 @@ pub(crate) fn run(arguments: &RunArguments) -> Verdict {
     let interrupt = Interrupt::install();
     let progress = Progress::new(!arguments.quiet);
     let jobs = prepare(arguments);
+    let look = arguments.look.look();
     let console = Console { arguments, progress: &progress, waiting: Mutex::default() };
     let work = |(place, job): (usize, Result<Job, Refusal>)| {
         let report = match job {
             Err(refusal) => Report::refused(&refusal),
             Ok(job) if interrupt.is_raised() => Report::skipped(&job),
-            Ok(job) => run_job(&job, &arguments.look, &interrupt, &progress),
+            Ok(job) => run_job(&job, &look, &interrupt, &progress),
         };
         let verdict = report.verdict;
         console.print(place, report);

@@ -2,13 +2,12 @@
 
 mod account;
 mod arguments;
-mod picture;
 
 use crate::answer::say;
 use crate::verdict::Verdict;
-use picture::Form;
 use std::io::{self, Write};
 use std::path::PathBuf;
+use stickslip_figures::comparison::{self, Form};
 use stickslip_plot::PlotError;
 use stickslip_results::compare::{CompareError, Comparison, Results};
 use stickslip_results::complaint::words;
@@ -69,7 +68,7 @@ fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
     let (a, b) = (read(&arguments.a)?, read(&arguments.b)?);
     let (mut comparison, rows) = Comparison::new(&a, &b, &arguments.terms())?;
     if let (Some(file), Some(form)) = (&arguments.plot, form) {
-        let (bytes, names) = picture::draw((&a, &b), &comparison, &rows, form)?;
+        let (bytes, names) = comparison::draw((&a, &b), &comparison, &rows, form)?;
         stickslip_results::folder::write(file, &bytes)
             .map_err(|source| CompareFailure::NotWritten { path: file.clone(), source })?;
         comparison.notes.push(format!("drawn in {}: {}", file.display(), names.join(", ")));

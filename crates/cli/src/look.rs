@@ -1,22 +1,21 @@
-//! How pictures are drawn: as what files, in what colours and size.
+//! How pictures are to be drawn, on the command line.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use stickslip_plot::{Figure, PlotError, Theme, draw_png, draw_svg};
-use stickslip_scenario::PlotName;
+use stickslip_figures::{Colours, Format, Look};
 
 /// The look of pictures; names of their files say what is not the default.
-#[derive(Debug, Clone, PartialEq, Eq, Args)]
-pub(crate) struct Look {
+#[derive(Debug, Clone, Args)]
+pub(crate) struct LookArguments {
     /// Kinds of picture files
     #[arg(long = "format", value_name = "KIND,…", value_delimiter = ',', default_value = "png")]
-    pub(crate) formats: Vec<Format>,
+    formats: Vec<FormatArgument>,
     /// Colours: light for paper, dark for screens (NAME-dark.png)
     #[arg(long, value_name = "NAME", default_value = "light")]
-    pub(crate) theme: Colours,
+    theme: ColoursArgument,
     /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (NAME@2x.png)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
-    pub(crate) scale: u32,
+    scale: u32,
 }
 
 /// Reads a size.
@@ -24,85 +23,33 @@ fn scales() -> impl TypedValueParser<Value = u32> {
     PossibleValuesParser::new(["1", "2"]).try_map(|given| given.parse::<u32>())
 }
 
-/// A kind of picture file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum FormatArgument {
     /// Pixels
     Png,
     /// Lines and texts, sharp at any size
     Svg,
 }
 
-/// Colours of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Colours {
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ColoursArgument {
     /// Dark on white
     Light,
     /// Light on nearly black
     Dark,
 }
 
-/// A file of a picture: its name and its bytes.
-pub(crate) type Picture = (String, Vec<u8>);
-
-/// Draws figures in a look, with what they come from.
-pub(crate) struct Pen<'a> {
-    pub(crate) look: &'a Look,
-    pub(crate) provenance: Vec<(String, String)>,
-}
-
-impl Format {
-    fn ending(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Svg => "svg",
-        }
-    }
-}
-
-impl Look {
-    /// Name of a picture's file.
-    pub(crate) fn file(&self, plot: PlotName, format: Format) -> String {
+impl LookArguments {
+    /// What is asked for.
+    pub(crate) fn look(&self) -> Look {
+        let format = |format: &FormatArgument| match format {
+            FormatArgument::Png => Format::Png,
+            FormatArgument::Svg => Format::Svg,
+        };
         let theme = match self.theme {
-            Colours::Light => "",
-            Colours::Dark => "-dark",
+            ColoursArgument::Light => Colours::Light,
+            ColoursArgument::Dark => Colours::Dark,
         };
-        let scale = if self.scale == 1 { String::new() } else { format!("@{}x", self.scale) };
-        format!("{}{theme}{scale}.{}", plot.name(), format.ending())
-    }
-
-    /// Names of all files that any look gives to the pictures of a scenario.
-    pub(crate) fn all_files() -> Vec<String> {
-        let mut names = Vec::new();
-        for theme in [Colours::Light, Colours::Dark] {
-            for scale in [1, 2] {
-                let look = Self { formats: Vec::new(), theme, scale };
-                for format in [Format::Png, Format::Svg] {
-                    names.extend(PlotName::ALL.map(|plot| look.file(plot, format)));
-                }
-            }
-        }
-        names
-    }
-}
-
-impl Pen<'_> {
-    /// Draws a figure, one file for each format.
-    pub(crate) fn draw(&self, plot: PlotName, mut figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
-        let (width, height) = figure.size;
-        figure.size = (width * self.look.scale, height * self.look.scale);
-        figure.theme = match self.look.theme {
-            Colours::Light => Theme::light(),
-            Colours::Dark => Theme::dark(),
-        };
-        figure.provenance.clone_from(&self.provenance);
-        let picture = |format: &Format| {
-            let bytes = match format {
-                Format::Png => draw_png(&figure)?,
-                Format::Svg => draw_svg(&figure)?.into_bytes(),
-            };
-            Ok((self.look.file(plot, *format), bytes))
-        };
-        self.look.formats.iter().map(picture).collect()
+        Look { formats: self.formats.iter().map(format).collect(), theme, scale: self.scale }
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::answer::say;
 use crate::arguments::PlotArguments;
-use crate::figures::{self, FigureError, Sources};
 use crate::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use stickslip_figures::{FigureError, Sources};
 use stickslip_results::complaint::words;
 use stickslip_results::files::{MEMORY, SPRINGS};
 use stickslip_results::folder::Folder;
@@ -57,7 +57,7 @@ fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
     }
     let (mut pictures, mut failures) = (Vec::new(), Vec::new());
     let (springs, memory) = (folder.join(SPRINGS), folder.join(MEMORY));
-    for drawn in figures::draw(&Sources { job, kept, springs, memory }, &arguments.look) {
+    for drawn in stickslip_figures::draw(&Sources { job, kept, springs, memory }, &arguments.look.look()) {
         match drawn {
             Ok(files) => pictures.extend(files),
             Err(source) => failures.push(PlotFailure::Figure { folder: folder.to_owned(), source }),

@@ -3,12 +3,12 @@
 use crate::answer::say;
 use crate::arguments::ReproArguments;
 use crate::interrupt::Interrupt;
-use crate::origin::{Origin, OriginError};
 use crate::progress::Progress;
 use crate::run;
 use crate::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::PathBuf;
+use stickslip_figures::{Origin, OriginError};
 use stickslip_results::Recorder;
 use stickslip_results::complaint::words;
 use stickslip_results::fingerprint::{Difference, Differing, Fingerprint};
@@ -95,7 +95,7 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     let (outcome, drafts) = job.run_recorded(recorder).map_err(written)?;
     drop(bar);
     if let Some(folder) = folder {
-        run::write(job, &arguments.look, folder, (&outcome, drafts)).map_err(written)?;
+        run::write(job, &arguments.look.look(), folder, (&outcome, drafts)).map_err(written)?;
     }
     if interrupt.is_raised() {
         return Err(ReproFailure::Interrupted(arguments.file.clone()));

@@ -1,11 +1,10 @@
 //! One job from start to files.
 
-use crate::figures::{self, Sources};
 use crate::interrupt::Interrupt;
-use crate::look::Look;
 use crate::progress::Progress;
 use crate::report::Report;
 use std::io;
+use stickslip_figures::{Look, Sources};
 use stickslip_results::files::{MEMORY, SCENARIO, SPRINGS, SUMMARY};
 use stickslip_results::folder::Folder;
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary};
@@ -37,7 +36,7 @@ pub(crate) fn write(
     folder.write(SCENARIO, job.resolved.as_bytes())?;
     let mut summary = Summary::new(job, outcome);
     let (springs, memory) = (folder.place(SPRINGS), folder.place(MEMORY));
-    for pictures in figures::draw(&Sources { job, kept: &outcome.kept, springs, memory }, look) {
+    for pictures in stickslip_figures::draw(&Sources { job, kept: &outcome.kept, springs, memory }, look) {
         match pictures {
             Ok(pictures) => pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?,
             Err(error) => summary.note(error.to_string()),

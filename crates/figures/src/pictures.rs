@@ -1,15 +1,7 @@
 //! The pictures of results, drawn alike from a run that has just ended and from its folder.
 
-mod energy;
-mod events;
-mod hysteresis;
-mod layout;
-mod memory;
-mod phase;
-mod state;
-mod trajectory;
-
 use crate::look::{Look, Pen, Picture};
+use crate::{energy, events, hysteresis, layout, memory, phase, state, trajectory};
 use std::path::{Path, PathBuf};
 use stickslip_plot::PlotError;
 use stickslip_results::ENERGY;
@@ -27,34 +19,57 @@ use thiserror::Error;
 const MOST_CURVES: usize = 24;
 
 /// What pictures are drawn from.
-pub(crate) struct Sources<'a> {
-    pub(crate) job: &'a Job,
-    pub(crate) kept: &'a Kept,
+pub struct Sources<'a> {
+    /// What was run.
+    pub job: &'a Job,
+    /// What was kept of it.
+    pub kept: &'a Kept,
     /// Where `springs.csv` lies, if it was written.
-    pub(crate) springs: PathBuf,
+    pub springs: PathBuf,
     /// Where `memory.csv` lies, if it was written.
-    pub(crate) memory: PathBuf,
+    pub memory: PathBuf,
 }
 
 /// Why a picture is not drawn.
 #[derive(Debug, Error)]
-pub(crate) enum FigureError {
+pub enum FigureError {
     /// Columns that the tables do not have.
     #[error("{plot} was not drawn: it needs {}, which output.channels left out", .columns.join(", "))]
-    Missing { plot: &'static str, columns: Vec<String> },
+    Missing {
+        /// Which picture.
+        plot: &'static str,
+        /// What it lacks.
+        columns: Vec<String>,
+    },
     /// A table that the run did not write.
     #[error("{plot} was not drawn: it needs {file}, which the run did not write")]
-    Absent { plot: &'static str, file: &'static str },
+    Absent {
+        /// Which picture.
+        plot: &'static str,
+        /// What it lacks.
+        file: &'static str,
+    },
     /// A damaged table.
     #[error("{plot} was not drawn: {source}")]
-    Table { plot: &'static str, source: FrameError },
+    Table {
+        /// Which picture.
+        plot: &'static str,
+        /// What is wrong with the table.
+        source: FrameError,
+    },
     /// Drawing failed.
     #[error("{plot} was not drawn: {source}")]
-    Plot { plot: &'static str, source: PlotError },
+    Plot {
+        /// Which picture.
+        plot: &'static str,
+        /// What cannot be drawn.
+        source: PlotError,
+    },
 }
 
-/// Draws the pictures that the job's scenario names, each once, in the order of all names.
-pub(crate) fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, FigureError>> {
+/// Draws the pictures that the job's scenario names, each once, in the order of all names. What is
+/// wrong with one does not keep the others from being drawn.
+pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, FigureError>> {
     let mut plots = sources.job.scenario.plots.clone();
     plots.sort_by_key(|plot| *plot as u8);
     plots.dedup();

@@ -1,6 +1,5 @@
 //! The page of the gallery, in Markdown.
 
-use crate::arguments::GalleryArguments;
 use crate::look::{Colours, Format, Look};
 use std::fmt::Write;
 use std::io;
@@ -10,29 +9,33 @@ use stickslip_results::markdown::{link, plain, relative, word};
 use stickslip_scenario::PlotName;
 
 /// The pictures of a scenario.
-pub(super) struct Exhibit {
+pub struct Exhibit {
     /// Name of the scenario and of the folder of its pictures.
     name: String,
     title: String,
     /// The scenario's file.
     file: PathBuf,
-    pub(super) plots: Vec<PlotName>,
+    /// What is shown.
+    pub plots: Vec<PlotName>,
     /// Names of the pictures' files.
     files: Vec<String>,
 }
 
 impl Exhibit {
-    /// The pictures that a job left.
-    pub(super) fn new(job: &Job, file: &Path, files: Vec<String>) -> Self {
+    /// The pictures that a job left: `file` is its scenario, `files` are the names of the pictures.
+    pub fn new(job: &Job, file: &Path, files: Vec<String>) -> Self {
         let is_there = |plot: &PlotName| files.contains(&look(Colours::Light).file(*plot, Format::Png));
         let plots = PlotName::ALL.into_iter().filter(is_there).collect();
         Self { name: job.name.clone(), title: job.title().to_owned(), file: file.to_owned(), plots, files }
     }
 }
 
-/// The page: scenario by scenario, each picture with the command that draws it.
-pub(super) fn text(exhibits: &[Exhibit], arguments: &GalleryArguments) -> io::Result<String> {
-    let GalleryArguments { scenarios, out, .. } = arguments;
+/// The page in the folder `out` of pictures of the scenarios in a folder: scenario by scenario, each picture with the
+/// command that draws it.
+///
+/// # Errors
+/// A scenario whose place cannot be told from that of the page.
+pub fn page(exhibits: &[Exhibit], scenarios: &Path, out: &Path) -> io::Result<String> {
     let mut command = "stickslip gallery".to_owned();
     for (option, path, usual) in [("--scenarios", scenarios, "scenarios"), ("--out", out, "plots")] {
         if path != Path::new(usual) {

@@ -14,7 +14,7 @@ use stickslip_results::Job;
 use stickslip_scenario::PlotName;
 
 /// What there is, before anything moves.
-pub(super) fn draw(job: &Job, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(job: &Job, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     pen.draw(PlotName::Layout, layout_figure(job.title(), &Sketch(&job.scenario.scene).scene()))
 }
 

@@ -22,7 +22,7 @@ struct Curve {
 /// Force over displacement. A contact that comes back to its start in every cycle is shown all the way. One that
 /// travels on, as in a drive, would smear its loops over the picture: of it the last period is shown, and behind it,
 /// if it is the only contact, the first in grey; u counts from the start of the period.
-pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     let curves: Vec<Curve> = (0..job.model.contacts().count()).flat_map(|c| curves(job, kept, c)).collect();
     let loops: Vec<HysteresisLoop<'_>> = curves
         .iter()

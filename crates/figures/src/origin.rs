@@ -15,43 +15,73 @@ use thiserror::Error;
 const MOST_BYTES: u64 = 64 << 20;
 
 /// Where a picture comes from.
-pub(crate) struct Origin {
+pub struct Origin {
     /// What was run.
-    pub(crate) job: Job,
+    pub job: Job,
     /// By what.
-    pub(crate) program: String,
+    pub program: String,
     /// Time reached, s.
-    pub(crate) end: f64,
+    pub end: f64,
     /// What came out.
-    pub(crate) fingerprint: Fingerprint,
+    pub fingerprint: Fingerprint,
 }
 
 /// Why a file does not tell where it comes from.
 #[derive(Debug, Error)]
-pub(crate) enum OriginError {
+pub enum OriginError {
     /// The file.
     #[error("{}: cannot be read: {}", .path.display(), words(.source))]
-    Read { path: PathBuf, source: io::Error },
+    Read {
+        /// Which file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
     /// Larger than any picture of ours.
     #[error("{}: has more than {MOST_BYTES} bytes", .0.display())]
     Size(PathBuf),
     /// No picture, or a damaged one.
     #[error("{}: cannot be read as a picture: {source}", .path.display())]
-    Picture { path: PathBuf, source: PlotError },
+    Picture {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: PlotError,
+    },
     /// A picture of something else.
     #[error("{}: carries no scenario: there is no text \"{key}\" in it\n   help: pictures of `stickslip run` and `plot` carry theirs, unless another program has written them since", .path.display())]
-    Missing { path: PathBuf, key: &'static str },
+    Missing {
+        /// Which file.
+        path: PathBuf,
+        /// The text that it lacks.
+        key: &'static str,
+    },
     /// A text that is not what it should be.
     #[error("{}: its \"{key}\" is damaged: {reason}", .path.display())]
-    Damaged { path: PathBuf, key: &'static str, reason: String },
+    Damaged {
+        /// Which file.
+        path: PathBuf,
+        /// Which text.
+        key: &'static str,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// The scenario is refused.
     #[error("{error}\n   note: written by {program}")]
-    Scenario { error: Box<ScenarioError>, program: String },
+    Scenario {
+        /// What is wrong with it.
+        error: Box<ScenarioError>,
+        /// The program that wrote it.
+        program: String,
+    },
 }
 
 impl Origin {
     /// Reads a PNG or SVG; results of its job go to `out`.
-    pub(crate) fn read(path: &Path, out: Option<&Path>) -> Result<Self, OriginError> {
+    ///
+    /// # Errors
+    /// A file that is no such picture, or one whose scenario this program refuses.
+    pub fn read(path: &Path, out: Option<&Path>) -> Result<Self, OriginError> {
         let texts = Texts::read(path)?;
         let program = texts.get(PROGRAM)?.to_owned();
         let resolved = texts.get(SCENARIO)?;
@@ -77,7 +107,7 @@ impl Origin {
     }
 
     /// Whether the run came to its end.
-    pub(crate) fn is_whole(&self) -> bool {
+    pub fn is_whole(&self) -> bool {
         self.end >= self.job.scenario.plan.duration
     }
 }

@@ -10,8 +10,10 @@ const SHOWN: usize = 3;
 
 /// Form of a picture, by the end of its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Form {
+pub enum Form {
+    /// Pixels.
     Png,
+    /// Lines and texts.
     Svg,
 }
 
@@ -26,7 +28,7 @@ struct Curve<'a> {
 
 impl Form {
     /// Of a file; none of another form.
-    pub(crate) fn of(file: &Path) -> Option<Self> {
+    pub fn of(file: &Path) -> Option<Self> {
         let end = file.extension().map(|end| end.to_string_lossy().to_lowercase());
         match end.as_deref() {
             Some("png") => Some(Self::Png),
@@ -44,7 +46,10 @@ impl Form {
 }
 
 /// Draws; returns the bytes of the file and the names of the channels that are shown.
-pub(crate) fn draw(
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn draw(
     (a, b): (&Results, &Results),
     comparison: &Comparison,
     rows: &CommonRows,

@@ -9,7 +9,7 @@ use stickslip_results::Track;
 use stickslip_scenario::PlotName;
 
 /// One line for each kind of event of each contact and waveform, contacts first.
-pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     let contacts = job.model.contacts().map(|(name, _)| name);
     let waveforms = job.scenario.scene.waveforms.iter().map(|waveform| waveform.name.as_str());
     let sources: HashMap<&str, usize> = contacts.chain(waveforms).zip(0..).collect();

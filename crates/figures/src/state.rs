@@ -8,7 +8,7 @@ use stickslip_results::springs::Springs;
 use stickslip_scenario::PlotName;
 
 /// One panel for each contact.
-pub(super) fn draw(job: &Job, contacts: Vec<Springs>, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(job: &Job, contacts: Vec<Springs>, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     let contacts: Vec<(Springs, Vec<SpringCondition>)> = contacts
         .into_iter()
         .map(|mut springs| {

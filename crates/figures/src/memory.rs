@@ -7,7 +7,7 @@ use stickslip_results::curves::MemoryCurve;
 use stickslip_scenario::PlotName;
 
 /// One panel for each curve.
-pub(super) fn draw(job: &Job, curves: &[MemoryCurve], pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(job: &Job, curves: &[MemoryCurve], pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     let slope = |name: &str| {
         let law = job.model.contacts().find(|(contact, _)| *contact == name);
         law.map_or(f64::NAN, |(_, law)| law.stick_slope())

@@ -9,7 +9,7 @@ use stickslip_results::Series;
 use stickslip_scenario::PlotName;
 
 /// Positions over time, heights and angles where there are any, displacements of the contacts below.
-pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     let series = &kept.series;
     let (feet, sliders) = tracks(job, series, Axis::X);
     let beside =
@@ -29,7 +29,7 @@ pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>
 }
 
 /// Columns that it is drawn from.
-pub(super) fn needs(job: &Job) -> Vec<String> {
+pub(crate) fn needs(job: &Job) -> Vec<String> {
     let bodies = job.scenario.scene.bodies.iter();
     let of = |body: &Named<Body>| {
         let moving = body.part.coordinates().into_iter().filter(|(_, c)| c.freedom != Freedom::Fixed);

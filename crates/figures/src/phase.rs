@@ -21,7 +21,7 @@ struct Mover<'a> {
 /// The free coordinates, or else all that move. A body that comes back to its start in the last period is shown all the
 /// way; of one that travels on that period alone, in all its coordinates, x counted from its start, as in the picture
 /// of loops.
-pub(super) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
     let trails: Vec<(Mover<'_>, Trail)> = movers(job)
         .into_iter()
         .map(|mover| {
@@ -66,7 +66,7 @@ fn trail(mover: &Mover<'_>, kept: &Kept) -> Trail {
 }
 
 /// Columns that it is drawn from.
-pub(super) fn needs(job: &Job) -> Vec<String> {
+pub(crate) fn needs(job: &Job) -> Vec<String> {
     let columns =
         |mover: Mover<'_>| quantities(mover.axis).map(|quantity| format!("{}.{quantity}", mover.body));
     movers(job).into_iter().flat_map(columns).collect()
