@@ -3,11 +3,10 @@
 mod columns;
 mod contacts;
 mod digits;
-mod events;
 mod motion;
+mod stepping;
 mod tables;
 mod usage;
-mod work;
 
 use crate::answer::say;
 use crate::arguments::InfoArguments;
@@ -18,10 +17,10 @@ use motion::{BodyInfo, ModeInfo, WaveformInfo};
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
-use stickslip_results::Job;
+use stepping::Stepping;
 use stickslip_results::Parts;
+use stickslip_results::{Expectation, Job};
 use usage::Usage;
-use work::{Expected, Stepping};
 
 /// Derived numbers of a scenario, in SI.
 #[derive(Debug, Serialize)]
@@ -37,7 +36,7 @@ struct Info {
     /// Normal modes with all contacts stuck, by rising frequency.
     modes: Vec<ModeInfo>,
     stepping: Stepping,
-    expected: Expected,
+    expected: Expectation,
     usage: Usage,
 }
 
@@ -69,7 +68,7 @@ impl Info {
             waveforms: motion::waveforms(job),
             contacts: contacts::of(job),
             stepping: Stepping::of(job),
-            expected: Expected::of(job),
+            expected: Expectation::of(job),
             usage: Usage::of(job),
             modes,
         }

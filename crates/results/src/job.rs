@@ -9,8 +9,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use stickslip_contact::Springs;
+use stickslip_drive::facts::{Setup, has_constant_load};
 use stickslip_drive::scene::Normal;
-use stickslip_drive::scene::Varying::Constant;
 use stickslip_drive::{Channel, Model, SceneError, State, Stepper};
 use stickslip_scenario::{Scenario, ScenarioError, suggestion};
 use thiserror::Error;
@@ -108,14 +108,14 @@ impl Job {
         self.scenario.scene.contacts.get(c).map_or(1, |contact| contact.part.count)
     }
 
+    /// What facts are told of.
+    pub fn setup(&self) -> Setup<'_> {
+        Setup { scene: &self.scenario.scene, model: &self.model, start: &self.start }
+    }
+
     /// Whether the load of contact `c` never changes.
     pub fn has_constant_load(&self, c: usize) -> bool {
-        self.scenario.scene.contacts.get(c).is_some_and(|contact| match contact.part.normal {
-            Normal::Force(load) | Normal::Indentation(load) | Normal::Radius(load) => {
-                matches!(load, Constant(_))
-            }
-            Normal::Coupled => false,
-        })
+        self.scenario.scene.contacts.get(c).is_some_and(|contact| has_constant_load(&contact.part))
     }
 
     /// Whether the force of contact `c` follows from the way of its bodies along the slide alone.

@@ -1,12 +1,14 @@
 //! What moves: bodies, waveforms, normal modes.
 
 use serde::Serialize;
-use std::f64::consts::TAU;
 use stickslip_drive::Waveform;
-use stickslip_drive::scene::{Axis, Coordinate, Freedom, Normal, Scene, Varying};
+use stickslip_drive::facts::{self, Follower, Mode};
+use stickslip_drive::scene::{Axis, Coordinate, Freedom, Scene};
 use stickslip_results::Job;
 use stickslip_results::Parts;
 use stickslip_results::Real;
+
+pub(super) use stickslip_drive::facts::followers;
 
 /// A body.
 #[derive(Debug, Serialize)]
@@ -54,14 +56,6 @@ pub(super) struct ModeInfo {
     pub(super) damping_ratio: Real,
     /// Displacements of the coordinates, the largest 1.
     pub(super) shape: Parts<Real>,
-}
-
-/// Something that follows a waveform.
-pub(super) struct Follower {
-    pub(super) waveform: usize,
-    pub(super) what: String,
-    /// Whether it is a force.
-    pub(super) is_force: bool,
 }
 
 /// All bodies.
@@ -112,59 +106,13 @@ pub(super) fn waveforms(job: &Job) -> Parts<WaveformInfo> {
     Parts(job.scenario.scene.waveforms.iter().enumerate().map(waveform).collect())
 }
 
-/// Everything that follows a waveform.
-pub(super) fn followers(scene: &Scene) -> Vec<Follower> {
-    let mut followers = Vec::new();
-    let mut add = |waveform, what: String, is_force| followers.push(Follower { waveform, what, is_force });
-    for body in &scene.bodies {
-        for (axis, coordinate) in body.part.coordinates() {
-            if let Freedom::Follows(w) = coordinate.freedom {
-                add(w, format!("{}.{}", body.name, axis.key()), false);
-            }
-        }
-    }
-    for contact in &scene.contacts {
-        let (value, word) = match contact.part.normal {
-            Normal::Force(value) => (value, "force"),
-            Normal::Indentation(value) => (value, "indentation"),
-            Normal::Radius(value) => (value, "radius"),
-            Normal::Coupled => continue,
-        };
-        if let Varying::Follows(w) = value {
-            add(w, format!("{}.{word}", contact.name), word == "force");
-        }
-    }
-    for actuator in &scene.actuators {
-        if let Varying::Follows(w) = actuator.part.stroke {
-            add(w, format!("{}.stroke", actuator.name), false);
-        }
-    }
-    for load in &scene.loads {
-        let Some(body) = scene.bodies.get(load.on) else { continue };
-        for (axis, value) in [(Axis::X, load.x), (Axis::Z, load.z), (Axis::Pitch, load.pitch)] {
-            if let Varying::Follows(w) = value {
-                add(w, format!("load on {}.{}", body.name, axis.key()), true);
-            }
-        }
-    }
-    followers
-}
-
 /// All normal modes.
 pub(super) fn modes(job: &Job) -> Vec<ModeInfo> {
-    let linearised = job.model.linearised(&job.start, |d| d.start);
-    let varies = (0..job.model.contacts().count()).any(|c| !job.has_constant_load(c));
-    let frequencies = |modes: Vec<stickslip_drive::NormalMode>| -> Vec<f64> {
-        modes.iter().map(|mode| mode.frequency / TAU).collect()
-    };
-    let least = frequencies(job.model.linearised(&job.start, |d| d.least).modes());
-    let most = frequencies(job.model.linearised(&job.start, |d| d.most).modes());
-    let names = linearised.coordinates();
-    let mode = |(k, mode): (usize, stickslip_drive::NormalMode)| ModeInfo {
-        frequency: Real(mode.frequency / TAU),
-        range: least.get(k).zip(most.get(k)).filter(|_| varies).map(|(low, high)| [Real(*low), Real(*high)]),
+    let mode = |mode: Mode| ModeInfo {
+        frequency: Real(mode.frequency),
+        range: mode.range.map(|(low, high)| [Real(low), Real(high)]),
         damping_ratio: Real(mode.damping_ratio),
-        shape: Parts(names.iter().cloned().zip(mode.shape.into_iter().map(Real)).collect()),
+        shape: Parts(mode.shape.into_iter().map(|(name, x)| (name, Real(x))).collect()),
     };
-    linearised.modes().into_iter().enumerate().map(mode).collect()
+    facts::modes(job.setup()).into_iter().map(mode).collect()
 }

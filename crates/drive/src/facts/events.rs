@@ -1,11 +1,9 @@
 //! How many events a run may be expected to have: corners are counted, what contacts do is estimated.
 
-use serde::Serialize;
+use super::Setup;
+use crate::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
+use crate::{Linearised, NormalMode, Plan, Stepper, Waveform};
 use std::f64::consts::TAU;
-use stickslip_drive::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
-use stickslip_drive::{Linearised, NormalMode, Stepper, Waveform};
-use stickslip_results::Job;
-use stickslip_results::Real;
 
 /// Events of a contact in a period of ringing: two reversals, and about one loop closes; where bodies press it by their
 /// own motion it reverses, grows in full stick and slips again, and one loop closes.
@@ -38,47 +36,34 @@ impl Pace {
     }
 }
 
-/// Events of the whole run.
-#[derive(Debug, Serialize)]
-pub(super) struct Events {
+/// Events of a whole run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExpectedEvents {
     /// Corners of waveforms, counted.
-    pub(super) corners: Real,
+    pub corners: f64,
     /// Events of contacts, estimated: within a factor of two on the examples.
-    pub(super) contacts_estimate: Real,
-    /// All in a period of the waveform of `figures`, on the average.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) per_period: Option<PerPeriod>,
+    pub contacts: f64,
 }
 
-#[derive(Debug, Serialize)]
-pub(super) struct PerPeriod {
-    pub(super) waveform: String,
-    pub(super) estimate: Real,
-}
-
-impl Events {
-    pub(super) fn of(job: &Job) -> Self {
-        let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
-        let linear = job.model.linearised(&job.start, |d| d.most);
+impl ExpectedEvents {
+    /// Those of a run along a plan.
+    pub fn of(setup: Setup<'_>, plan: &Plan) -> Self {
+        let Setup { scene, model, start } = setup;
+        let linear = model.linearised(start, |d| d.most);
         let modes = linear.modes();
-        let contacts = (0..scene.contacts.len()).map(|c| of_contact(job, c, (&linear, &modes))).sum();
+        let of = |c| of_contact(setup, c, plan.duration, (&linear, &modes));
+        let contacts = (0..scene.contacts.len()).map(of).sum();
         // At fixed steps corners are crossed, not located.
-        let located = matches!(job.model.effective(job.scenario.plan.stepper), Stepper::Event { .. });
-        let corners = scene.waveforms.iter().map(|w| corners(&w.part, duration));
+        let located = matches!(model.effective(plan.stepper), Stepper::Event { .. });
+        let corners = scene.waveforms.iter().map(|w| corners(&w.part, plan.duration));
         // The sum of nothing is -0.
         let corners = if located { corners.fold(0.0, |sum, corners| sum + corners) } else { 0.0 };
-        let named = job.scenario.figures.waveform.and_then(|w| scene.waveforms.get(w));
-        let per_period = named.and_then(|named| {
-            let share = named.part.period()? / duration;
-            let estimate = Real((corners + contacts) * share);
-            (share <= 1.0).then(|| PerPeriod { waveform: named.name.clone(), estimate })
-        });
-        Self { corners: Real(corners), contacts_estimate: Real(contacts), per_period }
+        Self { corners, contacts }
     }
 
     /// All events.
-    pub(super) fn total(&self) -> f64 {
-        self.corners.0 + self.contacts_estimate.0
+    pub fn total(&self) -> f64 {
+        self.corners + self.contacts
     }
 }
 
@@ -144,10 +129,14 @@ fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
 }
 
 /// Estimate for contact `c` over the whole run.
-fn of_contact(job: &Job, c: usize, (linear, modes): (&Linearised, &[NormalMode])) -> f64 {
-    let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
+fn of_contact(
+    Setup { scene, model, start }: Setup<'_>,
+    c: usize,
+    duration: f64,
+    (linear, modes): (&Linearised, &[NormalMode]),
+) -> f64 {
     let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
-    let Some(d) = job.model.indentations(&job.start, c) else { return 0.0 };
+    let Some(d) = model.indentations(start, c) else { return 0.0 };
     if d.most <= 0.0 || contact.friction == 0.0 {
         return 0.0;
     }
@@ -184,7 +173,7 @@ fn of_contact(job: &Job, c: usize, (linear, modes): (&Linearised, &[NormalMode])
 
 /// The waveforms whose motion reaches contact `c`: those that its sides follow and that press it, and all that act on
 /// the free bodies that hang together with it.
-pub(super) fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
+fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
     let Some(contact) = scene.contacts.get(c) else { return Vec::new() };
     let edges = || {
         let contacts = scene.contacts.iter().map(|part| part.part.between);
@@ -241,7 +230,7 @@ pub(super) fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stickslip_drive::{Shape, Timing};
+    use crate::{Shape, Timing};
 
     #[test]
     fn corners_are_counted_within_the_time_they_run() {
