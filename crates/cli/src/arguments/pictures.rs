@@ -1,6 +1,6 @@
 //! The command line of pictures.
 
-use crate::look::LookArguments;
+use crate::arguments::look::LookArguments;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;

@@ -1,10 +1,11 @@
 //! The answer of a command, on stdout.
 
-use crate::verdict::Verdict;
+use crate::console::verdict::Verdict;
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
 use stickslip_results::complaint::words;
+use stickslip_scenario::Scenario;
 
 /// Why some of the answer was lost.
 static LOST: OnceLock<io::Error> = OnceLock::new();
@@ -12,6 +13,13 @@ static LOST: OnceLock<io::Error> = OnceLock::new();
 /// Prints a line.
 pub(crate) fn say(line: Arguments<'_>) {
     keep(writeln!(io::stdout(), "{line}"));
+}
+
+/// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
+pub(crate) fn warn(scenario: &Scenario) {
+    for warning in &scenario.warnings {
+        let _ = writeln!(io::stderr(), "warning: {warning}");
+    }
 }
 
 /// What all that was said has come to. A reader that has seen enough and closes its pipe is no fault; a full disk is

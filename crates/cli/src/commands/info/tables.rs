@@ -5,7 +5,7 @@ use super::columns::{self, span};
 use super::digits::{bytes, digits, mass, two_digits, whole};
 use super::motion::{BodyInfo, Freed, ModeInfo, WaveformInfo};
 use super::usage::Item;
-use crate::report::quantity;
+use crate::console::quantity::quantity;
 use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
 use stickslip_results::Real;
 

@@ -1,10 +1,10 @@
 //! `stickslip gallery`: all pictures of all scenarios of a folder, and the page that shows them.
 
-use crate::answer::say;
 use crate::arguments::GalleryArguments;
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
-use crate::verdict::Verdict;
+use crate::console::answer::say;
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! Numbers as they stand in the tables.
 
-use crate::report::quantity;
+use crate::console::quantity::quantity;
 use stickslip_analysis::Prefix;
 use stickslip_results::Real;
 

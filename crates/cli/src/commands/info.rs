@@ -8,10 +8,9 @@ mod stepping;
 mod tables;
 mod usage;
 
-use crate::answer::say;
 use crate::arguments::InfoArguments;
-use crate::report::Report;
-use crate::verdict::Verdict;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
 use contacts::ContactInfo;
 use motion::{BodyInfo, ModeInfo, WaveformInfo};
 use serde::Serialize;
@@ -45,9 +44,8 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
     let job = match Job::prepare(&arguments.file, &arguments.set, Path::new("")) {
         Ok(job) => job,
         Err(refusal) => {
-            let report = Report::refused(&refusal);
-            let _ = writeln!(std::io::stderr(), "{}", report.error);
-            return report.verdict;
+            let _ = writeln!(std::io::stderr(), "{refusal}");
+            return Verdict::BadInput;
         }
     };
     let info = Info::of(&job);

@@ -15,7 +15,7 @@ impl Interrupt {
         // Without a handler a signal ends the program at once: worse, but no reason not to run.
         let _ = ctrlc::set_handler(move || {
             if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(crate::verdict::Verdict::Interrupted.code()));
+                std::process::exit(i32::from(crate::console::verdict::Verdict::Interrupted.code()));
             }
         });
         interrupt

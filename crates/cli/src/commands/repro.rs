@@ -1,11 +1,11 @@
 //! Runs again what a picture carries, and tells whether the same comes out.
 
-use crate::answer::say;
 use crate::arguments::ReproArguments;
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
-use crate::run;
-use crate::verdict::Verdict;
+use crate::commands::run;
+use crate::console::answer::say;
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use stickslip_figures::{Origin, OriginError};

@@ -1,8 +1,8 @@
 //! Pictures drawn again from results on disk.
 
-use crate::answer::say;
 use crate::arguments::PlotArguments;
-use crate::verdict::Verdict;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, Sources};

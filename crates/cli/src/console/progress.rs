@@ -1,6 +1,6 @@
 //! Progress of the runs, on a terminal only.
 
-use crate::interrupt::Interrupt;
+use crate::console::interrupt::Interrupt;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::io::IsTerminal;

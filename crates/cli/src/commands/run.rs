@@ -1,18 +1,22 @@
-//! Several scenarios, one after the other or side by side.
+//! `stickslip run`: scenarios, one after the other or side by side.
 
-use crate::answer::say;
+mod report;
+mod scenario;
+
 use crate::arguments::RunArguments;
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
-use crate::report::{Report, warn};
-use crate::run::run as run_job;
-use crate::verdict::Verdict;
+use crate::console::answer::{say, warn};
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
 use rayon::prelude::*;
+use report::Report;
 use std::collections::HashMap;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use stickslip_results::{Job, Refusal};
+
+pub(crate) use scenario::write;
 
 /// Prepares and runs all scenarios; the worst ending counts. A file that is refused does not keep the others from
 /// running.
@@ -26,7 +30,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Verdict {
         let report = match job {
             Err(refusal) => Report::refused(&refusal),
             Ok(job) if interrupt.is_raised() => Report::skipped(&job),
-            Ok(job) => run_job(&job, &look, &interrupt, &progress),
+            Ok(job) => scenario::run(&job, &look, &interrupt, &progress),
         };
         let verdict = report.verdict;
         console.print(place, report);

@@ -1,8 +1,8 @@
 //! `stickslip new`: a scenario that runs at once, and a schema by which an editor completes it.
 
-use crate::answer::say;
 use crate::arguments::NewArguments;
-use crate::verdict::Verdict;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stickslip_results::complaint::words;
@@ -12,11 +12,11 @@ use thiserror::Error;
 
 /// Templates by name: examples as they are.
 const TEMPLATES: [(&str, &str); 5] = [
-    ("drive", include_str!("../../../scenarios/quickstart.json")),
-    ("piezo", include_str!("../../../scenarios/piezo_stack.json")),
-    ("fretting", include_str!("../../../scenarios/fretting_sphere.json")),
-    ("oblique", include_str!("../../../scenarios/oblique_loading.json")),
-    ("vibration", include_str!("../../../scenarios/vibrated_slider.json")),
+    ("drive", include_str!("../../../../scenarios/quickstart.json")),
+    ("piezo", include_str!("../../../../scenarios/piezo_stack.json")),
+    ("fretting", include_str!("../../../../scenarios/fretting_sphere.json")),
+    ("oblique", include_str!("../../../../scenarios/oblique_loading.json")),
+    ("vibration", include_str!("../../../../scenarios/vibrated_slider.json")),
 ];
 /// Where the examples look for their schema.
 const SCHEMA_OF_EXAMPLES: &str = "../schema/scenario-1.json";

@@ -1,13 +1,10 @@
 //! `stickslip bench`: what accuracy costs.
 
-mod arguments;
-
-pub(crate) use arguments::{ABOUT, BenchArguments, EXAMPLES};
-
-use crate::answer::say;
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
-use crate::verdict::Verdict;
+use crate::arguments::BenchArguments;
+use crate::console::answer::say;
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
 use std::io::{self, Write};
 use stickslip_bench::{BenchError, Known, ProblemError, TABLE, growth, picture};
 use stickslip_drive::RunError;

@@ -1,14 +1,13 @@
 //! What a run tells people, and how it ended.
 
-use crate::verdict::Verdict;
-use std::io::{self, Write};
-use stickslip_analysis::Prefix;
+use crate::console::quantity::quantity;
+use crate::console::verdict::Verdict;
+use std::io;
 use stickslip_results::Outcome;
 use stickslip_results::Real;
 use stickslip_results::complaint::words;
 use stickslip_results::summary::{Status, Summary};
 use stickslip_results::{Job, Refusal};
-use stickslip_scenario::Scenario;
 
 /// A spread below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
@@ -23,13 +22,6 @@ pub(crate) struct Report {
     pub(crate) json: String,
     /// On stderr.
     pub(crate) error: String,
-}
-
-/// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
-pub(crate) fn warn(scenario: &Scenario) {
-    for warning in &scenario.warnings {
-        let _ = writeln!(io::stderr(), "warning: {warning}");
-    }
 }
 
 impl Report {
@@ -111,29 +103,4 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     }
     lines.push(format!("  {}: {}", job.folder.display(), summary.files().join(", ")));
     lines.join("\n")
-}
-
-/// Four digits with an SI prefix.
-pub(crate) fn quantity(value: Real, unit: &str) -> String {
-    let prefix = Prefix::of_magnitude(value.0);
-    let shown = prefix.apply(value.0);
-    let digits = match shown.abs() {
-        x if x >= 100.0 => 1,
-        x if x >= 10.0 => 2,
-        _ => 3,
-    };
-    if shown == 0.0 { format!("0 {unit}") } else { format!("{shown:.digits$} {}{unit}", prefix.symbol) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn four_digits_are_shown() {
-        assert_eq!(quantity(Real(161.847e-9), "m"), "161.8 nm");
-        assert_eq!(quantity(Real(-1.5e-5), "m/s"), "-15.00 µm/s");
-        assert_eq!(quantity(Real(0.0), "J"), "0 J");
-        assert_eq!(quantity(Real(2.0), "s"), "2.000 s");
-    }
 }

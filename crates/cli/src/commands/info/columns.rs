@@ -3,7 +3,7 @@
 use super::contacts::{ContactInfo, Loaded, Pressed};
 use super::digits::digits;
 use super::tables::{WIDTH, grid, unbroken};
-use crate::report::quantity;
+use crate::console::quantity::quantity;
 use stickslip_results::Real;
 
 /// Space that a column takes beside its text.

@@ -1,7 +1,7 @@
 //! `stickslip schema`: the JSON Schema of the scenario file.
 
-use crate::answer::say;
-use crate::verdict::Verdict;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
 
 /// Prints the schema.
 pub(crate) fn print() -> Verdict {

@@ -1,10 +1,10 @@
 //! `stickslip compare`: two folders of results, channel by channel, event by event, figure by figure.
 
 mod account;
-mod arguments;
 
-use crate::answer::say;
-use crate::verdict::Verdict;
+use crate::arguments::CompareArguments;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use stickslip_figures::comparison::{self, Form};
@@ -12,8 +12,6 @@ use stickslip_plot::PlotError;
 use stickslip_results::compare::{CompareError, Comparison, Results};
 use stickslip_results::complaint::words;
 use thiserror::Error;
-
-pub(crate) use arguments::{ABOUT, CompareArguments, EXAMPLES};
 
 /// Why two folders are not compared, or not drawn.
 #[derive(Debug, Error)]

@@ -1,8 +1,8 @@
 //! One job from start to files.
 
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
-use crate::report::Report;
+use super::report::Report;
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
 use std::io;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::files::{MEMORY, SCENARIO, SPRINGS, SUMMARY};

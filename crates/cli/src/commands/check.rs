@@ -1,9 +1,9 @@
 //! `stickslip check`: everything that a run would refuse, and no run.
 
-use crate::answer::say;
 use crate::arguments::CheckArguments;
-use crate::report::warn;
-use crate::verdict::Verdict;
+use crate::console::answer::say;
+use crate::console::answer::warn;
+use crate::console::verdict::Verdict;
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
