@@ -16,7 +16,7 @@ use stickslip_drive::RunError;
 pub use contacts::{ContactSummary, Fretting};
 pub use steps::{DriveSummary, Steady};
 
-/// The summary of a run. Everything but [`Self::timing`] is the same whenever the same scenario is run.
+/// The summary of a run. Everything but `timing` is the same whenever the same scenario is run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
     #[serde(skip_serializing_if = "String::is_empty")]

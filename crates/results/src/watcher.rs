@@ -2,7 +2,7 @@
 
 /// Somebody who is told how far a run has come and may end it: a progress bar, a signal, a window.
 ///
-/// Asked at every step, by the thread that runs: an answer should take nanoseconds.
+/// Told at every row and asked every so many steps, by the thread that runs: an answer should take nanoseconds.
 pub trait Watcher {
     /// The run has come to time `t`, s.
     fn reached(&self, t: f64);
