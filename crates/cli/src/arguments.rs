@@ -1,15 +1,18 @@
 //! The command line.
 
+pub(crate) mod bench;
+pub(crate) mod compare;
+pub(crate) mod look;
 mod pictures;
 
-use crate::bench::{self, BenchArguments};
-use crate::compare::{self, CompareArguments};
-use crate::look::Look;
-use crate::new;
+use crate::commands::new;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
+use look::LookArguments;
 use std::path::PathBuf;
 
+pub(crate) use bench::BenchArguments;
+pub(crate) use compare::CompareArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 
 /// Exit codes, as every command keeps them.
@@ -187,7 +190,7 @@ pub(crate) struct RunArguments {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) look: Look,
+    pub(crate) look: LookArguments,
 }
 
 /// Splits `path=value`.

@@ -6,7 +6,8 @@
 //! [`Plan`].
 //!
 //! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its small motions, [`Linearised`]; [`State`]; the
-//! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down.
+//! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down;
+//! [`facts`], which are told before anything runs.
 //!
 //! Coordinates are x, z and the small pitch of each body, displacements from the position drawn, in SI: free, fixed or
 //! following a waveform. Where no force depends on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere,
@@ -18,6 +19,7 @@ mod equations;
 mod equilibrium;
 mod error;
 mod event;
+pub mod facts;
 mod interval;
 mod linearised;
 mod method;

@@ -1,6 +1,6 @@
 //! The command line of pictures.
 
-use crate::look::Look;
+use crate::arguments::look::LookArguments;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
@@ -37,7 +37,7 @@ pub(crate) struct PlotArguments {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) look: Look,
+    pub(crate) look: LookArguments,
 }
 
 #[derive(Debug, Args)]
@@ -52,7 +52,7 @@ pub(crate) struct ReproArguments {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) look: Look,
+    pub(crate) look: LookArguments,
 }
 
 #[derive(Debug, Args)]

@@ -1,0 +1,167 @@
+//! What others would do: the loop of a researcher over a row of springs, and an outside integrator with events by hand.
+//!
+//! Both know a scene as a [`Mechanism`], made here from its description; they share no force, no step and no event with the
+//! program's own engines and steppers, but take moduli, profiles and the memory at the start from it.
+
+mod events;
+mod form;
+mod half;
+mod spring_loop;
+
+pub(crate) use events::Outside;
+pub(crate) use spring_loop::SpringLoop;
+
+use crate::norm;
+use form::Form;
+use stickslip_contact::{Curve, Interface, Memory};
+use stickslip_drive::scene::{Axis, Direction, Named, Normal, Varying};
+use stickslip_drive::{Model, Scene, State, Waveform};
+
+/// A scene as the baselines see it: masses, constant forces, contacts.
+#[derive(Debug, Clone)]
+pub(crate) struct Mechanism {
+    /// In the order of the free coordinates.
+    free: Vec<Free>,
+    ties: Vec<Tie>,
+    /// What is driven: first the waveforms in the scene's order, then indentations that follow one.
+    tracks: Vec<Track>,
+}
+
+/// Something driven: a waveform, or the indentation that it prescribes.
+#[derive(Debug, Clone)]
+struct Track {
+    waveform: Waveform,
+    /// Whose indentation, and what of it follows.
+    pressed: Option<(Interface, Normal)>,
+}
+
+/// A free coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Free {
+    /// kg, or kg m².
+    mass: f64,
+    /// N, or N m.
+    force: f64,
+    /// Where it starts, and how fast.
+    start: (f64, f64),
+}
+
+/// A contact.
+#[derive(Debug, Clone)]
+struct Tie {
+    law: Interface,
+    /// Number of identical contacts.
+    count: f64,
+    /// u.
+    slide: Form,
+    /// d, from the bodies or from a track of its own; none where it is constant.
+    press: Option<Form>,
+    /// What it remembers at the start.
+    start: Curve,
+}
+
+impl Mechanism {
+    /// The mechanism of a scene in its state at t = 0; or what the baselines do not know.
+    pub(crate) fn new(scene: &Scene, model: &Model, start: &State) -> Result<Self, String> {
+        refuse(scene)?;
+        let coordinates = norm::coordinates(scene);
+        let places: Vec<(usize, Axis)> = coordinates.iter().map(|c| (c.body, c.axis)).collect();
+        let mut free = Vec::new();
+        for (body, axis) in &places {
+            let part = &scene.bodies[*body].part;
+            let mass = if *axis == Axis::Pitch { part.inertia } else { part.mass };
+            let start = start.coordinate(model, *body, *axis).ok_or("a coordinate without a start")?;
+            let mass = mass.ok_or("a body without mass")?;
+            free.push(Free { mass, force: force(scene, *body, *axis, mass), start });
+        }
+        let track = |named: &Named<Waveform>| Track { waveform: named.part.clone(), pressed: None };
+        let mut tracks: Vec<Track> = scene.waveforms.iter().map(track).collect();
+        let mut ties = Vec::new();
+        for ((named, (_, law)), memory) in scene.contacts.iter().zip(model.contacts()).zip(start.memories()) {
+            let Memory::Curve(curve) = memory else { return Err("a row of springs".to_owned()) };
+            let form = |direction| Form::new(scene, &places, &named.part, direction);
+            let normal = named.part.normal;
+            let press = match (normal, follows(normal)) {
+                (Normal::Coupled, _) => Some(form(Direction::Z).less(named.part.gap)),
+                (_, Some(w)) => {
+                    let pressed = Some((law.clone(), normal));
+                    tracks.push(Track { waveform: scene.waveforms[w].part.clone(), pressed });
+                    Some(Form::follow(tracks.len() - 1, places.len()))
+                }
+                _ => None,
+            };
+            ties.push(Tie {
+                law: law.clone(),
+                count: f64::from(named.part.count),
+                slide: form(Direction::X),
+                press,
+                start: curve.clone(),
+            });
+        }
+        Ok(Self { free, ties, tracks })
+    }
+
+    /// Whether no indentation ever changes.
+    pub(crate) fn has_constant_loads(&self) -> bool {
+        self.ties.iter().all(|tie| tie.press.is_none())
+    }
+}
+
+/// The waveform that presses a contact.
+fn follows(normal: Normal) -> Option<usize> {
+    match normal {
+        Normal::Force(Varying::Follows(w))
+        | Normal::Indentation(Varying::Follows(w))
+        | Normal::Radius(Varying::Follows(w)) => Some(w),
+        _ => None,
+    }
+}
+
+impl Track {
+    /// Where it stands at t, m.
+    fn place(&self, t: f64) -> f64 {
+        let value = self.waveform.sample(&self.waveform.piece_at(t), t).value;
+        match &self.pressed {
+            None | Some((_, Normal::Coupled | Normal::Indentation(_))) => value,
+            Some((law, Normal::Force(_))) => law.indentation(value.max(0.0)),
+            Some((law, Normal::Radius(_))) => law.profile().depth(value.max(0.0)),
+        }
+    }
+}
+
+/// What lies outside of the baselines.
+fn refuse(scene: &Scene) -> Result<(), String> {
+    let varies = |value: Varying| matches!(value, Varying::Follows(_));
+    let outside = [
+        (!scene.springs.is_empty(), "springs"),
+        (!scene.actuators.is_empty(), "actuators"),
+        (
+            scene.loads.iter().any(|load| [load.x, load.z, load.pitch].into_iter().any(varies)),
+            "loads that vary",
+        ),
+        (scene.contacts.iter().any(|contact| contact.part.damping != 0.0), "damped contacts"),
+        (scene.waveforms.iter().any(|waveform| waveform.part.has_jumps()), "waveforms that jump"),
+    ];
+    outside.into_iter().find(|(is, _)| *is).map_or(Ok(()), |(_, what)| Err(what.to_owned()))
+}
+
+/// Gravity and constant loads on a free coordinate, N or N m.
+fn force(scene: &Scene, body: usize, axis: Axis, mass: f64) -> f64 {
+    let weight = -mass * scene.gravity.acceleration;
+    let (along, normal) = scene.gravity.incline.sin_cos();
+    let constant = |value: Varying| if let Varying::Constant(value) = value { value } else { 0.0 };
+    let loads = scene.loads.iter().filter(|load| load.on == body).map(|load| {
+        let (x, z) = (constant(load.x), constant(load.z));
+        match axis {
+            Axis::X => x,
+            Axis::Z => z,
+            Axis::Pitch => constant(load.pitch) + load.at.x * z - load.at.z * x,
+        }
+    });
+    let gravity = match axis {
+        Axis::X => weight * along,
+        Axis::Z => weight * normal,
+        Axis::Pitch => 0.0,
+    };
+    gravity + loads.sum::<f64>()
+}

@@ -1,0 +1,51 @@
+//! What is driven, step by step.
+
+use crate::baseline::Track;
+use crate::contestant::Stop;
+
+/// Longest table of driven places.
+const TABLE: usize = 1 << 22;
+
+/// Places of a track step by step, over a period or the whole run.
+pub(super) struct Table(Vec<f64>);
+
+/// Where what is driven stands.
+pub(super) struct Driven<'t> {
+    pub(super) values: Vec<f64>,
+    tables: Vec<(&'t [f64], usize)>,
+}
+
+impl<'t> Driven<'t> {
+    pub(super) fn new(tables: &'t [Table]) -> Self {
+        let values = tables.iter().map(|table| table.0[0]).collect();
+        Self { values, tables: tables.iter().map(|table| (table.0.as_slice(), 0)).collect() }
+    }
+
+    /// To the next step.
+    #[inline]
+    pub(super) fn advance(&mut self) {
+        for (value, (table, at)) in self.values.iter_mut().zip(&mut self.tables) {
+            *at += 1;
+            if *at == table.len() {
+                *at = 0;
+            }
+            *value = table[*at];
+        }
+    }
+}
+
+impl Table {
+    /// A period where the steps divide it, otherwise the whole run.
+    pub(super) fn new(track: &Track, step: f64, duration: f64) -> Result<Self, Stop> {
+        let timing = track.waveform.timing();
+        let endless = timing.delay == 0.0 && timing.cycles.is_none();
+        let period = track.waveform.period().filter(|_| endless).map(|period| period / step);
+        let divided = period.filter(|steps| (steps - steps.round()).abs() < 1e-9 * steps);
+        let length = divided.map_or((duration / step).round() + 1.0, f64::round) as usize;
+        if length > TABLE {
+            return Err(Stop::Failed("its table of driven places would be too long".to_owned()));
+        }
+        let place = |n: usize| track.place(n as f64 * step);
+        Ok(Self((0..length).map(place).collect()))
+    }
+}

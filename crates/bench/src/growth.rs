@@ -1,0 +1,166 @@
+//! What more of something costs: springs, contacts, coordinates, simulated time, output, memory.
+//!
+//! The benchmark drive P1 with more of one thing at a time, by the event stepper at a tolerance of 1e-6; springs by velocity
+//! Verlet, which visits all of them in every step. All sizes take turns, the shortest turn counts.
+
+mod kinds;
+mod scenes;
+
+use crate::clock::{Stopwatch, Times};
+use crate::error::BenchError;
+use crate::samples::Nothing;
+use kinds::Kind;
+use std::path::Path;
+use stickslip_drive::{Counts, Model, Plan, RunError, State};
+use stickslip_plot::{Figure, GrowthCurve, PlotError, Theme, draw_png, draw_svg, growth_figure};
+use stickslip_results::Watcher;
+use stickslip_results::folder::Folder;
+use stickslip_results::program::this_program;
+use stickslip_results::provenance;
+
+/// Name of the table.
+pub const TABLE: &str = "growth.csv";
+/// Name of the picture's files, without ending; it stands for the whole in messages, too.
+pub const PICTURE: &str = "growth";
+/// Turns of every size.
+pub const TURNS: u32 = 9;
+/// A turn repeats its run until it takes about so long, s.
+const TURN: f64 = 4e-3;
+/// What is drawn and written of the costs.
+const COST: &str = "time per simulated second";
+
+/// Something of a size.
+struct Point {
+    /// How much there is.
+    size: f64,
+    model: Model,
+    plan: Plan,
+    /// Where the measurement begins.
+    start: State,
+    /// Simulated time of the measurement, s.
+    span: f64,
+    cost: Times,
+    times: u32,
+    counts: Counts,
+}
+
+/// All sizes of something.
+struct Curve {
+    kind: Kind,
+    points: Vec<Point>,
+}
+
+/// Measures and writes `growth.csv` and the picture into a folder; the watcher is told the turns that are done, of [`TURNS`].
+///
+/// # Errors
+/// A run that stops itself, a file that cannot be written, or the watcher's wish.
+pub fn measure(out: &Path, watcher: &dyn Watcher) -> Result<(), BenchError> {
+    let stopped = |error: RunError| match error {
+        RunError::Interrupted { .. } => BenchError::Interrupted(PICTURE.to_owned()),
+        error => BenchError::Stopped { name: PICTURE.to_owned(), why: error.to_string() },
+    };
+    let wrong = |why: String| BenchError::Stopped { name: PICTURE.to_owned(), why };
+    let mut curves = Vec::new();
+    for kind in Kind::ALL {
+        curves.push(Curve { kind, points: kind.points().map_err(wrong)? });
+    }
+    for turn in 0..TURNS {
+        for point in curves.iter_mut().flat_map(|curve| &mut curve.points) {
+            point.turn(turn, watcher).map_err(stopped)?;
+        }
+        watcher.reached(f64::from(turn + 1));
+    }
+    let pictures =
+        draw(&curves).map_err(|source| BenchError::Picture { name: PICTURE.to_owned(), source })?;
+    let failed = |source| BenchError::File { path: out.to_owned(), source };
+    let mut folder = Folder::make(out).map_err(failed)?;
+    folder.write(TABLE, table(&curves).as_bytes()).map_err(failed)?;
+    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes)).map_err(failed)?;
+    folder.publish().map_err(failed)
+}
+
+impl Point {
+    /// A scene from its beginning.
+    fn new(size: f64, model: Model, plan: Plan) -> Result<Self, String> {
+        let start = model.start(&plan).map_err(|error| error.to_string())?;
+        Ok(Self::from(size, model, plan, start))
+    }
+
+    /// A scene from a state on.
+    fn from(size: f64, model: Model, plan: Plan, start: State) -> Self {
+        let span = plan.duration - start.time();
+        let cost = Times { processor: f64::INFINITY, wall: f64::INFINITY };
+        Self { size, model, plan, start, span, cost, times: 1, counts: Counts::default() }
+    }
+
+    fn turn(&mut self, turn: u32, watcher: &dyn Watcher) -> Result<(), RunError> {
+        let mut states = vec![self.start.clone(); self.times as usize];
+        let watch = Stopwatch::start();
+        for state in &mut states {
+            stickslip_drive::run(&self.model, &self.plan, state, &mut Nothing(watcher))?;
+        }
+        self.cost = self.cost.shorter(watch.each(self.times));
+        if let (0, Some(end)) = (turn, states.last()) {
+            let (now, then) = (end.counts(), self.start.counts());
+            self.counts = Counts {
+                steps: now.steps - then.steps,
+                rejected: now.rejected - then.rejected,
+                evaluations: now.evaluations - then.evaluations,
+                events: now.events - then.events,
+            };
+            self.times = (TURN / self.cost.wall).clamp(1.0, 100.0) as u32;
+        }
+        Ok(())
+    }
+
+    fn per_second(&self) -> f64 {
+        self.cost.processor / self.span
+    }
+}
+
+fn table(curves: &[Curve]) -> String {
+    let mut text =
+        "what,size,processor_s_per_s,wall_s_per_s,simulated_s,evaluations,steps,rejected,events\n".to_owned();
+    for curve in curves {
+        for point in &curve.points {
+            let counts = point.counts;
+            text += &format!(
+                "{},{},{:e},{:e},{:e},{},{},{},{}\n",
+                curve.kind.key(),
+                point.size,
+                point.per_second(),
+                point.cost.wall / point.span,
+                point.span,
+                counts.evaluations,
+                counts.steps,
+                counts.rejected,
+                counts.events,
+            );
+        }
+    }
+    text
+}
+
+/// Draws the picture light, dark and as SVG.
+fn draw(curves: &[Curve]) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
+    let series: Vec<(Vec<f64>, Vec<f64>)> = curves
+        .iter()
+        .map(|curve| curve.points.iter().map(|point| (point.size, point.per_second())).unzip())
+        .collect();
+    let curves: Vec<GrowthCurve<'_>> = curves
+        .iter()
+        .zip(&series)
+        .map(|(curve, (sizes, costs))| {
+            let (name, unit) = curve.kind.words();
+            GrowthCurve { name, unit, sizes, costs }
+        })
+        .collect();
+    let mut figure = growth_figure("What more costs: P1 with more of one thing at a time", COST, &curves);
+    figure.provenance = vec![(provenance::PROGRAM.to_owned(), this_program())];
+    let dark = Figure { theme: Theme::dark(), ..figure.clone() };
+    Ok(vec![
+        (format!("{PICTURE}.png"), draw_png(&figure)?),
+        (format!("{PICTURE}-dark.png"), draw_png(&dark)?),
+        (format!("{PICTURE}.svg"), draw_svg(&figure)?.into_bytes()),
+    ])
+}

@@ -1,0 +1,109 @@
+//! What grows, and in what sizes.
+
+use super::Point;
+use super::scenes::{PERIOD, drive, remembering};
+use crate::samples::Nothing;
+use stickslip_contact::Memory;
+use stickslip_drive::scene::EngineChoice;
+use stickslip_drive::{Limits, Model, Plan, Scene, Stepper};
+
+/// Something that there can be more of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Springs,
+    Contacts,
+    Coordinates,
+    Time,
+    Rows,
+    Memory,
+}
+
+/// The stepper of all but the springs.
+const EVENT: Stepper = Stepper::Event { tolerance: 1e-6 };
+/// Periods of the shorter runs.
+const PERIODS: f64 = 10.0;
+/// Inner swings by which a memory is measured.
+const INNER: u32 = 50;
+
+impl Kind {
+    pub(super) const ALL: [Self; 6] =
+        [Self::Springs, Self::Contacts, Self::Coordinates, Self::Time, Self::Rows, Self::Memory];
+
+    /// In the table.
+    pub(super) fn key(self) -> &'static str {
+        match self {
+            Self::Springs => "springs",
+            Self::Contacts => "contacts",
+            Self::Coordinates => "coordinates",
+            Self::Time => "simulated_s",
+            Self::Rows => "rows_per_period",
+            Self::Memory => "knots",
+        }
+    }
+
+    /// For people, with the unit.
+    pub(super) fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Springs => ("springs of a row", ""),
+            Self::Contacts => ("contacts of a slider", ""),
+            Self::Coordinates => ("sliders", ""),
+            Self::Time => ("simulated time", "s"),
+            Self::Rows => ("rows per period", ""),
+            Self::Memory => ("corners of the memory", ""),
+        }
+    }
+
+    /// All sizes, ready to be run.
+    pub(super) fn points(self) -> Result<Vec<Point>, String> {
+        let sizes: &[u32] = match self {
+            Self::Springs => &[16, 64, 256, 1024, 4096, 16_384],
+            Self::Contacts | Self::Coordinates => &[1, 2, 4, 8, 16, 32],
+            Self::Time => &[10, 100, 1000, 10_000],
+            Self::Rows => &[1, 10, 100, 1000],
+            Self::Memory => &[1, 4, 16, 64, 256],
+        };
+        sizes.iter().map(|size| self.point(*size)).collect()
+    }
+
+    fn point(self, size: u32) -> Result<Point, String> {
+        let curve = EngineChoice::Curve;
+        let row = EngineChoice::Springs { count: size as usize, span: None };
+        let verlet = Stepper::Verlet { step: 1e-3 * PERIOD };
+        let rows = PERIOD / f64::from(size);
+        let whole = f64::from(size);
+        match self {
+            Self::Springs => from_rest(whole, drive(1, 1, row), plan(PERIODS, verlet, None)),
+            Self::Contacts => from_rest(whole, drive(1, size, curve), plan(PERIODS, EVENT, None)),
+            Self::Coordinates => from_rest(whole, drive(size, 1, curve), plan(PERIODS, EVENT, None)),
+            Self::Time => from_rest(PERIOD * whole, drive(1, 1, curve), plan(whole, EVENT, None)),
+            Self::Rows => from_rest(whole, drive(1, 1, curve), plan(PERIODS, EVENT, Some(rows))),
+            Self::Memory => swung(size),
+        }
+    }
+}
+
+fn plan(periods: f64, stepper: Stepper, every: Option<f64>) -> Plan {
+    Plan { duration: periods * PERIOD, stepper, limits: Limits::default(), every, until_steady: None }
+}
+
+fn from_rest(size: f64, scene: Result<Scene, String>, plan: Plan) -> Result<Point, String> {
+    let model = Model::new(&scene?).map_err(|error| error.to_string())?;
+    Point::new(size, model, plan)
+}
+
+/// A contact that remembers shrinking swings, measured while a smaller one goes on; its size is the number of corners of its
+/// memory.
+fn swung(swings: u32) -> Result<Point, String> {
+    let (scene, from) = remembering(swings, INNER)?;
+    let model = Model::new(&scene).map_err(|error| error.to_string())?;
+    let before = Plan { duration: from, ..plan(0.0, EVENT, None) };
+    let mut state = model.start(&before).map_err(|error| error.to_string())?;
+    stickslip_drive::run(&model, &before, &mut state, &mut Nothing(&()))
+        .map_err(|error| error.to_string())?;
+    let depth = match state.memories().first() {
+        Some(Memory::Curve(curve)) => curve.depth(),
+        _ => 0,
+    };
+    let after = Plan { duration: from + f64::from(INNER) * PERIOD, ..before };
+    Ok(Point::from(depth as f64, model, after, state))
+}

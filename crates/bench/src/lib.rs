@@ -1,0 +1,37 @@
+//! What accuracy costs: every stepper on both engines and what others would do, errors over time and evaluations.
+//!
+//! Nothing depends on this crate but the command `stickslip bench`: it brings a second simulator, an outside integrator and
+//! a processor's clock, which no library of the others should carry.
+//!
+//! [`measure`] measures one scenario and writes its table and pictures, [`growth::measure`] what more of something costs,
+//! [`write_page`] tells of both; a [`Request`] says what is asked.
+//!
+//! In reading order: `request`; `problem` (a scenario with its reference), `norm` and `samples` (how far off a run is);
+//! `contestant`, `family` and `steps` (who runs, at what tolerances and steps), `baseline` (what others would do); `turns` and
+//! `clock` (the measurement); `front` (what an error costs); `sheet`, [`picture`] and `page` (what is written), `machine`;
+//! [`growth`].
+
+mod baseline;
+mod clock;
+mod contestant;
+mod error;
+mod family;
+mod front;
+pub mod growth;
+mod machine;
+mod measurement;
+mod norm;
+mod page;
+pub mod picture;
+mod problem;
+mod request;
+mod samples;
+mod sheet;
+mod steps;
+mod turns;
+
+pub use error::BenchError;
+pub use measurement::{TABLE, measure};
+pub use page::{Chapter, write_page};
+pub use problem::{Known, ProblemError};
+pub use request::Request;

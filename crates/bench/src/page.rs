@@ -1,0 +1,292 @@
+//! The page of a measurement, in Markdown.
+
+use crate::contestant::Stepping;
+use crate::error::BenchError;
+use crate::family::{Family, Method};
+use crate::front::{Cost, Front};
+use crate::measurement::TABLE;
+use crate::problem::{CHECK, Problem};
+use crate::request::Request;
+use crate::{growth, machine, picture};
+use std::fmt::Write;
+use std::io;
+use std::path::Path;
+use stickslip_results::markdown::{link, plain, relative, word};
+use stickslip_results::program::this_program;
+use stickslip_results::{Job, folder};
+
+/// Errors at which methods are compared.
+const ERRORS: [f64; 4] = [1e-3, 1e-6, 1e-8, 1e-9];
+
+/// What is compared with the event stepper on the exact curve: a name and the methods whose front counts.
+const RIVALS: [Rival; 6] = [
+    ("loop over springs", |method| matches!(method, Method::Loop { .. })),
+    ("ode_solvers with events", |method| method == Method::Outside),
+    ("verlet", |method| method == own(Stepping::Verlet)),
+    ("rk4", |method| method == own(Stepping::Rk4)),
+    ("dopri5", |method| method == own(Stepping::Dopri5)),
+    ("own steppers on springs", |method| matches!(method, Method::Own { springs: Some(_), .. })),
+];
+
+type Rival = (&'static str, fn(Method) -> bool);
+
+const fn own(stepping: Stepping) -> Method {
+    Method::Own { stepping, springs: None }
+}
+
+/// What the page says of one scenario.
+pub struct Chapter {
+    /// Lines of the table of ratios.
+    ratios: String,
+    /// Everything else.
+    text: String,
+}
+
+impl Chapter {
+    /// The chapter of a measurement; `page` is the file that it is for, the pictures are written already.
+    pub(crate) fn new(
+        (job, file): (&Job, &Path),
+        problem: &Problem,
+        families: &[Family<'_>],
+        page: &Path,
+    ) -> io::Result<Self> {
+        let folder = relative(&job.folder, parent(page))?;
+        let scenario = link(&relative(file, parent(page))?);
+        let at = |name: &str| link(&folder.join(name));
+        let (title, name) = (plain(job.title()), job.name.replace('`', "'"));
+        let (light, dark) =
+            (at(&format!("{}.png", picture::NAME)), at(&format!("{}-dark.png", picture::NAME)));
+        let svg = at(&format!("{}.svg", picture::NAME));
+        let mut text = format!("\n## {title}\n\n[`{name}`]({scenario}), {} of it; ", time(problem.duration));
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
+            "errors in parts of {}, {}. {} [All runs]({}), [SVG]({svg}).\n\n{}\n",
+            plain(&problem.norm.of),
+            length(problem.norm.length),
+            trust(problem),
+            at(TABLE),
+            shown((&light, &dark), &format!("work-precision: {title}")),
+        );
+        runs(&mut text, problem, families);
+        if let Err(what) = &problem.mechanism {
+            let _ =
+                writeln!(text, "\nThe loop and ode_solvers are not here: their baselines know no {what}.");
+        }
+        Ok(Self { ratios: ratios(&name, problem, families), text })
+    }
+}
+
+/// How sure the reference is.
+fn trust(problem: &Problem) -> String {
+    let doubt = problem.doubt;
+    let mut words = format!(
+        "The reference differs from a run at {CHECK:e} by {:.0e} at the end and {:.0e} along the way.",
+        doubt.end, doubt.trajectory
+    );
+    for (i, known) in &problem.known {
+        let coordinate = &problem.norm.coordinates[*i];
+        let off = problem.norm.against(*i, problem.reference.end()[*i], *known);
+        let _ =
+            write!(words, " `{}` at the end is known from elsewhere: off by {off:.0e}.", coordinate.channel);
+    }
+    words
+}
+
+/// The runs of the event stepper on the exact curve.
+fn runs(text: &mut String, problem: &Problem, families: &[Family<'_>]) {
+    text.push_str(
+        "| tolerance | error at the end | along the way | ms per simulated second | evaluations | steps | rejected | \
+         events |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+    );
+    let event = families.iter().filter(|family| family.method == own(Stepping::Event));
+    for (run, result) in event.flat_map(Family::measured) {
+        let counts = result.counts;
+        let _ = writeln!(
+            text,
+            "| {:e} | {:.1e} | {:.1e} | {} | {} | {} | {} | {} |",
+            run.value,
+            result.errors.end,
+            result.errors.trajectory,
+            digits(1e3 * result.cost.processor / problem.duration),
+            grouped(counts.evaluations),
+            grouped(counts.steps),
+            grouped(counts.rejected),
+            grouped(counts.events),
+        );
+    }
+}
+
+/// What the event stepper needs for errors along the way, and how many times as long others take.
+fn ratios(name: &str, problem: &Problem, families: &[Family<'_>]) -> String {
+    let front = |is: &dyn Fn(Method) -> bool| {
+        Front::of(families.iter().filter(|family| is(family.method)), |errors| errors.trajectory)
+    };
+    let event = front(&|method| method == own(Stepping::Event));
+    let rivals = RIVALS.map(|(_, is)| front(&is));
+    let mut lines = String::new();
+    for error in ERRORS {
+        let Some(Cost::Measured(best)) = event.cost(error) else { continue };
+        let _ = write!(lines, "| `{name}` | {error:e} | {} ms |", digits(1e3 * best / problem.duration));
+        for rival in &rivals {
+            let ratio = match rival.cost(error) {
+                Some(Cost::Measured(cost)) => format!("{} ×", digits(cost / best)),
+                Some(Cost::Extrapolated(cost)) => format!("≈ {} ×", digits(cost / best)),
+                Some(Cost::NotReached) => "not reached".to_owned(),
+                None => "–".to_owned(),
+            };
+            let _ = write!(lines, " {ratio} |");
+        }
+        lines.push('\n');
+    }
+    lines
+}
+
+/// Writes the page of all chapters.
+///
+/// # Errors
+/// A file that cannot be written, or whose place cannot be told from that of the pictures.
+pub fn write_page(chapters: &[Chapter], request: &Request, file: &Path) -> Result<(), BenchError> {
+    let failed = |source| BenchError::File { path: file.to_owned(), source };
+    let text = text(chapters, request, file).map_err(failed)?;
+    folder::write(file, text.as_bytes()).map_err(failed)
+}
+
+/// The page.
+fn text(chapters: &[Chapter], request: &Request, file: &Path) -> io::Result<String> {
+    let mut page = format!(
+        "# Performance\n\nWhat accuracy costs: every stepper on the exact curve and on rows of 64, 256 and 1 024 springs, \
+         and what others would do.\nThis page and its pictures are written by\n\n```sh\n{}\n```\n\non {}, by {}, built with \
+         `--release`.\n\n{TIMES}\n\n{NORM}\n\n{OTHERS}\n\n",
+        command(request),
+        machine::words(),
+        this_program(),
+    );
+    if !chapters.is_empty() {
+        page.push_str(&ratio_table(chapters));
+    }
+    chapters.iter().for_each(|chapter| page.push_str(&chapter.text));
+    if request.growth {
+        page.push_str(&grown(&relative(&request.out, parent(file))?));
+    }
+    Ok(page)
+}
+
+/// The table of ratios of all scenarios.
+fn ratio_table(chapters: &[Chapter]) -> String {
+    let mut table = RATIOS.to_owned();
+    let head = RIVALS.map(|(name, _)| format!(" {name} |")).concat();
+    let rule = RIVALS.map(|_| " ---: |").concat();
+    let _ = writeln!(table, "\n\n| scenario | error | event |{head}\n| --- | ---: | ---: |{rule}");
+    chapters.iter().for_each(|chapter| table.push_str(&chapter.ratios));
+    table
+}
+
+/// The chapter of growth; `folder` is that of the picture.
+fn grown(folder: &Path) -> String {
+    let at = |name: &str| link(&folder.join(name));
+    let name = |end: &str| at(&format!("{}{end}", growth::PICTURE));
+    format!(
+        "\n## What more costs\n\n{GROWTH} [Table]({}), [SVG]({}).\n\n{}",
+        at(growth::TABLE),
+        name(".svg"),
+        shown((&name(".png"), &name("-dark.png")), "what more of something costs"),
+    )
+}
+
+/// A picture, light and dark.
+fn shown((light, dark): (&str, &str), words: &str) -> String {
+    format!(
+        "<picture>\n  <source media=\"(prefers-color-scheme: dark)\" srcset=\"{dark}\">\n  \
+         <img src=\"{light}\" width=\"800\" alt=\"{words}\">\n</picture>\n"
+    )
+}
+
+const GROWTH: &str = "\
+P1 with more of one thing at a time: springs of its row, by velocity Verlet with 1 000 steps a period; all others by the event
+stepper at 1e-6: contacts under the slider, no two alike, that share its load; sliders, no two alike, on the foot; simulated
+time; rows written per period; corners of a memory, left by ever smaller swings of the foot, while a still smaller one goes on.
+Events of things that are not alike do not coincide: twice as many contacts make twice as many events, each with the work of
+twice as many.";
+
+const TIMES: &str = "\
+**Times** are processor times of the run alone, without building and output; on an idle machine they are wall times, which are
+in the tables of all runs, too. All runs take turns, several rounds, and the shortest turn counts. On another machine they
+differ; their ratios differ less.";
+
+const NORM: &str = "\
+**Errors** are the largest of any free coordinate, at the end or along the way (1 001 moments of the run), in parts of the
+stroke of the scenario's waveform, or of the largest travel where nothing follows one; an angle counts as the way it makes at
+the farthest contact point. They are against the event stepper at a tolerance of 1e-14, two orders finer than the finest run.";
+
+const OTHERS: &str = "\
+**loop** is what a researcher writes: velocity Verlet over a row of springs, in code that shares nothing with the program's
+rows and steppers; tuned: half of the symmetric row, eight lanes, driven places from a table. **ode_solvers** is that crate's
+Dopri5 with the exact contact and events by hand: looked for after every step, located on its dense output, then started
+anew with the last step. It is there where all loads are constant.";
+
+const RATIOS: &str = "\
+## How many times as long
+
+Time per simulated second of the event stepper for an error along the way, and how many times as long the others take: between
+measured runs by the straight line through their logarithms; ≈ beyond the finest run that was measured, along the order of its
+last two decades; \"not reached\" where finer runs have no smaller errors, or where the finest is more than three decades away.";
+
+/// The command that writes the page.
+fn command(request: &Request) -> String {
+    let mut command = "stickslip bench".to_owned();
+    request.files.iter().for_each(|file| command += &format!(" {}", word(file)));
+    request.set.iter().for_each(|(path, value)| command += &format!(" --set {path}=\"{value}\""));
+    for (name, known) in &request.known {
+        command += &format!(" --known {name}:{}={:e}", known.channel, known.value);
+    }
+    command += &format!(" --budget \"{} s\" --out {}", request.budget, word(&request.out));
+    command += if request.growth { " --growth" } else { "" };
+    request.page.iter().for_each(|page| command += &format!(" --page {}", word(page)));
+    command
+}
+
+/// The folder of a file.
+fn parent(file: &Path) -> &Path {
+    file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Two significant digits, three from 100 on.
+fn digits(value: f64) -> String {
+    let decimals = (1.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
+    let grain = if value >= 1000.0 { 10_f64.powi(value.log10().floor() as i32 - 1) } else { 1.0 };
+    let shown = if value >= 1000.0 { (value / grain).round() * grain } else { value };
+    let text = format!("{shown:.decimals$}");
+    // A value of that size has no decimals.
+    if value >= 1e4 { grouped(shown as u64) } else { text }
+}
+
+/// A number with its thousands apart.
+fn grouped(number: u64) -> String {
+    let text = number.to_string();
+    if text.len() <= 4 {
+        return text;
+    }
+    let grouped: Vec<String> =
+        text.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group).into_owned()).collect();
+    grouped.join(" ")
+}
+
+fn time(seconds: f64) -> String {
+    format!("{} ms", digits(1e3 * seconds))
+}
+
+fn length(metres: f64) -> String {
+    format!("{} µm", digits(1e6 * metres))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn numbers_have_the_digits_that_they_deserve() {
+        let shown = [0.01234, 1.234, 12.34, 123.4, 1234.0, 123_456.0, 1.26e7].map(digits);
+        assert_eq!(shown, ["0.012", "1.2", "12", "123", "1200", "120 000", "13 000 000"]);
+    }
+}

@@ -1,0 +1,116 @@
+//! Where the free coordinates are at the moments at which runs are compared.
+
+use stickslip_drive::{Event, Record};
+use stickslip_results::Watcher;
+
+/// Moments of the common grid after the first; the end of the run is one more.
+const MOMENTS: usize = 1000;
+
+/// Positions of the free coordinates, moment by moment: at 0, on a regular grid, and at the end; m and rad.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Samples {
+    width: usize,
+    values: Vec<f64>,
+}
+
+impl Samples {
+    /// No moments yet, of `width` coordinates.
+    pub(crate) fn new(width: usize) -> Self {
+        Self { width, values: Vec::with_capacity((MOMENTS + 2) * width) }
+    }
+
+    /// Interval of the grid, s. The last moment lies half an interval before the end, so that rounding cannot add one, and
+    /// periods of a drive are met at all phases.
+    pub(crate) fn interval(duration: f64) -> f64 {
+        duration / (MOMENTS as f64 + 0.5)
+    }
+
+    /// Number of moments of a run that came to its end.
+    pub(crate) fn complete() -> usize {
+        MOMENTS + 2
+    }
+
+    pub(crate) fn push(&mut self, value: f64) {
+        self.values.push(value);
+    }
+
+    /// Moments so far.
+    pub(crate) fn len(&self) -> usize {
+        self.values.len() / self.width.max(1)
+    }
+
+    /// The coordinates, moment by moment.
+    pub(crate) fn moments(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        self.values.chunks_exact(self.width.max(1))
+    }
+
+    /// The last moment.
+    pub(crate) fn end(&self) -> &[f64] {
+        self.moments().last().unwrap_or(&[])
+    }
+
+    /// Smallest and largest value of a coordinate.
+    pub(crate) fn range(&self, coordinate: usize) -> (f64, f64) {
+        let values = self.moments().filter_map(|moment| moment.get(coordinate));
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
+    }
+}
+
+/// A record that keeps some columns of the rows and the largest value of others.
+pub(crate) struct Sampler<'a> {
+    pub(crate) samples: Samples,
+    columns: &'a [usize],
+    /// Columns of which the largest value is wanted, and these values.
+    pub(crate) largest: Vec<(usize, f64)>,
+    watcher: &'a dyn Watcher,
+}
+
+impl<'a> Sampler<'a> {
+    pub(crate) fn new(columns: &'a [usize], watcher: &'a dyn Watcher) -> Self {
+        Self { samples: Samples::new(columns.len()), columns, largest: Vec::new(), watcher }
+    }
+
+    /// The same, watching the largest value of some columns as well.
+    pub(crate) fn watching(mut self, columns: impl Iterator<Item = usize>) -> Self {
+        self.largest = columns.map(|column| (column, f64::NEG_INFINITY)).collect();
+        self
+    }
+}
+
+impl Record for Sampler<'_> {
+    fn row(&mut self, values: &[f64]) {
+        for column in self.columns {
+            self.samples.push(values[*column]);
+        }
+        for (column, largest) in &mut self.largest {
+            *largest = largest.max(values[*column]);
+        }
+    }
+
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+
+    fn goes_on(&mut self, _: f64) -> bool {
+        self.watcher.goes_on()
+    }
+
+    fn wants_events(&self) -> bool {
+        false
+    }
+}
+
+/// A record that wants nothing.
+pub(crate) struct Nothing<'a>(pub(crate) &'a dyn Watcher);
+
+impl Record for Nothing<'_> {
+    fn row(&mut self, _: &[f64]) {}
+
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+
+    fn goes_on(&mut self, _: f64) -> bool {
+        self.0.goes_on()
+    }
+
+    fn wants_events(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,94 @@
+//! The command line of a measurement.
+
+use clap::Args;
+use std::path::PathBuf;
+use stickslip_bench::{Known, Request};
+use stickslip_scenario::quantity;
+
+/// Long help; paragraphs are broken where the terminal ends.
+pub(crate) const ABOUT: &str = "\
+Measure what accuracy costs: every stepper on both engines, errors over time and evaluations
+
+Runs a scenario by every stepper of the program (event and dopri5 at tolerances from 1e-1 to 1e-12, rk4 and verlet at steps \
+halved again and again, whose corners fall on steps), each on the exact curve and on rows of 64, 256 and 1 024 springs. The \
+scenario's own stepper, engines and output do not matter. Beside them, where they know the scene, what others would do: \
+\"loop\", velocity Verlet over rows of springs in code of its own, tuned; and \"ode_solvers\", Dopri5 of that crate with the exact \
+contact and events found by hand.
+
+An error is the largest error of any free coordinate, at the end or at any of 1 001 moments of the run, in parts of the \
+stroke of the scenario's waveform (or of the largest travel, where no body follows it); an angle counts as the way it makes \
+at the farthest contact point. Errors are against the event stepper at a tolerance of 1e-14, whose difference from \
+itself at 1e-13 is told.
+
+Times are those of the run alone, without building and output: wall times, and processor times, which a busy machine does not \
+spoil; pictures and pages show these. All runs take turns, several rounds; the shortest turn counts. What does not fit into the budget is left out with a note.
+
+Writes OUT/NAME/bench.csv and work-precision.png (also dark, and as SVG), and the page asked for, which tells how many times as \
+long as the event stepper the others take for the same error. Exit codes: 0 done, 2 bad input, 3 the \
+reference cannot be computed or something cannot be written, 130 interrupted.";
+
+/// Examples under the long help.
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  stickslip bench drive.json
+  stickslip bench scenarios/p1.json scenarios/ruby_drive.json --budget \"5 min\"
+  stickslip bench scenarios/p1.json --out docs/performance --growth --page docs/performance.md
+  stickslip bench scenarios/p1.json --known p1:slider.x_m=1.00842862803207490e-5";
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchArguments {
+    /// Scenario files
+    #[arg(required_unless_present = "growth", value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Folder of what is measured: NAME.json writes into OUT/NAME/
+    #[arg(long, value_name = "OUT", default_value = "bench")]
+    pub(crate) out: PathBuf,
+    /// Wall time for each scenario, besides its reference
+    #[arg(long, value_name = "TIME", default_value = "60 s", allow_hyphen_values = true, value_parser = seconds)]
+    pub(crate) budget: f64,
+    /// Put a value into every scenario, such as run.duration="20 ms"
+    #[arg(long, value_name = "PATH=VALUE", value_parser = crate::arguments::assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// A coordinate at the end of scenario NAME that is known from elsewhere, SI: errors against it are told as well
+    #[arg(long, value_name = "NAME:CHANNEL=VALUE", value_parser = known)]
+    pub(crate) known: Vec<(String, Known)>,
+    /// What more of something costs, too: springs, contacts, coordinates, simulated time, rows, memory; OUT/growth.csv and .png
+    #[arg(long)]
+    pub(crate) growth: bool,
+    /// A page in Markdown with the tables and pictures of all scenarios
+    #[arg(long, value_name = "FILE")]
+    pub(crate) page: Option<PathBuf>,
+    /// No progress, no result; errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+impl BenchArguments {
+    /// What is asked to be measured.
+    pub(crate) fn request(&self) -> Request {
+        Request {
+            files: self.files.clone(),
+            out: self.out.clone(),
+            budget: self.budget,
+            set: self.set.clone(),
+            known: self.known.clone(),
+            growth: self.growth,
+            page: self.page.clone(),
+        }
+    }
+}
+
+/// Reads a time above 0.
+fn seconds(text: &str) -> Result<f64, String> {
+    let value = quantity(text, "s")?;
+    if value > 0.0 { Ok(value) } else { Err("expected a time above 0".to_owned()) }
+}
+
+/// Splits `NAME:CHANNEL=VALUE`.
+fn known(text: &str) -> Result<(String, Known), String> {
+    let expected = || "expected NAME:CHANNEL=VALUE, such as p1:slider.x_m=1.0e-5".to_owned();
+    let (name, rest) = text.split_once(':').ok_or_else(expected)?;
+    let (channel, value) = rest.rsplit_once('=').ok_or_else(expected)?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("expected a number, got \"{value}\""))?;
+    Ok((name.to_owned(), Known { channel: channel.to_owned(), value }))
+}

@@ -1,0 +1,55 @@
+//! How pictures are to be drawn, on the command line.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+use stickslip_figures::{Colours, Format, Look};
+
+/// The look of pictures; names of their files say what is not the default.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct LookArguments {
+    /// Kinds of picture files
+    #[arg(long = "format", value_name = "KIND,…", value_delimiter = ',', default_value = "png")]
+    formats: Vec<FormatArgument>,
+    /// Colours: light for paper, dark for screens (NAME-dark.png)
+    #[arg(long, value_name = "NAME", default_value = "light")]
+    theme: ColoursArgument,
+    /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (NAME@2x.png)
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
+    scale: u32,
+}
+
+/// Reads a size.
+fn scales() -> impl TypedValueParser<Value = u32> {
+    PossibleValuesParser::new(["1", "2"]).try_map(|given| given.parse::<u32>())
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum FormatArgument {
+    /// Pixels
+    Png,
+    /// Lines and texts, sharp at any size
+    Svg,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ColoursArgument {
+    /// Dark on white
+    Light,
+    /// Light on nearly black
+    Dark,
+}
+
+impl LookArguments {
+    /// What is asked for.
+    pub(crate) fn look(&self) -> Look {
+        let format = |format: &FormatArgument| match format {
+            FormatArgument::Png => Format::Png,
+            FormatArgument::Svg => Format::Svg,
+        };
+        let theme = match self.theme {
+            ColoursArgument::Light => Colours::Light,
+            ColoursArgument::Dark => Colours::Dark,
+        };
+        Look { formats: self.formats.iter().map(format).collect(), theme, scale: self.scale }
+    }
+}

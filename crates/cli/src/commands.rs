@@ -1,0 +1,12 @@
+//! The commands, one room each: what they do with the libraries, and what they say.
+
+pub(crate) mod bench;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod gallery;
+pub(crate) mod info;
+pub(crate) mod new;
+pub(crate) mod plot;
+pub(crate) mod repro;
+pub(crate) mod run;
+pub(crate) mod schema;

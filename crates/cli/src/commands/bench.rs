@@ -1,0 +1,95 @@
+//! `stickslip bench`: what accuracy costs.
+
+use crate::arguments::BenchArguments;
+use crate::console::answer::say;
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
+use std::io::{self, Write};
+use stickslip_bench::{BenchError, Known, ProblemError, TABLE, growth, picture};
+use stickslip_drive::RunError;
+use stickslip_results::{Job, Refusal};
+use thiserror::Error;
+
+/// Why there is no measurement.
+#[derive(Debug, Error)]
+enum BenchFailure {
+    /// A scenario.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// A name after `--known`.
+    #[error("--known {0}: expected the name of one of the scenarios")]
+    Unknown(String),
+    /// The measurement.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
+}
+
+/// Measures scenarios, one after the other.
+pub(crate) fn bench(arguments: &BenchArguments) -> Verdict {
+    match measure_all(arguments) {
+        Ok(()) => Verdict::Done,
+        Err(failure) => {
+            let _ = writeln!(io::stderr(), "{failure}");
+            failure.verdict()
+        }
+    }
+}
+
+fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
+    let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
+    if cfg!(debug_assertions) && !arguments.quiet {
+        let _ = writeln!(io::stderr(), "this program was built without --release: its times tell little");
+    }
+    let request = arguments.request();
+    let jobs = prepare(arguments)?;
+    let mut chapters = Vec::new();
+    for (job, file) in jobs.iter().zip(&request.files) {
+        let known = request.known.iter().filter(|(name, _)| *name == job.name);
+        let known: Vec<Known> = known.map(|(_, known)| known.clone()).collect();
+        let bar = progress.budget(&job.name, request.budget, &interrupt);
+        chapters.extend(stickslip_bench::measure((job, file), &known, &request, &bar)?);
+        drop(bar);
+        if !arguments.quiet {
+            say(format_args!("{}: {}: {TABLE}, {}.png", job.name, job.folder.display(), picture::NAME));
+        }
+    }
+    if request.growth {
+        let bar = progress.budget(growth::PICTURE, f64::from(growth::TURNS), &interrupt);
+        growth::measure(&request.out, &bar)?;
+        drop(bar);
+        if !arguments.quiet {
+            let (out, table, name) = (request.out.display(), growth::TABLE, growth::PICTURE);
+            say(format_args!("growth: {out}: {table}, {name}.png"));
+        }
+    }
+    let Some(page) = &request.page else { return Ok(()) };
+    Ok(stickslip_bench::write_page(&chapters, &request, page)?)
+}
+
+/// All scenarios: they are read before the first is run.
+fn prepare(arguments: &BenchArguments) -> Result<Vec<Job>, BenchFailure> {
+    let job = |file| Ok(Job::prepare(file, &arguments.set, &arguments.out)?);
+    let jobs = arguments.files.iter().map(|file| job(file)).collect::<Result<Vec<Job>, BenchFailure>>()?;
+    match arguments.known.iter().find(|(name, _)| jobs.iter().all(|job| job.name != *name)) {
+        Some((name, _)) => Err(BenchFailure::Unknown(name.clone())),
+        None => Ok(jobs),
+    }
+}
+
+impl BenchFailure {
+    fn verdict(&self) -> Verdict {
+        match self {
+            Self::Refused(_) | Self::Unknown(_) => Verdict::BadInput,
+            Self::Bench(
+                BenchError::Problem(ProblemError::Reference { source: RunError::Interrupted { .. }, .. })
+                | BenchError::Interrupted(_),
+            ) => Verdict::Interrupted,
+            Self::Bench(BenchError::Problem(ProblemError::Reference { .. })) => Verdict::Stopped,
+            Self::Bench(BenchError::Problem(_)) => Verdict::BadInput,
+            Self::Bench(
+                BenchError::Stopped { .. } | BenchError::Picture { .. } | BenchError::File { .. },
+            ) => Verdict::Stopped,
+        }
+    }
+}

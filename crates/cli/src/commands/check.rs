@@ -1,0 +1,109 @@
+//! `stickslip check`: everything that a run would refuse, and no run.
+
+use crate::arguments::CheckArguments;
+use crate::console::answer::say;
+use crate::console::answer::warn;
+use crate::console::verdict::Verdict;
+use serde::Serialize;
+use std::io::Write;
+use std::path::Path;
+use stickslip_results::{Job, Refusal};
+use stickslip_scenario::Report;
+
+/// What is found of a file, for machines.
+#[derive(Debug, Serialize)]
+struct Finding<'a> {
+    file: &'a Path,
+    ok: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Fault>,
+    /// What is allowed and probably not meant.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<Fault>,
+}
+
+/// What is wrong, and where. Lines and columns count from 1, columns in characters.
+#[derive(Debug, Default, Serialize)]
+struct Fault {
+    /// The table that line and column count in, where one is to blame that the scenario names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table: Option<String>,
+    /// The argument of `--set` that line and column count in, where one is to blame.
+    #[serde(rename = "override", skip_serializing_if = "Option::is_none")]
+    assignment: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    column: Option<usize>,
+    /// Characters that are to blame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    width: Option<usize>,
+    /// Key path; empty for the file as a whole.
+    path: String,
+    message: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    help: Option<String>,
+}
+
+/// Checks all files and says of each what it found: "ok" on stdout, errors on stderr; with `--json` all on stdout.
+pub(crate) fn check(arguments: &CheckArguments) -> Verdict {
+    let mut worst = Verdict::Done;
+    for file in &arguments.files {
+        let job = Job::prepare(file, &arguments.set, Path::new(""));
+        if job.is_err() {
+            worst = Verdict::BadInput;
+        }
+        tell(arguments, file, &job);
+    }
+    worst
+}
+
+fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
+    if arguments.json {
+        let odd = job.as_ref().map_or(&[][..], |job| &job.scenario.warnings);
+        let finding = Finding {
+            file,
+            ok: job.is_ok(),
+            error: job.as_ref().err().map(|refusal| Fault::of(refusal, file)),
+            warnings: odd.iter().map(|warning| Fault::at(warning, file)).collect(),
+        };
+        // A path that is not Unicode is the only thing that JSON has no words for.
+        let line = serde_json::to_string(&finding);
+        say(format_args!("{}", line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", job.is_ok()))));
+        return;
+    }
+    match job {
+        Err(refusal) => {
+            let _ = writeln!(std::io::stderr(), "{refusal}");
+        }
+        Ok(_) if arguments.quiet => {}
+        Ok(job) => {
+            warn(&job.scenario);
+            say(format_args!("{}: ok", file.display()));
+        }
+    }
+}
+
+impl Fault {
+    fn of(refusal: &Refusal, file: &Path) -> Self {
+        match refusal {
+            Refusal::Scenario(error) => Self::at(error, file),
+            other => Self { message: other.to_string(), ..Self::default() },
+        }
+    }
+
+    fn at(report: &Report, file: &Path) -> Self {
+        let excerpt = report.excerpt.as_ref();
+        let elsewhere = !report.is_override && Path::new(&report.file) != file;
+        Self {
+            table: elsewhere.then(|| report.file.clone()),
+            assignment: report.is_override.then(|| report.file.clone()),
+            line: excerpt.map(|e| e.line),
+            column: excerpt.map(|e| e.column),
+            width: excerpt.map(|e| e.marker.len()),
+            path: report.path.clone(),
+            message: report.message.clone(),
+            help: report.help.clone(),
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! What a comparison tells people.
+
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use serde_json::Value;
+use stickslip_results::compare::{ChannelDifference, Comparison, FigureDifference, Lone, time};
+
+/// Events and figures shown of each sort; `--json` has all.
+const SHOWN: usize = 5;
+
+/// A line under the heads, nothing else.
+const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+
+/// A table of channels, then events, figures and the first difference.
+pub(crate) fn text(comparison: &Comparison) -> String {
+    let mut lines = vec![heading(comparison)];
+    lines.extend(channels(comparison));
+    lines.extend(events(comparison));
+    lines.extend(figures(comparison));
+    if comparison.one_stopped() {
+        lines.push(format!("  status: {} in A, {} in B", comparison.a.status, comparison.b.status));
+    }
+    lines.extend(comparison.notes.iter().map(|note| format!("  {note}")));
+    lines.push(comparison.verdict());
+    lines.join("\n")
+}
+
+fn heading(comparison: &Comparison) -> String {
+    let (a, b, tolerance) = (&comparison.a, &comparison.b, &comparison.tolerance);
+    let steppers = if tolerance.same_stepper {
+        format!("both by {}", a.stepper)
+    } else {
+        format!("A by {}, B by {}", a.stepper, b.stepper)
+    };
+    let (relative, moment) = (tolerance.relative.0, tolerance.time.0);
+    format!(
+        "A {}\nB {}\n  {steppers}; allowed: {relative:e} relative, {moment:.1e} s for events",
+        a.folder, b.folder
+    )
+}
+
+fn channels(comparison: &Comparison) -> Vec<String> {
+    let mut table = Table::new();
+    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(["channel", "worst", "at t", "allowed", ""]);
+    for channel in &comparison.channels {
+        let at = channel.at.map(|at| format!("{} s", time(at.0))).unwrap_or_default();
+        let verdict = if channel.is_same() { "ok" } else { "DIFFERS" };
+        let allowed = channel.allowed.map(|allowed| amount(allowed.0, channel.unit)).unwrap_or_default();
+        table.add_row([&channel.name, &worst(channel), &at, &allowed, verdict]);
+    }
+    for name in &comparison.channels_missing {
+        table.add_row([name, "", "", "", "MISSING in B"]);
+    }
+    for column in table.column_iter_mut().skip(1).take(3) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.lines().map(|line| format!(" {}", line.trim_end())).collect()
+}
+
+fn worst(channel: &ChannelDifference) -> String {
+    match (channel.worst, channel.rows) {
+        (Some(worst), _) => amount(worst.0, channel.unit),
+        (None, 0) => "0 rows".to_owned(),
+        (None, 1) => "1 row".to_owned(),
+        (None, rows) => format!("{rows} rows"),
+    }
+}
+
+fn events(comparison: &Comparison) -> Vec<String> {
+    let events = &comparison.events;
+    let agree = events.a - events.missing.len() - events.moved.len();
+    let worst = amount(events.worst.0, "s");
+    let mut lines = if events.is_same() {
+        vec![format!("  events: all {agree} agree, within {worst}")]
+    } else {
+        vec![format!(
+            "  events: {} in A, {} in B; {agree} agree, within {worst}; DIFFERS",
+            events.a, events.b
+        )]
+    };
+    let event = |event: &Lone| format!("{}, \"{}\" at t = {:?} s", event.source, event.kind, event.time.0);
+    let some = |lines: &mut Vec<String>, what: &str, all: Vec<String>| {
+        lines.extend(all.iter().take(SHOWN).map(|text| format!("    {what}: {text}")));
+        if all.len() > SHOWN {
+            lines.push(format!("    {what}: {} more", all.len() - SHOWN));
+        }
+    };
+    some(&mut lines, "missing in B", events.missing.iter().map(event).collect());
+    some(&mut lines, "extra in B", events.extra.iter().map(event).collect());
+    let moved = events.moved.iter().map(|moved| {
+        format!(
+            "{}, by {}{}",
+            event(&moved.event),
+            if moved.by.0 > 0.0 { "+" } else { "" },
+            amount(moved.by.0, "s")
+        )
+    });
+    some(&mut lines, "moved in B", moved.collect());
+    lines
+}
+
+fn figures(comparison: &Comparison) -> Vec<String> {
+    let figures = &comparison.figures;
+    if figures.differ.is_empty() && figures.missing.is_empty() {
+        return vec![format!("  figures: all {} agree", figures.compared)];
+    }
+    let agree = figures.compared - figures.differ.len();
+    let mut lines = vec![format!("  figures: {agree} agree, {} do not; DIFFERS", figures.differ.len())];
+    lines.extend(figures.differ.iter().take(SHOWN).map(figure));
+    if figures.differ.len() > SHOWN {
+        lines.push(format!("    {} more", figures.differ.len() - SHOWN));
+    }
+    lines.extend(figures.missing.iter().map(|name| format!("    missing in B: {name}")));
+    lines
+}
+
+fn figure(figure: &FigureDifference) -> String {
+    let FigureDifference { name, unit, a, b, .. } = figure;
+    let space = if unit.is_empty() { "" } else { " " };
+    let words = match (a.as_f64(), b.as_f64(), figure.allowed) {
+        (Some(x), Some(y), Some(allowed)) => {
+            format!("apart by {}, allowed {}", amount((x - y).abs(), unit), amount(allowed.0, unit))
+        }
+        _ => String::new(),
+    };
+    let shown = |value: &Value| format!("{value}{space}{unit}");
+    format!(
+        "    {name}: {} in A, {} in B{}{words}",
+        shown(a),
+        shown(b),
+        if words.is_empty() { "" } else { "; " }
+    )
+}
+
+/// Two digits tell how far.
+fn amount(value: f64, unit: &str) -> String {
+    let digits = if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") };
+    format!("{digits} {unit}").trim_end().to_owned()
+}

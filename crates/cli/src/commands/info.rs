@@ -1,0 +1,74 @@
+//! `stickslip info`: what a scenario means, before it runs.
+
+mod columns;
+mod contacts;
+mod digits;
+mod motion;
+mod stepping;
+mod tables;
+mod usage;
+
+use crate::arguments::InfoArguments;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
+use contacts::ContactInfo;
+use motion::{BodyInfo, ModeInfo, WaveformInfo};
+use serde::Serialize;
+use std::io::Write;
+use std::path::Path;
+use stepping::Stepping;
+use stickslip_results::Parts;
+use stickslip_results::{Expectation, Job};
+use usage::Usage;
+
+/// Derived numbers of a scenario, in SI.
+#[derive(Debug, Serialize)]
+struct Info {
+    scenario: String,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    title: String,
+    /// SHA-256 of the resolved scenario, as in the summary of a run.
+    scenario_sha256: String,
+    bodies: Parts<BodyInfo>,
+    waveforms: Parts<WaveformInfo>,
+    contacts: Parts<ContactInfo>,
+    /// Normal modes with all contacts stuck, by rising frequency.
+    modes: Vec<ModeInfo>,
+    stepping: Stepping,
+    expected: Expectation,
+    usage: Usage,
+}
+
+/// Reads and builds a scenario and prints what it means.
+pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
+    let job = match Job::prepare(&arguments.file, &arguments.set, Path::new("")) {
+        Ok(job) => job,
+        Err(refusal) => {
+            let _ = writeln!(std::io::stderr(), "{refusal}");
+            return Verdict::BadInput;
+        }
+    };
+    let info = Info::of(&job);
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    let text = if arguments.json { serde_json::to_string(&info).unwrap_or_default() } else { info.text() };
+    say(format_args!("{text}"));
+    Verdict::Done
+}
+
+impl Info {
+    fn of(job: &Job) -> Self {
+        let modes = motion::modes(job);
+        Self {
+            scenario: job.name.clone(),
+            title: job.scenario.title.clone(),
+            scenario_sha256: job.hash.clone(),
+            bodies: motion::bodies(job),
+            waveforms: motion::waveforms(job),
+            contacts: contacts::of(job),
+            stepping: Stepping::of(job),
+            expected: Expectation::of(job),
+            usage: Usage::of(job),
+            modes,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Contacts as columns side by side.
+
+use super::contacts::{ContactInfo, Loaded, Pressed};
+use super::digits::digits;
+use super::tables::{WIDTH, grid, unbroken};
+use crate::console::quantity::quantity;
+use stickslip_results::Real;
+
+/// Space that a column takes beside its text.
+const PADDING: usize = 2;
+/// Contacts of one pair that a warning names.
+const NAMED: usize = 4;
+
+const ABOUT_STROKE: &str = "\
+S₀ is that of the quasi-static, damped limit: flyback in no time, slow way back, load against the
+steps. Strokes below it make no step there. A real slider rings after the flyback, and its steps
+near S₀ depend on the ringing.";
+
+/// The contacts side by side, as many as fit, and what to know of them.
+pub(super) fn contacts(contacts: &[(String, ContactInfo)]) -> String {
+    let labels = cells_of(None);
+    let label_width = labels.iter().map(|label| width(label)).max().unwrap_or(0) + PADDING;
+    let columns: Vec<Vec<String>> = contacts.iter().map(|contact| cells_of(Some(contact))).collect();
+    let mut blocks: Vec<Vec<&Vec<String>>> = Vec::new();
+    let mut room = 0;
+    for column in &columns {
+        let needed = column.iter().map(|cell| width(cell)).max().unwrap_or(0) + PADDING;
+        match blocks.last_mut().filter(|_| needed <= room) {
+            Some(block) => block.push(column),
+            None => {
+                room = usize::from(WIDTH).saturating_sub(label_width);
+                blocks.push(vec![column]);
+            }
+        }
+        room = room.saturating_sub(needed);
+    }
+    let block = |block: &Vec<&Vec<String>>| {
+        let row = |i: usize| -> Vec<String> {
+            let label = std::iter::once(&labels[i]);
+            label.chain(block.iter().map(|column| &column[i])).cloned().collect()
+        };
+        let rows = (1..labels.len()).map(row).filter(|row| row[1..].iter().any(|cell| !cell.is_empty()));
+        grid(row(0), rows)
+    };
+    let mut sections: Vec<String> = blocks.iter().map(block).collect();
+    if !sections.is_empty() {
+        sections.push(ABOUT_STROKE.to_owned());
+    }
+    sections.extend(warnings(contacts));
+    sections.join("\n\n")
+}
+
+/// The cells of a contact's column, its name first; the labels without one.
+fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
+    let word = |label: &str, cell: &dyn Fn(&ContactInfo) -> String| match contact {
+        None => label.to_owned(),
+        Some((_, contact)) => cell(contact),
+    };
+    let pressed = |label: &str, unit: &str, value: &dyn Fn(&Pressed) -> Option<Real>| match contact {
+        None => label.to_owned(),
+        Some((_, contact)) => ranged(contact, unit, value),
+    };
+    vec![
+        contact.map_or("CONTACTS".to_owned(), |(name, _)| name.clone()),
+        word("between", &|c| unbroken(&c.between)),
+        word("materials", &|c| unbroken(&c.materials)),
+        word("profile", &|c| c.profile.clone()),
+        word("number of identical contacts", &|c| c.count.to_string()),
+        word("E*, effective modulus", &|c| quantity(c.normal_modulus, "Pa")),
+        word("G*, effective shear modulus", &|c| quantity(c.tangential_modulus, "Pa")),
+        word("Dundurs' β, 0 for similar pairs", &|c| {
+            if c.elastically_similar { "0".to_owned() } else { digits(c.dundurs_beta.0) }
+        }),
+        word("μ, coefficient of friction", &|c| c.friction.0.to_string()),
+        word("κ = μE*/G*", &|c| digits(c.stick_slope.0)),
+        pressed("F_N, normal force of one", "N", &|p| Some(p.normal_force)),
+        pressed("d, indentation", "m", &|p| Some(p.indentation)),
+        pressed("a, contact radius", "m", &|p| Some(p.radius)),
+        pressed("p_max, largest pressure", "Pa", &|p| p.peak_pressure),
+        pressed("u_c = κd, gross slip begins", "m", &|p| Some(p.gross_slip)),
+        pressed("S₀, zero-step stroke", "m", &|p| Some(p.zero_step_stroke)),
+        word("constant load, share of μF_N", &|c| {
+            let share = |load: Loaded| format!("{}, {}", quantity(load.force, "N"), digits(load.share.0));
+            c.start.loaded.map_or(String::new(), share)
+        }),
+        pressed("S₀ against this load", "m", &|p| p.loaded?.zero_step_stroke),
+        pressed("μF_N of all, holds at most", "N", &|p| Some(p.limit_force)),
+        pressed("tangential stiffness of all, stuck", "N/m", &|p| Some(p.tangential_stiffness)),
+        pressed("normal stiffness of all", "N/m", &|p| Some(p.normal_stiffness)),
+        pressed("contact resonance", "Hz", &|p| p.resonance),
+    ]
+}
+
+/// A value at the start, and from least to most where the load varies.
+fn ranged(contact: &ContactInfo, unit: &str, value: &dyn Fn(&Pressed) -> Option<Real>) -> String {
+    let Some(start) = value(&contact.start) else { return String::new() };
+    let ends = (contact.least.as_ref().and_then(value), contact.most.as_ref().and_then(value));
+    let range = match ends {
+        (Some(low), Some(high)) => span(low, high, unit),
+        _ => String::new(),
+    };
+    format!("{}{range}", bounded(start, unit))
+}
+
+pub(super) fn span(low: Real, high: Real, unit: &str) -> String {
+    format!(" ({} … {})", bounded(low, unit), bounded(high, unit))
+}
+
+fn bounded(value: Real, unit: &str) -> String {
+    if value.0.is_infinite() { "unbounded".to_owned() } else { quantity(value, unit) }
+}
+
+/// What to know of pairs for which the theory is not exact, once for each pair.
+fn warnings(contacts: &[(String, ContactInfo)]) -> Vec<String> {
+    let mut pairs: Vec<(String, Vec<&str>)> = Vec::new();
+    for (name, contact) in contacts.iter().filter(|(_, contact)| !contact.elastically_similar) {
+        let [first, second] = &contact.materials;
+        let pair = format!(
+            "warning: {first} and {second} are not elastically similar (β = {}): pressing and sliding are\n\
+             coupled, which the theory leaves out. Results are approximate, the more so the larger |β|.",
+            digits(contact.dundurs_beta.0)
+        );
+        match pairs.iter_mut().find(|(known, _)| *known == pair) {
+            Some((_, names)) => names.push(name),
+            None => pairs.push((pair, vec![name])),
+        }
+    }
+    let told = |(pair, names): (String, Vec<&str>)| {
+        let more = names.len().saturating_sub(NAMED);
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let word = if names.len() == 1 { "Contact" } else { "Contacts" };
+        format!("{pair}\n{word}: {}{rest}", names[..names.len() - more].join(", "))
+    };
+    pairs.into_iter().map(told).collect()
+}
+
+fn width(text: &str) -> usize {
+    text.chars().count()
+}

@@ -1,0 +1,182 @@
+//! The derived numbers as tables for people, the same on a terminal and into a pipe.
+
+use super::Info;
+use super::columns::{self, span};
+use super::digits::{bytes, digits, mass, two_digits, whole};
+use super::motion::{BodyInfo, Freed, ModeInfo, WaveformInfo};
+use super::usage::Item;
+use crate::console::quantity::quantity;
+use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
+use stickslip_results::Real;
+
+/// Widest line.
+pub(super) const WIDTH: u16 = 100;
+/// A line under the heads, nothing else.
+const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+/// A space at which lines are not broken; printed as any other.
+const KEPT_SPACE: char = '\u{a0}';
+/// Displacement in a mode, as a share of the largest, that shows in three digits.
+const SHOWN: f64 = 5e-4;
+
+impl Info {
+    /// All tables.
+    pub(super) fn text(&self) -> String {
+        let head = if self.title.is_empty() {
+            self.scenario.clone()
+        } else {
+            format!("{}: {}", self.scenario, self.title)
+        };
+        let modes = if self.modes.is_empty() { String::new() } else { self.modes() };
+        let sections = [
+            head,
+            self.bodies(),
+            self.waveforms(),
+            columns::contacts(&self.contacts.0),
+            modes,
+            self.run(),
+            self.usage(),
+        ];
+        sections.into_iter().filter(|section| !section.is_empty()).collect::<Vec<_>>().join("\n\n")
+    }
+
+    fn bodies(&self) -> String {
+        let row = |(name, body): &(String, BodyInfo)| {
+            let coordinates =
+                body.coordinates.0.iter().map(|(axis, freed)| format!("{axis} {}", freed.words()));
+            vec![
+                name.clone(),
+                body.mass.map_or(String::new(), mass),
+                coordinates.collect::<Vec<_>>().join(", "),
+            ]
+        };
+        grid(["BODIES", "mass", "coordinates"], self.bodies.0.iter().map(row))
+    }
+
+    fn waveforms(&self) -> String {
+        let row = |(name, waveform): &(String, WaveformInfo)| {
+            let range = |range: Option<[Real; 2]>, unit| {
+                range.map_or(String::new(), |[low, high]| {
+                    format!("{} … {}", quantity(low, unit), quantity(high, unit))
+                })
+            };
+            let period = waveform.period.map_or("none".to_owned(), |period| quantity(period, "s"));
+            let ranges = [range(waveform.lengths, "m"), range(waveform.forces, "N")];
+            vec![name.clone(), joined(&ranges), period, unbroken(&waveform.drives)]
+        };
+        grid(["WAVEFORMS", "range", "period", "drive"], self.waveforms.0.iter().map(row))
+    }
+
+    fn modes(&self) -> String {
+        let row = |mode: &ModeInfo| {
+            let range = mode.range.map_or(String::new(), |[low, high]| span(low, high, "Hz"));
+            let period = Real(1.0 / mode.frequency.0);
+            let moves = mode.shape.0.iter().filter(|(_, x)| x.0.abs() >= SHOWN);
+            let shape: Vec<String> = moves.map(|(name, x)| format!("{name} {}", digits(x.0))).collect();
+            if mode.frequency.0 == 0.0 && mode.range.is_none_or(|[_, high]| high.0 == 0.0) {
+                return vec!["nothing holds it".to_owned(), String::new(), String::new(), unbroken(&shape)];
+            }
+            vec![
+                format!("{}{range}", quantity(mode.frequency, "Hz")),
+                if period.0.is_finite() { quantity(period, "s") } else { String::new() },
+                digits(mode.damping_ratio.0),
+                unbroken(&shape),
+            ]
+        };
+        grid(["MODES, all contacts stuck", "period", "damping ratio", "shape"], self.modes.iter().map(row))
+    }
+
+    fn run(&self) -> String {
+        let (stepping, expected) = (&self.stepping, &self.expected);
+        let stepper = match (stepping.tolerance, stepping.step) {
+            (Some(tolerance), _) => format!("{}, tolerance {:e}", stepping.stepper, tolerance.0),
+            (_, Some(step)) => format!("{}, step {}", stepping.stepper, quantity(step, "s")),
+            _ => stepping.stepper.to_owned(),
+        };
+        let stable = |step: Option<Real>| step.map(|step| format!("below {}", quantity(step, "s")));
+        let time = match stepping.until_steady {
+            Some(change) => {
+                format!(
+                    "at most {}, until steps change by {:e} of themselves",
+                    quantity(stepping.duration, "s"),
+                    change.0
+                )
+            }
+            None => quantity(stepping.duration, "s"),
+        };
+        let of_springs =
+            |(lines, size): (Real, Real)| format!("{} lines, about {}", whole(lines.0), bytes(size));
+        let events = &expected.events;
+        let per_period = events
+            .per_period
+            .as_ref()
+            .map(|per| format!("; about {} per period of {}", two_digits(per.estimate.0), per.waveform));
+        let rows = [
+            ("stepper", Some(stepper)),
+            ("simulated time", Some(time)),
+            ("steps", expected.steps.map(|steps| whole(steps.0))),
+            ("stable fixed step, verlet", stable(stepping.longest_verlet)),
+            ("stable fixed step, rk4", stable(stepping.longest_rk4)),
+            (
+                "events, estimated to a factor of 2",
+                Some(format!("about {}{}", two_digits(events.total()), per_period.unwrap_or_default())),
+            ),
+            ("rows × columns", Some(format!("{} × {}", whole(expected.rows.0), expected.columns))),
+            (
+                "trace.csv, events.csv",
+                Some(format!("about {}, {}", bytes(expected.trace), bytes(expected.events_file))),
+            ),
+            ("springs.csv", expected.spring_lines.zip(expected.springs_file).map(of_springs)),
+            ("memory.csv", expected.memory_curves.map(|curves| format!("{} curves", whole(curves.0)))),
+            ("memory", Some(format!("about {}", bytes(expected.memory)))),
+        ];
+        let rows = rows.into_iter().filter_map(|(label, cell)| Some(vec![label.to_owned(), cell?]));
+        grid(["RUN", ""], rows)
+    }
+
+    fn usage(&self) -> String {
+        let rows = |items: &[Item]| -> Vec<Vec<String>> {
+            let row = |item: &Item| vec![item.what.to_owned(), unbroken(&item.of), item.why.clone()];
+            items.iter().map(row).collect()
+        };
+        let tables = [("COMPUTED", &self.usage.used), ("SKIPPED", &self.usage.skipped)];
+        let tables = tables.map(|(title, items)| grid([title, "of", "why"], rows(items)));
+        tables.into_iter().filter(|table| !table.is_empty()).collect::<Vec<_>>().join("\n\n")
+    }
+}
+
+impl Freed {
+    fn words(&self) -> String {
+        match self {
+            Self::Fixed => "fixed".to_owned(),
+            Self::Free => "free".to_owned(),
+            Self::Follows(waveform) => format!("follows {waveform}"),
+        }
+    }
+}
+
+/// A table with its heads; nothing without rows.
+pub(super) fn grid(
+    head: impl IntoIterator<Item = impl Into<String>>,
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> String {
+    let mut table = Table::new();
+    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
+    table.set_header(head.into_iter().map(Into::into).collect::<Vec<String>>());
+    table.add_rows(rows);
+    if table.is_empty() {
+        return String::new();
+    }
+    let text = table.trim_fmt().replace(KEPT_SPACE, " ");
+    // The table's own space at the left.
+    text.lines().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect::<Vec<_>>().join("\n")
+}
+
+/// A list that is broken between its names only.
+pub(super) fn unbroken(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| name.replace(' ', &KEPT_SPACE.to_string())).collect();
+    names.join(", ")
+}
+
+fn joined(parts: &[String]) -> String {
+    parts.iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join(", ")
+}

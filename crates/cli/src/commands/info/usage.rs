@@ -1,0 +1,212 @@
+//! What a run computes of a scene, and what it skips and why.
+
+use super::contacts::name;
+use serde::Serialize;
+use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Side};
+use stickslip_drive::{Expected, Method, Pressing, Treatment, Why};
+use stickslip_results::Job;
+
+/// What is computed and what is not.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Usage {
+    pub(super) used: Vec<Item>,
+    pub(super) skipped: Vec<Item>,
+}
+
+/// Something of these parts, and why it is computed or not.
+#[derive(Debug, Serialize)]
+pub(super) struct Item {
+    pub(super) what: &'static str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) of: Vec<String>,
+    pub(super) why: String,
+}
+
+impl Usage {
+    pub(super) fn of(job: &Job) -> Self {
+        let mut usage = Self::default();
+        let expected = job.model.expected(&job.start, job.scenario.plan.stepper);
+        usage.motion(job, &expected);
+        usage.contacts(job, &expected);
+        usage.couplings(job);
+        usage.unused(job);
+        usage.output(job);
+        usage
+    }
+
+    fn uses(&mut self, what: &'static str, of: &str, why: impl Into<String>) {
+        add(&mut self.used, what, of, why.into());
+    }
+
+    fn skips(&mut self, what: &'static str, of: &str, why: impl Into<String>) {
+        add(&mut self.skipped, what, of, why.into());
+    }
+
+    fn motion(&mut self, job: &Job, expected: &Expected) {
+        let names = job.model.linearised(&job.start, |d| d.start).coordinates().to_vec();
+        let (stepper, _, _) = job.stepper();
+        if names.is_empty() {
+            let asked = if job.scenario.plan.stepper.locates_events() {
+                ""
+            } else {
+                ", whatever stepper is asked for"
+            };
+            self.skips("equations of motion", "", format!("{}{asked}", Why::NothingFree));
+            return;
+        }
+        names.iter().for_each(|name| self.uses("motion", name, format!("free, stepper {stepper}")));
+        if !is_located(expected) {
+            return;
+        }
+        for (method, why) in &expected.methods {
+            self.uses("method", "", format!("{}: {why}", method.name()));
+        }
+        for name in job.model.travellers() {
+            self.uses("position", &format!("{name}.x"), "counted from near by: only contacts depend on it");
+        }
+        if expected.takes(Method::Swing) {
+            self.skips("steps between events", "", Why::OneQuadrature.to_string());
+        } else if expected.takes(Method::Nystrom) {
+            self.skips("stages for velocities", "", Why::NoVelocities.to_string());
+        }
+        if expected.takes(Method::Parabola) {
+            self.skips("evaluations", "", Why::ConstantForces.to_string());
+        }
+    }
+
+    fn contacts(&mut self, job: &Job, expected: &Expected) {
+        let located = is_located(expected);
+        for (c, contact) in job.scenario.scene.contacts.iter().enumerate() {
+            let name = &contact.name;
+            if job.model.indentations(&job.start, c).is_some_and(|d| d.most <= 0.0) {
+                self.skips("contact", name, Why::NeverPressed.to_string());
+                continue;
+            }
+            if contact.part.friction == 0.0 {
+                self.skips("tangential force", name, Why::NoFriction.to_string());
+                continue;
+            }
+            match contact.part.engine {
+                EngineChoice::Curve => self.uses("memory", name, "the exact curve"),
+                EngineChoice::Springs { count, .. } => {
+                    self.uses("memory", name, format!("a row of {count} springs, asked at every evaluation"));
+                }
+            }
+            self.pressing(job, c, name);
+            if let Some(why) = expected.treats(c, Treatment::Apart).filter(|_| job.is_coupled(c)) {
+                self.skips("forces", name, why.to_string());
+            }
+            if located && job.model.grows(c) {
+                self.uses(
+                    "tangential force",
+                    name,
+                    "a state of its own while the contact grows in full stick",
+                );
+            }
+            if let Some(why) = expected.treats(c, Treatment::Closed) {
+                self.skips("memory between events", name, why.to_string());
+            }
+        }
+    }
+
+    /// What sets the indentation of contact `c`.
+    fn pressing(&mut self, job: &Job, c: usize, name: &str) {
+        let why = match job.model.pressing(c) {
+            None => return,
+            Some(Pressing::Constant) => {
+                let why = "constant load: the indentation is found once, nothing grows";
+                return self.skips("normal motion", name, why);
+            }
+            Some(Pressing::Followed) => "follows a waveform",
+            Some(Pressing::Solved) => "solved from a waveform at every evaluation",
+            Some(Pressing::Bodies) => "from the motion of the bodies",
+        };
+        self.uses("indentation", name, why);
+    }
+
+    fn couplings(&mut self, job: &Job) {
+        let scene = &job.scenario.scene;
+        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free()));
+        let spared = job.model.spared();
+        let springs = scene.springs.iter().enumerate();
+        let springs =
+            springs.map(|(i, part)| ("spring", &part.name, part.part.between, spared.springs.contains(&i)));
+        let actuators = scene.actuators.iter().enumerate();
+        let actuators = actuators
+            .map(|(i, part)| ("actuator", &part.name, part.part.between, spared.actuators.contains(&i)));
+        for (kind, part, between, is_spared) in springs.chain(actuators) {
+            let [first, second] = between.map(|side| name(job, side));
+            if is_spared {
+                self.skips(kind, part, format!("neither {first} nor {second} is free: it moves nothing"));
+            } else if between.iter().any(is_free) {
+                self.uses(kind, part, format!("between {first} and {second}"));
+            } else {
+                self.uses(kind, part, format!("neither {first} nor {second} is free: for its energy alone"));
+            }
+        }
+        for (i, load) in scene.loads.iter().enumerate() {
+            let (place, body) = (format!("loads[{i}]"), Side::Body(load.on));
+            if spared.loads.contains(&i) {
+                self.skips("load", &place, format!("{} is not free: its guide carries it", name(job, body)));
+            } else {
+                self.uses("load", &place, format!("on {}", name(job, body)));
+            }
+        }
+        if scene.gravity.acceleration != 0.0 {
+            let (down, normal) = scene.gravity.incline.sin_cos();
+            let along = scene.gravity.acceleration * down;
+            let lifts = |body: &Named<Body>| body.part.z.freedom == Freedom::Free && normal != 0.0;
+            if scene.bodies.iter().any(lifts) {
+                self.uses("gravity", "", format!("{:.4} m/s² down", scene.gravity.acceleration));
+            } else if along == 0.0 || !scene.bodies.iter().any(|body| body.part.is_free()) {
+                self.skips("gravity", "", "nothing moves freely along it");
+            } else {
+                self.uses("gravity", "", format!("{along:.4} m/s² down the slide"));
+            }
+        }
+    }
+
+    fn unused(&mut self, job: &Job) {
+        let scene = &job.scenario.scene;
+        for material in job.scenario.unused_materials() {
+            self.skips("material", material, "no contact is made of it");
+        }
+        for waveform in job.model.spared().waveforms.iter().filter_map(|w| scene.waveforms.get(*w)) {
+            self.skips("waveform", &waveform.name, "nothing follows it: its corners end no steps");
+        }
+        for body in &scene.bodies {
+            if body.part.mass.is_some() && !body.part.is_free() {
+                self.skips("mass", &body.name, "the body is not free");
+            }
+        }
+    }
+
+    fn output(&mut self, job: &Job) {
+        let (written, all) = (job.columns.len(), job.model.channels().len());
+        if job.scenario.plan.every.is_none() {
+            self.skips("rows", "", "no output.every: the first and the last row only");
+        }
+        if written < all {
+            let why = format!("{} of {all} are not asked for in output.channels", all - written);
+            self.skips("channels", "", why);
+        }
+        if job.scenario.plots.is_empty() {
+            self.skips("pictures", "", "none asked for in plots");
+        }
+        job.scenario.plots.iter().for_each(|plot| self.uses("picture", plot.name(), "asked for in plots"));
+    }
+}
+
+/// Whether events are located: they are crossed by all other steppers.
+fn is_located(expected: &Expected) -> bool {
+    !expected.takes(Method::AskedFor)
+}
+
+/// Adds to what stands there for the same reason, if anything does.
+fn add(items: &mut Vec<Item>, what: &'static str, of: &str, why: String) {
+    let of = (!of.is_empty()).then(|| of.to_owned());
+    match items.iter_mut().find(|item| item.what == what && item.why == why) {
+        Some(item) => item.of.extend(of),
+        None => items.push(Item { what, of: of.into_iter().collect(), why }),
+    }
+}

@@ -1,0 +1,144 @@
+//! `stickslip new`: a scenario that runs at once, and a schema by which an editor completes it.
+
+use crate::arguments::NewArguments;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use stickslip_results::complaint::words;
+use stickslip_results::folder;
+use stickslip_scenario::{Scenario, schema};
+use thiserror::Error;
+
+/// Templates by name: examples as they are.
+const TEMPLATES: [(&str, &str); 5] = [
+    ("drive", include_str!("../../../../scenarios/quickstart.json")),
+    ("piezo", include_str!("../../../../scenarios/piezo_stack.json")),
+    ("fretting", include_str!("../../../../scenarios/fretting_sphere.json")),
+    ("oblique", include_str!("../../../../scenarios/oblique_loading.json")),
+    ("vibration", include_str!("../../../../scenarios/vibrated_slider.json")),
+];
+/// Where the examples look for their schema.
+const SCHEMA_OF_EXAMPLES: &str = "../schema/scenario-1.json";
+/// Where a new scenario looks for it: beside it, in a folder of its own, so that `check *.json` meets scenarios only.
+const SCHEMA: &str = "schema/scenario-1.json";
+/// What every version of this schema has in it.
+const SCHEMA_MARK: &str = "\"title\": \"stickslip scenario, version 1\"";
+
+/// Why no scenario was written.
+#[derive(Debug, Error)]
+enum NewError {
+    #[error("{}: is there already\n   help: give another name, or remove it first", .0.display())]
+    Exists(PathBuf),
+    #[error("{}: is there already and is no schema of stickslip\n   help: say with --schema where editors find the schema", .0.display())]
+    OtherSchema(PathBuf),
+    #[error("{}: expected the name of a file, such as motor or drives/motor", .0.display())]
+    NoName(PathBuf),
+    #[error("{}: cannot be written: {}", .path.display(), words(.source))]
+    Write { path: PathBuf, source: io::Error },
+}
+
+/// Names of the templates.
+pub(crate) fn templates() -> [&'static str; TEMPLATES.len()] {
+    TEMPLATES.map(|(name, _)| name)
+}
+
+/// Writes a scenario and its schema, or lists the templates.
+pub(crate) fn new(arguments: &NewArguments) -> Verdict {
+    if arguments.list {
+        for (name, text) in TEMPLATES {
+            say(format_args!("{name:10} {}", title(text)));
+        }
+        return Verdict::Done;
+    }
+    let text = TEMPLATES.iter().find(|(name, _)| *name == arguments.template).map_or("", |(_, text)| text);
+    match write(&arguments.name, text, arguments.schema.as_deref()) {
+        Ok(file) => {
+            let file = file.display();
+            say(format_args!("{file}: {}\n  next: stickslip run {file}", title(text)));
+            Verdict::Done
+        }
+        Err(error) => {
+            let _ = writeln!(io::stderr(), "{error}");
+            Verdict::BadInput
+        }
+    }
+}
+
+/// A template's own line for people.
+fn title(text: &str) -> String {
+    Scenario::from_str(text, "template", "").map(|scenario| scenario.title).unwrap_or_default()
+}
+
+/// Writes a template as NAME.json, and the schema unless the user has one elsewhere. Overwrites nothing but an older
+/// schema.
+fn write(name: &Path, text: &str, at: Option<&str>) -> Result<PathBuf, NewError> {
+    let mut file = name.to_owned();
+    // "drives/" is a folder, and ".json" an ending without a name.
+    let ends = |end: &str| name.as_os_str().as_encoded_bytes().ends_with(end.as_bytes());
+    if name.file_name().is_none_or(|own| own == ".json") || ends("/") || ends(std::path::MAIN_SEPARATOR_STR) {
+        return Err(NewError::NoName(file));
+    }
+    if name.extension().is_none_or(|extension| extension != "json") {
+        file.as_mut_os_string().push(".json");
+    }
+    if file.symlink_metadata().is_ok() {
+        return Err(NewError::Exists(file));
+    }
+    let parent = file.parent().unwrap_or(Path::new("")).to_owned();
+    let address = match at {
+        Some(address) => address.to_owned(),
+        None => {
+            write_schema(&parent.join(SCHEMA))?;
+            format!("./{SCHEMA}")
+        }
+    };
+    let [old, new] =
+        [SCHEMA_OF_EXAMPLES, &address].map(|address| serde_json::Value::from(address).to_string());
+    publish(&file, &text.replacen(&old, &new, 1), false)?;
+    Ok(file)
+}
+
+/// Writes the schema where there is none or an older one.
+fn write_schema(path: &Path) -> Result<(), NewError> {
+    match std::fs::read_to_string(path) {
+        Ok(known) if known == schema() => Ok(()),
+        Ok(other) if !other.contains(SCHEMA_MARK) => Err(NewError::OtherSchema(path.to_owned())),
+        _ => publish(path, &schema(), true),
+    }
+}
+
+/// Writes a whole file or nothing; into the place of another one only where `replace` allows it.
+fn publish(path: &Path, text: &str, replace: bool) -> Result<(), NewError> {
+    let failed = |source: io::Error| NewError::Write { path: path.to_owned(), source };
+    // The parent of a bare name is "", which stands for the current folder.
+    let parent = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(parent).map_err(failed)?;
+    let mut draft = folder::draft(parent, "new").map_err(failed)?;
+    draft.write_all(text.as_bytes()).and_then(|()| draft.as_file().sync_all()).map_err(failed)?;
+    let published = if replace { draft.persist(path) } else { draft.persist_noclobber(path) };
+    match published {
+        Ok(_) => Ok(()),
+        Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
+            Err(NewError::Exists(path.to_owned()))
+        }
+        Err(error) => Err(failed(error.error)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_template_names_the_schema_where_it_is_replaced() {
+        for (name, text) in TEMPLATES {
+            assert_eq!(text.matches(&format!("\"$schema\": \"{SCHEMA_OF_EXAMPLES}\"")).count(), 1, "{name}");
+            assert!(!title(text).is_empty(), "{name}");
+        }
+        assert!(schema().contains(SCHEMA_MARK));
+    }
+}

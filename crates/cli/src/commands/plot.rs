@@ -1,0 +1,107 @@
+//! Pictures drawn again from results on disk.
+
+use crate::arguments::PlotArguments;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use stickslip_figures::{FigureError, Sources};
+use stickslip_results::complaint::words;
+use stickslip_results::files::{MEMORY, SPRINGS};
+use stickslip_results::folder::Folder;
+use stickslip_results::{Results, ResultsError};
+use stickslip_scenario::PlotName;
+use thiserror::Error;
+
+/// Why pictures of a folder are not there.
+#[derive(Debug, Error)]
+enum PlotFailure {
+    /// The results.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    /// A scenario without pictures.
+    #[error("{}: its scenario names no pictures\n   help: name some with --plots, such as --plots {}", .0.display(), PlotName::ALL.map(PlotName::name).join(","))]
+    NoPlots(PathBuf),
+    /// One picture; the others are drawn.
+    #[error("{}: {source}{}", .folder.display(), advice(.source))]
+    Figure { folder: PathBuf, source: FigureError },
+    /// The pictures cannot be written.
+    #[error("{}: the pictures cannot be written: {}", .folder.display(), words(.source))]
+    Write { folder: PathBuf, source: io::Error },
+}
+
+/// Draws the pictures of all folders; what is wrong with one does not keep the others from being drawn.
+pub(crate) fn plot(arguments: &PlotArguments) -> Verdict {
+    let mut worst = Verdict::Done;
+    for folder in &arguments.folders {
+        for failure in plot_folder(folder, arguments) {
+            let _ = writeln!(io::stderr(), "{failure}");
+            worst = worst.max(failure.verdict());
+        }
+    }
+    worst
+}
+
+/// Draws the pictures of one folder; returns what went wrong.
+fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
+    let results = match Results::read(folder, &arguments.plots) {
+        Ok(results) => results,
+        Err(error) => return vec![error.into()],
+    };
+    let Results { job, kept } = &results;
+    if job.scenario.plots.is_empty() {
+        return vec![PlotFailure::NoPlots(folder.to_owned())];
+    }
+    if let (Some(program), false) = (results.other_program(), arguments.quiet) {
+        let _ = writeln!(io::stderr(), "{}: note: computed by {program}", folder.display());
+    }
+    let (mut pictures, mut failures) = (Vec::new(), Vec::new());
+    let (springs, memory) = (folder.join(SPRINGS), folder.join(MEMORY));
+    for drawn in stickslip_figures::draw(&Sources { job, kept, springs, memory }, &arguments.look.look()) {
+        match drawn {
+            Ok(files) => pictures.extend(files),
+            Err(source) => failures.push(PlotFailure::Figure { folder: folder.to_owned(), source }),
+        }
+    }
+    let out = arguments.out.as_ref().map_or_else(|| folder.to_owned(), |out| out.join(&job.name));
+    match write(&out, &pictures) {
+        Ok(names) if !arguments.quiet && !names.is_empty() => {
+            say(format_args!("{}: {}", out.display(), names.join(", ")));
+        }
+        Ok(_) => {}
+        Err(source) => failures.push(PlotFailure::Write { folder: out, source }),
+    }
+    failures
+}
+
+/// Writes the pictures, all or none.
+fn write(out: &Path, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> {
+    if pictures.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut folder = Folder::make(out)?;
+    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    let names = folder.names();
+    folder.publish()?;
+    Ok(names)
+}
+
+impl PlotFailure {
+    fn verdict(&self) -> Verdict {
+        match self {
+            Self::Figure { source: FigureError::Plot { .. }, .. } | Self::Write { .. } => Verdict::Stopped,
+            Self::Results(_) | Self::NoPlots(_) | Self::Figure { .. } => Verdict::BadInput,
+        }
+    }
+}
+
+/// What to try.
+fn advice(error: &FigureError) -> &'static str {
+    match error {
+        FigureError::Missing { .. } => {
+            "\n   help: run the scenario with these channels, or without output.channels, which writes all"
+        }
+        FigureError::Absent { .. } => "\n   help: run the scenario with this picture among its plots",
+        FigureError::Table { .. } | FigureError::Plot { .. } => "",
+    }
+}

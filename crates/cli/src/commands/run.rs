@@ -1,0 +1,112 @@
+//! `stickslip run`: scenarios, one after the other or side by side.
+
+mod report;
+mod scenario;
+
+use crate::arguments::RunArguments;
+use crate::console::answer::{say, warn};
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
+use rayon::prelude::*;
+use report::Report;
+use std::collections::HashMap;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+use stickslip_results::{Job, Refusal};
+
+pub(crate) use scenario::write;
+
+/// Prepares and runs all scenarios; the worst ending counts. A file that is refused does not keep the others from
+/// running.
+pub(crate) fn run(arguments: &RunArguments) -> Verdict {
+    let interrupt = Interrupt::install();
+    let progress = Progress::new(!arguments.quiet);
+    let jobs = prepare(arguments);
+    let look = arguments.look.look();
+    let console = Console { arguments, progress: &progress, waiting: Mutex::default() };
+    let work = |(place, job): (usize, Result<Job, Refusal>)| {
+        let report = match job {
+            Err(refusal) => Report::refused(&refusal),
+            Ok(job) if interrupt.is_raised() => Report::skipped(&job),
+            Ok(job) => scenario::run(&job, &look, &interrupt, &progress),
+        };
+        let verdict = report.verdict;
+        console.print(place, report);
+        verdict
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = usize::from(arguments.threads).min(cores).min(jobs.len());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let worst = match pool {
+        Ok(pool) if threads > 1 => {
+            let jobs = jobs.into_par_iter().enumerate().with_max_len(1);
+            pool.install(|| jobs.map(work).max())
+        }
+        // One after the other is slower and as right where no threads can be had.
+        _ => jobs.into_iter().enumerate().map(work).max(),
+    };
+    worst.unwrap_or(Verdict::Done)
+}
+
+/// Reads and checks all scenarios before the first is run.
+fn prepare(arguments: &RunArguments) -> Vec<Result<Job, Refusal>> {
+    let mut taken: HashMap<PathBuf, PathBuf> = HashMap::new();
+    let prepare = |file: &PathBuf| {
+        let job = Job::prepare(file, &arguments.set, &arguments.out)?;
+        if !arguments.quiet {
+            warn(&job.scenario);
+        }
+        match taken.insert(job.folder.clone(), file.clone()) {
+            None => Ok(job),
+            Some(other) => Err(Refusal::SameFolder { file: file.clone(), folder: job.folder, other }),
+        }
+    };
+    arguments.files.iter().map(prepare).collect()
+}
+
+/// Prints reports in the order of the files, whichever is ready first.
+struct Console<'a> {
+    arguments: &'a RunArguments,
+    progress: &'a Progress,
+    waiting: Mutex<Waiting>,
+}
+
+#[derive(Default)]
+struct Waiting {
+    next: usize,
+    reports: HashMap<usize, Report>,
+}
+
+impl Waiting {
+    fn take_next(&mut self) -> Option<Report> {
+        let report = self.reports.remove(&self.next)?;
+        self.next += 1;
+        Some(report)
+    }
+}
+
+impl Console<'_> {
+    fn print(&self, place: usize, report: Report) {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        waiting.reports.insert(place, report);
+        while let Some(report) = waiting.take_next() {
+            self.progress.aside(|| self.write(&report));
+        }
+    }
+
+    fn write(&self, report: &Report) {
+        let result = match self.arguments {
+            RunArguments { json: true, .. } => &report.json,
+            RunArguments { quiet: true, .. } => "",
+            _ => &report.result,
+        };
+        if !report.error.is_empty() {
+            let _ = writeln!(std::io::stderr(), "{}", report.error);
+        }
+        if !result.is_empty() {
+            say(format_args!("{result}"));
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What a run tells people, and how it ended.
+
+use crate::console::quantity::quantity;
+use crate::console::verdict::Verdict;
+use std::io;
+use stickslip_results::Outcome;
+use stickslip_results::Real;
+use stickslip_results::complaint::words;
+use stickslip_results::summary::{Status, Summary};
+use stickslip_results::{Job, Refusal};
+
+/// A spread below this share of the step does not show in its digits.
+const SHOWN: f64 = 1e-4;
+
+/// What is to be printed of one scenario.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Report {
+    pub(crate) verdict: Verdict,
+    /// For people, on stdout.
+    pub(crate) result: String,
+    /// For machines, on stdout.
+    pub(crate) json: String,
+    /// On stderr.
+    pub(crate) error: String,
+}
+
+impl Report {
+    fn failed(verdict: Verdict, error: String) -> Self {
+        Self { verdict, result: String::new(), json: String::new(), error }
+    }
+
+    /// A scenario that is not run.
+    pub(crate) fn refused(refusal: &Refusal) -> Self {
+        Self::failed(Verdict::BadInput, refusal.to_string())
+    }
+
+    /// A scenario whose turn did not come.
+    pub(crate) fn skipped(job: &Job) -> Self {
+        Self::failed(Verdict::Interrupted, format!("{}: not run", job.name))
+    }
+
+    /// The folder of the results cannot be made.
+    pub(crate) fn no_folder(job: &Job, error: &io::Error) -> Self {
+        let folder = job.folder.display();
+        let help = "   help: choose another place with --out";
+        Self::failed(
+            Verdict::BadInput,
+            format!("{}: the folder {folder} cannot be made: {}\n{help}", job.name, words(error)),
+        )
+    }
+
+    /// The results cannot be written.
+    pub(crate) fn not_written(job: &Job, error: &io::Error) -> Self {
+        let folder = job.folder.display();
+        Self::failed(
+            Verdict::Stopped,
+            format!("{}: the results cannot be written to {folder}: {}", job.name, words(error)),
+        )
+    }
+
+    /// A run that has written its results.
+    pub(crate) fn ended(job: &Job, outcome: &Outcome, summary: &Summary) -> io::Result<Self> {
+        let folder = job.folder.display();
+        let (verdict, error) = match (&outcome.error, summary.status) {
+            (Some(error), Status::Interrupted) => {
+                (Verdict::Interrupted, format!("{}: {error}; the results so far are in {folder}", job.name))
+            }
+            (Some(error), _) => {
+                let help = error.advice();
+                let message = format!("{}: stopped: {error}\n   help: {help}", job.name);
+                (Verdict::Stopped, format!("{message}\n   the results so far are in {folder}"))
+            }
+            (None, _) => (Verdict::Done, String::new()),
+        };
+        let result = if verdict == Verdict::Done { result(job, outcome, summary) } else { String::new() };
+        Ok(Self { verdict, result, json: summary.line()?, error })
+    }
+}
+
+/// What was done, the numbers looked for first, where the files are.
+fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
+    let (simulated, wall) = (quantity(summary.simulated, "s"), quantity(Real(outcome.wall), "s"));
+    let steady = summary.steady_after.map(|periods| format!(", steps constant after {periods} periods"));
+    let mut lines =
+        vec![format!("{}: {simulated} simulated in {wall}{}", job.name, steady.unwrap_or_default())];
+    if let Some(steps) = &summary.steps {
+        let steady = &steps.steady;
+        let spread = steady.repeatability.filter(|r| r.0 > SHOWN * steady.step.0.abs());
+        let spread = spread.map(|r| format!(" ± {}", quantity(r, "m"))).unwrap_or_default();
+        let back = steady.back_step.map(|b| format!(", back-step {:.1} %", 100.0 * b.0)).unwrap_or_default();
+        let speed = quantity(steps.mean_speed, "m/s");
+        lines.push(format!("  steady step {}{spread}{back}, mean speed {speed}", quantity(steady.step, "m")));
+    }
+    for (name, contact) in &summary.contacts.0 {
+        if let Some(fretting) = &contact.fretting {
+            let regime = match fretting.regime {
+                Some("stick") => "stick, ".to_owned(),
+                Some(regime) => format!("{regime} slip, "),
+                None => String::new(),
+            };
+            lines.push(format!("  {name}: {regime}{} lost per cycle", quantity(fretting.dissipated, "J")));
+        }
+    }
+    lines.push(format!("  {}: {}", job.folder.display(), summary.files().join(", ")));
+    lines.join("\n")
+}

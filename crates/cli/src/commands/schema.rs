@@ -1,0 +1,10 @@
+//! `stickslip schema`: the JSON Schema of the scenario file.
+
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
+
+/// Prints the schema.
+pub(crate) fn print() -> Verdict {
+    say(format_args!("{}", stickslip_scenario::schema().trim_end()));
+    Verdict::Done
+}

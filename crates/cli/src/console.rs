@@ -1,0 +1,7 @@
+//! Between commands and whoever called them: what is printed, how far a run has come, who wants it to stop, how it ended.
+
+pub(crate) mod answer;
+pub(crate) mod interrupt;
+pub(crate) mod progress;
+pub(crate) mod quantity;
+pub(crate) mod verdict;

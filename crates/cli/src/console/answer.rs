@@ -1,0 +1,42 @@
+//! The answer of a command, on stdout.
+
+use crate::console::verdict::Verdict;
+use std::fmt::Arguments;
+use std::io::{self, ErrorKind, Write};
+use std::sync::OnceLock;
+use stickslip_results::complaint::words;
+use stickslip_scenario::Scenario;
+
+/// Why some of the answer was lost.
+static LOST: OnceLock<io::Error> = OnceLock::new();
+
+/// Prints a line.
+pub(crate) fn say(line: Arguments<'_>) {
+    keep(writeln!(io::stdout(), "{line}"));
+}
+
+/// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
+pub(crate) fn warn(scenario: &Scenario) {
+    for warning in &scenario.warnings {
+        let _ = writeln!(io::stderr(), "warning: {warning}");
+    }
+}
+
+/// What all that was said has come to. A reader that has seen enough and closes its pipe is no fault; a full disk is
+/// told, or a file would hold half an answer and the exit code call it whole.
+pub(crate) fn verdict() -> Verdict {
+    keep(io::stdout().flush());
+    LOST.get().map_or(Verdict::Done, |error| {
+        let _ = writeln!(io::stderr(), "the output cannot be written: {}", words(error));
+        Verdict::Stopped
+    })
+}
+
+fn keep(result: io::Result<()>) {
+    if let Err(error) = result
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        // The first is told.
+        let _ = LOST.set(error);
+    }
+}

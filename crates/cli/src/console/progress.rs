@@ -1,0 +1,77 @@
+//! Progress of the runs, on a terminal only.
+
+use crate::console::interrupt::Interrupt;
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
+use std::io::IsTerminal;
+use stickslip_results::Watcher;
+
+/// Ticks of a bar: one per 0.01 %.
+const TICKS: u64 = 10_000;
+
+/// The bars of all runs.
+pub(crate) struct Progress {
+    bars: MultiProgress,
+}
+
+/// The bar of one run, and the signal that ends it.
+pub(crate) struct Bar<'a> {
+    bar: ProgressBar,
+    duration: f64,
+    interrupt: &'a Interrupt,
+}
+
+impl Progress {
+    /// Shows bars on stderr if that is a terminal and they are wanted.
+    pub(crate) fn new(wanted: bool) -> Self {
+        let shown = wanted && std::io::stderr().is_terminal();
+        let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        Self { bars: MultiProgress::with_draw_target(target) }
+    }
+
+    /// A bar for a run of `duration` s.
+    pub(crate) fn start<'a>(&self, name: &str, duration: f64, interrupt: &'a Interrupt) -> Bar<'a> {
+        let bar = self.bars.add(ProgressBar::new(TICKS));
+        let rate = move |state: &ProgressState, text: &mut dyn Write| {
+            let simulated = state.pos() as f64 / TICKS as f64 * duration;
+            let _ = write!(text, "{:.3} s/s", simulated / state.elapsed().as_secs_f64().max(1e-9));
+        };
+        bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left, {rate}").with_key("rate", rate));
+        bar.set_prefix(name.to_owned());
+        Bar { bar, duration, interrupt }
+    }
+
+    /// A bar for work that has a budget of `wall` s of wall time.
+    pub(crate) fn budget<'a>(&self, name: &str, wall: f64, interrupt: &'a Interrupt) -> Bar<'a> {
+        let bar = self.bars.add(ProgressBar::new(TICKS));
+        bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left"));
+        bar.set_prefix(name.to_owned());
+        Bar { bar, duration: wall, interrupt }
+    }
+
+    /// Does something with the bars out of the way.
+    pub(crate) fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
+        self.bars.suspend(act)
+    }
+}
+
+/// The templates are fixed and good; the plain style would do, too.
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+impl Watcher for Bar<'_> {
+    fn reached(&self, t: f64) {
+        self.bar.set_position((t / self.duration * TICKS as f64) as u64);
+    }
+
+    fn goes_on(&self) -> bool {
+        !self.interrupt.is_raised()
+    }
+}
+
+impl Drop for Bar<'_> {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

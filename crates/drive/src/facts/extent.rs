@@ -1,0 +1,19 @@
+//! How much a run to its end has of rows and steps.
+
+use crate::{Model, Plan, Stepper};
+
+/// A row or a step this near to the end of the run, in intervals, is the last one.
+const SAME: f64 = 1e-9;
+
+/// Rows of the trace: the grid strictly inside the run, and both its ends.
+pub fn rows(plan: &Plan) -> f64 {
+    plan.every.map_or(2.0, |every| (plan.duration / every - SAME).ceil().max(1.0) + 1.0)
+}
+
+/// Steps of a stepper at fixed step; none of the others.
+pub fn fixed_steps(model: &Model, plan: &Plan) -> Option<f64> {
+    match model.effective(plan.stepper) {
+        Stepper::Verlet { step } | Stepper::Rk4 { step } => Some((plan.duration / step - SAME).ceil()),
+        Stepper::Event { .. } | Stepper::Dopri5 { .. } => None,
+    }
+}

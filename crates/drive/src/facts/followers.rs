@@ -1,0 +1,52 @@
+//! What follows the waveforms of a scene.
+
+use crate::scene::{Axis, Freedom, Normal, Scene, Varying};
+
+/// Something that follows a waveform.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Follower {
+    /// Place of the waveform in the scene.
+    pub waveform: usize,
+    /// What it is, such as `foot.x` or `ball.force`, in the scenario's words.
+    pub what: String,
+    /// Whether it is a force; otherwise a length or an angle.
+    pub is_force: bool,
+}
+
+/// Everything that follows a waveform.
+pub fn followers(scene: &Scene) -> Vec<Follower> {
+    let mut followers = Vec::new();
+    let mut add = |waveform, what: String, is_force| followers.push(Follower { waveform, what, is_force });
+    for body in &scene.bodies {
+        for (axis, coordinate) in body.part.coordinates() {
+            if let Freedom::Follows(w) = coordinate.freedom {
+                add(w, format!("{}.{}", body.name, axis.key()), false);
+            }
+        }
+    }
+    for contact in &scene.contacts {
+        let (value, word) = match contact.part.normal {
+            Normal::Force(value) => (value, "force"),
+            Normal::Indentation(value) => (value, "indentation"),
+            Normal::Radius(value) => (value, "radius"),
+            Normal::Coupled => continue,
+        };
+        if let Varying::Follows(w) = value {
+            add(w, format!("{}.{word}", contact.name), word == "force");
+        }
+    }
+    for actuator in &scene.actuators {
+        if let Varying::Follows(w) = actuator.part.stroke {
+            add(w, format!("{}.stroke", actuator.name), false);
+        }
+    }
+    for load in &scene.loads {
+        let Some(body) = scene.bodies.get(load.on) else { continue };
+        for (axis, value) in [(Axis::X, load.x), (Axis::Z, load.z), (Axis::Pitch, load.pitch)] {
+            if let Varying::Follows(w) = value {
+                add(w, format!("load on {}.{}", body.name, axis.key()), true);
+            }
+        }
+    }
+    followers
+}

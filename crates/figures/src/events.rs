@@ -1,0 +1,26 @@
+//! Events over time.
+
+use crate::look::{Pen, Picture};
+use std::collections::HashMap;
+use stickslip_plot::{EventTrack, PlotError, events_figure};
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::Track;
+use stickslip_scenario::PlotName;
+
+/// One line for each kind of event of each contact and waveform, contacts first.
+pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+    let contacts = job.model.contacts().map(|(name, _)| name);
+    let waveforms = job.scenario.scene.waveforms.iter().map(|waveform| waveform.name.as_str());
+    let sources: HashMap<&str, usize> = contacts.chain(waveforms).zip(0..).collect();
+    let mut tracks: Vec<&Track> = kept.tracks.iter().flat_map(|tracks| tracks.all()).collect();
+    tracks.sort_by_key(|track| sources.get(track.source.as_str()));
+    let tracks = tracks.into_iter().map(|Track { source, kind, times }| EventTrack {
+        source,
+        kind,
+        times: times.clone(),
+    });
+    let tracks: Vec<EventTrack<'_>> = tracks.collect();
+    let start = kept.series.time().first().copied().unwrap_or(0.0);
+    pen.draw(PlotName::Events, events_figure(job.title(), (start, kept.end()), &tracks))
+}

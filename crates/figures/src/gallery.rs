@@ -1,0 +1,89 @@
+//! All pictures of a scenario, and the page that shows those of many.
+
+mod page;
+
+use crate::look::{Colours, Format, Look, Picture};
+use crate::pictures::{self, FigureError, Sources};
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_drive::RunError;
+use stickslip_results::complaint::words;
+use stickslip_results::files::{MEMORY, SPRINGS};
+use stickslip_results::folder::Folder;
+use stickslip_results::{Job, Recorder, Watcher};
+use thiserror::Error;
+
+pub use page::{Exhibit, page};
+
+/// An SVG of more bytes is left out: a page of many pictures should not weigh tens of megabytes.
+const LARGEST_SVG: usize = 100_000;
+
+/// Why the pictures of a scenario are not there.
+#[derive(Debug, Error)]
+pub enum GalleryError {
+    /// A run that did not come to its end.
+    #[error("{name}: {source}\n   help: {}", .source.advice())]
+    Stopped {
+        /// The scenario.
+        name: String,
+        /// What the run says.
+        source: RunError,
+    },
+    /// A picture.
+    #[error("{name}: {source}")]
+    Figure {
+        /// The scenario.
+        name: String,
+        /// What is wrong with it.
+        source: Box<FigureError>,
+    },
+    /// Writing.
+    #[error("{}: cannot be written: {}\n   help: choose another place with --out", .path.display(), words(.source))]
+    File {
+        /// Which file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// Runs a scenario and draws its pictures in all looks of the gallery; its tables are kept for as long as that takes.
+///
+/// # Errors
+/// A run that did not come to its end, a picture that cannot be drawn, tables that cannot be written.
+pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryError> {
+    let failed = |source| GalleryError::File { path: job.folder.clone(), source };
+    let tables = tempfile::tempdir().map_err(failed)?;
+    let mut folder = Folder::make(tables.path()).map_err(failed)?;
+    let recorder = Recorder::new(job, watcher).fingerprinted();
+    let recorder = recorder.with_tables(&folder).map_err(failed)?;
+    let (outcome, drafts) = job.run_recorded(recorder).map_err(failed)?;
+    if let Some(source) = outcome.error {
+        return Err(GalleryError::Stopped { name: job.name.clone(), source });
+    }
+    drafts.into_iter().try_for_each(|(name, draft)| folder.stage(name, draft)).map_err(failed)?;
+    let (springs, memory) = (folder.place(SPRINGS), folder.place(MEMORY));
+    let sources = Sources { job, kept: &outcome.kept, springs, memory };
+    let light = Look { formats: vec![Format::Png, Format::Svg], theme: Colours::Light, scale: 1 };
+    let dark = Look { formats: vec![Format::Png], theme: Colours::Dark, scale: 1 };
+    let mut pictures = Vec::new();
+    let undrawn = |source| GalleryError::Figure { name: job.name.clone(), source: Box::new(source) };
+    for drawn in [light, dark].iter().flat_map(|look| pictures::draw(&sources, look)) {
+        pictures.extend(drawn.map_err(undrawn)?);
+    }
+    pictures.retain(|(name, bytes)| !name.ends_with(".svg") || bytes.len() <= LARGEST_SVG);
+    Ok(pictures)
+}
+
+/// Writes the pictures of a scenario in place of those that were there; returns their names.
+///
+/// # Errors
+/// What the system says.
+pub fn write(path: &Path, pictures: &[Picture]) -> io::Result<Vec<String>> {
+    let mut folder = Folder::make(path)?;
+    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    folder.forget(Look::all_files());
+    let names = folder.names();
+    folder.publish()?;
+    Ok(names)
+}

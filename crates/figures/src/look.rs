@@ -1,0 +1,98 @@
+//! How pictures are drawn: as what files, in what colours and size.
+
+use stickslip_plot::{Figure, PlotError, Theme, draw_png, draw_svg};
+use stickslip_scenario::PlotName;
+
+/// The look of pictures; names of their files say what is not the default.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Look {
+    /// Kinds of picture files.
+    pub formats: Vec<Format>,
+    /// Colours: light for paper, dark for screens (`NAME-dark.png`).
+    pub theme: Colours,
+    /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (`NAME@2x.png`).
+    pub scale: u32,
+}
+
+/// A kind of picture file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Pixels.
+    Png,
+    /// Lines and texts, sharp at any size.
+    Svg,
+}
+
+/// Colours of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Colours {
+    /// Dark on white.
+    Light,
+    /// Light on nearly black.
+    Dark,
+}
+
+/// A file of a picture: its name and its bytes.
+pub type Picture = (String, Vec<u8>);
+
+/// Draws figures in a look, with what they come from.
+pub(crate) struct Pen<'a> {
+    pub(crate) look: &'a Look,
+    pub(crate) provenance: Vec<(String, String)>,
+}
+
+impl Format {
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+        }
+    }
+}
+
+impl Look {
+    /// Name of a picture's file.
+    pub fn file(&self, plot: PlotName, format: Format) -> String {
+        let theme = match self.theme {
+            Colours::Light => "",
+            Colours::Dark => "-dark",
+        };
+        let scale = if self.scale == 1 { String::new() } else { format!("@{}x", self.scale) };
+        format!("{}{theme}{scale}.{}", plot.name(), format.ending())
+    }
+
+    /// Names of all files that any look gives to the pictures of a scenario.
+    pub fn all_files() -> Vec<String> {
+        let mut names = Vec::new();
+        for theme in [Colours::Light, Colours::Dark] {
+            for scale in [1, 2] {
+                let look = Self { formats: Vec::new(), theme, scale };
+                for format in [Format::Png, Format::Svg] {
+                    names.extend(PlotName::ALL.map(|plot| look.file(plot, format)));
+                }
+            }
+        }
+        names
+    }
+}
+
+impl Pen<'_> {
+    /// Draws a figure, one file for each format.
+    pub(crate) fn draw(&self, plot: PlotName, mut figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
+        let (width, height) = figure.size;
+        figure.size = (width * self.look.scale, height * self.look.scale);
+        figure.theme = match self.look.theme {
+            Colours::Light => Theme::light(),
+            Colours::Dark => Theme::dark(),
+        };
+        figure.provenance.clone_from(&self.provenance);
+        let picture = |format: &Format| {
+            let bytes = match format {
+                Format::Png => draw_png(&figure)?,
+                Format::Svg => draw_svg(&figure)?.into_bytes(),
+            };
+            Ok((self.look.file(plot, *format), bytes))
+        };
+        self.look.formats.iter().map(picture).collect()
+    }
+}

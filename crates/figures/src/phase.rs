@@ -1,0 +1,164 @@
+//! Velocity over displacement.
+
+use crate::look::{Pen, Picture};
+use stickslip_drive::scene::{Axis, Freedom};
+use stickslip_plot::{Coordinate, PhasePath, PlotError, phase_figure};
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::Periods;
+use stickslip_results::Trail;
+use stickslip_scenario::PlotName;
+
+/// A body whose stroke is a smaller share of the largest one in a coordinate is at rest: what moves it is rounding.
+const REST: f64 = 1e-9;
+
+/// A body in one of its coordinates.
+struct Mover<'a> {
+    body: &'a str,
+    axis: Axis,
+}
+
+/// The free coordinates, or else all that move. A body that comes back to its start in the last period is shown all the
+/// way; of one that travels on that period alone, in all its coordinates, x counted from its start, as in the picture
+/// of loops.
+pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+    let trails: Vec<(Mover<'_>, Trail)> = movers(job)
+        .into_iter()
+        .map(|mover| {
+            let trail = trail(&mover, kept);
+            (mover, trail)
+        })
+        .collect();
+    let largest = |axis: Axis| {
+        let strokes = trails.iter().filter(|(mover, _)| mover.axis == axis).map(|(_, trail)| trail.stroke());
+        strokes.fold(0.0, f64::max)
+    };
+    let is_moving = |(mover, trail): &&(Mover<'_>, Trail)| trail.stroke() > REST * largest(mover.axis);
+    let moving: Vec<&(Mover<'_>, Trail)> = trails.iter().filter(is_moving).collect();
+    let waveform = job.scenario.figures.waveform.and_then(|place| job.scenario.scene.waveforms.get(place));
+    let periods = waveform.and_then(|waveform| Periods::until(&waveform.part, kept.end()));
+    let travels = |body: &str, periods: Periods| {
+        let mut trails = moving.iter().filter(|(mover, _)| mover.body == body);
+        trails.any(|(_, trail)| !trail.part(periods.last()).is_closed())
+    };
+    let shown = moving.iter().map(|(mover, trail)| match periods {
+        Some(periods) if travels(mover.body, periods) => (
+            mover.axis,
+            format!("{}, period {}", mover.body, periods.count),
+            last(mover.axis, trail, periods),
+        ),
+        _ => (mover.axis, mover.body.to_owned(), trail.clone()),
+    });
+    let shown: Vec<(Axis, String, Trail)> = shown.collect();
+    let paths = shown.iter().map(|(axis, name, Trail { x, y, .. })| PhasePath {
+        name,
+        coordinate: beside(*axis),
+        displacement: x,
+        velocity: y,
+    });
+    let paths: Vec<PhasePath<'_>> = paths.collect();
+    pen.draw(PlotName::Phase, phase_figure(job.title(), &paths))
+}
+
+fn trail(mover: &Mover<'_>, kept: &Kept) -> Trail {
+    let [x, v] = quantities(mover.axis).map(|quantity| kept.series.column(mover.body, quantity).to_vec());
+    Trail { t: kept.series.time().to_vec(), x, y: v }
+}
+
+/// Columns that it is drawn from.
+pub(crate) fn needs(job: &Job) -> Vec<String> {
+    let columns =
+        |mover: Mover<'_>| quantities(mover.axis).map(|quantity| format!("{}.{quantity}", mover.body));
+    movers(job).into_iter().flat_map(columns).collect()
+}
+
+/// Quantities of a coordinate and its rate.
+fn quantities(axis: Axis) -> [&'static str; 2] {
+    match axis {
+        Axis::X => ["x_m", "vx_m_s"],
+        Axis::Z => ["z_m", "vz_m_s"],
+        Axis::Pitch => ["pitch_rad", "vpitch_rad_s"],
+    }
+}
+
+/// The coordinate of a picture; none: along the slide.
+fn beside(axis: Axis) -> Option<Coordinate> {
+    match axis {
+        Axis::X => None,
+        Axis::Z => Some(Coordinate::Height),
+        Axis::Pitch => Some(Coordinate::Pitch),
+    }
+}
+
+/// Points between two samples of a smooth curve.
+const BETWEEN: u32 = 4;
+/// Samples closer than this share of the mean interval are as good as one.
+const CLOSE: f64 = 0.05;
+/// Samples from which on there are enough of them.
+const MANY: usize = 100_000;
+
+/// The last period; the way along the slide is counted from its start where it does not end there.
+fn last(axis: Axis, whole: &Trail, periods: Periods) -> Trail {
+    let last = whole.part(periods.last());
+    smooth(&if axis == Axis::X && !last.is_closed() { last.counted_from_start() } else { last })
+}
+
+/// A trail of positions and velocities with points between its samples, on the cubics through both.
+fn smooth(trail: &Trail) -> Trail {
+    if trail.t.len() > MANY {
+        return trail.clone();
+    }
+    let span = trail.t.last().unwrap_or(&0.0) - trail.t.first().unwrap_or(&0.0);
+    // Samples much closer than the others need no points between; divided by next to nothing, rounding would show.
+    let least = CLOSE * span / trail.t.len() as f64;
+    let mut fine = Trail::default();
+    for i in 0..trail.t.len() {
+        if i > 0 && trail.t[i] - trail.t[i - 1] > least {
+            let h = trail.t[i] - trail.t[i - 1];
+            let (from, rise) = (trail.x[i - 1], trail.x[i] - trail.x[i - 1]);
+            // Excess of the velocities at both ends over the mean one, as ways.
+            let (a, b) = (h * trail.y[i - 1] - rise, h * trail.y[i] - rise);
+            for k in 1..=BETWEEN {
+                let s = f64::from(k) / f64::from(BETWEEN + 1);
+                let r = 1.0 - s;
+                let velocity = (rise + a * r * (r - 2.0 * s) + b * s * (s - 2.0 * r)) / h;
+                fine.push(trail.t[i - 1] + s * h, from + s * rise + s * r * (r * a - s * b), velocity);
+            }
+        }
+        fine.push(trail.t[i], trail.x[i], trail.y[i]);
+    }
+    fine
+}
+
+/// The free coordinates of all bodies; where none is free, those that follow a waveform.
+fn movers(job: &Job) -> Vec<Mover<'_>> {
+    let of = |wanted: fn(&Freedom) -> bool| -> Vec<Mover<'_>> {
+        let bodies = job.scenario.scene.bodies.iter();
+        let moving = bodies.flat_map(|body| {
+            let coordinates = body.part.coordinates().into_iter().filter(move |(_, c)| wanted(&c.freedom));
+            coordinates.map(|(axis, _)| Mover { body: &body.name, axis })
+        });
+        moving.collect()
+    };
+    let free = of(|freedom| *freedom == Freedom::Free);
+    if free.is_empty() { of(|freedom| *freedom != Freedom::Fixed) } else { free }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_motion_has_its_points_on_the_curve() {
+        // x = t³ - 2t has no error in the cubic of positions and velocities.
+        let (x, v) = (|t: f64| t.powi(3) - 2.0 * t, |t: f64| 3.0 * t * t - 2.0);
+        let t = [0.0, 0.5, 1.0, 1.0 + 1e-15, 1.7];
+        let trail = Trail { t: t.to_vec(), x: t.map(x).to_vec(), y: t.map(v).to_vec() };
+        let fine = smooth(&trail);
+        assert_eq!(fine.t.len(), 5 + 3 * 4);
+        for i in 0..fine.t.len() {
+            assert!((fine.x[i] - x(fine.t[i])).abs() < 1e-14, "{i}: {}", fine.x[i]);
+            assert!((fine.y[i] - v(fine.t[i])).abs() < 1e-13, "{i}: {}", fine.y[i]);
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The motion of the bodies over time.
+
+use crate::look::{Pen, Picture};
+use stickslip_drive::scene::{Axis, Body, Freedom, Named, Side};
+use stickslip_plot::{Coordinate, Motion, PlotError, Track, Trajectory, trajectory_figure};
+use stickslip_results::Job;
+use stickslip_results::Kept;
+use stickslip_results::Series;
+use stickslip_scenario::PlotName;
+
+/// Positions over time, heights and angles where there are any, displacements of the contacts below.
+pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+    let series = &kept.series;
+    let (feet, sliders) = tracks(job, series, Axis::X);
+    let beside =
+        [(Axis::Z, Coordinate::Height), (Axis::Pitch, Coordinate::Pitch)].map(|(axis, coordinate)| {
+            let (feet, sliders) = tracks(job, series, axis);
+            Motion { coordinate, feet, sliders }
+        });
+    let trajectory = Trajectory {
+        time: series.time(),
+        feet,
+        sliders,
+        beside: beside.into_iter().filter(|motion| !motion.sliders.is_empty()).collect(),
+        relative: job.model.contacts().map(|(name, _)| track(series, name, "u_m")).collect(),
+        gross_slip: gross_slip(job, kept),
+    };
+    pen.draw(PlotName::Trajectory, trajectory_figure(job.title(), &trajectory))
+}
+
+/// Columns that it is drawn from.
+pub(crate) fn needs(job: &Job) -> Vec<String> {
+    let bodies = job.scenario.scene.bodies.iter();
+    let of = |body: &Named<Body>| {
+        let moving = body.part.coordinates().into_iter().filter(|(_, c)| c.freedom != Freedom::Fixed);
+        moving.map(|(axis, _)| format!("{}.{}", body.name, quantity(axis))).collect::<Vec<_>>()
+    };
+    bodies.flat_map(of).collect()
+}
+
+/// Motions along an axis: of the feet, which stand behind, and of the sliders.
+fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<Track<'a>>, Vec<Track<'a>>) {
+    let (mut feet, mut sliders) = (Vec::new(), Vec::new());
+    for (place, body) in job.scenario.scene.bodies.iter().enumerate() {
+        let tracks = match body.part.coordinates()[axis as usize].1.freedom {
+            Freedom::Fixed => continue,
+            Freedom::Follows(_) => &mut feet,
+            Freedom::Free if has_actuator(job, place) => &mut feet,
+            Freedom::Free => &mut sliders,
+        };
+        tracks.push(track(series, &body.name, quantity(axis)));
+    }
+    if sliders.is_empty() {
+        // Nothing to stand out against: the prescribed motion is what there is to see.
+        std::mem::swap(&mut feet, &mut sliders);
+    }
+    (feet, sliders)
+}
+
+/// Quantity of a coordinate's column.
+fn quantity(axis: Axis) -> &'static str {
+    match axis {
+        Axis::X => "x_m",
+        Axis::Z => "z_m",
+        Axis::Pitch => "pitch_rad",
+    }
+}
+
+/// Whether an actuator moves a body.
+fn has_actuator(job: &Job, place: usize) -> bool {
+    job.scenario.scene.actuators.iter().any(|actuator| actuator.part.between.contains(&Side::Body(place)))
+}
+
+fn track<'a>(series: &'a Series, name: &'a str, quantity: &str) -> Track<'a> {
+    Track { name, values: series.column(name, quantity) }
+}
+
+/// u_c of the only contact, where it oscillates about its start.
+fn gross_slip(job: &Job, kept: &Kept) -> Option<f64> {
+    let (name, _) = job.model.contacts().next().filter(|_| job.model.contacts().count() == 1)?;
+    let (u_c, _) = job.model.contact_scale(0).filter(|_| job.has_constant_load(0))?;
+    let u = kept.series.column(name, "u_m");
+    let (first, last) = (u.first()?, u.last()?);
+    ((last - first).abs() <= 2.0 * u_c).then_some(u_c)
+}

@@ -1,0 +1,43 @@
+//! Why two folders cannot be compared.
+
+use super::results::ResultsError;
+use thiserror::Error;
+
+/// Something in the input of a comparison.
+#[derive(Debug, Error)]
+pub enum CompareError {
+    /// A folder.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    /// Nothing was written at the same time.
+    #[error(
+        "A and B have no row at a common time\n   help: run one of them again with the other's output.every"
+    )]
+    NoCommonRow,
+    /// A name that neither run has.
+    #[error("{term} {name}  there is no {what} \"{}\"{}", .name.escape_debug(), advice(.help.as_deref()))]
+    UnknownName {
+        /// The field of [`Terms`](super::Terms) that has it.
+        term: &'static str,
+        /// What it should name.
+        what: &'static str,
+        /// What stands there.
+        name: String,
+        /// Nearest name, or all of them.
+        help: Option<String>,
+    },
+    /// A tolerance that is none.
+    #[error("absolute {name}={text}  {message}")]
+    Absolute {
+        /// Channel or figure.
+        name: String,
+        /// What stands there.
+        text: String,
+        /// What is wrong with it.
+        message: String,
+    },
+}
+
+fn advice(help: Option<&str>) -> String {
+    help.map(|help| format!("\n   help: {help}")).unwrap_or_default()
+}

@@ -1,0 +1,87 @@
+//! The way of a contact through (u, F_x), fine enough to be drawn and measured.
+
+use crate::job::Job;
+use crate::series::Series;
+use crate::trail::Trail;
+use stickslip_contact::{Apex, Interface, Memory, Segment};
+use stickslip_drive::Waveform;
+
+/// Samples between the limit forces of one sign and the other.
+const FINENESS: f64 = 128.0;
+
+/// The way of contact `c`, all identical contacts together. Without damping the law has no time in it: between two samples on one
+/// branch the force follows from the way alone, and all turning points are events. So under a constant load the contact
+/// is walked once more through the samples, and asked in between. Elsewhere the samples stand alone.
+pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
+    let Some((name, law)) = job.model.contacts().nth(c) else { return Trail::default() };
+    let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
+    let jumps = job.scenario.scene.waveforms.iter().any(|w| Waveform::has_jumps(&w.part));
+    let turns_known = job.model.effective(job.scenario.plan.stepper).locates_events();
+    let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
+    match job.start.memories().get(c) {
+        Some(memory) if turns_known && !jumps && job.has_law_without_time(c) => {
+            let d = d.first().copied().unwrap_or(0.0);
+            refined(&samples, law, memory.clone(), (d, f64::from(job.count(c))))
+        }
+        _ => samples,
+    }
+}
+
+/// The way with points between its samples; at indentation d, of `count` contacts.
+fn refined(samples: &Trail, law: &Interface, mut memory: Memory, (d, count): (f64, f64)) -> Trail {
+    let mut path = Trail::default();
+    for i in 0..samples.t.len() {
+        if i > 0 {
+            between(samples, i, (law, &memory, d, count), &mut path);
+        }
+        path.push(samples.t[i], samples.x[i], samples.y[i]);
+        if memory.commit(law, Segment::Straight(Apex { d, u: samples.x[i] })).is_err() {
+            return samples.clone();
+        }
+    }
+    path
+}
+
+/// Points between samples i-1 and i, as many as the force changes.
+fn between(samples: &Trail, i: usize, of: (&Interface, &Memory, f64, f64), path: &mut Trail) {
+    let (law, memory, d, count) = of;
+    let change = (samples.y[i] - samples.y[i - 1]).abs();
+    if change == 0.0 {
+        return;
+    }
+    let limit = count * law.friction() * law.normal_force(d);
+    let parts = (0.5 * FINENESS * change / limit).ceil().min(FINENESS);
+    for k in 1..parts as u32 {
+        let share = f64::from(k) / parts;
+        let at = |values: &[f64]| values[i - 1] + share * (values[i] - values[i - 1]);
+        let u = at(&samples.x);
+        path.push(at(&samples.t), u, count * memory.force(law, Apex { d, u }));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_contact::{Engine, Pair, Profile};
+
+    fn law() -> Interface {
+        let profile = Profile::paraboloid(1.0).unwrap();
+        Interface::new(Pair::from_moduli(1.0, 0.8).unwrap(), profile, 0.3).unwrap()
+    }
+
+    #[test]
+    fn a_coarse_path_is_refined_along_the_closed_form() {
+        // Loading of a paraboloid, F = μF_N (1 - (1 - u/u_c)^{3/2}), sampled at its ends alone.
+        let law = law();
+        let (u_c, limit) = (law.gross_slip_displacement(1.0), 0.3 * law.normal_force(1.0));
+        let memory = Engine::Curve.memory(&law, Apex { d: 1.0, u: 0.0 });
+        let form = |u: f64| 2.0 * limit * (1.0 - (1.0 - u / u_c).powf(1.5));
+        let end = 0.9 * u_c;
+        let coarse = Trail { t: vec![0.0, 1.0], x: vec![0.0, end], y: vec![0.0, form(end)] };
+        let path = refined(&coarse, &law, memory, (1.0, 2.0));
+        assert!(path.t.len() > 60, "{}", path.t.len());
+        for (u, force) in path.x.iter().zip(&path.y) {
+            assert!((force - form(*u)).abs() < 1e-13 * limit, "{u}: {force}");
+        }
+    }
+}

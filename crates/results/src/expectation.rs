@@ -1,0 +1,117 @@
+//! What a run to its end is expected to write and to hold.
+
+use crate::job::Job;
+use crate::real::Real;
+use crate::series::Series;
+use serde::Serialize;
+use stickslip_drive::facts::{ExpectedEvents, fixed_steps, rows};
+
+/// Bytes of a number with its comma in a table: 13.9 to 19.7 on the examples.
+const BYTES_PER_VALUE: f64 = 19.0;
+/// Bytes of a line of `springs.csv`: 67.9 and 68.6 on the examples.
+const BYTES_PER_SPRING: f64 = 68.0;
+/// What the program takes by itself, its pictures included, B.
+const BASE: f64 = 20e6;
+/// Memory over what is kept: growing lists, and the copies that become figures. 1.56 with a million rows.
+const OVERHEAD: f64 = 1.6;
+
+/// What a run to its end is expected to write and to hold.
+#[derive(Debug, Serialize)]
+pub struct Expectation {
+    /// Steps of a stepper at fixed step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Real>,
+    /// Events.
+    pub events: Events,
+    /// Rows of the trace.
+    pub rows: Real,
+    /// Columns of the trace.
+    pub columns: usize,
+    /// Size of `trace.csv`, B.
+    #[serde(rename = "trace_B")]
+    pub trace: Real,
+    /// Size of `events.csv`, B.
+    #[serde(rename = "events_B")]
+    pub events_file: Real,
+    /// Lines of `springs.csv`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spring_lines: Option<Real>,
+    /// Size of `springs.csv`, B.
+    #[serde(rename = "springs_B", skip_serializing_if = "Option::is_none")]
+    pub springs_file: Option<Real>,
+    /// Curves in `memory.csv`; an open contact has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub memory_curves: Option<Real>,
+    /// Memory that the program takes, B.
+    #[serde(rename = "memory_B")]
+    pub memory: Real,
+}
+
+/// Events of the whole run.
+#[derive(Debug, Serialize)]
+pub struct Events {
+    /// Corners of waveforms, counted.
+    pub corners: Real,
+    /// Events of contacts, estimated: within a factor of two on the examples.
+    pub contacts_estimate: Real,
+    /// All in a period of the waveform of `figures`, on the average.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub per_period: Option<PerPeriod>,
+}
+
+/// Events in a period.
+#[derive(Debug, Serialize)]
+pub struct PerPeriod {
+    /// Name of the waveform.
+    pub waveform: String,
+    /// How many, estimated.
+    pub estimate: Real,
+}
+
+impl Expectation {
+    /// That of a job.
+    pub fn of(job: &Job) -> Self {
+        let plan = &job.scenario.plan;
+        let events = ExpectedEvents::of(job.setup(), plan);
+        let (rows, columns) = (rows(plan), job.columns.len());
+        let series = Series::new(&job.model.channels(), &job.scenario.plots);
+        let kept = series.width() as f64 * (rows + events.total());
+        let springs: usize = job.grids.iter().flatten().map(|grid| grid.count()).sum();
+        let spring_lines =
+            job.scenario.springs.as_ref().map(|asked| springs as f64 * asked.moments.count(plan.duration));
+        let contacts = job.scenario.scene.contacts.len() as f64;
+        let curves = job.scenario.memory.as_ref().map(|asked| contacts * asked.moments.count(plan.duration));
+        Self {
+            steps: fixed_steps(&job.model, plan).map(Real),
+            spring_lines: spring_lines.map(Real),
+            springs_file: spring_lines.map(|lines| Real(lines * BYTES_PER_SPRING)),
+            memory_curves: curves.map(Real),
+            rows: Real(rows),
+            columns,
+            trace: Real(rows * columns as f64 * BYTES_PER_VALUE),
+            // Two words more in each row.
+            events_file: Real(events.total() * (columns + 2) as f64 * BYTES_PER_VALUE),
+            memory: Real(BASE + OVERHEAD * kept * size_of::<f64>() as f64),
+            events: Events::of(job, events),
+        }
+    }
+}
+
+impl Events {
+    fn of(job: &Job, events: ExpectedEvents) -> Self {
+        let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
+        let named = job.scenario.figures.waveform.and_then(|w| scene.waveforms.get(w));
+        let per_period = named.and_then(|named| {
+            let share = named.part.period()? / duration;
+            let estimate = Real(events.total() * share);
+            (share <= 1.0).then(|| PerPeriod { waveform: named.name.clone(), estimate })
+        });
+        let ExpectedEvents { corners, contacts } = events;
+        Self { corners: Real(corners), contacts_estimate: Real(contacts), per_period }
+    }
+
+    /// All events.
+    pub fn total(&self) -> f64 {
+        self.corners.0 + self.contacts_estimate.0
+    }
+}

@@ -1,0 +1,166 @@
+//! A fingerprint in the making.
+
+use super::{ColumnPrint, Fingerprint, TablePrint};
+use crate::columns::Columns;
+use std::fmt::Write;
+use stickslip_drive::{Channel, state_name};
+
+/// Most blocks of a table. When they are full, neighbours become one: blocks are as long as it takes, a power of two.
+pub(super) const MOST_BLOCKS: usize = 64;
+/// What a digest is multiplied by for the next value: odd, so that no bit of an earlier value is lost.
+const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// A fingerprint in the making.
+#[derive(Debug, Clone)]
+pub struct Sketch {
+    columns: Columns,
+    trace: TableSketch,
+    events: TableSketch,
+}
+
+/// Fingerprint of a table in the making. Digests stand block by block, in each in the order of the columns.
+#[derive(Debug, Clone)]
+struct TableSketch {
+    names: Vec<String>,
+    rows: u64,
+    block: u64,
+    starts: Vec<f64>,
+    full: Vec<u64>,
+    /// Digests of the block that is being filled, and its rows so far.
+    current: Vec<u64>,
+    filled: u64,
+}
+
+impl Sketch {
+    /// Nothing yet, of tables with these columns.
+    pub fn new(columns: Columns) -> Self {
+        let channels = columns.channels();
+        let names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
+        let (time, rest) = names.split_at(names.len().min(1));
+        let words: &[&str] = if names.is_empty() { &[] } else { &["source", "kind"] };
+        let (trace, events) = (TableSketch::new(&names), TableSketch::new(&[time, words, rest].concat()));
+        Self { columns, trace, events }
+    }
+
+    /// Takes a row of the trace.
+    pub fn row(&mut self, values: &[f64]) {
+        self.trace.push(self.columns.of(values).map(digest));
+    }
+
+    /// Takes an event: its words and the values after it.
+    pub fn event(&mut self, words: [&str; 2], values: &[f64]) {
+        let mut values = self.columns.of(values).map(digest);
+        let time = values.next();
+        let words = words.map(|word| (0.0, of_word(word)));
+        self.events.push(time.into_iter().chain(words).chain(values));
+    }
+
+    /// The fingerprint of what came so far.
+    pub fn finish(&self) -> Fingerprint {
+        Fingerprint { trace: self.trace.finish(), events: self.events.finish() }
+    }
+}
+
+/// A value and its digest.
+fn digest((value, channel): (f64, &Channel)) -> (f64, u64) {
+    (value, if channel.is_state { of_word(state_name(value)) } else { of_number(value) })
+}
+
+/// All that is not a number has one digest, as it has one text.
+fn of_number(value: f64) -> u64 {
+    mixed(if value.is_nan() { f64::NAN } else { value }.to_bits())
+}
+
+fn of_word(word: &str) -> u64 {
+    word.bytes().fold(word.len() as u64, |digest, byte| mixed(digest ^ u64::from(byte)))
+}
+
+/// Every bit of a value changes half the bits of this, and no two values have the same: the finaliser of Steele, Lea,
+/// Flood, *Fast splittable pseudorandom number generators* (2014).
+fn mixed(mut bits: u64) -> u64 {
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^ (bits >> 31)
+}
+
+/// Digest of a block and the one after it of `rows` rows: the digest of their rows one after the other.
+fn joined(first: u64, second: u64, rows: u64) -> u64 {
+    let (mut power, mut base, mut rest) = (1_u64, FACTOR, rows);
+    while rest > 0 {
+        if rest % 2 == 1 {
+            power = power.wrapping_mul(base);
+        }
+        base = base.wrapping_mul(base);
+        rest /= 2;
+    }
+    first.wrapping_mul(power).wrapping_add(second)
+}
+
+impl TableSketch {
+    fn new(names: &[&str]) -> Self {
+        Self {
+            names: names.iter().map(|name| (*name).to_owned()).collect(),
+            rows: 0,
+            block: 1,
+            starts: Vec::new(),
+            full: Vec::new(),
+            current: vec![0; names.len()],
+            filled: 0,
+        }
+    }
+
+    /// Takes a row of values with their digests, the time first.
+    fn push(&mut self, row: impl Iterator<Item = (f64, u64)>) {
+        for (place, (digest, (value, next))) in self.current.iter_mut().zip(row).enumerate() {
+            *digest = digest.wrapping_mul(FACTOR).wrapping_add(next);
+            if place == 0 && self.filled == 0 {
+                self.starts.push(value);
+            }
+        }
+        self.rows += 1;
+        self.filled += 1;
+        if self.filled == self.block {
+            self.full.extend(&self.current);
+            self.current.fill(0);
+            self.filled = 0;
+            if self.starts.len() == MOST_BLOCKS {
+                (self.starts, self.full) = halved(&self.starts, &self.full, (self.block, self.block));
+                self.block *= 2;
+            }
+        }
+    }
+
+    fn finish(&self) -> TablePrint {
+        let mut digests = self.full.clone();
+        if self.filled > 0 {
+            digests.extend(&self.current);
+        }
+        let width = self.names.len();
+        let column = |(place, name): (usize, &String)| ColumnPrint {
+            name: name.clone(),
+            digests: digests.iter().skip(place).step_by(width).fold(String::new(), |mut text, digest| {
+                // Writing to a string cannot fail.
+                let _ = write!(text, "{digest:016x}");
+                text
+            }),
+        };
+        let columns = self.names.iter().enumerate().map(column).collect();
+        TablePrint { rows: self.rows, block: self.block, starts: self.starts.clone(), columns }
+    }
+}
+
+/// Neighbouring blocks made one; of `rows`, the first is the length of a block and the second that of the last one.
+pub(super) fn halved(starts: &[f64], digests: &[u64], rows: (u64, u64)) -> (Vec<f64>, Vec<u64>) {
+    let blocks = starts.len();
+    let width = digests.len() / blocks.max(1);
+    let mut joint = Vec::with_capacity(digests.len().div_ceil(2));
+    for (pair, block) in digests.chunks(2 * width.max(1)).enumerate() {
+        let (first, second) = block.split_at(width);
+        let length = if 2 * pair + 2 == blocks { rows.1 } else { rows.0 };
+        match second {
+            [] => joint.extend(first),
+            second => joint.extend(first.iter().zip(second).map(|(a, b)| joined(*a, *b, length))),
+        }
+    }
+    (starts.iter().copied().step_by(2).collect(), joint)
+}

@@ -1,0 +1,192 @@
+//! A scenario that was found good, with everything its run needs.
+
+use crate::columns::Columns;
+use crate::limits;
+use crate::program::this_program;
+use sha2::{Digest, Sha256};
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use stickslip_contact::Springs;
+use stickslip_drive::facts::{Setup, has_constant_load};
+use stickslip_drive::scene::Normal;
+use stickslip_drive::{Accuracy, Channel, Model, SceneError, State};
+use stickslip_scenario::{Scenario, ScenarioError, suggestion};
+use thiserror::Error;
+
+/// A checked scenario: no input can be wrong any more.
+pub struct Job {
+    /// The scenario's name: that of its file, without ending.
+    pub name: String,
+    /// Where its results go.
+    pub folder: PathBuf,
+    /// What is to be run.
+    pub scenario: Scenario,
+    /// Its constants, assembled.
+    pub model: Model,
+    /// The state at t = 0.
+    pub start: State,
+    /// Columns of the trace and the events.
+    pub columns: Columns,
+    /// Springs to write down of each contact, where any are asked for.
+    pub grids: Vec<Option<Arc<Springs>>>,
+    /// The scenario as it is run, in canonical JSON.
+    pub resolved: String,
+    /// SHA-256 of [`Self::resolved`], in hexadecimal digits.
+    pub hash: String,
+    /// Name and version of the program that computes the results, or did.
+    pub program: String,
+}
+
+/// Why a file makes no job.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Refusal {
+    /// Something in the scenario.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// A file without a name to call the results by.
+    #[error("{}: expected the name of a file", .0.display())]
+    NoName(PathBuf),
+    /// Two files of one name.
+    #[error("{}: its results would go to {}, like those of {}\n   help: give one of the files another name, or run them apart", .file.display(), .folder.display(), .other.display())]
+    SameFolder {
+        /// The later file.
+        file: PathBuf,
+        /// Where both would go.
+        folder: PathBuf,
+        /// The earlier file.
+        other: PathBuf,
+    },
+}
+
+impl Job {
+    /// Reads a scenario, builds it and checks everything that can be wrong with the input; writes nothing. Pairs in
+    /// `set` are overrides; the results of `NAME.json` would go to `out/NAME`.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the scenario, with its place, or a file without a name.
+    pub fn prepare(file: &Path, set: &[(String, String)], out: &Path) -> Result<Self, Refusal> {
+        let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();
+        let scenario = Scenario::load_with(file, &overrides)?;
+        let stem = file.file_stem().ok_or_else(|| Refusal::NoName(file.to_owned()))?;
+        Ok(Self::new(scenario, stem.to_string_lossy().into_owned(), out.join(stem))?)
+    }
+
+    /// Builds a scenario and checks everything that can still be wrong with it; `folder` is for its results, and may be empty
+    /// where none are written.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the scenario, with its place.
+    pub fn new(scenario: Scenario, name: String, folder: PathBuf) -> Result<Self, ScenarioError> {
+        let locate = |error: SceneError| scenario.refusal(&error);
+        let model = Model::new(&scenario.scene).map_err(locate)?;
+        let start = model.start(&scenario.plan).map_err(locate)?;
+        let channels = model.channels();
+        let columns = columns(&scenario, &channels)?;
+        limits::check_rows(&scenario, channels.len())?;
+        limits::check_curves(&scenario)?;
+        let grids = limits::grids(&scenario, &model, &start)?;
+        let resolved = scenario.resolved();
+        let hash = hash(&resolved);
+        let program = this_program();
+        Ok(Self { name, folder, scenario, model, start, columns, grids, resolved, hash, program })
+    }
+
+    /// The same job as its results tell it: with the text and the program that they were computed from.
+    pub fn with_origin(self, resolved: String, program: String) -> Self {
+        Self { hash: hash(&resolved), resolved, program, ..self }
+    }
+
+    /// The scenario's title, or else its name.
+    pub fn title(&self) -> &str {
+        if self.scenario.title.is_empty() { &self.name } else { &self.scenario.title }
+    }
+
+    /// Number of identical contacts behind contact `c`.
+    pub fn count(&self, c: usize) -> u32 {
+        self.scenario.scene.contacts.get(c).map_or(1, |contact| contact.part.count)
+    }
+
+    /// What facts are told of.
+    pub fn setup(&self) -> Setup<'_> {
+        Setup { scene: &self.scenario.scene, model: &self.model, start: &self.start }
+    }
+
+    /// Whether the load of contact `c` never changes.
+    pub fn has_constant_load(&self, c: usize) -> bool {
+        self.scenario.scene.contacts.get(c).is_some_and(|contact| has_constant_load(&contact.part))
+    }
+
+    /// Whether the force of contact `c` follows from the way of its bodies along the slide alone.
+    pub fn has_law_without_time(&self, c: usize) -> bool {
+        let damping = self.scenario.scene.contacts.get(c).map_or(0.0, |contact| contact.part.damping);
+        self.has_constant_load(c) && damping == 0.0
+    }
+
+    /// Whether the bodies' motion presses contact `c`.
+    pub fn is_coupled(&self, c: usize) -> bool {
+        self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.normal == Normal::Coupled)
+    }
+
+    /// Gross-slip displacement u_c (m) and normal force (N) of one contact of `c` at t = 0: in equilibrium, if the run
+    /// starts there.
+    pub fn contact_scale(&self, c: usize) -> (f64, f64) {
+        let contact = self.model.contacts().zip(self.start.memories()).nth(c);
+        contact.map_or((0.0, 0.0), |((_, law), memory)| {
+            let d = memory.apex().d;
+            (law.gross_slip_displacement(d), law.normal_force(d))
+        })
+    }
+
+    /// Name of the stepper that the run takes and its tolerance or step with that word.
+    pub fn stepper(&self) -> (&'static str, &'static str, f64) {
+        let stepper = self.model.effective(self.scenario.plan.stepper);
+        match stepper.accuracy() {
+            Accuracy::Tolerance(tolerance) => (stepper.name(), "tolerance", tolerance),
+            Accuracy::Step(step) => (stepper.name(), "step_s", step),
+        }
+    }
+}
+
+/// The columns asked for.
+fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, ScenarioError> {
+    let Some(names) = &scenario.channels else { return Ok(Columns::all(channels)) };
+    let known: HashMap<&str, usize> =
+        channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
+    let (mut places, mut taken) = (Vec::new(), HashSet::new());
+    for (i, name) in names.iter().enumerate() {
+        let at = format!("output.channels[{i}]");
+        let Some(&place) = known.get(name.as_str()) else {
+            let help = suggestion(name, channels.iter().map(|channel| channel.name.as_str()));
+            return Err(scenario.locate(
+                &at,
+                format!("there is no channel \"{}\"", name.escape_debug()),
+                help,
+            ));
+        };
+        if !taken.insert(place) {
+            return Err(scenario.locate(&at, "this channel is in the list already", None));
+        }
+        places.push(place);
+    }
+    Ok(Columns::chosen(channels, &places))
+}
+
+/// SHA-256 of a text, in hexadecimal digits.
+pub fn hash(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(digits, "{byte:02x}");
+        digits
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_hash_is_sha_256() {
+        // FIPS 180-2, appendix B.1.
+        assert_eq!(super::hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

@@ -1,0 +1,71 @@
+//! Scenarios made ready to run, and what their runs leave behind: for every door, for it draws nothing, prints nothing and
+//! knows no terminal.
+//!
+//! [`Job::new`] makes a scenario ready, [`Job::run`] runs it in memory, [`Summary::new`] says what it came to; a
+//! [`Recorder`] with a [`Folder`](folder::Folder) writes tables as the run goes on, and [`Results::read`] reads such a folder
+//! back. A [`Watcher`] is told how far a run has come and may end it.
+//!
+//! In reading order:
+//!
+//! * [`Job`], within its `limits`; [`Expectation`], what it will take; [`Columns`]; [`program`], which computes;
+//! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
+//! * what it leaves: [`Kept`] with [`Series`] and [`Tracks`] in memory, `books` (energies); `table`, `insides` and `sheet` on
+//!   disk, under the names of [`files`], in a [`folder`]; its [`fingerprint`];
+//! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`summary`] with
+//!   [`Real`] and [`Parts`] (numbers and things in JSON);
+//! * what is read back: `rows` and [`frame`] (tables), `replay` and [`Results`] (a folder), [`springs`] and [`curves`];
+//! * [`compare`] – two folders told apart;
+//! * for those who tell of results: [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
+//!   the operating system).
+
+mod books;
+mod columns;
+pub mod compare;
+pub mod complaint;
+mod contact_path;
+pub mod curves;
+mod expectation;
+pub mod files;
+pub mod fingerprint;
+pub mod folder;
+pub mod frame;
+mod insides;
+mod job;
+mod kept;
+mod limits;
+pub mod markdown;
+mod outcome;
+mod parts;
+mod periods;
+pub mod program;
+pub mod provenance;
+mod real;
+mod record;
+mod replay;
+mod results;
+mod rows;
+mod series;
+mod sheet;
+pub mod springs;
+pub mod summary;
+mod table;
+mod tracks;
+mod trail;
+mod watcher;
+
+pub use columns::Columns;
+pub use contact_path::contact_path;
+pub use expectation::{Events, Expectation, PerPeriod};
+pub use job::{Job, Refusal, hash};
+pub use kept::Kept;
+pub use outcome::Outcome;
+pub use parts::Parts;
+pub use periods::{Motion, Periods};
+pub use real::Real;
+pub use record::{Draft, Recorder};
+pub use results::{NO_RESULTS, Results, ResultsError};
+pub use series::{ENERGY, Series};
+pub use summary::Summary;
+pub use tracks::{Track, Tracks};
+pub use trail::Trail;
+pub use watcher::Watcher;

@@ -1,0 +1,73 @@
+//! What a run would leave behind, estimated before it starts.
+
+use crate::files::{MEMORY_HEAD, SPRING_HEAD};
+use std::sync::Arc;
+use stickslip_contact::{Curve, Interface, Memory, Springs};
+use stickslip_drive::{Model, State};
+use stickslip_scenario::{Scenario, ScenarioError};
+
+/// Most numbers that a table may have: of the rows and what is kept of them up to 2 GB of memory, and each table some
+/// 5 GB of disk.
+pub(crate) const MOST_VALUES: u64 = 250_000_000;
+
+/// Refuses a run whose rows would fill the memory.
+pub(crate) fn check_rows(scenario: &Scenario, width: usize) -> Result<(), ScenarioError> {
+    let Some(every) = scenario.plan.every else { return Ok(()) };
+    let rows = scenario.plan.duration / every;
+    let most = MOST_VALUES as f64 / width as f64;
+    if rows <= most {
+        return Ok(());
+    }
+    let message =
+        format!("the run would have {rows:.3e} rows of {width} channels, expected at most {most:.3e}");
+    let help = format!("write a row every {:.1e} s or more seldom", scenario.plan.duration / most);
+    Err(scenario.locate("output.every", message, Some(help)))
+}
+
+/// The springs of each contact that a run writes down: those of its row, or a grid of the count asked for under its
+/// curve; none of a contact that is never pressed. Refuses more of them than fit on a disk.
+pub(crate) fn grids(
+    scenario: &Scenario,
+    model: &Model,
+    start: &State,
+) -> Result<Vec<Option<Arc<Springs>>>, ScenarioError> {
+    let Some(asked) = &scenario.springs else { return Ok(Vec::new()) };
+    let contacts = model.contacts().zip(start.memories()).enumerate();
+    let grid = |(c, ((_, law), memory)): (usize, ((&str, &Interface), &Memory))| match memory {
+        Memory::Row(row) => Some(Arc::clone(&row.springs)),
+        Memory::Curve(_) => {
+            // Only a contact without width has no springs: it is never pressed.
+            let width = model.contact_width(c).unwrap_or(0.0);
+            Springs::new(law.profile(), asked.count, width).ok().map(Arc::new)
+        }
+    };
+    let grids: Vec<_> = contacts.map(grid).collect();
+    let springs: usize = grids.iter().flatten().map(|grid| grid.count()).sum();
+    let moments = asked.moments.count(scenario.plan.duration);
+    let (lines, most) = (springs as f64 * moments, MOST_VALUES as f64 / SPRING_HEAD.len() as f64);
+    if lines <= most {
+        return Ok(grids);
+    }
+    let message = format!(
+        "{springs} springs at {moments:.3e} moments make {lines:.3e} lines, expected at most {most:.3e}"
+    );
+    let help = "give output.springs a larger interval \"every\", or a smaller \"count\"";
+    Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
+}
+
+/// Refuses a run whose memory curves might not fit on a disk.
+pub(crate) fn check_curves(scenario: &Scenario) -> Result<(), ScenarioError> {
+    let Some(asked) = &scenario.memory else { return Ok(()) };
+    let curves = asked.moments.count(scenario.plan.duration) * scenario.scene.contacts.len() as f64;
+    let lines = curves * Curve::DEFAULT_CAPACITY as f64;
+    let most = MOST_VALUES as f64 / MEMORY_HEAD.len() as f64;
+    if lines <= most {
+        return Ok(());
+    }
+    let message = format!(
+        "{curves:.3e} curves of up to {} corners may make {lines:.3e} lines, expected at most {most:.3e}",
+        Curve::DEFAULT_CAPACITY
+    );
+    let help = "give output.memory a larger interval \"every\", or a list \"at\"";
+    Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
+}

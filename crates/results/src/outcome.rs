@@ -1,0 +1,66 @@
+//! What came of a run.
+
+use crate::books::Books;
+use crate::job::Job;
+use crate::kept::Kept;
+use crate::record::{Draft, Recorded, Recorder};
+use crate::watcher::Watcher;
+use std::io;
+use std::time::Instant;
+use stickslip_drive::{RunError, State};
+
+/// What came of a run, all of it in memory.
+pub struct Outcome {
+    /// Why it ended before its time.
+    pub error: Option<RunError>,
+    /// The state at the end.
+    pub state: State,
+    /// Series and events.
+    pub kept: Kept,
+    /// Energies.
+    pub(crate) books: Books,
+    /// Number of rows of the trace.
+    pub rows: u64,
+    /// Wall-clock time of the run alone, s.
+    pub wall: f64,
+}
+
+impl Job {
+    /// Runs the job in memory: nothing is written, and `&()` watches nothing.
+    pub fn run(&self, watcher: &dyn Watcher) -> Outcome {
+        let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher));
+        ended.outcome(recorder.into_recorded()).0
+    }
+
+    /// Runs the job with a recorder that may write tables; returns those it wrote as well.
+    ///
+    /// # Errors
+    /// A table that cannot be written.
+    pub fn run_recorded(&self, recorder: Recorder<'_>) -> io::Result<(Outcome, Vec<Draft>)> {
+        let (ended, recorder) = Ended::of(self, recorder);
+        Ok(ended.outcome(recorder.finish()?))
+    }
+}
+
+/// A run that has ended, still without what was recorded of it.
+struct Ended {
+    error: Option<RunError>,
+    state: State,
+    wall: f64,
+}
+
+impl Ended {
+    fn of<'a>(job: &Job, mut recorder: Recorder<'a>) -> (Self, Recorder<'a>) {
+        let mut state = job.start.clone();
+        let begun = Instant::now();
+        let result = stickslip_drive::run(&job.model, &job.scenario.plan, &mut state, &mut recorder);
+        let wall = begun.elapsed().as_secs_f64();
+        (Self { error: result.err(), state, wall }, recorder)
+    }
+
+    fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
+        let Self { error, state, wall } = self;
+        let Recorded { kept, books, rows, drafts } = recorded;
+        (Outcome { error, state, kept, books, rows, wall }, drafts)
+    }
+}

@@ -1,0 +1,21 @@
+//! Things by name, as JSON has them.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+/// Things by name, in the scenario's order.
+#[derive(Debug)]
+pub struct Parts<T>(
+    /// Name and thing.
+    pub Vec<(String, T)>,
+);
+
+impl<T: Serialize> Serialize for Parts<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, part) in &self.0 {
+            map.serialize_entry(name, part)?;
+        }
+        map.end()
+    }
+}

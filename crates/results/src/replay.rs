@@ -1,0 +1,145 @@
+//! What was kept of a run, read back from its tables.
+
+use crate::columns::Columns;
+use crate::frame::FrameError;
+use crate::kept::Kept;
+use crate::results::ResultsError;
+use crate::rows::Rows;
+use std::path::Path;
+use stickslip_drive::{Channel, state_name};
+use stickslip_scenario::PlotName;
+
+/// Codes of the states of a contact.
+const STATES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
+
+/// Reads the trace and the events as they were recorded: a row comes before the events of its own moment, for events end
+/// a step that has written its rows; only the last row is written after everything.
+pub(crate) fn read(
+    (trace, events): (&Path, &Path),
+    columns: &Columns,
+    plots: &[PlotName],
+) -> Result<Kept, ResultsError> {
+    let channels = columns.channels();
+    let mut kept = Kept::new(&channels, plots).fingerprinted(Columns::all(&channels));
+    let mut rows = Replay::open(trace, &channels, &[])?;
+    let mut events = Replay::open(events, &channels, &["source", "kind"])?;
+    let (mut row, mut next) = (Vec::new(), Vec::new());
+    if !rows.advance(&mut row)? {
+        return Err(ResultsError::Empty(trace.to_owned()));
+    }
+    let mut event = Vec::new();
+    let mut has_event = events.advance(&mut event)?;
+    loop {
+        let is_last = !rows.advance(&mut next)?;
+        while has_event && (is_last || time(&event) < time(&row)) {
+            kept.event([events.rows.text(1), events.rows.text(2)], &event);
+            has_event = events.advance(&mut event)?;
+        }
+        kept.row(&row);
+        if is_last {
+            return Ok(kept);
+        }
+        std::mem::swap(&mut row, &mut next);
+    }
+}
+
+fn time(values: &[f64]) -> f64 {
+    values.first().copied().unwrap_or(f64::NAN)
+}
+
+/// One of the tables.
+struct Replay<'a> {
+    rows: Rows,
+    channels: &'a [Channel],
+    /// Number of columns of words after the time.
+    words: usize,
+}
+
+impl<'a> Replay<'a> {
+    fn open(path: &Path, channels: &'a [Channel], words: &[&str]) -> Result<Self, ResultsError> {
+        let mut rows = Rows::open(path)?;
+        let mut names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
+        names.splice(1..1, words.iter().copied());
+        rows.check_head(&names)?;
+        Ok(Self { rows, channels, words: words.len() })
+    }
+
+    /// Reads the channels of the next row; `false` after the last.
+    fn advance(&mut self, values: &mut Vec<f64>) -> Result<bool, ResultsError> {
+        values.clear();
+        if !self.rows.advance()? {
+            return Ok(false);
+        }
+        for (i, channel) in self.channels.iter().enumerate() {
+            let column = if i == 0 { 0 } else { i + self.words };
+            values.push(self.value(column, channel)?);
+        }
+        Ok(true)
+    }
+
+    fn value(&self, column: usize, channel: &Channel) -> Result<f64, ResultsError> {
+        if !channel.is_state {
+            return Ok(self.rows.number(column, &channel.name)?);
+        }
+        let text = self.rows.text(column);
+        let code = STATES.into_iter().find(|code| state_name(*code) == text);
+        code.ok_or_else(|| {
+            let text = text.escape_debug();
+            self.rows
+                .fault(format!("{}: expected open, stick, partial or slip, got \"{text}\"", channel.name))
+                .into()
+        })
+    }
+}
+
+impl From<FrameError> for ResultsError {
+    fn from(source: FrameError) -> Self {
+        Self::Table { source }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::{EVENTS, TRACE};
+    use crate::folder::Folder;
+    use crate::job::Job;
+    use crate::record::Recorder;
+
+    /// A scenario of the examples with overrides: what is kept of its run, and what is read back.
+    fn kept_and_read(name: &str, set: &[(&str, &str)]) -> (Kept, Kept) {
+        let root = tempfile::tempdir().unwrap();
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name);
+        let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+        let mut job = Job::prepare(&file, &set, root.path()).unwrap();
+        job.scenario.plots = PlotName::ALL.to_vec();
+        let mut folder = Folder::make(&job.folder).unwrap();
+        let recorder = Recorder::new(&job, &()).fingerprinted().with_tables(&folder).unwrap();
+        let (outcome, drafts) = job.run_recorded(recorder).unwrap();
+        drafts.into_iter().for_each(|(name, draft)| folder.stage(name, draft).unwrap());
+        folder.publish().unwrap();
+        let read =
+            read((&job.folder.join(TRACE), &job.folder.join(EVENTS)), &job.columns, &PlotName::ALL).unwrap();
+        (outcome.kept, read)
+    }
+
+    #[test]
+    fn what_is_read_back_is_what_was_kept_also_where_rows_and_events_share_a_moment() {
+        let jumps = ("waveforms.drive.sawtooth.flyback", "0");
+        let cases: [(&str, &[(&str, &str)]); 5] = [
+            // Corners and rows at the same moments.
+            ("p1.json", &[("output.every", "0.1 ms")]),
+            ("p1.json", &[("output.every", "0.1 ms"), jumps]),
+            ("quickstart.json", &[("output.every", "1 ms"), ("run.limits.steps", "1500"), jumps]),
+            ("quickstart.json", &[("run.stepper", r#"{"rk4": {"step": "10 us"}}"#)]),
+            ("oblique_loading.json", &[("output.every", "1 s")]),
+        ];
+        for (name, set) in cases {
+            let (kept, read) = kept_and_read(name, set);
+            assert!(kept.series.time().windows(2).any(|t| t[0] == t[1]), "{name}: no shared moment");
+            assert!(kept.series == read.series, "{name} {set:?}");
+            assert_eq!(kept.tracks, read.tracks, "{name} {set:?}");
+            assert_eq!(kept.fingerprint(), read.fingerprint(), "{name} {set:?}");
+        }
+    }
+}

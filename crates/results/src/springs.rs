@@ -1,0 +1,102 @@
+//! `springs.csv` read back: what the springs of each contact did over time.
+
+use crate::files::SPRING_HEAD;
+use crate::frame::FrameError;
+use crate::rows::Rows;
+use std::collections::HashMap;
+use std::path::Path;
+use stickslip_contact::SpringState;
+
+/// The springs of a contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Springs {
+    /// Name of the contact.
+    pub contact: String,
+    /// Moments, s.
+    pub time: Vec<f64>,
+    /// Places of the springs, m, the same at all moments.
+    pub x: Vec<f64>,
+    /// States, moment by moment.
+    pub states: Vec<SpringState>,
+}
+
+/// Reads the table: one line per spring per moment.
+///
+/// # Errors
+/// A file that cannot be read, other columns, or a line that does not fit those before it.
+pub fn read(path: &Path) -> Result<Vec<Springs>, FrameError> {
+    let mut rows = Rows::open(path)?;
+    rows.check_head(SPRING_HEAD)?;
+    let mut contacts: Vec<Springs> = Vec::new();
+    let mut places: HashMap<String, usize> = HashMap::new();
+    while rows.advance()? {
+        let (t, x) = (rows.number(0, SPRING_HEAD[0])?, rows.number(2, SPRING_HEAD[2])?);
+        let contact = rows.text(1);
+        let place = places.get(contact).copied().unwrap_or_else(|| {
+            places.insert(contact.to_owned(), contacts.len());
+            contacts.push(Springs::of(contact));
+            contacts.len() - 1
+        });
+        let state = spring_state(rows.text(4)).ok_or_else(|| {
+            let text = rows.text(4).escape_debug();
+            rows.fault(format!("state: expected open, stick, slip+ or slip-, got \"{text}\""))
+        })?;
+        let springs = &mut contacts[place];
+        if springs.time.last() != Some(&t) {
+            springs.check_whole(&rows)?;
+            springs.time.push(t);
+        }
+        springs.push(x, state, &rows)?;
+    }
+    contacts.iter().try_for_each(|springs| springs.check_whole(&rows))?;
+    Ok(contacts)
+}
+
+impl Springs {
+    fn of(contact: &str) -> Self {
+        Self { contact: contact.to_owned(), time: Vec::new(), x: Vec::new(), states: Vec::new() }
+    }
+
+    /// Takes the next spring of the last moment. The first moment says where the springs are.
+    fn push(&mut self, x: f64, state: SpringState, rows: &Rows) -> Result<(), FrameError> {
+        if self.time.len() == 1 {
+            self.x.push(x);
+        }
+        let before = self.states.len() - (self.time.len() - 1) * self.x.len();
+        match self.x.get(before) {
+            Some(place) if *place == x => {
+                self.states.push(state);
+                Ok(())
+            }
+            Some(_) => {
+                let text = rows.text(2).escape_debug();
+                Err(rows.fault(format!("x_m: expected the places of the first moment, got {text}")))
+            }
+            None => Err(rows.fault(format!("x_m: expected {} springs at a moment, got more", self.x.len()))),
+        }
+    }
+
+    /// A moment has as many springs as the first one.
+    fn check_whole(&self, rows: &Rows) -> Result<(), FrameError> {
+        if self.states.len() == self.time.len() * self.x.len() {
+            return Ok(());
+        }
+        let message = format!(
+            "expected {} springs of \"{}\" at every moment",
+            self.x.len(),
+            self.contact.escape_debug()
+        );
+        Err(rows.fault(message))
+    }
+}
+
+/// State of a spring by its word.
+fn spring_state(word: &str) -> Option<SpringState> {
+    Some(match word {
+        "open" => SpringState::Open,
+        "stick" => SpringState::Stick,
+        "slip+" => SpringState::SlipForward,
+        "slip-" => SpringState::SlipBackward,
+        _ => return None,
+    })
+}

@@ -1,0 +1,175 @@
+//! `summary.json`: what a run came to, in numbers.
+
+mod contacts;
+mod steps;
+
+use crate::books::Balance;
+use crate::job::Job;
+use crate::outcome::Outcome;
+use crate::parts::Parts;
+use crate::program;
+use crate::real::Real;
+use serde::Serialize;
+use std::io;
+use stickslip_drive::RunError;
+
+pub use contacts::{ContactSummary, Fretting};
+pub use steps::{DriveSummary, Steady};
+
+/// The summary of a run. Everything but `timing` is the same whenever the same scenario is run.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    #[serde(skip_serializing_if = "String::is_empty")]
+    title: String,
+    program: Program,
+    /// SHA-256 of the resolved scenario beside the summary.
+    scenario_sha256: String,
+    stepper: Stepper,
+    /// How the run ended.
+    pub status: Status,
+    /// Why the run did not come to its end, and what to try.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Stop>,
+    /// Time reached.
+    #[serde(rename = "simulated_s")]
+    pub simulated: Real,
+    /// Periods after which the run ended before its time, as it was asked to, because steps had become constant.
+    #[serde(rename = "steady_after_periods", skip_serializing_if = "Option::is_none")]
+    pub steady_after: Option<usize>,
+    counts: Counts,
+    /// By name.
+    pub contacts: Parts<ContactSummary>,
+    /// Steps of the drive; none without a free body driven by a periodic waveform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<DriveSummary>,
+    energy: Balance,
+    /// What is missing, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<String>,
+    /// Files beside the summary.
+    files: Vec<String>,
+    /// What differs from run to run.
+    timing: Timing,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// At its time, or when its steps had become constant, if it was to end then.
+    Done,
+    /// By itself, before its time.
+    Stopped,
+    /// By a signal.
+    Interrupted,
+}
+
+#[derive(Debug, Serialize)]
+struct Program {
+    name: &'static str,
+    version: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Stepper {
+    name: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<Real>,
+    #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
+    step: Option<Real>,
+}
+
+#[derive(Debug, Serialize)]
+struct Stop {
+    message: String,
+    advice: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Counts {
+    steps: u64,
+    rejected: u64,
+    evaluations: u64,
+    events: u64,
+    rows: u64,
+}
+
+#[derive(Debug, Serialize)]
+struct Timing {
+    #[serde(rename = "wall_s")]
+    wall: Real,
+    simulated_s_per_s: Real,
+}
+
+impl Summary {
+    /// The summary of a run, still without its list of files.
+    pub fn new(job: &Job, outcome: &Outcome) -> Self {
+        let mut notes = Vec::new();
+        if outcome.kept.left_out > 0 {
+            let left_out = outcome.kept.left_out;
+            notes.push(format!("{left_out} events are in events.csv only: loops and steps are without them"));
+        }
+        let simulated = outcome.state.time();
+        let (name, word, value) = job.stepper();
+        let value_if = |wanted| (word == wanted).then_some(Real(value));
+        let counts = outcome.state.counts();
+        Self {
+            title: job.scenario.title.clone(),
+            program: Program { name: program::NAME, version: program::VERSION },
+            scenario_sha256: job.hash.clone(),
+            stepper: Stepper { name, tolerance: value_if("tolerance"), step: value_if("step_s") },
+            status: Status::of(outcome.error.as_ref()),
+            error: outcome.error.as_ref().map(|e| Stop { message: e.to_string(), advice: e.advice() }),
+            simulated: Real(simulated),
+            steady_after: steps::steady_after(job, outcome),
+            counts: Counts {
+                steps: counts.steps,
+                rejected: counts.rejected,
+                evaluations: counts.evaluations,
+                events: counts.events,
+                rows: outcome.rows,
+            },
+            contacts: contacts::of(job, outcome, &mut notes),
+            steps: steps::of(job, outcome, &mut notes),
+            energy: outcome.books.balance(),
+            notes,
+            files: Vec::new(),
+            timing: Timing { wall: Real(outcome.wall), simulated_s_per_s: Real(simulated / outcome.wall) },
+        }
+    }
+
+    /// Says what is missing, and why.
+    pub fn note(&mut self, note: String) {
+        self.notes.push(note);
+    }
+
+    /// Names the files beside the summary.
+    pub fn set_files(&mut self, files: Vec<String>) {
+        self.files = files;
+    }
+
+    /// The files beside the summary.
+    pub fn files(&self) -> &[String] {
+        &self.files
+    }
+
+    /// As JSON for people and machines.
+    pub fn pretty(&self) -> io::Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    /// As JSON in one line.
+    pub fn line(&self) -> io::Result<String> {
+        Ok(serde_json::to_string(self)?)
+    }
+}
+
+impl Status {
+    fn of(error: Option<&RunError>) -> Self {
+        match error {
+            None => Self::Done,
+            Some(RunError::Interrupted { .. }) => Self::Interrupted,
+            Some(_) => Self::Stopped,
+        }
+    }
+}

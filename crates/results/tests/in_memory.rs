@@ -1,0 +1,83 @@
+//! Runs without a file, a progress bar or a terminal.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
+
+use std::cell::{Cell, RefCell};
+use stickslip_drive::RunError;
+use stickslip_results::folder::Folder;
+use stickslip_results::{Job, Recorder, Summary, Watcher};
+use stickslip_scenario::Scenario;
+
+const QUICKSTART: &str = include_str!("../../../scenarios/quickstart.json");
+
+fn quickstart(overrides: &[(&str, &str)]) -> Job {
+    let scenario = Scenario::from_str_with(QUICKSTART, "quickstart", "", overrides).unwrap();
+    Job::new(scenario, "quickstart".to_owned(), "".into()).unwrap()
+}
+
+/// A summary without what differs from run to run.
+fn figures(job: &Job, outcome: &stickslip_results::Outcome) -> serde_json::Value {
+    let mut summary = serde_json::to_value(Summary::new(job, outcome)).unwrap();
+    summary.as_object_mut().unwrap().remove("timing");
+    summary
+}
+
+#[test]
+fn a_run_in_memory_is_the_run_that_writes_tables() {
+    let job = quickstart(&[]);
+    let root = tempfile::tempdir().unwrap();
+    let folder = Folder::make(root.path()).unwrap();
+    let recorder = Recorder::new(&job, &()).fingerprinted().with_tables(&folder).unwrap();
+    let (written, drafts) = job.run_recorded(recorder).unwrap();
+    let in_memory = job.run(&());
+    assert_eq!(drafts.len(), 2);
+    assert_eq!((in_memory.rows, &in_memory.state), (written.rows, &written.state));
+    assert_eq!(in_memory.kept.series, written.kept.series);
+    assert_eq!(figures(&job, &in_memory), figures(&job, &written));
+    // The folder is still without a name for any of it, and the working directory has nothing new.
+    drop(drafts);
+    assert_eq!(std::fs::read_dir(root.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn events_have_their_names_where_a_picture_of_them_is_wanted() {
+    let named = quickstart(&[("plots", r#"["events"]"#)]).run(&());
+    let tracks = named.kept.tracks.unwrap();
+    let sources: Vec<&str> = tracks.all().iter().map(|track| track.source.as_str()).collect();
+    assert!(sources.contains(&"ball") && sources.contains(&"drive"), "{sources:?}");
+    let nameless = quickstart(&[("plots", "[]")]).run(&());
+    assert!(nameless.kept.tracks.is_none());
+    assert_eq!(nameless.kept.series.time(), named.kept.series.time());
+}
+
+/// Ends a run at a time, s, and remembers what it was told.
+struct Impatient {
+    until: f64,
+    now: Cell<f64>,
+    told: RefCell<Vec<f64>>,
+}
+
+impl Watcher for Impatient {
+    fn reached(&self, t: f64) {
+        self.now.set(t);
+        self.told.borrow_mut().push(t);
+    }
+
+    fn goes_on(&self) -> bool {
+        self.now.get() < self.until
+    }
+}
+
+#[test]
+fn a_watcher_is_told_how_far_a_run_has_come_and_may_end_it() {
+    let job = quickstart(&[]);
+    let watcher = Impatient { until: 0.03, now: Cell::new(0.0), told: RefCell::default() };
+    let outcome = job.run(&watcher);
+    assert!(matches!(outcome.error, Some(RunError::Interrupted { .. })), "{:?}", outcome.error);
+    let end = outcome.state.time();
+    // It is asked now and then, not at every step.
+    assert!((0.03..0.1).contains(&end), "{end}");
+    let told = watcher.told.into_inner();
+    assert!(told.len() > 100 && told.iter().all(|t| (0.0..=end).contains(t)), "{}", told.len());
+    // What was computed until then is there.
+    assert_eq!(outcome.kept.series.time().last(), Some(&end));
+}
