@@ -100,7 +100,8 @@ pub struct Moment<'a, I: ?Sized> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused(pub String);
 
-/// A component that a scene brings along: its law is a number, its memory a list of numbers, it reads samples.
+/// A component that a scene brings along: its law is a number, its memory a list of numbers, it reads samples. Law, memory
+/// and states are all that its future depends on, and are plain data: as bytes they need no word of its own.
 pub trait Block:
     Component<
         Law = usize,
@@ -136,7 +137,7 @@ pub trait Block:
     /// Natural scale of a guard, in its own unit: its rounding and how near to zero it is as good as there go by it.
     fn guard_scale(&self, guard: usize) -> f64;
 
-    /// Its fastest rate, 1/s: steps are no longer than that allows, events closer together count as accumulating.
+    /// Its natural rate, 1/s: events that lie much closer together than a period of it count as accumulating.
     fn rate(&self) -> f64;
 
     /// Adds the values of its columns to a row.

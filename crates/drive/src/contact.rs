@@ -5,7 +5,7 @@ mod force;
 mod guard;
 mod mode;
 
-pub(crate) use guard::{Guard, NEARNESS};
+pub(crate) use guard::{Guard, NEARNESS, bands};
 pub(crate) use mode::Mode;
 
 use crate::Sample;

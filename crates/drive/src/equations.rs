@@ -1,5 +1,6 @@
 //! The equations of motion, evaluated on borrowed memory.
 
+mod blocks;
 mod forces;
 mod sum;
 
@@ -7,7 +8,7 @@ use crate::contact::{Contact, Mode, Motion, Press};
 pub(crate) use sum::{Components, Reading, View};
 
 use crate::interval::{Interval, Pull};
-use crate::model::{Measure, Place};
+use crate::model::{BlockState, Measure, Place};
 use crate::state::{Layout, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::Memory;
@@ -24,6 +25,7 @@ pub(crate) struct Equations<'a> {
     pub(crate) pieces: &'a [Piece],
     pub(crate) memories: &'a [Memory],
     pub(crate) modes: &'a [Mode],
+    pub(crate) blocks: &'a [BlockState],
     pub(crate) layout: Layout,
     /// Whether a step may cross corners of waveforms, as fixed steps do.
     pub(crate) crossing: bool,
@@ -34,8 +36,8 @@ pub(crate) struct Equations<'a> {
 impl<'a> Equations<'a> {
     /// The equations on a state as it stands.
     pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
-        let State { pieces, memories, modes, .. } = state;
-        Self { model, pieces, memories, modes, layout, crossing, interval: None }
+        let State { pieces, memories, modes, blocks, .. } = state;
+        Self { model, pieces, memories, modes, blocks, layout, crossing, interval: None }
     }
 }
 
@@ -73,7 +75,7 @@ impl<'a> Equations<'a> {
             Place::Held(x) => [x, 0.0],
             Place::Free(i) => [y(i), y(self.layout.velocity(i))],
             Place::Driven(w) => {
-                let sample = self.sample(w, t);
+                let sample = self.signal(w, &Components { t, y });
                 [sample.value, sample.rate]
             }
         }
@@ -91,7 +93,7 @@ impl<'a> Equations<'a> {
         }
         let (mut followed, mut driven) = (0.0, 0.0);
         for &(w, a) in &measure.driven {
-            let sample = self.sample(w, at.time());
+            let sample = self.signal(w, at);
             followed += a * sample.value;
             driven += a * sample.rate;
         }
@@ -99,9 +101,9 @@ impl<'a> Equations<'a> {
         Reading { value: measure.constant + (own + followed), rate: rate + driven, driven }
     }
 
-    /// Second derivative of a measure, m/s²; `free` gives that of a free coordinate.
-    pub(crate) fn acceleration(&self, measure: &Measure, t: f64, free: impl Fn(usize) -> f64) -> f64 {
-        let followed = measure.driven.iter().map(|(w, a)| a * self.sample(*w, t).acceleration);
+    /// Second derivative of a measure at a moment, m/s²; `free` gives that of a free coordinate.
+    pub(crate) fn acceleration(&self, measure: &Measure, at: &impl View, free: impl Fn(usize) -> f64) -> f64 {
+        let followed = measure.driven.iter().map(|(w, a)| a * self.signal(*w, at).acceleration);
         measure.free.iter().map(|(i, a)| a * free(*i)).sum::<f64>() + followed.sum::<f64>()
     }
 
@@ -178,9 +180,12 @@ impl System for Equations<'_> {
             sum.dv[load.free] += force;
             sum.input += force * v[load.free];
         }
+        if !self.model.blocks.is_empty() {
+            self.blocks(&at, &mut sum, extra);
+        }
         let (input, damping) = sum.accelerate(self.model);
-        let growing = layout.growing;
-        (extra[growing], extra[growing + 1]) = (input, damping);
+        let first = layout.input() - 2 * layout.free;
+        (extra[first], extra[first + 1]) = (input, damping);
     }
 
     /// Flight and gross slip under constant loads.

@@ -74,6 +74,16 @@ pub enum RunError {
         /// Why.
         source: ContactError,
     },
+    /// A block cannot follow its inputs.
+    #[error("block `{block}` at t = {t:e} s: {why}")]
+    Block {
+        /// Time, s.
+        t: f64,
+        /// Name of the block.
+        block: String,
+        /// Why, in its words.
+        why: String,
+    },
     /// The wall-clock limit.
     #[error("the limit of {limit} s of wall time was reached at t = {t:e} s")]
     OutOfTime {
@@ -109,6 +119,7 @@ impl RunError {
                 "put a spring with a little damping beside this contact, or use a fixed step"
             }
             Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
+            Self::Block { .. } => "look at what the block says of itself",
             Self::OutOfTime { .. } => "raise run.limits.wall or shorten the run",
             Self::Interrupted { .. } => "run again to the end",
         }

@@ -21,6 +21,8 @@ pub enum Source {
     Contact(usize),
     /// Waveform at this place of the scene.
     Waveform(usize),
+    /// Block at this place of the scene.
+    Block(usize),
 }
 
 /// What happened.
@@ -46,6 +48,8 @@ pub enum EventKind {
     Corner,
     /// A waveform jumps.
     Jump,
+    /// A guard of a block fell: what that means, in the block's own word.
+    Own(&'static str),
 }
 
 impl EventKind {
@@ -62,6 +66,7 @@ impl EventKind {
             Self::LiftOff => "lift-off",
             Self::Corner => "corner",
             Self::Jump => "jump",
+            Self::Own(name) => name,
         }
     }
 }

@@ -13,7 +13,7 @@
 //! following a waveform. Where no force depends on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere,
 //! and before singular moments, Dormand and Prince's of order 8.
 
-mod component;
+pub mod component;
 mod contact;
 mod equations;
 mod equilibrium;

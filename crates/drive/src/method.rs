@@ -96,6 +96,7 @@ fn velocities(model: &Model) -> Option<Why> {
         // The power of a load that varies is a force times a velocity.
         () if !model.loads.is_empty() => Some(Why::VaryingLoad),
         () if model.growing > 0 => Some(Why::Growth),
+        () if !model.blocks.is_empty() => Some(Why::Block),
         () => None,
     }
 }

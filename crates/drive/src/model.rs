@@ -1,5 +1,6 @@
 //! The constants of a drive, checked and assembled.
 
+mod block;
 mod build;
 mod check;
 mod contact;
@@ -11,6 +12,7 @@ mod scale;
 mod spare;
 mod used;
 
+pub(crate) use block::{BlockState, MOST as MOST_OF_A_BLOCK, Signals, Wire, Wired};
 pub(crate) use measure::{Measure, Terms};
 pub use spare::{Pressing, Spared};
 
@@ -26,6 +28,7 @@ pub struct Model {
     pub(crate) bodies: Vec<Body>,
     pub(crate) free: Vec<Free>,
     pub(crate) contacts: Vec<Contact>,
+    pub(crate) blocks: Vec<Wired>,
     pub(crate) links: Vec<Link>,
     pub(crate) loads: Vec<Load>,
     /// Number of contacts whose force is a state while they grow.
@@ -165,7 +168,7 @@ impl Model {
 
     /// Indentation of a contact at t = 0, m, with the free coordinates where they start.
     pub(crate) fn indentation(&self, contact: &Contact) -> f64 {
-        let first = |w: usize| self.waveforms[w].first();
+        let first = |w: usize| self.signals().first(w);
         match &contact.press {
             Press::Constant { d, .. } => *d,
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(first(*w)).0,

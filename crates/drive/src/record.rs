@@ -1,6 +1,7 @@
 //! What is written down: rows on a regular grid, events, and their channels; looks into the contacts.
 
 use crate::Model;
+use crate::component::Component;
 use crate::contact::{Contact, Mode};
 use crate::equations::{Components, Equations};
 use crate::event::{Event, Source};
@@ -134,8 +135,10 @@ impl Model {
             names.extend(quantities.map(|q| format!("{name}.{q}")));
         }
         for contact in &self.contacts {
-            let quantities = ["u_m", "d_m", "fx_N", "fn_N", "stick_m", "state", "elastic_J", "friction_J"];
-            names.extend(quantities.map(|q| format!("{}.{q}", contact.name)));
+            names.extend(columns(&contact.name, contact));
+        }
+        for wired in &self.blocks {
+            names.extend(columns(&wired.name, wired.block()));
         }
         let energies = ["input", "kinetic", "elastic", "friction", "damping", "error"];
         names.extend(energies.map(|e| format!("energy.{e}_J")));
@@ -158,8 +161,14 @@ impl Model {
         match source {
             Source::Contact(c) => self.contacts[c].name.clone(),
             Source::Waveform(w) => waveform(w),
+            Source::Block(k) => self.blocks[k].name.clone(),
         }
     }
+}
+
+/// Columns of a component under its name.
+fn columns(name: &str, component: &(impl Component + ?Sized)) -> impl Iterator<Item = String> {
+    component.columns().into_iter().map(move |column| format!("{name}.{column}"))
 }
 
 /// Energies of a moment, J.
@@ -191,13 +200,16 @@ pub(crate) fn fill(
     for (c, contact) in model.contacts.iter().enumerate() {
         contact_columns(equations, state, (c, contact), t, y, row, &mut books);
     }
+    for k in 0..model.blocks.len() {
+        books.elastic += equations.block_columns(k, t, y, row);
+    }
     for link in &model.links {
         books.elastic += link_energy(equations, link, t, y);
     }
     for (i, free) in model.free.iter().enumerate() {
         books.kinetic += 0.5 * free.mass * y(layout.velocity(i)).powi(2);
     }
-    let damping = y(layout.damping());
+    let damping = y(layout.damping()) + state.lost;
     let error = books.input - (books.kinetic + books.elastic - state.origin) - books.friction - damping;
     row.extend([books.input, books.kinetic, books.elastic, books.friction, damping, error]);
 }
@@ -255,7 +267,8 @@ fn contact_columns(
 
 /// Potential energy of a link, J: ½k(s-e)² less the work its preload has done.
 pub(crate) fn link_energy(equations: &Equations<'_>, link: &Link, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
-    let stroke = equations.stroke(link, t).value;
-    let length = equations.read(&link.elongation, &Components { t, y }).value;
+    let at = Components { t, y };
+    let stroke = equations.stroke(link, &at).value;
+    let length = equations.read(&link.elongation, &at).value;
     0.5 * link.stiffness * (stroke - length).powi(2) - link.preload * length
 }

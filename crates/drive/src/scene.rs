@@ -1,6 +1,7 @@
 //! A scene: what is there, in SI, before it becomes equations. Plain data; [`crate::Model::new`] checks it.
 
 use crate::Waveform;
+use crate::component::SharedBlock;
 use stickslip_contact::{Pair, Profile};
 
 /// Everything a drive consists of.
@@ -12,6 +13,8 @@ pub struct Scene {
     pub bodies: Vec<Named<Body>>,
     /// Contacts between bodies or a body and the ground.
     pub contacts: Vec<Named<Contact>>,
+    /// Components that the scene brings along.
+    pub blocks: Vec<Named<SharedBlock>>,
     /// Linear springs with dampers.
     pub springs: Vec<Named<Spring>>,
     /// Piezo stacks.
@@ -98,7 +101,8 @@ pub enum Freedom {
     Fixed,
     /// Obeys Newton.
     Free,
-    /// Follows the waveform at this place of [`Scene::waveforms`].
+    /// Follows the waveform at this place of [`Scene::waveforms`] or, counted on from the last one, the signal of the block
+    /// at this place of [`Scene::blocks`].
     Follows(usize),
 }
 

@@ -1,8 +1,9 @@
 //! All that the future of a run depends on.
 
 use crate::contact::{Contact, Mode};
+use crate::equations::Equations;
 use crate::method::Tally;
-use crate::model::Place;
+use crate::model::{BlockState, Place, Wired};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, Memory, Move};
@@ -21,6 +22,8 @@ pub struct State {
     pub(crate) modes: Vec<Mode>,
     /// Whether the last segment of each contact was growth that may go on smoothly.
     pub(crate) grew: Vec<bool>,
+    /// Laws and memories of the blocks.
+    pub(crate) blocks: Vec<BlockState>,
     /// The smooth piece each waveform is on.
     pub(crate) pieces: Vec<Piece>,
     /// Friction work of each contact booked at its commits, J.
@@ -28,6 +31,8 @@ pub struct State {
     /// Input that is not an integral over time, J: jumps; and what constant forces and prescribed normal loads had done
     /// before the start, since their work is read off the present state.
     pub(crate) jumps: f64,
+    /// Work lost in blocks at their commits, J.
+    pub(crate) lost: f64,
     /// Kinetic plus elastic energy at t = 0, J.
     pub(crate) origin: f64,
     /// Next step, s; 0 before the first one.
@@ -52,17 +57,19 @@ pub struct Counts {
     pub events: u64,
 }
 
-/// Places of the components: positions, velocities, forces of growing contacts; then the integrals on whose
+/// Places of the components: positions, velocities, forces of growing contacts, states of blocks; then the integrals on whose
 /// value nothing depends: input work, dissipation, and for each growing contact elastic energy and friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) free: usize,
     pub(crate) growing: usize,
+    /// States of blocks.
+    pub(crate) own: usize,
 }
 
 impl Layout {
     pub(crate) fn dimension(self) -> usize {
-        2 * self.free + self.growing
+        2 * self.free + self.growing + self.own
     }
     pub(crate) fn total(self) -> usize {
         self.dimension() + 2 + 2 * self.growing
@@ -72,6 +79,9 @@ impl Layout {
     }
     pub(crate) fn force(self, slot: usize) -> usize {
         2 * self.free + slot
+    }
+    pub(crate) fn block(self, state: usize) -> usize {
+        2 * self.free + self.growing + state
     }
     pub(crate) fn input(self) -> usize {
         self.dimension()
@@ -89,7 +99,11 @@ impl Layout {
 
 impl Model {
     pub(crate) fn layout(&self) -> Layout {
-        Layout { free: self.free.len(), growing: self.growing }
+        Layout {
+            free: self.free.len(),
+            growing: self.growing,
+            own: self.blocks.iter().map(Wired::count).sum(),
+        }
     }
 
     /// The error of component `i` that is no longer finite; forces and work are laid at the first body's door.
@@ -106,6 +120,13 @@ impl Model {
         for (i, free) in self.free.iter().enumerate() {
             (y[i], y[layout.velocity(i)]) = free.start;
         }
+        let mut blocks = Vec::with_capacity(self.blocks.len());
+        for wired in &self.blocks {
+            let (states, memory) = wired.block().start(&self.signals().first_inputs(wired));
+            let from = layout.block(wired.first);
+            y[from..from + wired.count()].copy_from_slice(&states);
+            blocks.push(BlockState { law: 0, memory });
+        }
         let pieces = self.waveforms.iter().map(|w| w.piece_at(0.0)).collect();
         let memories: Vec<Memory> = self.contacts.iter().map(|c| self.touched(c)).collect();
         State {
@@ -115,9 +136,11 @@ impl Model {
             modes: memories.iter().map(|_| Mode::Whole { sense: 0.0 }).collect(),
             grew: vec![false; memories.len()],
             memories,
+            blocks,
             pieces,
             friction: vec![0.0; self.contacts.len()],
             jumps: 0.0,
+            lost: 0.0,
             origin: 0.0,
             step: 0.0,
             stuck_step: f64::INFINITY,
@@ -170,15 +193,17 @@ impl State {
             return;
         }
         let growing = if to.growing == 0 { model.growing } else { 0 };
-        let from = Layout { free: to.free, growing };
+        let from = Layout { growing, ..to };
         for (contact, friction) in model.contacts.iter().zip(&mut self.friction) {
             if let Some(slot) = contact.slot.filter(|_| growing > 0) {
                 *friction += contact.count * self.y[from.friction(slot)];
             }
         }
         let (input, damping) = (self.y[from.input()], self.y[from.damping()]);
+        let own = self.y[from.block(0)..from.block(to.own)].to_vec();
         self.y.truncate(2 * to.free);
         self.y.resize(to.total(), 0.0);
+        self.y[to.block(0)..to.block(to.own)].copy_from_slice(&own);
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
         self.step = 0.0;
     }
@@ -211,12 +236,17 @@ impl State {
 
     /// A coordinate of body `index` of the scene and its rate; m and m/s, rad and rad/s.
     pub fn coordinate(&self, model: &Model, index: usize, axis: Axis) -> Option<(f64, f64)> {
-        Some(match model.bodies.get(index)?.places[axis as usize] {
+        let place = model.bodies.get(index)?.places[axis as usize];
+        Some(match place {
             Place::Held(x) => (x, 0.0),
             Place::Free(i) => (self.shifts[i] + self.y[i], self.y[model.layout().velocity(i)]),
-            Place::Driven(w) => {
-                let sample = model.waveforms[w].sample(&self.pieces[w], self.t);
-                (sample.value, sample.rate)
+            Place::Driven(_) => {
+                // Blocks' states lie elsewhere where no contact carries a state.
+                let growing = if self.y.len() == model.layout().total() { model.growing } else { 0 };
+                let layout = Layout { growing, ..model.layout() };
+                let equations = Equations::on(model, self, layout, false);
+                let [value, rate] = equations.place(place, self.t, |i| self.y[i]);
+                (value, rate)
             }
         })
     }

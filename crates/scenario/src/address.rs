@@ -20,6 +20,8 @@ fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPath {
         Part::Spring(i) => named("springs", &scene.springs, i),
         Part::Actuator(i) => named("actuators", &scene.actuators, i),
         Part::Load(i) => vec![key("loads"), Step::Index(i)],
+        // No file brings blocks along.
+        Part::Block(_) => Vec::new(),
         Part::Gravity => vec![key("gravity")],
         Part::Run if field == Field::Interval => vec![key("output")],
         Part::Run => vec![key("run")],

@@ -30,6 +30,11 @@ const DEADBAND: f64 = 1e-13;
 /// so what is missed counts in second order only.
 pub(crate) const NEARNESS: f64 = 1e-3;
 
+/// How far below zero a guard of a natural scale must fall to count, and how near to zero it counts as there.
+pub(crate) fn bands(scale: f64, tolerance: f64) -> (f64, f64) {
+    (DEADBAND * scale, (NEARNESS * tolerance).max(2.0 * DEADBAND) * scale)
+}
+
 impl Guard {
     /// The guards of a contact in a mode.
     pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {

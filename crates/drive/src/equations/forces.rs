@@ -81,7 +81,7 @@ impl Equations<'_> {
     pub(super) fn links(&self, at: &impl View, sum: &mut Sum<'_>) {
         for link in &self.model.links {
             let elongation = self.read(&link.elongation, at);
-            let stroke = self.stroke(link, at.time());
+            let stroke = self.stroke(link, at);
             let (stretch, rate) = (stroke.value - elongation.value, stroke.rate - elongation.rate);
             let force = link.stiffness * stretch + link.damping * rate;
             sum.apply(&link.elongation.free, elongation.driven, force + link.preload);
@@ -91,10 +91,10 @@ impl Equations<'_> {
     }
 
     /// Free stroke of a link.
-    pub(crate) fn stroke(&self, link: &Link, t: f64) -> Sample {
+    pub(crate) fn stroke(&self, link: &Link, at: &impl View) -> Sample {
         match link.stroke {
             Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },
-            Stroke::Driven(w) => self.sample(w, t),
+            Stroke::Driven(w) => self.signal(w, at),
         }
     }
 }

@@ -61,7 +61,8 @@ impl Model {
         }
         for link in &self.links {
             let elongation = eq.read(&link.elongation, &Components { t: 0.0, y: |i: usize| y[i] }).value;
-            let stretch = eq.stroke(link, 0.0).value - elongation;
+            let stroke = eq.stroke(link, &Components { t: 0.0, y: |i: usize| y[i] }).value;
+            let stretch = stroke - elongation;
             let force = link.stiffness * stretch;
             statics.push(&link.elongation, force + link.preload, force.abs() + link.preload.abs());
             statics.stiffen(&link.elongation, &link.elongation, link.stiffness, y);

@@ -96,6 +96,17 @@ pub enum SceneFault {
         /// Number of free coordinates.
         count: usize,
     },
+    /// A block reads, or carries as states, more than there is room for.
+    #[error("expected at most {most} inputs and as many states of a block, got {count}")]
+    TooWide {
+        /// Most of either.
+        most: usize,
+        /// Number of the more numerous.
+        count: usize,
+    },
+    /// A block that pushes on bodies is no part of the statics.
+    #[error("a scene with a block between bodies cannot start in equilibrium")]
+    BlockInEquilibrium,
     /// A contact cannot follow its bodies into equilibrium.
     #[error("in static equilibrium {0}")]
     Settling(ContactError),
@@ -146,7 +157,7 @@ impl SceneFault {
             Self::Unstable { .. } => {
                 "take a twentieth of that for accuracy, or the event stepper, which needs no step"
             }
-            Self::TooManyFree { .. } => "give the bodies where they start",
+            Self::TooManyFree { .. } | Self::BlockInEquilibrium => "give the bodies where they start",
             Self::Settling(_) => "give the row a longer span, or use the engine \"curve\"",
             Self::NoEquilibrium { .. } => "lower the load, press harder, or start from rest instead",
             Self::NotFinite(_)
@@ -156,6 +167,7 @@ impl SceneFault {
             | Self::NoContact
             | Self::NoBody(_)
             | Self::NoWaveform(_)
+            | Self::TooWide { .. }
             | Self::OneBody
             | Self::Friction(_)
             | Self::Loading(_) => return None,

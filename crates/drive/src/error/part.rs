@@ -30,6 +30,8 @@ pub enum Part {
     Actuator(usize),
     /// A load.
     Load(usize),
+    /// A block.
+    Block(usize),
     /// Gravity.
     Gravity,
     /// How the scene starts and is run.
@@ -119,6 +121,7 @@ impl fmt::Display for Part {
             Self::Spring(i) => write!(f, "spring {i}"),
             Self::Actuator(i) => write!(f, "actuator {i}"),
             Self::Load(i) => write!(f, "load {i}"),
+            Self::Block(i) => write!(f, "block {i}"),
             Self::Gravity => f.write_str("gravity"),
             Self::Run => f.write_str("run"),
         }

@@ -18,14 +18,15 @@ impl<'a> Followed<'a> {
     /// piece that is neither a line nor a sum of sines.
     pub(crate) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
         if let [(w, factor)] = measure.driven[..]
-            && state.pieces[w].is_sines()
+            && state.pieces.get(w)?.is_sines()
         {
             return Some(Self::Sines { constant: measure.constant, factor, waveform: &model.waveforms[w] });
         }
         let mut start = None;
         let (mut constant, mut rate) = (measure.constant, 0.0);
         for &(w, a) in &measure.driven {
-            let line = state.pieces[w].line()?;
+            // What a block makes is neither.
+            let line = state.pieces.get(w)?.line()?;
             let from = *start.get_or_insert(line.time);
             constant += a * line.at(from);
             rate += a * line.rate;

@@ -2,6 +2,7 @@
 
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
 use crate::contact::{Contact, Mode};
+use crate::equations::Equations;
 use crate::interval::{Followed, Interval, Place, Swing};
 use crate::model::Model;
 use crate::state::State;
@@ -140,8 +141,8 @@ impl Model {
     /// The memory of a contact that has been dragged so far, in u_c, to where it stands.
     fn dragged(&self, contact: &Contact, state: &State, by: f64) -> Memory {
         let (d, way) = (contact.natural.depth, by * contact.natural.displacement);
-        let first = |w: usize| self.waveforms[w].sample(&state.pieces[w], state.t).value;
-        let u = contact.u.value(|i| state.y[i], first);
+        let equations = Equations::on(self, state, self.layout(), false);
+        let u = equations.motion(contact, state.t, |i| state.y[i]).u;
         let mut memory = contact.engine.memory(&contact.law, Apex { d, u: u - way });
         // Where that is not to be had the contact stays as it was made.
         let _ = memory.commit(&contact.law, Segment::Straight(Apex { d, u }));

@@ -23,6 +23,8 @@ pub enum Why {
     VaryingLoad,
     /// The force of a contact that grows in full stick depends on its path.
     Growth,
+    /// A block has states of its own.
+    Block,
     /// A force ends with the power 3/2 of the time.
     SingularMoment,
     /// The stepper was asked for.
@@ -57,6 +59,7 @@ impl fmt::Display for Why {
             Self::ContactDamping => "the force of damped stuck springs depends on a velocity",
             Self::VaryingLoad => "the power of a load that varies depends on a velocity",
             Self::Growth => "the force of a contact that grows in full stick depends on its path",
+            Self::Block => "a block has states of its own beside the motion",
             Self::SingularMoment => {
                 "where gross slip or a touch begins or ends, a force goes with the power 3/2 of the time"
             }

@@ -2,7 +2,8 @@
 
 use super::contact::{self, Surroundings};
 use super::{
-    Body, Free, Link, Load, Measure, Model, Place, Spared, Stroke, check, dampers, held, scale, used,
+    Body, Free, Link, Load, Measure, Model, Place, Signals, Spared, Stroke, block, check, dampers, held,
+    scale, used,
 };
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
@@ -16,8 +17,9 @@ impl Model {
         let mut links = links(scene, &bodies);
         let loads = loads(scene, &bodies, &mut free);
         let equilibrium = scene.start == Start::Equilibrium;
+        let blocks = block::wire(scene, &bodies)?;
         let around = Surroundings {
-            waveforms: &waveforms,
+            signals: Signals { waveforms: &waveforms, blocks: &blocks },
             bodies: &bodies,
             free: &free,
             links: &links,
@@ -36,7 +38,7 @@ impl Model {
             contacts.push(contact);
             deepest.push(deep);
         }
-        dampers::check(scene, &links, &contacts, &waveforms)?;
+        dampers::check(scene, &links, &contacts, around.signals)?;
         held::check(&free, &contacts, &links)?;
         let mut spared = Spared { loads: spared_loads(scene, &bodies), ..Spared::default() };
         for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {
@@ -49,13 +51,15 @@ impl Model {
         for link in &links {
             link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
         }
-        spared.waveforms = used::hold_the_others(&mut waveforms, &bodies, &contacts, &links, &loads);
+        spared.waveforms =
+            used::hold_the_others(&mut waveforms, (&bodies, &blocks), &contacts, &links, &loads);
         scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
         let constants = Self {
             waveforms,
             bodies,
             free,
             contacts,
+            blocks,
             links,
             loads,
             growing,

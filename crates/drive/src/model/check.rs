@@ -12,7 +12,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
             finite(coordinate.position).map_err(of(Field::Position(axis)))?;
             finite(coordinate.velocity).map_err(of(Field::Velocity(axis)))?;
             if let Freedom::Follows(w) = coordinate.freedom {
-                check.waveform(w).map_err(of(Field::Coordinate(axis)))?;
+                check.signal(w).map_err(of(Field::Coordinate(axis)))?;
             }
         }
     }
@@ -67,7 +67,11 @@ impl Check<'_> {
             points(actuator.part.at).map_err(of(Field::Points))?;
             at_least_zero(actuator.part.stiffness).map_err(of(Field::Stiffness))?;
             at_least_zero(actuator.part.damping).map_err(of(Field::Damping))?;
-            self.varying(actuator.part.stroke).map_err(of(Field::Stroke))?;
+            match actuator.part.stroke {
+                Varying::Constant(stroke) => finite(stroke),
+                Varying::Follows(signal) => self.signal(signal),
+            }
+            .map_err(of(Field::Stroke))?;
         }
         Ok(())
     }
@@ -100,6 +104,12 @@ impl Check<'_> {
 
     fn waveform(&self, w: usize) -> Result<(), SceneFault> {
         if w < self.0.waveforms.len() { Ok(()) } else { Err(SceneFault::NoWaveform(w)) }
+    }
+
+    /// What a body may follow: a waveform, or the signal of a block.
+    fn signal(&self, signal: usize) -> Result<(), SceneFault> {
+        let known = self.0.waveforms.len() + self.0.blocks.len();
+        if signal < known { Ok(()) } else { Err(SceneFault::NoWaveform(signal)) }
     }
 
     fn varying(&self, value: Varying) -> Result<(), SceneFault> {

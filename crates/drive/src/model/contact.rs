@@ -1,9 +1,9 @@
 //! From a scene's contact to its constants.
 
-use super::{Body, Free, Link, Load, Measure, reach};
+use super::{Body, Free, Link, Load, Measure, Signals, reach};
 use crate::contact::{Contact, Natural, Press};
 use crate::scene::{self, ContactStart, Direction, EngineChoice, Named, Normal, Varying};
-use crate::{Field, Part, SceneError, SceneFault, Waveform};
+use crate::{Field, Part, SceneError, SceneFault};
 use std::sync::Arc;
 use stickslip_contact::{
     Engine, FirstLoading, Interface, NormalGiven, Springs, SpringsError, TangentialGiven,
@@ -11,7 +11,7 @@ use stickslip_contact::{
 
 /// What a contact is built among.
 pub(super) struct Surroundings<'a> {
-    pub(super) waveforms: &'a [Waveform],
+    pub(super) signals: Signals<'a>,
     pub(super) bodies: &'a [Body],
     pub(super) free: &'a [Free],
     pub(super) links: &'a [Link],
@@ -72,7 +72,7 @@ pub(super) fn build(
 impl Surroundings<'_> {
     /// A measure at t = 0.
     pub(super) fn at_start(&self, measure: &Measure) -> f64 {
-        measure.value(|i| self.free[i].start.0, |w| self.waveforms[w].first().value)
+        measure.value(|i| self.free[i].start.0, |w| self.signals.first(w).value)
     }
 }
 
@@ -141,8 +141,8 @@ fn press(
     let (low, high, first) = match value {
         Varying::Constant(v) => (v, v, v),
         Varying::Follows(w) => {
-            let (low, high) = around.waveforms[w].range();
-            (low, high, around.waveforms[w].first().value)
+            let (low, high) = around.signals.range(w);
+            (low, high, around.signals.first(w).value)
         }
     };
     if field != Field::NormalIndentation && low < 0.0 {

@@ -1,18 +1,18 @@
 //! A damper has no answer to a jump in no time: its impulse would be a matter of definition.
 
-use super::{Link, Measure, Stroke};
+use super::{Link, Measure, Signals, Stroke};
 use crate::contact::Contact;
 use crate::scene::Scene;
-use crate::{Field, Part, SceneError, SceneFault, Waveform};
+use crate::{Field, Part, SceneError, SceneFault};
 
 /// Refuses dampers of links and contacts whose length jumps.
 pub(super) fn check(
     scene: &Scene,
     links: &[Link],
     contacts: &[Contact],
-    waveforms: &[Waveform],
+    signals: Signals<'_>,
 ) -> Result<(), SceneError> {
-    let jumps = |w: &usize| waveforms[*w].has_jumps();
+    let jumps = |w: &usize| signals.has_jumps(*w);
     let driven = |length: &Measure| length.driven.iter().map(|(w, _)| *w).find(jumps);
     let refused = |part: Part, w: usize| {
         Err(SceneFault::DampedJump(scene.waveforms[w].name.clone()).of(part, Field::Damping))

@@ -19,18 +19,18 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     let first = around.at_start(d);
     let mobility = d.mobility(|i| around.free[i].mobility);
     let rate: f64 = d.free.iter().map(|(i, a)| a * around.free[*i].start.1).sum::<f64>()
-        + d.driven.iter().map(|(w, a)| a * around.waveforms[*w].first().rate).sum::<f64>();
+        + d.driven.iter().map(|(w, a)| a * around.signals.first(*w).rate).sum::<f64>();
     let falls = !around.equilibrium;
     let kinetic = if falls && mobility > 0.0 { 0.5 * rate * rate / mobility } else { 0.0 };
     let gap = if falls { (-first).max(0.0) } else { 0.0 };
     let force = d.free.iter().map(|(i, a)| pressing(*i, around) / a.abs()).fold(0.0, f64::max);
     let reached = |d: f64| count * law.normal_energy(d) >= kinetic + force * (gap + d);
     let dynamic = if kinetic + force > 0.0 { bracket(first.max(SHALLOW), reached) } else { 0.0 };
-    let span = |w: usize| around.waveforms[w].range();
+    let span = |w: usize| around.signals.range(w);
     let driven: f64 = d
         .driven
         .iter()
-        .map(|(w, a)| (a * span(*w).0).max(a * span(*w).1) - a * around.waveforms[*w].first().value)
+        .map(|(w, a)| (a * span(*w).0).max(a * span(*w).1) - a * around.signals.first(*w).value)
         .sum();
     let driven = if d.driven.is_empty() { first } else { first + driven };
     if d.free.is_empty() && driven < 0.0 {
@@ -42,7 +42,7 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
 /// Largest force on a free coordinate, N or N m.
 fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     let widest = |w: usize| {
-        let (low, high) = around.waveforms[w].range();
+        let (low, high) = around.signals.range(w);
         low.abs().max(high.abs())
     };
     let loads: f64 =

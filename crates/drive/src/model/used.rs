@@ -1,13 +1,13 @@
 //! Waveforms that nothing follows.
 
-use super::{Body, Link, Load, Place, Stroke};
+use super::{Body, Link, Load, Place, Stroke, Wire, Wired};
 use crate::Waveform;
 use crate::contact::Contact;
 
 /// Holds all waveforms still that nothing follows: their corners would end steps for nothing. Gives their places.
 pub(super) fn hold_the_others(
     waveforms: &mut [Waveform],
-    bodies: &[Body],
+    (bodies, blocks): (&[Body], &[Wired]),
     contacts: &[Contact],
     links: &[Link],
     loads: &[Load],
@@ -23,7 +23,13 @@ pub(super) fn hold_the_others(
     });
     let pressing = contacts.iter().filter_map(|contact| contact.press.waveform());
     let pulling = loads.iter().map(|load| load.waveform);
-    places.chain(strokes).chain(pressing).chain(pulling).for_each(|w| used[w] = true);
+    let read = blocks.iter().flat_map(|block| &block.wires).filter_map(|wire| match wire {
+        Wire::Signal(w) => Some(*w),
+        Wire::Length(_) => None,
+    });
+    let all = places.chain(strokes).chain(pressing).chain(pulling).chain(read);
+    // Signals beyond the waveforms are blocks'.
+    all.filter(|w| *w < used.len()).collect::<Vec<_>>().into_iter().for_each(|w| used[w] = true);
     let idle: Vec<usize> = (0..waveforms.len()).filter(|w| !used[*w]).collect();
     idle.iter().for_each(|w| waveforms[*w] = Waveform::held());
     idle

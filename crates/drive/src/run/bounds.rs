@@ -1,7 +1,7 @@
 //! Guards against endless work.
 
 use crate::record::Record;
-use crate::{EventKind, Limits, Model, RunError, State};
+use crate::{EventKind, Limits, Model, RunError, Source, State};
 use std::time::Instant;
 
 /// Events closer together than this part of a natural period count as accumulating …
@@ -25,7 +25,7 @@ impl Bounds {
     pub(super) fn new(model: &Model, limits: Limits) -> Self {
         let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();
-        let windows = vec![(f64::NEG_INFINITY, 0); model.contacts.len()];
+        let windows = vec![(f64::NEG_INFINITY, 0); model.contacts.len() + model.blocks.len()];
         Self { limits, begun: Instant::now(), stride, windows }
     }
 
@@ -45,12 +45,12 @@ impl Bounds {
         if record.goes_on(state.t) { Ok(()) } else { Err(RunError::Interrupted { t: state.t }) }
     }
 
-    /// Called after every event of a contact. Many loops may close at once: they do not count as accumulating.
+    /// Called after every event of a component. Many loops may close at once: they do not count as accumulating.
     pub(super) fn event(
         &mut self,
         model: &Model,
         state: &State,
-        (c, kind): (usize, EventKind),
+        (source, kind): (Source, EventKind),
     ) -> Result<(), RunError> {
         if state.counts.events >= self.limits.events {
             return Err(RunError::TooManyEvents { t: state.t, limit: self.limits.events });
@@ -58,15 +58,23 @@ impl Bounds {
         if kind == EventKind::LoopClosed {
             return Ok(());
         }
-        let contact = &model.contacts[c];
-        let window = ZENO_WINDOW * std::f64::consts::TAU / contact.natural.frequency;
-        let (start, count) = &mut self.windows[c];
+        let (name, place, frequency) = match source {
+            Source::Contact(c) => (&model.contacts[c].name, c, model.contacts[c].natural.frequency),
+            Source::Block(k) => {
+                let wired = &model.blocks[k];
+                (&wired.name, model.contacts.len() + k, wired.block().rate())
+            }
+            // Corners of waveforms are where their period puts them.
+            Source::Waveform(_) => return Ok(()),
+        };
+        let window = ZENO_WINDOW * std::f64::consts::TAU / frequency;
+        let (start, count) = &mut self.windows[place];
         if state.t - *start > window {
             (*start, *count) = (state.t, 0);
         }
         *count += 1;
         if *count > ZENO_COUNT {
-            return Err(RunError::Zeno { t: state.t, contact: contact.name.clone(), count: *count, window });
+            return Err(RunError::Zeno { t: state.t, contact: name.clone(), count: *count, window });
         }
         Ok(())
     }

@@ -38,7 +38,7 @@ impl<'a> Chords<'a> {
         state: &'a mut State,
         record: &'a mut dyn Record,
     ) -> Self {
-        let layout = Layout { free: model.free.len(), growing: 0 };
+        let layout = Layout { growing: 0, ..model.layout() };
         state.carry_over(model, layout);
         state.come_back(model);
         for mode in &mut state.modes {
@@ -121,6 +121,10 @@ impl<'a> Chords<'a> {
         self.ledger.commit((self.model, self.layout), t, self.state)?;
         self.state.y.copy_from_slice(y);
         self.state.t = t;
+        if !self.model.blocks.is_empty() {
+            self.ledger.commit_blocks((self.model, self.layout), self.state)?;
+            self.pass_guards();
+        }
         self.state.counts.steps += 1;
         self.state.tally.step(Method::AskedFor);
         if self.record.wants_events() {
@@ -144,6 +148,24 @@ impl<'a> Chords<'a> {
             });
             let memories: Result<Vec<_>, _> = memories.collect();
             self.output.looks.show(memories.as_deref().ok(), self.record);
+        }
+    }
+
+    /// The laws of blocks whose guards are down after the step.
+    fn pass_guards(&mut self) {
+        for (k, wired) in self.model.blocks.iter().enumerate() {
+            let eq = Equations::on(self.model, self.state, self.layout, true);
+            let t = self.state.t;
+            let guards = wired.block().guards(&self.state.blocks[k].law);
+            let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| self.state.y[i]) < 0.0;
+            let Some(&guard) = guards.iter().find(down) else { continue };
+            let (kind, law) = eq.block_next(k, guard, t, |i| self.state.y[i]);
+            self.state.blocks[k].law = law;
+            if self.record.wants_events() {
+                let event = Event { t, source: Source::Block(k), kind };
+                let eq = Equations::on(self.model, self.state, self.layout, true);
+                self.output.event(&eq, self.state, &event, self.record);
+            }
         }
     }
 

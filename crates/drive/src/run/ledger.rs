@@ -1,7 +1,9 @@
 //! What the contacts commit of an accepted step: the only place where memories move.
 
 use crate::RunError;
-use crate::model::Model;
+use crate::component::{Passage, Refused};
+use crate::equations::{Components, Equations};
+use crate::model::{Model, Wired};
 use crate::state::{Layout, State};
 use stickslip_contact::Segment;
 
@@ -10,6 +12,9 @@ pub(super) struct Ledger {
     /// Contacts, by their places, and the segments that lead them to the end of the step.
     pub(super) segments: Vec<(usize, Segment)>,
     pub(super) books: Books,
+    /// The blocks' paths, and when they last moved, s.
+    passages: Vec<Passage>,
+    committed: f64,
 }
 
 /// Where the memories of steady contacts are.
@@ -24,7 +29,18 @@ pub(super) enum Books {
 impl Ledger {
     /// Room for a segment of every contact, and `more`.
     pub(super) fn new(model: &Model, more: usize) -> Self {
-        Self { segments: Vec::with_capacity(model.contacts.len() + more), books: Books::Current }
+        let passage = |wired: &Wired| Passage {
+            duration: 0.0,
+            law: 0,
+            inputs: Vec::with_capacity(wired.wires.len()),
+            states: Vec::with_capacity(wired.count()),
+        };
+        Self {
+            segments: Vec::with_capacity(model.contacts.len() + more),
+            books: Books::Current,
+            passages: model.blocks.iter().map(passage).collect(),
+            committed: 0.0,
+        }
     }
 
     /// All contacts move their memory to where the step ended, at time t, s.
@@ -45,6 +61,29 @@ impl Ledger {
             }
             state.grew[c] = matches!(segment, Segment::Grown { .. });
         }
+        Ok(())
+    }
+
+    /// All blocks move theirs to where the state is.
+    pub(super) fn commit_blocks(
+        &mut self,
+        (model, layout): (&Model, Layout),
+        state: &mut State,
+    ) -> Result<(), RunError> {
+        let t = state.t;
+        for (k, (wired, passage)) in model.blocks.iter().zip(&mut self.passages).enumerate() {
+            let at = Components { t, y: |i: usize| state.y[i] };
+            let equations = Equations::on(model, state, layout, true);
+            passage.inputs.clear();
+            passage.inputs.extend(equations.block_inputs(wired, &at));
+            passage.states.clear();
+            passage.states.extend(equations.block_states(k, &at));
+            (passage.duration, passage.law) = (t - self.committed, state.blocks[k].law);
+            let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
+            let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;
+            state.lost += lost;
+        }
+        self.committed = t;
         Ok(())
     }
 }

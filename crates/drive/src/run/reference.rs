@@ -53,7 +53,8 @@ pub(super) fn run(
 ) -> Result<(), RunError> {
     let scale: Vec<f64> = model.free.iter().map(|f| tolerance * f.scale.0).collect();
     let speed = model.free.iter().map(|f| tolerance * f.scale.1);
-    let scale: Vec<f64> = scale.into_iter().chain(speed).collect();
+    let own = model.blocks.iter().flat_map(|wired| &wired.states.scales).map(|natural| tolerance * natural);
+    let scale: Vec<f64> = scale.into_iter().chain(speed).chain(own).collect();
     let mut driven = Driven { chords: Chords::new(model, plan, state, record), outcome: Ok(()) };
     driven.chords.write_now();
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);

@@ -20,6 +20,7 @@ mod energy_books;
 mod far_travel;
 mod impact;
 mod invariance;
+mod lag;
 mod limits_of_rest;
 mod linearised;
 mod looks;

@@ -2,6 +2,7 @@
 
 use crate::Model;
 use crate::contact::Contact;
+use crate::equations::{Components, Equations};
 use crate::state::State;
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
@@ -36,6 +37,11 @@ impl Allowance {
                 scale[layout.force(slot)] = strict * if limit > 0.0 { limit } else { 1.0 };
             }
         }
+        for wired in &model.blocks {
+            let first = layout.block(wired.first);
+            let own = scale[first..].iter_mut().zip(&wired.states.scales);
+            own.for_each(|(scale, natural)| *scale = strict * natural);
+        }
         Self { scale, strict, work: model.work_scale(), power: 0.0 }
     }
 
@@ -59,7 +65,9 @@ impl Allowance {
 
 /// Largest power that followers can put into the contacts now, W: μF_N times their speed.
 pub(super) fn follower_power(model: &Model, state: &State) -> f64 {
-    let rate = |w: usize| model.waveforms[w].sample(&state.pieces[w], state.t).rate;
+    let equations = Equations::on(model, state, model.layout(), false);
+    let at = Components { t: state.t, y: |i: usize| state.y[i] };
+    let rate = |w: usize| equations.signal(w, &at).rate;
     let power = |contact: &Contact| {
         let speed: f64 = contact.u.driven.iter().map(|(w, a)| a * rate(*w)).sum();
         contact.count * contact.friction_limit() * speed.abs()

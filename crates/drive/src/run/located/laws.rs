@@ -1,9 +1,10 @@
 //! What happens at an event: contacts get their next law.
 
 use super::Located;
+use super::watch::Fallen;
 use crate::RunError;
 use crate::contact::{Contact, Guard, Mode, Motion};
-use crate::equations::Equations;
+use crate::equations::{Components, Equations};
 use crate::event::{Event, EventKind, Source};
 use crate::model::Measure;
 use crate::record::Record;
@@ -19,34 +20,67 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         corner: bool,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
+        let mut turns = corner;
         for i in 0..self.watch.fired.len() {
-            let (c, guard) = self.watch.fired[i];
-            let contact = &self.setting.model.contacts[c];
-            let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
-            let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
-            // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
-            // end counts as reached.
-            let slack = if guard == Guard::Piece {
-                let left = guard.value(contact, state.law(c), &motion);
-                guard.bands(contact, self.setting.tolerance, motion.u).1 + left.max(0.0)
-            } else {
-                0.0
-            };
-            self.set_law(state, c, course, slack);
-            if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
-                kind = EventKind::GrossSlip;
+            match self.watch.fired[i] {
+                Fallen::Contact(c, guard) => self.handle_contact(state, (c, guard), record)?,
+                Fallen::Block(k, guard) => {
+                    self.handle_block(state, (k, guard), record)?;
+                    turns = true;
+                }
             }
-            self.note(state, Source::Contact(c), kind, record);
-            self.bounds.event(self.setting.model, state, (c, kind))?;
         }
-        if corner {
+        // What a block makes turns a corner with its law.
+        if turns && !corner {
+            self.turning.before.clone_from(&state.modes);
+        }
+        if turns {
             for c in 0..self.setting.model.contacts.len() {
-                if !self.watch.fired.iter().any(|(fired, _)| *fired == c) {
+                if !self.watch.fired.iter().any(|fallen| fallen.is_of_contact(c)) {
                     self.turn(state, c, record)?;
                 }
             }
         }
         Ok(())
+    }
+
+    /// The law of a contact after one of its guards fell.
+    fn handle_contact(
+        &mut self,
+        state: &mut State,
+        (c, guard): (usize, Guard),
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let contact = &self.setting.model.contacts[c];
+        let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
+        let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
+        // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
+        // end counts as reached.
+        let slack = if guard == Guard::Piece {
+            let left = guard.value(contact, state.law(c), &motion);
+            guard.bands(contact, self.setting.tolerance, motion.u).1 + left.max(0.0)
+        } else {
+            0.0
+        };
+        self.set_law(state, c, course, slack);
+        if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
+            kind = EventKind::GrossSlip;
+        }
+        self.note(state, Source::Contact(c), kind, record);
+        self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
+    }
+
+    /// The law of a block after one of its guards fell.
+    fn handle_block(
+        &mut self,
+        state: &mut State,
+        (k, guard): (usize, usize),
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let (kind, law) = self.setting.plain(state).block_next(k, guard, state.t, |i| state.y[i]);
+        state.blocks[k].law = law;
+        self.note(state, Source::Block(k), kind, record);
+        self.bounds.event(self.setting.model, state, (Source::Block(k), kind))
     }
 
     /// Decides afresh what a contact does after a corner, where velocities jump.
@@ -70,7 +104,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             _ => EventKind::Reversal,
         };
         self.note(state, Source::Contact(c), kind, record);
-        self.bounds.event(self.setting.model, state, (c, kind))
+        self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
     }
 
     /// Decides from velocities what a contact does, and from accelerations where it is at rest.
@@ -98,7 +132,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let slopes = &mut self.output.components;
         eq.slopes(state.t, &state.y, slopes);
         let of = |measure: &Measure| {
-            eq.acceleration(measure, state.t, |i| slopes[self.setting.layout.velocity(i)])
+            let at = Components { t: state.t, y: |i: usize| state.y[i] };
+            eq.acceleration(measure, &at, |i| slopes[self.setting.layout.velocity(i)])
         };
         let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
         let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;

@@ -1,6 +1,7 @@
 //! Intervals that are taken in one go, without the stepper.
 
 use super::Located;
+use super::watch::Fallen;
 use crate::RunError;
 use crate::contact::Guard;
 use crate::equations::Equations;
@@ -110,7 +111,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn collect_reached(&mut self, state: &State) {
         let steady = self.interval.steady.iter();
         if self.swing.turns {
-            self.watch.fired.extend(steady.map(|steady| (steady.index, Guard::Drag)));
+            self.watch.fired.extend(steady.map(|steady| Fallen::Contact(steady.index, Guard::Drag)));
             return;
         }
         let pieces = steady.filter(|steady| steady.guards.contains(&Guard::Piece));
@@ -121,6 +122,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let (_, near) = Guard::Piece.bands(steady.contact, self.setting.tolerance, u);
             left(steady) <= least.max(0.0) + near
         });
-        self.watch.fired.extend(reached.map(|steady| (steady.index, Guard::Piece)));
+        self.watch.fired.extend(reached.map(|steady| Fallen::Contact(steady.index, Guard::Piece)));
     }
 }

@@ -1,18 +1,18 @@
 //! Finding the first guard that falls inside a step.
 
-use super::watch::{Moving, Watch};
-use crate::contact::{Contact, Guard, Motion, NEARNESS};
+use super::watch::{Fallen, Moving, Watch};
+use crate::contact::{Contact, Guard, Motion, NEARNESS, bands};
 use crate::equations::Equations;
 use crate::interval::Steady;
 use stickslip_stepper::{Attempt, Completion, End, hermite_dip, hermite_root, root, root_near};
 
-/// A guard of a contact: of a steady one a straight function of the state, of any other one a function of its motion.
+/// A guard that is watched: of a steady contact a straight function of the state, of any other one a function of its motion,
+/// of a block whatever that says.
 #[derive(Clone, Copy)]
-pub(super) struct Watched<'e> {
-    index: usize,
-    contact: &'e Contact,
-    guard: Guard,
-    steady: Option<&'e Steady<'e>>,
+pub(super) enum Watched<'e> {
+    Steady(&'e Steady<'e>, Guard),
+    Contact(usize, &'e Contact, Guard),
+    Block(usize, usize),
 }
 
 /// A guard that falls inside the step just attempted.
@@ -35,21 +35,41 @@ struct Search<'r, 'e, A> {
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl<'e> Watched<'e> {
-    /// Does something with the guards of all contacts that can end the interval.
+    /// Does something with the guards of all components that can end the interval.
     #[inline(always)]
     fn each(eq: &Equations<'e>, mut act: impl FnMut(Self)) {
         let Some(interval) = eq.interval else { return };
         for steady in &interval.steady {
-            let Steady { index, contact, .. } = *steady;
-            for &guard in steady.guards {
-                act(Self { index, contact, guard, steady: Some(steady) });
-            }
+            steady.guards.iter().for_each(|guard| act(Self::Steady(steady, *guard)));
         }
         for index in interval.unsteady() {
             let contact = &eq.model.contacts[index];
             for &guard in Guard::of(contact, &eq.modes[index]) {
-                act(Self { index, contact, guard, steady: None });
+                act(Self::Contact(index, contact, guard));
             }
+        }
+        for (k, wired) in eq.model.blocks.iter().enumerate() {
+            for &guard in wired.block().guards(&eq.blocks[k].law) {
+                act(Self::Block(k, guard));
+            }
+        }
+    }
+
+    /// What falls with it.
+    fn fallen(self) -> Fallen {
+        match self {
+            Self::Steady(steady, guard) => Fallen::Contact(steady.index, guard),
+            Self::Contact(index, _, guard) => Fallen::Contact(index, guard),
+            Self::Block(k, guard) => Fallen::Block(k, guard),
+        }
+    }
+
+    /// Whether its course inside a step is no polynomial of low degree that its rates at both ends would tell.
+    fn is_sampled(self) -> bool {
+        match self {
+            Self::Steady(..) => false,
+            Self::Contact(_, contact, _) => contact.press.waveform().is_some(),
+            Self::Block(..) => true,
         }
     }
 }
@@ -76,11 +96,11 @@ impl Watch {
     ) {
         let Self { from, to, tolerance, fired } = self;
         let search = Search { from, to, tolerance: *tolerance, solver, eq };
-        fired.push((fall.watched.index, fall.watched.guard));
+        fired.push(fall.watched.fallen());
         Watched::each(eq, |watched| {
-            let known = fired.iter().any(|(c, _)| *c == watched.index);
+            let known = fired.iter().any(|fallen| fallen.is_of(&watched.fallen()));
             if !known && search.falls_too(watched) {
-                fired.push((watched.index, watched.guard));
+                fired.push(watched.fallen());
             }
         });
     }
@@ -117,7 +137,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// edge has used up before it turns back. Then that one comes first.
     fn before(&mut self, mut first: Fall<'e>) -> Fall<'e> {
         Watched::each(self.eq, |watched| {
-            if (watched.index, watched.guard) == (first.watched.index, first.watched.guard) {
+            if watched.fallen() == first.watched.fallen() {
                 return;
             }
             let g = self.inside(watched, first.t);
@@ -134,16 +154,16 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// A guard that falls and returns inside the step: the time and value of its lowest point found.
     #[inline(always)]
     fn dip(&mut self, watched: Watched<'e>, g1: f64) -> Option<(f64, f64)> {
-        if watched.contact.press.waveform().is_some() {
+        if watched.is_sampled() {
             return self.looks(watched);
         }
-        match watched.guard {
+        match watched {
             // It rises again only after the edge has turned, and then that comes first.
-            Guard::Piece => return None,
-            Guard::Side => {
-                let slope = watched.contact.law.stick_slope();
+            Watched::Steady(_, Guard::Piece) | Watched::Contact(_, _, Guard::Piece) => return None,
+            Watched::Contact(index, contact, Guard::Side) => {
+                let slope = contact.law.stick_slope();
                 let closes = |at: &Motion| at.dd < 0.0 && at.du.abs() < -slope * at.dd;
-                let (from, to) = (&self.from[watched.index].motion, &self.to[watched.index].motion);
+                let (from, to) = (&self.from[index].motion, &self.to[index].motion);
                 return if closes(from) || closes(to) { self.looks(watched) } else { None };
             }
             _ => {}
@@ -196,7 +216,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
     /// both ends of the step where its rates are known there.
     fn guess(&self, watched: Watched<'_>, (g0, low, below): (f64, f64, f64)) -> f64 {
-        if low < self.solver.span().end_time || watched.contact.press.waveform().is_some() {
+        if low < self.solver.span().end_time || watched.is_sampled() {
             return 0.5;
         }
         let rates = self.rates(watched);
@@ -231,57 +251,61 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
 
     /// Its value at one end of the step: time and state there, and the contacts that are not steady.
     #[inline(always)]
-    fn value(
-        &self,
-        Watched { index, contact, guard, steady }: Watched<'_>,
-        (t, y): (f64, &[f64]),
-        contacts: &[Moving],
-    ) -> f64 {
-        match steady {
-            Some(steady) => steady.guard(guard, t, |i| y[i], |i| y[self.eq.layout.velocity(i)]),
-            None => guard.value(contact, self.eq.law(index), &contacts[index].motion),
+    fn value(&self, watched: Watched<'_>, (t, y): (f64, &[f64]), contacts: &[Moving]) -> f64 {
+        match watched {
+            Watched::Steady(steady, guard) => {
+                steady.guard(guard, t, |i| y[i], |i| y[self.eq.layout.velocity(i)])
+            }
+            Watched::Contact(index, contact, guard) => {
+                guard.value(contact, self.eq.law(index), &contacts[index].motion)
+            }
+            Watched::Block(k, guard) => self.eq.block_guard(k, guard, t, |i| y[i]),
         }
     }
 
-    /// Its rates at both ends.
+    /// Its rates at both ends; of one that is sampled none are known.
     #[inline(always)]
-    fn rates(&self, Watched { index, contact, guard, steady }: Watched<'_>) -> [f64; 2] {
-        let (begin, end, n) = (self.solver.span().begin, self.solver.span().end, self.eq.layout.free);
-        match steady {
-            Some(steady) => [
-                steady.guard_rate(
-                    guard,
-                    self.solver.span().time,
-                    |i| begin[n + i],
-                    |i| self.solver.slope(n + i, End::Start),
-                ),
-                steady.guard_rate(
-                    guard,
-                    self.solver.span().end_time,
-                    |i| end[n + i],
-                    |i| self.solver.slope(n + i, End::End),
-                ),
-            ],
-            None => [&self.from[index], &self.to[index]]
+    fn rates(&self, watched: Watched<'_>) -> [f64; 2] {
+        let (span, n) = (self.solver.span(), self.eq.layout.free);
+        match watched {
+            Watched::Steady(steady, guard) => {
+                let rate = |t: f64, y: &[f64], end: End| {
+                    steady.guard_rate(guard, t, |i| y[n + i], |i| self.solver.slope(n + i, end))
+                };
+                [rate(span.time, span.begin, End::Start), rate(span.end_time, span.end, End::End)]
+            }
+            Watched::Contact(index, contact, guard) => [&self.from[index], &self.to[index]]
                 .map(|Moving { motion, second }| guard.rate(contact, &self.eq.modes[index], motion, *second)),
+            Watched::Block(..) => [0.0; 2],
         }
     }
 
     /// Its value at a time inside the step, on the dense output.
     #[inline(always)]
-    fn inside(&self, Watched { index, contact, guard, steady }: Watched<'_>, t: f64) -> f64 {
+    fn inside(&self, watched: Watched<'_>, t: f64) -> f64 {
         let value = |i: usize| self.solver.value(i, t);
-        match steady {
-            Some(steady) => steady.guard(guard, t, value, |i| value(self.eq.layout.velocity(i))),
-            None => guard.value(contact, self.eq.law(index), &self.eq.motion(contact, t, value)),
+        match watched {
+            Watched::Steady(steady, guard) => {
+                steady.guard(guard, t, value, |i| value(self.eq.layout.velocity(i)))
+            }
+            Watched::Contact(index, contact, guard) => {
+                guard.value(contact, self.eq.law(index), &self.eq.motion(contact, t, value))
+            }
+            Watched::Block(k, guard) => self.eq.block_guard(k, guard, t, value),
         }
     }
 
     /// Its deadband and how near to zero it is as good as there.
-    fn bands(&self, Watched { index, contact, guard, steady }: Watched<'_>) -> (f64, f64) {
-        let u = match steady {
-            Some(steady) => steady.displacement(self.solver.span().time, |i| self.solver.span().begin[i]),
-            None => self.from[index].motion.u,
+    fn bands(&self, watched: Watched<'_>) -> (f64, f64) {
+        let (contact, guard, u) = match watched {
+            Watched::Steady(steady, guard) => {
+                let span = self.solver.span();
+                (steady.contact, guard, steady.displacement(span.time, |i| span.begin[i]))
+            }
+            Watched::Contact(index, contact, guard) => (contact, guard, self.from[index].motion.u),
+            Watched::Block(k, guard) => {
+                return bands(self.eq.model.blocks[k].block().guard_scale(guard), self.tolerance);
+            }
         };
         guard.bands(contact, self.tolerance, u)
     }

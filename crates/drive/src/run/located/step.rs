@@ -141,7 +141,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.t = t;
         state.counts.steps += 1;
         self.motion.solver.accept();
-        self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
+        let scene = (self.setting.model, self.setting.layout);
+        self.ledger.commit(scene, t, state)?;
+        if self.setting.model.blocks.is_empty() { Ok(()) } else { self.ledger.commit_blocks(scene, state) }
     }
 
     /// Takes away what rounding has left of the velocities: it would add up over a long rest.

@@ -1,7 +1,7 @@
 //! The contacts at both ends of a step, and the guards that fell at its end.
 
 use crate::contact::{Contact, Guard, Mode, Motion};
-use crate::equations::Equations;
+use crate::equations::{Components, Equations};
 use crate::interval::{Interval, Steady};
 use crate::model::{Measure, Model};
 use stickslip_stepper::{End, Step};
@@ -14,6 +14,30 @@ pub(super) struct Moving {
     pub(super) second: (f64, f64),
 }
 
+/// A component and its guard that fell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Fallen {
+    /// The contact at this place, and its guard.
+    Contact(usize, Guard),
+    /// The block at this place, and its guard.
+    Block(usize, usize),
+}
+
+impl Fallen {
+    /// Whether both are of one component.
+    pub(super) fn is_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Contact(a, _), Self::Contact(b, _)) | (Self::Block(a, _), Self::Block(b, _)) => a == b,
+            _ => false,
+        }
+    }
+
+    /// Whether it is of the contact at a place.
+    pub(super) fn is_of_contact(&self, c: usize) -> bool {
+        matches!(self, Self::Contact(own, _) if *own == c)
+    }
+}
+
 /// The contacts at both ends of a step, and the guards that fell at its end.
 pub(super) struct Watch {
     /// At its start.
@@ -21,7 +45,7 @@ pub(super) struct Watch {
     /// At its end.
     pub(super) to: Vec<Moving>,
     /// Guards that fell at the end of the step.
-    pub(super) fired: Vec<(usize, Guard)>,
+    pub(super) fired: Vec<Fallen>,
     pub(super) tolerance: f64,
 }
 
@@ -89,13 +113,19 @@ fn follow(
     for c in interval.unsteady() {
         let contact = &eq.model.contacts[c];
         let motion = eq.motion(contact, t, |i| y[i]);
-        contacts[c] = Moving { motion, second: second(eq, contact, t, slope) };
+        contacts[c] = Moving { motion, second: second(eq, contact, (t, y), slope) };
     }
 }
 
 /// d̈ and ü of a contact from the slopes of the velocities.
-fn second(eq: &Equations<'_>, contact: &Contact, t: f64, slope: impl Fn(usize) -> f64) -> (f64, f64) {
-    let of = |measure: &Measure| eq.acceleration(measure, t, |i| slope(eq.layout.velocity(i)));
+fn second(
+    eq: &Equations<'_>,
+    contact: &Contact,
+    (t, y): (f64, &[f64]),
+    slope: impl Fn(usize) -> f64,
+) -> (f64, f64) {
+    let at = Components { t, y: |i: usize| y[i] };
+    let of = |measure: &Measure| eq.acceleration(measure, &at, |i| slope(eq.layout.velocity(i)));
     (contact.coupling().map_or(0.0, of), of(&contact.u))
 }
 

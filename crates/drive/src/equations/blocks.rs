@@ -1,0 +1,124 @@
+//! What blocks read and make.
+
+use super::sum::{Sum, View};
+use super::{Components, Equations};
+use crate::component::Moment;
+use crate::model::{MOST_OF_A_BLOCK, Wire, Wired};
+use crate::{EventKind, Sample};
+use arrayvec::ArrayVec;
+
+/// What a block reads.
+pub(crate) type Inputs = ArrayVec<Sample, MOST_OF_A_BLOCK>;
+
+impl Equations<'_> {
+    /// A signal: a waveform, or what a block makes; `y` reads a component.
+    #[inline(always)]
+    pub(crate) fn signal(&self, signal: usize, at: &impl View) -> Sample {
+        if signal < self.pieces.len() { self.sample(signal, at.time()) } else { self.made(signal, at) }
+    }
+
+    /// What a block makes.
+    #[inline(never)]
+    fn made(&self, signal: usize, at: &impl View) -> Sample {
+        let k = signal - self.pieces.len();
+        let states = self.block_states(k, at);
+        self.with_block(k, at, &states, |wired, moment| {
+            wired.block().signal(self.blocks[k].standing(), moment)
+        })
+    }
+
+    /// Does something with a block at a moment.
+    fn with_block<R>(
+        &self,
+        k: usize,
+        at: &impl View,
+        states: &[f64],
+        act: impl FnOnce(&Wired, &Moment<'_, [Sample]>) -> R,
+    ) -> R {
+        let wired = &self.model.blocks[k];
+        let inputs = self.block_inputs(wired, at);
+        act(wired, &Moment { t: at.time(), inputs: &inputs, states })
+    }
+
+    /// What a block reads at a moment; the scene's check has seen to it that there is room.
+    pub(crate) fn block_inputs(&self, wired: &Wired, at: &impl View) -> Inputs {
+        let read = |wire: &Wire| match wire {
+            Wire::Signal(signal) => self.signal(*signal, at),
+            Wire::Length(measure) => {
+                let reading = self.read(measure, at);
+                Sample { value: reading.value, rate: reading.rate, acceleration: 0.0 }
+            }
+        };
+        wired.wires.iter().map(read).collect()
+    }
+
+    /// The states of block `k` at a moment.
+    pub(crate) fn block_states(&self, k: usize, at: &impl View) -> ArrayVec<f64, MOST_OF_A_BLOCK> {
+        let wired = &self.model.blocks[k];
+        let from = self.layout.block(wired.first);
+        (from..from + wired.count()).map(|i| at.component(i)).collect()
+    }
+
+    /// Value of a guard of block `k` at time t, s; `y` reads a component.
+    pub(crate) fn block_guard(&self, k: usize, guard: usize, t: f64, y: impl Fn(usize) -> f64) -> f64 {
+        let at = Components { t, y };
+        let states = self.block_states(k, &at);
+        self.with_block(k, &at, &states, |wired, moment| {
+            wired.block().guard(guard, self.blocks[k].standing(), moment)
+        })
+    }
+
+    /// What follows when a guard of block `k` has fallen.
+    pub(crate) fn block_next(
+        &self,
+        k: usize,
+        guard: usize,
+        t: f64,
+        y: impl Fn(usize) -> f64,
+    ) -> (EventKind, usize) {
+        let at = Components { t, y };
+        let states = self.block_states(k, &at);
+        self.with_block(k, &at, &states, |wired, moment| {
+            wired.block().next(guard, self.blocks[k].standing(), moment)
+        })
+    }
+
+    /// Energy that block `k` stores, J; its columns are added to the row.
+    pub(crate) fn block_columns(
+        &self,
+        k: usize,
+        t: f64,
+        y: impl Fn(usize) -> f64,
+        row: &mut Vec<f64>,
+    ) -> f64 {
+        let at = Components { t, y };
+        let states = self.block_states(k, &at);
+        self.with_block(k, &at, &states, |wired, moment| {
+            let standing = self.blocks[k].standing();
+            wired.block().fill(standing, moment, row);
+            wired.block().energy(standing, moment)
+        })
+    }
+
+    /// Slopes of the states of all blocks, and what they exert. `extra` begins after the velocities.
+    #[inline(never)]
+    pub(super) fn blocks(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
+        for (k, wired) in self.model.blocks.iter().enumerate() {
+            let states = self.block_states(k, at);
+            let from = self.layout.block(wired.first) - 2 * self.layout.free;
+            let mut efforts = [0.0; MOST_OF_A_BLOCK];
+            let slopes = &mut extra[from..from + wired.count()];
+            let powers = self.with_block(k, at, &states, |wired, moment| {
+                wired.block().slopes(self.blocks[k].standing(), moment, slopes, &mut efforts)
+            });
+            sum.input += powers.input;
+            sum.damping += powers.loss;
+            for (wire, effort) in wired.wires.iter().zip(efforts) {
+                if let Wire::Length(measure) = wire {
+                    let driven = self.read(measure, at).driven;
+                    sum.apply(&measure.free, driven, effort);
+                }
+            }
+        }
+    }
+}

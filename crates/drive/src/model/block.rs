@@ -1,0 +1,137 @@
+//! Blocks of a scene, wired to what they read.
+
+use super::{Body, Measure, Model};
+use crate::component::{Block, Input, Moment, SharedBlock, Standing, States};
+use crate::scene::{Named, Scene, Start};
+use crate::{Field, Part, Sample, SceneError, SceneFault, Waveform};
+
+/// Most inputs, and most states, of a block: they are read without a heap.
+pub(crate) const MOST: usize = 8;
+
+/// A block and what it reads.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Wired {
+    pub(crate) name: String,
+    block: SharedBlock,
+    pub(crate) wires: Vec<Wire>,
+    /// Place of its first state among those of all blocks.
+    pub(crate) first: usize,
+    pub(crate) states: States,
+}
+
+/// Where an input comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Wire {
+    /// The waveform, or after the last one the block, at this place.
+    Signal(usize),
+    /// A length between bodies.
+    Length(Measure),
+}
+
+/// The law and the memory of a block.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct BlockState {
+    pub(crate) law: usize,
+    pub(crate) memory: Vec<f64>,
+}
+
+impl BlockState {
+    pub(crate) fn standing(&self) -> Standing<'_, usize, Vec<f64>> {
+        Standing { law: &self.law, memory: &self.memory }
+    }
+}
+
+impl Wired {
+    pub(crate) fn block(&self) -> &dyn Block {
+        &*self.block.0
+    }
+
+    /// Number of its states.
+    pub(crate) fn count(&self) -> usize {
+        self.states.scales.len()
+    }
+}
+
+/// Signals that bodies and strokes may follow: waveforms, then what blocks make.
+#[derive(Clone, Copy)]
+pub(crate) struct Signals<'a> {
+    pub(crate) waveforms: &'a [Waveform],
+    pub(crate) blocks: &'a [Wired],
+}
+
+impl Signals<'_> {
+    /// A signal at t = 0. Lengths count from there and are 0.
+    pub(crate) fn first(&self, signal: usize) -> Sample {
+        let Some(block) = self.block(signal) else { return self.waveforms[signal].first() };
+        let inputs = self.first_inputs(block);
+        let (states, memory) = block.block().start(&inputs);
+        let standing = Standing { law: &0, memory: &memory };
+        block.block().signal(standing, &Moment { t: 0.0, inputs: &inputs, states: &states })
+    }
+
+    /// What a block reads at t = 0.
+    pub(crate) fn first_inputs(&self, block: &Wired) -> Vec<Sample> {
+        let read = |wire: &Wire| match wire {
+            Wire::Signal(signal) => self.first(*signal),
+            Wire::Length(_) => Sample { value: 0.0, rate: 0.0, acceleration: 0.0 },
+        };
+        block.wires.iter().map(read).collect()
+    }
+
+    /// Smallest and largest value of a signal.
+    pub(crate) fn range(&self, signal: usize) -> (f64, f64) {
+        let Some(block) = self.block(signal) else { return self.waveforms[signal].range() };
+        let of = |wire: &Wire| match wire {
+            Wire::Signal(signal) => self.range(*signal),
+            Wire::Length(_) => (f64::NEG_INFINITY, f64::INFINITY),
+        };
+        block.block().range(&block.wires.iter().map(of).collect::<Vec<_>>())
+    }
+
+    /// Whether a signal jumps: what a block makes of a jump does not.
+    pub(crate) fn has_jumps(&self, signal: usize) -> bool {
+        self.waveforms.get(signal).is_some_and(Waveform::has_jumps)
+    }
+
+    fn block(&self, signal: usize) -> Option<&Wired> {
+        signal.checked_sub(self.waveforms.len()).and_then(|k| self.blocks.get(k))
+    }
+}
+
+impl Model {
+    /// The signals of the model.
+    pub(crate) fn signals(&self) -> Signals<'_> {
+        Signals { waveforms: &self.waveforms, blocks: &self.blocks }
+    }
+}
+
+/// Wires the blocks of a scene. A block may read waveforms and the blocks before it.
+pub(super) fn wire(scene: &Scene, bodies: &[Body]) -> Result<Vec<Wired>, SceneError> {
+    let mut wired: Vec<Wired> = Vec::with_capacity(scene.blocks.len());
+    let mut first = 0;
+    for (place, Named { name, part }) in scene.blocks.iter().enumerate() {
+        let known = scene.waveforms.len() + place;
+        let wire = |input: &Input| match *input {
+            Input::Signal(signal) if signal < known => Ok(Wire::Signal(signal)),
+            Input::Signal(signal) => Err(SceneFault::NoWaveform(signal).of(Part::Block(place), Field::Whole)),
+            Input::Length { between, at, direction } => {
+                let ends = [(between[0], at[0]), (between[1], at[1])];
+                Ok(Wire::Length(Measure::between(ends, direction, bodies)))
+            }
+        };
+        let states = part.0.states();
+        let (inputs, count) = (part.0.inputs().len(), states.scales.len());
+        let refused = |fault: SceneFault| Err(fault.of(Part::Block(place), Field::Whole));
+        if inputs.max(count) > MOST {
+            return refused(SceneFault::TooWide { most: MOST, count: inputs.max(count) });
+        }
+        let reads_length = || part.0.inputs().iter().any(|input| matches!(input, Input::Length { .. }));
+        if scene.start == Start::Equilibrium && reads_length() {
+            return refused(SceneFault::BlockInEquilibrium);
+        }
+        let wires = part.0.inputs().iter().map(wire).collect::<Result<_, _>>()?;
+        wired.push(Wired { name: name.clone(), block: part.clone(), wires, first, states });
+        first += count;
+    }
+    Ok(wired)
+}
