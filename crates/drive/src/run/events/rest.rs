@@ -18,7 +18,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         if !self.holds {
             return self.longest;
         }
-        let reach = if self.rests { REST_REACH } else { self.solver.reach() };
+        let reach = if self.rests { REST_REACH } else { self.solver.stability_limit() };
         self.longest.min(reach / self.model.fastest)
     }
 

@@ -7,7 +7,7 @@ use crate::equations::Equations;
 use crate::record::Record;
 use crate::run::output::Grid;
 use crate::state::State;
-use stickslip_stepper::{Attempt, Completion, ControlMemory, Grade, StepControl, Verdict};
+use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, StepHistory, Verdict};
 
 /// How a step ends.
 #[derive(Clone, Copy, PartialEq)]
@@ -45,8 +45,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
             if aim.closes.is_some() {
                 self.calm = 0.0;
                 // The next attempt is an even one: nothing follows from both errors together.
-                let rejected = Some((h, f64::INFINITY));
-                control.set_memory(ControlMemory { rejected, ..control.memory() });
+                let rejected = Some(Rejection { step: h, log_error: f64::INFINITY });
+                control.set_history(StepHistory { rejected, ..control.history() });
             }
             self.feels = aim.singular.is_finite();
             return self.reject(state, verdict.next, record);
