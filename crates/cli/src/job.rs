@@ -67,7 +67,7 @@ impl Job {
 
     /// Builds a scenario and checks everything that can still be wrong with it; `folder` is for its results.
     pub(crate) fn new(scenario: Scenario, name: String, folder: PathBuf) -> Result<Self, ScenarioError> {
-        let locate = |error: SceneError| scenario.locate(&error.path, error.message, error.help);
+        let locate = |error: SceneError| scenario.refusal(&error);
         let model = Model::new(&scenario.scene).map_err(locate)?;
         let start = model.start(&scenario.plan).map_err(locate)?;
         let channels = model.channels();

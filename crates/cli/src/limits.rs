@@ -34,7 +34,7 @@ pub(crate) fn grids(
     let Some(asked) = &scenario.springs else { return Ok(Vec::new()) };
     let contacts = model.contacts().zip(start.memories()).enumerate();
     let grid = |(c, ((_, law), memory)): (usize, ((&str, &Interface), &Memory))| match memory {
-        Memory::Row { springs, .. } => Some(Arc::clone(springs)),
+        Memory::Row(row) => Some(Arc::clone(&row.springs)),
         Memory::Curve(_) => {
             // Only a contact without width has no springs: it is never pressed.
             let width = model.contact_width(c).unwrap_or(0.0);

@@ -1,7 +1,8 @@
-//! Either engine behind one contract.
+//! The engines behind one contract.
 
 use crate::{
-    Apex, ContactError, Curve, Interface, Move, Outcome, Response, Row, Segment, SpringState, Springs,
+    Apex, Branch, ContactError, Course, Curve, Interface, Move, Outcome, Response, Row, Segment, SpringState,
+    Springs,
 };
 use std::sync::Arc;
 
@@ -20,9 +21,68 @@ impl Engine {
     pub fn memory(&self, law: &Interface, at: Apex) -> Memory {
         match self {
             Self::Curve => Memory::Curve(Curve::new(law, at)),
-            Self::Row(springs) => Memory::Row { row: Row::at(springs, at), springs: Arc::clone(springs) },
+            Self::Row(springs) => {
+                Memory::Row(SpringRow { row: Row::at(springs, at), springs: Arc::clone(springs) })
+            }
         }
     }
+
+    /// Whether its memories can freeze smooth branches: the capability that [`Tangential::branching`] gives.
+    pub fn branches(&self) -> bool {
+        matches!(self, Self::Curve)
+    }
+
+    /// Springs that every evaluation asks; 0 for an engine without.
+    pub fn springs(&self) -> usize {
+        match self {
+            Self::Curve => 0,
+            Self::Row(springs) => springs.count(),
+        }
+    }
+}
+
+/// What every engine's memory answers. Evaluation borrows shared and leaves no trace; only [`commit`](Self::commit) moves
+/// the memory.
+pub trait Tangential {
+    /// Where the contact stands.
+    fn apex(&self) -> Apex;
+    /// Counts displacements from another place, `by` further on.
+    fn shift(&mut self, by: f64);
+    /// Force and tangents that a move would give.
+    fn trial(&self, law: &Interface, to: Move) -> Response;
+    /// F_x that a chord would give, N: the cheapest question.
+    fn force(&self, law: &Interface, to: Apex) -> f64;
+    /// Everything that a chord would give, its friction work included.
+    fn preview(&self, law: &Interface, to: Apex) -> Outcome;
+    /// Accepts a segment and returns its friction work, J. Fails without a trace.
+    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError>;
+    /// The smooth branches of an engine that has them. None where the law has kinks of its own between any two moves:
+    /// then the whole law is integrated, and only reversals of sliding are events.
+    fn branching(&self) -> Option<&dyn Branching> {
+        None
+    }
+}
+
+/// Smooth branches of the hysteresis, for steppers that integrate from event to event.
+pub trait Branching {
+    /// The course of a contact in motion, from ḋ and u̇, m/s.
+    fn course(&self, law: &Interface, dd: f64, du: f64) -> Course;
+    /// The branch of a sense (+1 or -1) that starts at the committed apex; knots within `slack` (m) of the edge count as
+    /// reached.
+    fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch;
+    /// F_x (N) and height of the slip front (m) of a chord dragged by the edge of a sense.
+    fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64);
+    /// How far an apex lies above the curve at its own height, m; none while open and beyond its end.
+    fn beside(&self, at: Apex) -> Option<f64>;
+}
+
+/// A row of springs with its springs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringRow {
+    /// Anchors.
+    pub row: Row,
+    /// The springs, shared with the model.
+    pub springs: Arc<Springs>,
 }
 
 /// The state of a contact: all that its future depends on.
@@ -31,12 +91,7 @@ pub enum Memory {
     /// The exact memory curve.
     Curve(Curve),
     /// A row of springs.
-    Row {
-        /// Stretches.
-        row: Row,
-        /// The springs, shared with the model.
-        springs: Arc<Springs>,
-    },
+    Row(SpringRow),
 }
 
 /// One spring of a contact as it stands.
@@ -50,46 +105,128 @@ pub struct Spring {
     pub state: SpringState,
 }
 
+impl Tangential for Curve {
+    fn apex(&self) -> Apex {
+        Self::apex(self)
+    }
+    fn shift(&mut self, by: f64) {
+        Self::shift(self, by);
+    }
+    #[inline]
+    fn trial(&self, law: &Interface, to: Move) -> Response {
+        Self::trial(self, law, to)
+    }
+    #[inline]
+    fn force(&self, law: &Interface, to: Apex) -> f64 {
+        Self::trial(self, law, Move::Chord(to)).force
+    }
+    fn preview(&self, law: &Interface, to: Apex) -> Outcome {
+        Self::preview(self, law, to)
+    }
+    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        Self::commit(self, law, segment)
+    }
+    fn branching(&self) -> Option<&dyn Branching> {
+        Some(self)
+    }
+}
+
+impl Branching for Curve {
+    fn course(&self, law: &Interface, dd: f64, du: f64) -> Course {
+        Self::course(self, law, dd, du)
+    }
+    fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
+        Self::branch(self, law, sense, slack)
+    }
+    fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64) {
+        Self::dragged(self, law, sense, to)
+    }
+    fn beside(&self, at: Apex) -> Option<f64> {
+        Self::beside(self, at)
+    }
+}
+
+impl Tangential for SpringRow {
+    fn apex(&self) -> Apex {
+        self.row.apex()
+    }
+    fn shift(&mut self, by: f64) {
+        self.row.shift(by);
+    }
+    fn trial(&self, law: &Interface, to: Move) -> Response {
+        self.row.trial(&self.springs, law, to)
+    }
+    fn force(&self, law: &Interface, to: Apex) -> f64 {
+        self.row.force(&self.springs, law, to)
+    }
+    fn preview(&self, law: &Interface, to: Apex) -> Outcome {
+        self.row.preview(&self.springs, law, Move::Chord(to))
+    }
+    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        self.row.commit(&self.springs, law, segment)
+    }
+}
+
+/// One method of whichever engine it is: a match costs less than a call through a table, and a row's inner loops are
+/// inlined.
+macro_rules! either {
+    ($memory:expr, $engine:ident => $call:expr) => {
+        match $memory {
+            Memory::Curve($engine) => $call,
+            Memory::Row($engine) => $call,
+        }
+    };
+}
+
 impl Memory {
     /// Where the contact stands.
+    #[inline]
     pub fn apex(&self) -> Apex {
-        match self {
-            Self::Curve(curve) => curve.apex(),
-            Self::Row { row, .. } => row.apex(),
-        }
+        either!(self, engine => Tangential::apex(engine))
     }
 
     /// Counts displacements from another place, `by` further on.
+    #[inline]
     pub fn shift(&mut self, by: f64) {
-        match self {
-            Self::Curve(curve) => curve.shift(by),
-            Self::Row { row, .. } => row.shift(by),
-        }
+        either!(self, engine => Tangential::shift(engine, by));
     }
 
     /// Force and tangents that a move would give.
     #[inline]
     pub fn trial(&self, law: &Interface, to: Move) -> Response {
-        match self {
-            Self::Curve(curve) => curve.trial(law, to),
-            Self::Row { row, springs } => row.trial(springs, law, to),
-        }
+        either!(self, engine => Tangential::trial(engine, law, to))
     }
 
     /// F_x that a chord would give, N: the cheapest question.
     #[inline]
     pub fn force(&self, law: &Interface, to: Apex) -> f64 {
-        match self {
-            Self::Curve(curve) => curve.trial(law, Move::Chord(to)).force,
-            Self::Row { row, springs } => row.force(springs, law, to),
-        }
+        either!(self, engine => Tangential::force(engine, law, to))
     }
 
     /// Everything that a chord would give, its friction work included.
     pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {
-        match self {
-            Self::Curve(curve) => curve.preview(law, to),
-            Self::Row { row, springs } => row.preview(springs, law, Move::Chord(to)),
+        either!(self, engine => Tangential::preview(engine, law, to))
+    }
+
+    /// Accepts a segment and returns its friction work, J. Fails without a trace.
+    pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        either!(self, engine => Tangential::commit(engine, law, segment))
+    }
+
+    /// The smooth branches of an engine that has them.
+    #[inline]
+    pub fn branching(&self) -> Option<&dyn Branching> {
+        either!(self, engine => Tangential::branching(engine))
+    }
+
+    /// The course of a contact at indentation d (m) in motion, from ḋ and u̇, m/s. Without smooth branches the sense of
+    /// sliding alone tells.
+    pub fn course(&self, law: &Interface, d: f64, dd: f64, du: f64) -> Course {
+        match self.branching() {
+            Some(branching) => branching.course(law, dd, du),
+            None if d < 0.0 => Course::Open,
+            None if du < 0.0 => Course::Backward,
+            None => Course::Forward,
         }
     }
 
@@ -108,19 +245,11 @@ impl Memory {
                     state: curve.spring_state(h),
                 }))
             }
-            Self::Row { row, springs } => {
+            Self::Row(SpringRow { row, springs }) => {
                 let places = springs.positions().iter();
                 let insides = row.stretches(springs, law).zip(row.states(springs, law));
                 Box::new(places.zip(insides).map(|(&x, (stretch, state))| Spring { x, stretch, state }))
             }
-        }
-    }
-
-    /// Accepts a segment and returns its friction work, J. Fails without a trace.
-    pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
-        match self {
-            Self::Curve(curve) => curve.commit(law, segment),
-            Self::Row { row, springs } => row.commit(springs, law, segment),
         }
     }
 }

@@ -3,7 +3,8 @@
 //! A contact is constant data, an [`Interface`] (effective moduli, profile, friction), and a memory of where
 //! it has been. Two engines keep that memory: the exact [`Curve`] and the handbook's [`Row`] of springs. Both
 //! obey one contract: `trial` borrows shared and leaves no trace, memory moves only in `commit`, once per
-//! accepted [`Segment`]. [`Memory`] is either of them, chosen when a model is built.
+//! accepted [`Segment`]. [`Memory`] is either of them, chosen when a model is built; that contract is [`Tangential`], and an
+//! engine whose hysteresis has smooth branches says so by [`Branching`].
 //!
 //! In reading order: [`Material`] and [`Pair`]; [`Profile`]; [`Interface`]; [`Move`], [`Segment`] and what
 //! comes back; [`Curve`] with its [`Branch`]es; [`Row`]; [`Engine`]; [`FirstLoading`] for a designer's
@@ -24,7 +25,7 @@ mod quadrature;
 mod row;
 
 pub use curve::{Branch, Course, Curve, Merged, SteadyBranch};
-pub use engine::{Engine, Memory, Spring};
+pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};
 pub use material::{Material, MaterialError, Pair};

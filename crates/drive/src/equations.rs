@@ -38,7 +38,12 @@ impl<'a> Equations<'a> {
     }
 }
 
-impl Equations<'_> {
+impl<'a> Equations<'a> {
+    /// What a contact remembers, and its mode.
+    pub(crate) fn law(&self, c: usize) -> (&'a Memory, &'a Mode) {
+        (&self.memories[c], &self.modes[c])
+    }
+
     /// Waveform `w` at time t. Within a smooth piece this is exact up to and including its end.
     #[inline(always)]
     pub(crate) fn sample(&self, w: usize, t: f64) -> Sample {
@@ -179,7 +184,7 @@ impl System for Equations<'_> {
 
     /// Flight and gross slip under constant loads.
     fn coasts(&self) -> bool {
-        self.model.loads.is_empty() && self.interval.is_some_and(|interval| interval.constant)
+        self.interval.is_some_and(Interval::is_constant)
     }
 }
 
@@ -206,6 +211,6 @@ impl Conservative for Equations<'_> {
 
     /// Gross slip under constant loads: a parabola.
     fn coasts(&self) -> bool {
-        self.interval.is_some_and(|interval| interval.constant)
+        self.interval.is_some_and(Interval::is_constant)
     }
 }

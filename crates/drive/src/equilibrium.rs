@@ -7,11 +7,11 @@ mod balance;
 mod statics;
 
 use crate::equations::Equations;
-use crate::model::Model;
+use crate::model::{Free, Model};
 use crate::record;
 use crate::scene::Axis;
 use crate::state::State;
-use crate::{Accuracy, Plan, SceneError, Stepper};
+use crate::{Accuracy, Field, Part, Plan, SceneError, SceneFault, Stepper};
 use balance::{Balance, Search};
 use nalgebra::DVector;
 use stickslip_contact::Segment;
@@ -32,11 +32,7 @@ impl Model {
         plan.check()?;
         let jumps = !self.free.is_empty() && self.waveforms.iter().any(crate::Waveform::has_jumps);
         if jumps && !plan.stepper.locates_events() {
-            return Err(SceneError::new(
-                "run.stepper",
-                "only the stepper \"event\" follows waveforms that jump",
-            )
-            .help("take the event stepper, or give the waveform a flyback above 0"));
+            return Err(SceneFault::UnlocatedJump.of(Part::Run, Field::Stepper));
         }
         self.check_step(plan.stepper)?;
         let mut state = self.rest();
@@ -60,11 +56,7 @@ impl Model {
         if step < limit {
             return Ok(());
         }
-        let message = format!(
-            "expected less than {limit:.3e} s, from where on the stiffest motion grows, got {step:e} s"
-        );
-        Err(SceneError::new(format!("run.stepper.{}.step", stepper.name()), message)
-            .help("take a twentieth of that for accuracy, or the event stepper, which needs no step"))
+        Err(SceneFault::Unstable { limit, step }.of(Part::Run, Field::Step))
     }
 
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
@@ -75,8 +67,7 @@ impl Model {
     fn settle(&self, state: &mut State) -> Result<(), SceneError> {
         let n = self.free.len();
         if n > MOST {
-            let message = format!("expected at most {MOST} free bodies for an equilibrium, got {n}");
-            return Err(SceneError::new("run.start", message).help("give the bodies where they start"));
+            return Err(SceneFault::TooManyFree { most: MOST, count: n }.of(Part::Run, Field::Start));
         }
         for i in 0..n {
             state.y[self.layout().velocity(i)] = 0.0;
@@ -111,12 +102,11 @@ impl Model {
     /// Takes over a balance: the contacts go there on straight paths.
     fn stand(&self, state: &mut State, balance: &Balance) -> Result<(), SceneError> {
         let apexes = self.apexes(state, &balance.y);
-        for ((contact, memory), to) in self.contacts.iter().zip(&mut state.memories).zip(apexes) {
-            memory.commit(&contact.law, Segment::Straight(to)).map_err(|e| {
-                let path = format!("contacts.{}.engine", contact.name);
-                SceneError::new(path, format!("in static equilibrium {e}"))
-                    .help("give the row a longer span, or use the engine \"curve\"")
-            })?;
+        let memories = self.contacts.iter().zip(&mut state.memories);
+        for (i, ((contact, memory), to)) in memories.zip(apexes).enumerate() {
+            memory
+                .commit(&contact.law, Segment::Straight(to))
+                .map_err(|error| SceneFault::Settling(error).of(Part::Contact(i), Field::Engine))?;
         }
         state.y.clone_from(&balance.y);
         Ok(())
@@ -163,14 +153,8 @@ impl Model {
         let place = along.iter().copied().find(|i| without(*i, y).holds).unwrap_or(first);
         // Held where it went when nothing held it.
         let unbalanced = without(place, &gone.y).residual[place];
-        let name = &self.bodies[self.free[place].body].name;
-        let (way, unit) = match self.free[place].axis {
-            Axis::X => ("along x", "N"),
-            Axis::Z => ("along z", "N"),
-            Axis::Pitch => ("in pitch", "N m"),
-        };
-        let message =
-            format!("`{name}` has no static equilibrium {way}: {unbalanced:.3e} {unit} stay unbalanced");
-        SceneError::new("run.start", message).help("lower the load, press harder, or start from rest instead")
+        let Free { body, axis, .. } = self.free[place];
+        let body = self.bodies[body].name.clone();
+        SceneFault::NoEquilibrium { body, axis, unbalanced }.of(Part::Run, Field::Start)
     }
 }

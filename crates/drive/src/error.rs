@@ -1,29 +1,13 @@
 //! What can be wrong with a scene, and what can stop a run.
 
+mod fault;
+mod part;
+
+pub use fault::SceneFault;
+pub use part::{Field, Part, SceneError};
+
 use stickslip_contact::ContactError;
 use thiserror::Error;
-
-/// A scene that makes no model: what, where (key path as in the scenario file), what would be allowed.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("{path}: {message}")]
-pub struct SceneError {
-    /// Key path, such as `contacts.ball.friction` or `loads[0].x`.
-    pub path: String,
-    /// What was expected and what came.
-    pub message: String,
-    /// What to try.
-    pub help: Option<String>,
-}
-
-impl SceneError {
-    pub(crate) fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { path: path.into(), message: message.into(), help: None }
-    }
-
-    pub(crate) fn help(self, help: impl Into<String>) -> Self {
-        Self { help: Some(help.into()), ..self }
-    }
-}
 
 /// Why a run stopped itself: what, where, when. [`RunError::advice`] says what to try.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -59,12 +59,10 @@ impl Guard {
             (Self::Drag, Mode::Whole { sense }) => sense * at.du,
             (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
             (Self::Piece, Mode::Slip(branch)) => branch.margin(at.d, at.u),
-            (Self::Side, Mode::Slip(branch)) => match memory {
-                Memory::Curve(curve) => {
-                    curve.beside(at.apex()).map_or(f64::INFINITY, |above| branch.sense() * above)
-                }
-                Memory::Row { .. } => f64::INFINITY,
-            },
+            (Self::Side, Mode::Slip(branch)) => {
+                let above = memory.branching().and_then(|branching| branching.beside(at.apex()));
+                above.map_or(f64::INFINITY, |above| branch.sense() * above)
+            }
             (Self::Piece | Self::Side, _) => f64::INFINITY,
             (Self::Lower, _) => slope * at.dd - at.du,
             (Self::Upper, _) => slope * at.dd + at.du,

@@ -8,17 +8,18 @@
 mod followed;
 mod swing;
 
+pub(crate) use followed::Followed;
 pub(crate) use swing::{Place, Swing};
 
 use crate::Sample;
 use crate::guard::Guard;
+use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, treatment};
 use crate::model::{Contact, Free, Model, Motion, Press};
 use crate::state::{Mode, State};
-use followed::Followed;
 use stickslip_contact::{Profile, SteadyBranch};
 
 /// What evaluations between two events need. Scratch: made anew after each event.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Interval<'a> {
     pub(crate) steady: Vec<Steady<'a>>,
     /// Contacts that go through the general equations.
@@ -27,14 +28,13 @@ pub(crate) struct Interval<'a> {
     pub(crate) apart: Vec<usize>,
     /// By contact: its place among the steady ones.
     places: Vec<Option<usize>>,
-    /// Whether the scene has a single slider on which no force depends on a velocity.
-    single: bool,
+    /// What decides the method: of the scene, and of the interval.
+    pub(crate) scene: SceneTraits,
+    pub(crate) traits: IntervalTraits,
     /// That slider, where nothing but steady contacts acts on it.
     pub(crate) slider: Option<Slider>,
     /// What its contacts make of it.
     pub(crate) pulls: Vec<Pull<'a>>,
-    /// Whether accelerations and powers are the same throughout.
-    pub(crate) constant: bool,
 }
 
 /// A single slider among steady contacts: its acceleration is a₀ + Σ a M(h_c) and the power put in P₀ + Σ P M(h_c), over
@@ -190,8 +190,9 @@ impl<'a> Interval<'a> {
             apart: Vec::with_capacity(count),
             places: Vec::with_capacity(count),
             pulls: Vec::with_capacity(count),
-            single: model.free.len() == 1 && model.is_conservative(),
-            ..Self::default()
+            scene: SceneTraits::of(model),
+            traits: IntervalTraits::default(),
+            slider: None,
         }
     }
 
@@ -220,27 +221,53 @@ impl<'a> Interval<'a> {
         self.apart.clear();
         self.places.clear();
         for (c, (contact, mode)) in model.contacts.iter().zip(&state.modes).enumerate() {
-            if contact.is_never_pressed() {
-                self.places.push(None);
-                continue;
-            }
             let place = self.steady.len();
-            match steady(c, (contact, mode), model, state) {
-                _ if *mode == Mode::Open => self.apart.push(c),
-                Some(steady) => self.steady.push(steady),
-                None => self.others.push(c),
+            let mut followed = None;
+            let of = || {
+                followed = Followed::of(&contact.u, model, state);
+                followed.is_some()
+            };
+            match treatment(contact, mode, of).0 {
+                Treatment::Spared => {}
+                Treatment::Apart => self.apart.push(c),
+                Treatment::Closed => self.steady.extend(steady(c, (contact, mode), followed)),
+                Treatment::General => self.others.push(c),
             }
             self.places.push((place < self.steady.len()).then_some(place));
         }
-        let straight = self.steady.iter().all(|steady| steady.followed.line().is_some());
-        let simple = straight && self.others.is_empty() && model.links.is_empty();
-        let gross = state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open);
-        self.constant = gross && simple;
+        self.traits = IntervalTraits {
+            slides: state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open),
+            straight: self.steady.iter().all(|steady| steady.followed.line().is_some()),
+            general: !self.others.is_empty(),
+            gap: self.apart.iter().any(|c| !model.contacts[*c].unguarded),
+            asked: false,
+        };
         self.pulls.clear();
         self.slider = match &model.free[..] {
-            [slider] if simple && self.single => self.pull(slider),
+            [slider] if self.scene.velocities.is_none() && self.traits.is_simple(&self.scene) => {
+                self.pull(slider)
+            }
             _ => None,
         };
+    }
+
+    /// Whether the motion is to be taken in one leap to the next event.
+    #[inline(always)]
+    pub(crate) fn leaps(&self) -> bool {
+        self.traits.leaps(&self.scene)
+    }
+
+    /// Counts what is done about each contact.
+    pub(crate) fn count(&self, tally: &mut Tally) {
+        self.steady.iter().for_each(|steady| tally.interval(steady.index, Treatment::Closed));
+        self.others.iter().for_each(|c| tally.interval(*c, Treatment::General));
+        self.apart.iter().for_each(|c| tally.interval(*c, Treatment::Apart));
+    }
+
+    /// Whether accelerations and powers are the same throughout.
+    #[inline(always)]
+    pub(crate) fn is_constant(&self) -> bool {
+        self.traits.is_constant(&self.scene)
     }
 
     /// The steady contacts as a single slider feels them; none where a follower moves at no constant rate.
@@ -270,24 +297,21 @@ impl<'a> Interval<'a> {
     }
 }
 
+/// A contact whose followers make a closed form of u.
 fn steady<'a>(
     c: usize,
     (contact, mode): (&'a Contact, &Mode),
-    model: &'a Model,
-    state: &State,
+    followed: Option<Followed<'a>>,
 ) -> Option<Steady<'a>> {
     let (Mode::Slip(branch), Press::Constant { d, reduced_force }) = (mode, &contact.press) else {
         return None;
     };
-    if contact.damping > 0.0 {
-        return None;
-    }
     Some(Steady {
         index: c,
         contact,
         guards: Guard::of(contact, mode),
         d: *d,
-        followed: Followed::of(&contact.u, model, state)?,
+        followed: followed?,
         arm: contact.u.free.iter().map(|(_, a)| a).sum(),
         branch: branch.steady(*d, *reduced_force),
     })

@@ -12,6 +12,7 @@ mod spare;
 mod used;
 
 pub(crate) use measure::{Measure, Terms};
+pub use spare::{Pressing, Spared};
 
 use crate::scene::Axis;
 use crate::{Sample, Waveform};
@@ -29,6 +30,8 @@ pub struct Model {
     /// Number of contacts whose force is a state while they grow.
     pub(crate) growing: usize,
     pub(crate) equilibrium: bool,
+    /// What of the scene no run will ever look at.
+    pub(crate) spared: Spared,
     /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
     pub(crate) fastest: f64,
 }

@@ -1,7 +1,7 @@
 //! How a scene is run: how long, by which stepper, what is written down.
 
-use crate::SceneError;
 use crate::linearised::Linearised;
+use crate::{Field, Part, SceneError, SceneFault};
 
 /// How a scene is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,22 +34,21 @@ pub struct UntilSteady {
 }
 
 impl Plan {
-    /// Fails for a number out of its range, named by its key path in a scenario file.
+    /// Fails for a number out of its range.
     pub(crate) fn check(&self) -> Result<(), SceneError> {
-        let above_zero = |path: &str, value: f64| {
+        let above_zero = |field: Field, value: f64| {
             if value > 0.0 && value.is_finite() {
                 return Ok(());
             }
-            Err(SceneError::new(path, format!("expected a finite number above 0, got {value}")))
+            Err(SceneFault::NotAboveZero(value).of(Part::Run, field))
         };
-        above_zero("run.duration", self.duration)?;
-        self.every.map_or(Ok(()), |every| above_zero("output.every", every))?;
-        self.until_steady.map_or(Ok(()), |steady| above_zero("run.until_steady", steady.change))?;
-        let (key, value) = match self.stepper.accuracy() {
-            Accuracy::Tolerance(tolerance) => ("tolerance", tolerance),
-            Accuracy::Step(step) => ("step", step),
-        };
-        above_zero(&format!("run.stepper.{}.{key}", self.stepper.name()), value)
+        above_zero(Field::Duration, self.duration)?;
+        self.every.map_or(Ok(()), |every| above_zero(Field::Interval, every))?;
+        self.until_steady.map_or(Ok(()), |steady| above_zero(Field::SteadyChange, steady.change))?;
+        match self.stepper.accuracy() {
+            Accuracy::Tolerance(tolerance) => above_zero(Field::Tolerance, tolerance),
+            Accuracy::Step(step) => above_zero(Field::Step, step),
+        }
     }
 }
 

@@ -1,12 +1,14 @@
 //! Runs: a model and a plan move a state, a record watches.
 
+mod bounds;
 mod chords;
-mod events;
 mod fixed;
+mod horizon;
+mod ledger;
+mod located;
 mod output;
 mod reference;
 mod steady;
-mod watch;
 
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper};
@@ -19,7 +21,7 @@ use stickslip_stepper::{Rk4, Verlet};
 #[inline(never)]
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
     match model.effective(plan.stepper) {
-        Stepper::Event { tolerance } => events::run(model, plan, tolerance, state, record),
+        Stepper::Event { tolerance } => located::run(model, plan, tolerance, state, record),
         Stepper::Verlet { step } => fixed::run::<Verlet>(model, plan, step, state, record),
         Stepper::Rk4 { step } => fixed::run::<Rk4>(model, plan, step, state, record),
         Stepper::Dopri5 { tolerance } => reference::run(model, plan, tolerance, state, record),

@@ -293,7 +293,7 @@ impl Body {
 }
 
 impl Axis {
-    /// Key of the coordinate in a scenario.
+    /// The letter or word for it in messages and columns.
     pub fn key(self) -> &'static str {
         match self {
             Self::X => "x",

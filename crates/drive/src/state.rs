@@ -1,5 +1,6 @@
 //! All that the future of a run depends on.
 
+use crate::method::Tally;
 use crate::model::{Contact, Place};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
@@ -34,6 +35,7 @@ pub struct State {
     pub(crate) stuck_step: f64,
     pub(crate) control: Option<StepControl>,
     pub(crate) counts: Counts,
+    pub(crate) tally: Tally,
 }
 
 /// Work done so far.
@@ -87,15 +89,15 @@ impl Mode {
 
     /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
     pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
-        match (memory, course) {
+        match (memory.branching(), course) {
             _ if contact.inert && contact.coupling().is_none() => Self::Open,
             (_, Course::Open) => Self::Open,
             // Without friction there is nothing to remember, but the bodies still press on each other.
             _ if contact.inert => Self::Whole { sense: 0.0 },
-            (Memory::Row { .. }, course) => Self::Whole { sense: course.sense() },
-            (Memory::Curve(_), Course::Grow) => Self::Grow,
-            (Memory::Curve(curve), Course::Forward | Course::Backward) => {
-                Self::Slip(curve.branch(&contact.law, course.sense(), slack))
+            (None, course) => Self::Whole { sense: course.sense() },
+            (Some(_), Course::Grow) => Self::Grow,
+            (Some(branching), Course::Forward | Course::Backward) => {
+                Self::Slip(branching.branch(&contact.law, course.sense(), slack))
             }
         }
     }
@@ -172,6 +174,7 @@ impl Model {
             stuck_step: f64::INFINITY,
             control: None,
             counts: Counts::default(),
+            tally: Tally::of(self.contacts.len()),
         }
     }
 
@@ -239,6 +242,11 @@ impl State {
     /// Work done so far.
     pub fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// The methods by which it was done.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
     }
 
     /// Memories of the contacts, in the scene's order. Displacements are counted from near by: of a body that has travelled

@@ -10,9 +10,10 @@
 //! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
 //! stand where, with the docs that become the schema), `refusal` (what serde says about it, in our words) and `shape`
 //! (what serde lets pass); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
-//! (canonical JSON); `pairing` (what contacts are made of); `schema`, and `guide`, which answers from it.
+//! (canonical JSON); `pairing` (what contacts are made of); `address` (where a scene's parts stand in the file); `schema`, and `guide`, which answers from it.
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
+mod address;
 mod document;
 mod error;
 mod excerpt;

@@ -7,12 +7,12 @@ use crate::form::Form;
 use crate::meaning::{self, Figures, MemoryOutput, SpringsOutput};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
-use crate::{document, overrides, refusal, resolved, shape, suggest, syntax, tables, text};
+use crate::{address, document, overrides, refusal, resolved, shape, suggest, syntax, tables, text};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
-use stickslip_drive::{Plan, Scene};
+use stickslip_drive::{Plan, Scene, SceneError};
 
 /// Version of the form that this program reads.
 const VERSION: u64 = 1;
@@ -205,6 +205,11 @@ impl Scenario {
     pub fn resolved(&self) -> String {
         // The form holds finite numbers and string keys only: serde_json has nothing to refuse.
         serde_json::to_value(&self.form).map(|value| resolved::print(&value)).unwrap_or_default()
+    }
+
+    /// What the scene or the plan is refused for, pointed into the file.
+    pub fn refusal(&self, error: &SceneError) -> ScenarioError {
+        self.document.report(address::fault(&self.scene, self.plan, error)).into()
     }
 
     /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.

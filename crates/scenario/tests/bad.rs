@@ -6,7 +6,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use stickslip_drive::{Model, SceneError};
+use stickslip_drive::Model;
 use stickslip_scenario::{Scenario, ScenarioError};
 use unicode_width::UnicodeWidthChar;
 
@@ -24,8 +24,8 @@ fn refusal(path: &Path) -> Option<ScenarioError> {
         Ok(scenario) => scenario,
         Err(error) => return Some(error),
     };
-    let locate = |error: SceneError| scenario.locate(&error.path, error.message, error.help);
-    Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan)).map_err(locate).err()
+    let started = Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan));
+    started.err().map(|error| scenario.refusal(&error))
 }
 
 #[test]

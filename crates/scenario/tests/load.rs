@@ -318,7 +318,7 @@ proptest! {
             let Ok(scenario) = scenario else { continue };
             let model = Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan));
             if let Err(error) = model {
-                let error = scenario.locate(&error.path, error.message, error.help);
+                let error = scenario.refusal(&error);
                 prop_assert!(error.excerpt.is_some(), "{}", error);
             }
         }

@@ -11,7 +11,7 @@ use proptest::test_runner::{TestCaseError, TestRunner};
 use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
-use stickslip_drive::{Model, SceneError};
+use stickslip_drive::Model;
 use stickslip_scenario::{Scenario, ScenarioError, schema};
 
 /// Longest time a file may take, from its text to the state at t = 0.
@@ -158,8 +158,9 @@ fn in_text(text: &str, edit: &Edit) -> String {
 /// What the program does with a file before it runs it.
 fn answer(text: &str) -> Result<Scenario, ScenarioError> {
     let scenario = Scenario::from_str(text, "mutated.json", "tests/good")?;
-    let locate = |error: SceneError| scenario.locate(&error.path, error.message, error.help);
-    Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan)).map_err(locate)?;
+    Model::new(&scenario.scene)
+        .and_then(|model| model.start(&scenario.plan))
+        .map_err(|error| scenario.refusal(&error))?;
     Ok(scenario)
 }
 

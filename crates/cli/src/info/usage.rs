@@ -1,10 +1,10 @@
 //! What a run computes of a scene, and what it skips and why.
 
 use super::contacts::name;
-use super::motion;
 use crate::job::Job;
 use serde::Serialize;
-use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Normal, Scene, Side, Varying};
+use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Side};
+use stickslip_drive::{Expected, Method, Pressing, Treatment, Why};
 
 /// What is computed and what is not.
 #[derive(Debug, Default, Serialize)]
@@ -25,8 +25,9 @@ pub(super) struct Item {
 impl Usage {
     pub(super) fn of(job: &Job) -> Self {
         let mut usage = Self::default();
-        usage.motion(job);
-        usage.contacts(job);
+        let expected = job.model.expected(&job.start, job.scenario.plan.stepper);
+        usage.motion(job, &expected);
+        usage.contacts(job, &expected);
         usage.couplings(job);
         usage.unused(job);
         usage.output(job);
@@ -41,7 +42,7 @@ impl Usage {
         add(&mut self.skipped, what, of, why.into());
     }
 
-    fn motion(&mut self, job: &Job) {
+    fn motion(&mut self, job: &Job, expected: &Expected) {
         let names = job.model.linearised(&job.start, |d| d.start).coordinates().to_vec();
         let (stepper, _, _) = job.stepper();
         if names.is_empty() {
@@ -50,56 +51,39 @@ impl Usage {
             } else {
                 ", whatever stepper is asked for"
             };
-            self.skips(
-                "equations of motion",
-                "",
-                format!("nothing is free: contacts are walked along their path{asked}"),
-            );
-        } else {
-            names.iter().for_each(|name| self.uses("motion", name, format!("free, stepper {stepper}")));
+            self.skips("equations of motion", "", format!("{}{asked}", Why::NothingFree));
+            return;
         }
-        if !names.is_empty() && is_located(job) {
-            self.method(job);
+        names.iter().for_each(|name| self.uses("motion", name, format!("free, stepper {stepper}")));
+        if !is_located(expected) {
+            return;
         }
-    }
-
-    /// What the stepper with located events makes of the equations of motion.
-    fn method(&mut self, job: &Job) {
-        if job.model.swings() {
-            self.uses(
-                "method",
-                "",
-                "closed form from event to event; Runge–Kutta–Nyström 8(6) where it comes to rest",
-            );
-            let why = "one slider, paraboloids under constant load, straight waveforms: an interval is one quadrature";
-            self.skips("steps between events", "", why);
-        } else if job.model.is_conservative() {
-            let what = "Runge–Kutta–Nyström 8(6), as no force depends on a velocity; Dormand–Prince 8(5,3) before singular events";
-            self.uses("method", "", what);
-            let why = "no force depends on one: a third of the evaluations is spared";
-            self.skips("stages for velocities", "", why);
-        } else {
-            self.uses("method", "", "Dormand–Prince 8(5,3)");
+        for (method, why) in &expected.methods {
+            self.uses("method", "", format!("{}: {why}", method.name()));
         }
         for name in job.model.travellers() {
             self.uses("position", &format!("{name}.x"), "counted from near by: only contacts depend on it");
         }
+        if expected.takes(Method::Swing) {
+            self.skips("steps between events", "", Why::OneQuadrature.to_string());
+        } else if expected.takes(Method::Nystrom) {
+            self.skips("stages for velocities", "", Why::NoVelocities.to_string());
+        }
+        if expected.takes(Method::Parabola) {
+            self.skips("evaluations", "", Why::ConstantForces.to_string());
+        }
     }
 
-    fn contacts(&mut self, job: &Job) {
-        let located = is_located(job);
+    fn contacts(&mut self, job: &Job, expected: &Expected) {
+        let located = is_located(expected);
         for (c, contact) in job.scenario.scene.contacts.iter().enumerate() {
             let name = &contact.name;
             if job.model.indentations(&job.start, c).is_some_and(|d| d.most <= 0.0) {
-                self.skips(
-                    "contact",
-                    name,
-                    "never pressed: it is not evaluated, and nothing looks out for it",
-                );
+                self.skips("contact", name, Why::NeverPressed.to_string());
                 continue;
             }
             if contact.part.friction == 0.0 {
-                self.skips("tangential force", name, "no friction");
+                self.skips("tangential force", name, Why::NoFriction.to_string());
                 continue;
             }
             match contact.part.engine {
@@ -108,85 +92,64 @@ impl Usage {
                     self.uses("memory", name, format!("a row of {count} springs, asked at every evaluation"));
                 }
             }
-            if job.has_constant_load(c) {
-                self.skips(
-                    "normal motion",
-                    name,
-                    "constant load: the indentation is found once, nothing grows",
-                );
-                if located && contact.part.engine == EngineChoice::Curve && contact.part.damping == 0.0 {
-                    self.steady(job, c);
-                }
-                continue;
+            self.pressing(job, c, name);
+            if let Some(why) = expected.treats(c, Treatment::Apart).filter(|_| job.is_coupled(c)) {
+                self.skips("forces", name, why.to_string());
             }
-            let why = match contact.part.normal {
-                Normal::Indentation(_) => "follows a waveform",
-                Normal::Force(_) | Normal::Radius(_) => "solved from a waveform at every evaluation",
-                Normal::Coupled => "from the motion of the bodies",
-            };
-            self.uses("indentation", name, why);
-            if contact.part.normal == Normal::Coupled && located {
-                self.skips("forces", name, "while apart: only the gap is watched");
-            }
-            if contact.part.engine == EngineChoice::Curve && located {
+            if located && job.model.grows(c) {
                 self.uses(
                     "tangential force",
                     name,
                     "a state of its own while the contact grows in full stick",
                 );
             }
+            if let Some(why) = expected.treats(c, Treatment::Closed) {
+                self.skips("memory between events", name, why.to_string());
+            }
         }
     }
 
-    /// What need not be done of contact `c`, pressed by a constant load, between two events.
-    fn steady(&mut self, job: &Job, c: usize) {
-        let scene = &job.scenario.scene;
-        let Some(contact) = scene.contacts.get(c) else { return };
-        let is_straight = |side: &Side| match side {
-            Side::Body(body) => scene.bodies.get(*body).is_none_or(|body| follows_lines(scene, &body.part)),
-            Side::Ground => true,
+    /// What sets the indentation of contact `c`.
+    fn pressing(&mut self, job: &Job, c: usize, name: &str) {
+        let why = match job.model.pressing(c) {
+            None => return,
+            Some(Pressing::Constant) => {
+                let why = "constant load: the indentation is found once, nothing grows";
+                return self.skips("normal motion", name, why);
+            }
+            Some(Pressing::Followed) => "follows a waveform",
+            Some(Pressing::Solved) => "solved from a waveform at every evaluation",
+            Some(Pressing::Bodies) => "from the motion of the bodies",
         };
-        if !contact.part.between.iter().all(is_straight) {
-            return;
-        }
-        let name = &contact.name;
-        let why = "steady: straight waveforms drag one edge through it, it moves at events only";
-        self.skips("memory between events", name, why);
-        let is_alone = scene.contacts.len() == 1 && scene.springs.is_empty() && scene.actuators.is_empty();
-        if is_alone && job.model.is_conservative() {
-            self.skips("evaluations", name, "in gross slip: the motion is a parabola");
-        }
+        self.uses("indentation", name, why);
     }
 
     fn couplings(&mut self, job: &Job) {
         let scene = &job.scenario.scene;
         let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free()));
-        let is_followed = |body: &Named<Body>| {
-            body.part.coordinates().into_iter().any(|(_, c)| matches!(c.freedom, Freedom::Follows(_)))
-        };
-        let follows =
-            |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(is_followed));
-        let springs = scene.springs.iter().map(|part| ("spring", &part.name, part.part.between, false));
-        let actuators = scene.actuators.iter().map(|part| {
-            let is_driven = matches!(part.part.stroke, Varying::Follows(_));
-            ("actuator", &part.name, part.part.between, is_driven)
-        });
-        for (kind, part, between, is_driven) in springs.chain(actuators) {
+        let spared = job.model.spared();
+        let springs = scene.springs.iter().enumerate();
+        let springs =
+            springs.map(|(i, part)| ("spring", &part.name, part.part.between, spared.springs.contains(&i)));
+        let actuators = scene.actuators.iter().enumerate();
+        let actuators = actuators
+            .map(|(i, part)| ("actuator", &part.name, part.part.between, spared.actuators.contains(&i)));
+        for (kind, part, between, is_spared) in springs.chain(actuators) {
             let [first, second] = between.map(|side| name(job, side));
-            if between.iter().any(is_free) {
-                self.uses(kind, part, format!("between {first} and {second}"));
-            } else if between.iter().any(follows) || is_driven {
-                self.uses(kind, part, format!("neither {first} nor {second} is free: for its energy alone"));
-            } else {
+            if is_spared {
                 self.skips(kind, part, format!("neither {first} nor {second} is free: it moves nothing"));
+            } else if between.iter().any(is_free) {
+                self.uses(kind, part, format!("between {first} and {second}"));
+            } else {
+                self.uses(kind, part, format!("neither {first} nor {second} is free: for its energy alone"));
             }
         }
         for (i, load) in scene.loads.iter().enumerate() {
             let (place, body) = (format!("loads[{i}]"), Side::Body(load.on));
-            if is_free(&body) {
-                self.uses("load", &place, format!("on {}", name(job, body)));
-            } else {
+            if spared.loads.contains(&i) {
                 self.skips("load", &place, format!("{} is not free: its guide carries it", name(job, body)));
+            } else {
+                self.uses("load", &place, format!("on {}", name(job, body)));
             }
         }
         if scene.gravity.acceleration != 0.0 {
@@ -208,11 +171,8 @@ impl Usage {
         for material in job.scenario.unused_materials() {
             self.skips("material", material, "no contact is made of it");
         }
-        let followers = motion::followers(scene);
-        for (w, waveform) in scene.waveforms.iter().enumerate() {
-            if !followers.iter().any(|follower| follower.waveform == w) {
-                self.skips("waveform", &waveform.name, "nothing follows it: its corners end no steps");
-            }
+        for waveform in job.model.spared().waveforms.iter().filter_map(|w| scene.waveforms.get(*w)) {
+            self.skips("waveform", &waveform.name, "nothing follows it: its corners end no steps");
         }
         for body in &scene.bodies {
             if body.part.mass.is_some() && !body.part.is_free() {
@@ -238,16 +198,8 @@ impl Usage {
 }
 
 /// Whether events are located: they are crossed by all other steppers.
-fn is_located(job: &Job) -> bool {
-    job.model.effective(job.scenario.plan.stepper).locates_events()
-}
-
-/// Whether whatever a body follows is straight between its corners.
-fn follows_lines(scene: &Scene, body: &Body) -> bool {
-    body.coordinates().into_iter().all(|(_, coordinate)| match coordinate.freedom {
-        Freedom::Follows(w) => scene.waveforms.get(w).is_none_or(|waveform| waveform.part.is_straight()),
-        Freedom::Fixed | Freedom::Free => true,
-    })
+fn is_located(expected: &Expected) -> bool {
+    !expected.takes(Method::AskedFor)
 }
 
 /// Adds to what stands there for the same reason, if anything does.

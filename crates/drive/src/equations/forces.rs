@@ -4,7 +4,7 @@ use super::sum::{Sum, View};
 use super::{Equations, Sample};
 use crate::model::{Link, Motion, Press, Stroke};
 use crate::state::Mode;
-use stickslip_contact::{Branch, Memory, Move};
+use stickslip_contact::{Branch, Move};
 
 impl Equations<'_> {
     /// F_x of one contact, N, under its decreed law.
@@ -36,10 +36,9 @@ impl Equations<'_> {
     /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
     #[inline(never)]
     fn dragged(&self, c: usize, branch: &Branch, motion: &Motion) -> (f64, f64) {
-        match &self.memories[c] {
-            Memory::Curve(curve) => curve.dragged(&self.model.contacts[c].law, branch.sense(), motion.apex()),
-            Memory::Row { .. } => (0.0, 0.0),
-        }
+        let branching = self.memories[c].branching();
+        let law = &self.model.contacts[c].law;
+        branching.map_or((0.0, 0.0), |branching| branching.dragged(law, branch.sense(), motion.apex()))
     }
 
     /// Height of the slip front, m.

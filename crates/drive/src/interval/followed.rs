@@ -6,7 +6,7 @@ use crate::{Sample, Waveform};
 
 /// The part of a displacement that followers and constants make.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Followed<'a> {
+pub(crate) enum Followed<'a> {
     /// All followers move at constant rates: constant + rate (t - start).
     Line { constant: f64, rate: f64, start: f64 },
     /// A single one on a sum of sines: constant + factor · waveform.
@@ -16,7 +16,7 @@ pub(super) enum Followed<'a> {
 impl<'a> Followed<'a> {
     /// Of a measure in a state; none where there are several followers, one of them on a curved piece, or a single one on a
     /// piece that is neither a line nor a sum of sines.
-    pub(super) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
+    pub(crate) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
         if let [(w, factor)] = measure.driven[..]
             && state.pieces[w].is_sines()
         {
@@ -35,7 +35,7 @@ impl<'a> Followed<'a> {
 
     /// Value (m) and its derivatives at time t, s.
     #[inline(always)]
-    pub(super) fn at(&self, t: f64) -> Sample {
+    pub(crate) fn at(&self, t: f64) -> Sample {
         match self {
             Self::Line { constant, rate, start } => {
                 Sample { value: constant + rate * (t - start), rate: *rate, acceleration: 0.0 }
@@ -49,7 +49,7 @@ impl<'a> Followed<'a> {
     }
 
     /// The line, [value at the start, rate, start], where it is one.
-    pub(super) fn line(&self) -> Option<[f64; 3]> {
+    pub(crate) fn line(&self) -> Option<[f64; 3]> {
         match *self {
             Self::Line { constant, rate, start } => Some([constant, rate, start]),
             Self::Sines { .. } => None,

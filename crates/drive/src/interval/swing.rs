@@ -138,6 +138,11 @@ impl Swing {
         true
     }
 
+    /// Whether no contact holds back: gross slip, a parabola.
+    pub(crate) fn is_free(&self) -> bool {
+        self.springs.is_empty()
+    }
+
     /// Speed of the slide at the start, m/s.
     fn speed(&self) -> f64 {
         self.sense * (self.start.v + self.drift)

@@ -1,17 +1,19 @@
 //! From a scene to a model: bodies, links and loads.
 
 use super::contact::{self, Surroundings};
-use super::{Body, Free, Link, Load, Measure, Model, Place, Stroke, check, dampers, held, scale, used};
+use super::{
+    Body, Free, Link, Load, Measure, Model, Place, Spared, Stroke, check, dampers, held, scale, used,
+};
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
-use crate::{SceneError, Waveform};
+use crate::{Field, Part, SceneError, SceneFault, Waveform};
 
 impl Model {
-    /// Checks a scene and assembles its constants. Errors name the key path of what is wrong.
+    /// Checks a scene and assembles its constants. Errors name the part and the field that is wrong.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         check::check(scene)?;
         let mut waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();
         let (bodies, mut free) = bodies(scene)?;
-        let mut links = links(scene, &bodies)?;
+        let mut links = links(scene, &bodies);
         let loads = loads(scene, &bodies, &mut free);
         let equilibrium = scene.start == Start::Equilibrium;
         let around = Surroundings {
@@ -25,10 +27,9 @@ impl Model {
         let mut contacts = Vec::with_capacity(scene.contacts.len());
         let mut deepest = Vec::with_capacity(scene.contacts.len());
         let mut growing = 0;
-        for named in &scene.contacts {
-            let (mut contact, deep) = contact::build(named, &around)?;
-            if !contact.is_constant() && !contact.inert && contact.engine == stickslip_contact::Engine::Curve
-            {
+        for (place, named) in scene.contacts.iter().enumerate() {
+            let (mut contact, deep) = contact::build(place, named, &around)?;
+            if !contact.is_constant() && !contact.inert && contact.engine.branches() {
                 contact.slot = Some(growing);
                 growing += 1;
             }
@@ -36,15 +37,32 @@ impl Model {
             deepest.push(deep);
         }
         dampers::check(scene, &links, &contacts, &waveforms)?;
-        held::check(&bodies, &free, &contacts, &links)?;
+        held::check(&free, &contacts, &links)?;
+        let mut spared = Spared { loads: spared_loads(scene, &bodies), ..Spared::default() };
+        for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {
+            match i.checked_sub(scene.springs.len()) {
+                None => spared.springs.push(i),
+                Some(i) => spared.actuators.push(i),
+            }
+        }
         links.retain(Link::acts);
         for link in &links {
             link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
         }
-        used::hold_the_others(&mut waveforms, &bodies, &contacts, &links, &loads);
+        spared.waveforms = used::hold_the_others(&mut waveforms, &bodies, &contacts, &links, &loads);
         scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
-        let constants =
-            Self { waveforms, bodies, free, contacts, links, loads, growing, equilibrium, fastest: 0.0 };
+        let constants = Self {
+            waveforms,
+            bodies,
+            free,
+            contacts,
+            links,
+            loads,
+            growing,
+            equilibrium,
+            spared,
+            fastest: 0.0,
+        };
         Ok(Self { fastest: constants.largest_rate(), ..constants })
     }
 }
@@ -61,7 +79,7 @@ fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
                 Freedom::Fixed => Place::Held(coordinate.position),
                 Freedom::Follows(waveform) => Place::Driven(waveform),
                 Freedom::Free => {
-                    let mass = inertia(name, part, axis)?;
+                    let mass = inertia(body, part, axis)?;
                     let weight = -mass * scene.gravity.acceleration;
                     let force = match axis {
                         Axis::X => weight * along,
@@ -84,57 +102,41 @@ fn free_coordinate(body: usize, axis: Axis, mass: f64, force: f64, coordinate: C
 }
 
 /// Mass or moment of inertia of a free coordinate.
-fn inertia(name: &str, body: &scene::Body, axis: Axis) -> Result<f64, SceneError> {
-    let (value, key, unit, example) = match axis {
-        Axis::X | Axis::Z => (body.mass, "mass", "kg", "\"mass\": \"10 g\""),
-        Axis::Pitch => (body.inertia, "inertia", "kg m²", "\"inertia\": 2e-7"),
+fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneError> {
+    let (value, field) = match axis {
+        Axis::X | Axis::Z => (body.mass, Field::Mass),
+        Axis::Pitch => (body.inertia, Field::Inertia),
     };
-    let value = value.ok_or_else(|| {
-        let message = match axis {
-            Axis::X | Axis::Z => "a body with a free coordinate needs a mass".to_owned(),
-            Axis::Pitch => "a body whose pitch is free needs a moment of inertia".to_owned(),
-        };
-        let help = format!("add {example}, or make {} \"fixed\"", axis.key());
-        SceneError::new(format!("bodies.{name}"), message).help(help)
-    })?;
-    if value > 0.0 && value.is_finite() {
-        return Ok(value);
+    let part = Part::Body(place);
+    match value {
+        Some(value) if value > 0.0 && value.is_finite() => Ok(value),
+        Some(value) => Err(SceneFault::NotAboveZero(value).of(part, field)),
+        None => Err(SceneFault::NoInertia(axis).of(part, Field::Whole)),
     }
-    let message =
-        format!("expected {} {key} above 0 {unit}, got {value}", if key == "mass" { "a" } else { "an" });
-    Err(SceneError::new(format!("bodies.{name}.{key}"), message))
 }
 
-fn links(scene: &Scene, bodies: &[Body]) -> Result<Vec<Link>, SceneError> {
-    let elongation = |sides: [Side; 2], at: [Point; 2], direction: Direction, path: String| {
-        if sides[0] == sides[1] {
-            return Err(SceneError::new(path, "expected two different bodies"));
-        }
-        Ok(Measure::between([(sides[1], at[1]), (sides[0], at[0])], direction, bodies))
+fn links(scene: &Scene, bodies: &[Body]) -> Vec<Link> {
+    let elongation = |sides: [Side; 2], at: [Point; 2], direction: Direction| {
+        Measure::between([(sides[1], at[1]), (sides[0], at[0])], direction, bodies)
     };
-    let mut links = Vec::with_capacity(scene.springs.len() + scene.actuators.len());
-    for Named { name, part } in &scene.springs {
-        let path = format!("springs.{name}.between");
-        let elongation = elongation(part.between, part.at, part.direction, path)?;
-        let (stiffness, damping, preload) = (part.stiffness, part.damping, part.preload);
-        links.push(Link { elongation, stiffness, damping, preload, stroke: Stroke::Constant(0.0) });
-    }
-    for Named { name, part } in &scene.actuators {
-        let path = format!("actuators.{name}.between");
-        let elongation = elongation(part.between, part.at, part.direction, path)?;
-        let stroke = match part.stroke {
+    let springs = scene.springs.iter().map(|Named { part, .. }| Link {
+        elongation: elongation(part.between, part.at, part.direction),
+        stiffness: part.stiffness,
+        damping: part.damping,
+        preload: part.preload,
+        stroke: Stroke::Constant(0.0),
+    });
+    let actuators = scene.actuators.iter().map(|Named { part, .. }| Link {
+        elongation: elongation(part.between, part.at, part.direction),
+        stiffness: part.stiffness,
+        damping: part.damping,
+        preload: 0.0,
+        stroke: match part.stroke {
             Varying::Constant(s) => Stroke::Constant(s),
             Varying::Follows(w) => Stroke::Driven(w),
-        };
-        links.push(Link {
-            elongation,
-            stiffness: part.stiffness,
-            damping: part.damping,
-            preload: 0.0,
-            stroke,
-        });
-    }
-    Ok(links)
+        },
+    });
+    springs.chain(actuators).collect()
 }
 
 /// Adds the constant loads to the free coordinates and returns the others. A load on a coordinate that does not move
@@ -161,4 +163,10 @@ fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
         }
     }
     varying
+}
+
+/// Loads on bodies that nothing lets move.
+fn spared_loads(scene: &Scene, bodies: &[Body]) -> Vec<usize> {
+    let is_held = |load: &scene::Load| !bodies[load.on].places.iter().any(|p| matches!(p, Place::Free(_)));
+    scene.loads.iter().enumerate().filter(|(_, load)| is_held(load)).map(|(i, _)| i).collect()
 }

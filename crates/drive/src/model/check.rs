@@ -1,117 +1,123 @@
 //! What can be wrong with a scene on its own: places that do not exist, numbers out of their range.
 
-use crate::SceneError;
-use crate::scene::{Axis, ContactStart, Freedom, Normal, Point, Scene, Side, Varying};
+use crate::scene::{Axis, Contact, ContactStart, Freedom, Normal, Point, Scene, Side, Varying};
+use crate::{Field, Part, SceneError, SceneFault};
 
 /// Checks every number and every place of a scene.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let check = Check(scene);
-    for body in &scene.bodies {
-        let path = |key: &str| format!("bodies.{}.{key}", body.name);
+    for (i, body) in scene.bodies.iter().enumerate() {
         for (axis, coordinate) in body.part.coordinates() {
-            let key = axis.key();
-            finite(coordinate.position, || path(&format!("start.{key}")))?;
-            finite(coordinate.velocity, || path(&format!("start.v{key}")))?;
+            let of = |field: Field| move |fault: SceneFault| fault.of(Part::Body(i), field);
+            finite(coordinate.position).map_err(of(Field::Position(axis)))?;
+            finite(coordinate.velocity).map_err(of(Field::Velocity(axis)))?;
             if let Freedom::Follows(w) = coordinate.freedom {
-                check.waveform(w, || path(key))?;
+                check.waveform(w).map_err(of(Field::Coordinate(axis)))?;
             }
         }
     }
-    check.contacts()?;
-    for spring in &scene.springs {
-        let path = |key: &str| format!("springs.{}.{key}", spring.name);
-        check.between(spring.part.between, || path("between"))?;
-        points(spring.part.at, || path("at"))?;
-        at_least_zero(spring.part.stiffness, || path("stiffness"))?;
-        at_least_zero(spring.part.damping, || path("damping"))?;
-        finite(spring.part.preload, || path("preload"))?;
-    }
-    for actuator in &scene.actuators {
-        let path = |key: &str| format!("actuators.{}.{key}", actuator.name);
-        check.between(actuator.part.between, || path("between"))?;
-        points(actuator.part.at, || path("at"))?;
-        at_least_zero(actuator.part.stiffness, || path("stiffness"))?;
-        at_least_zero(actuator.part.damping, || path("damping"))?;
-        check.varying(actuator.part.stroke, || path("stroke"))?;
-    }
-    for (i, load) in scene.loads.iter().enumerate() {
-        check.between([Side::Body(load.on), Side::Ground], || format!("loads[{i}].on"))?;
-        points([load.at, Point::default()], || format!("loads[{i}].at"))?;
-        for (axis, value) in [(Axis::X, load.x), (Axis::Z, load.z), (Axis::Pitch, load.pitch)] {
-            check.varying(value, || format!("loads[{i}].{}", axis.key()))?;
-        }
-    }
-    finite(scene.gravity.acceleration, || "gravity.acceleration".to_owned())?;
-    finite(scene.gravity.incline, || "gravity.incline".to_owned())
+    scene.contacts.iter().enumerate().try_for_each(|(i, contact)| check.contact(i, &contact.part))?;
+    check.links()?;
+    check.loads()?;
+    let of = |field: Field| move |fault: SceneFault| fault.of(Part::Gravity, field);
+    finite(scene.gravity.acceleration).map_err(of(Field::Acceleration))?;
+    finite(scene.gravity.incline).map_err(of(Field::Incline))
 }
 
 /// A scene whose places are looked up.
 struct Check<'a>(&'a Scene);
 
 impl Check<'_> {
-    fn contacts(&self) -> Result<(), SceneError> {
-        for contact in &self.0.contacts {
-            let path = |key: &str| format!("contacts.{}.{key}", contact.name);
-            let part = &contact.part;
-            self.between(part.between, || path("between"))?;
-            points(part.at, || path("at"))?;
-            finite(part.gap, || path("gap"))?;
-            at_least_zero(part.damping, || path("damping"))?;
-            match part.normal {
-                Normal::Force(v) => self.varying(v, || path("normal.force"))?,
-                Normal::Indentation(v) => self.varying(v, || path("normal.indentation"))?,
-                Normal::Radius(v) => self.varying(v, || path("normal.radius"))?,
-                Normal::Coupled => {}
-            }
-            match part.start {
-                ContactStart::Untouched => {}
-                ContactStart::Force(force) => finite(force, || path("start.force"))?,
-                ContactStart::Displacement(u) => finite(u, || path("start.displacement"))?,
-            }
-            if part.count == 0 {
-                return Err(SceneError::new(path("count"), "expected at least 1 contact, got 0"));
+    fn contact(&self, i: usize, part: &Contact) -> Result<(), SceneError> {
+        let of = |field: Field| move |fault: SceneFault| fault.of(Part::Contact(i), field);
+        self.between(part.between).map_err(of(Field::Between))?;
+        points(part.at).map_err(of(Field::Points))?;
+        finite(part.gap).map_err(of(Field::Gap))?;
+        at_least_zero(part.damping).map_err(of(Field::Damping))?;
+        match part.normal {
+            Normal::Force(v) => self.varying(v).map_err(of(Field::NormalForce))?,
+            Normal::Indentation(v) => self.varying(v).map_err(of(Field::NormalIndentation))?,
+            Normal::Radius(v) => self.varying(v).map_err(of(Field::NormalRadius))?,
+            Normal::Coupled => {}
+        }
+        match part.start {
+            ContactStart::Untouched => {}
+            ContactStart::Force(force) => finite(force).map_err(of(Field::StartForce))?,
+            ContactStart::Displacement(u) => finite(u).map_err(of(Field::StartDisplacement))?,
+        }
+        if part.count == 0 {
+            return Err(of(Field::Count)(SceneFault::NoContact));
+        }
+        Ok(())
+    }
+
+    /// Springs and actuators.
+    fn links(&self) -> Result<(), SceneError> {
+        for (i, spring) in self.0.springs.iter().enumerate() {
+            let of = |field: Field| move |fault: SceneFault| fault.of(Part::Spring(i), field);
+            self.between(spring.part.between).map_err(of(Field::Between))?;
+            points(spring.part.at).map_err(of(Field::Points))?;
+            at_least_zero(spring.part.stiffness).map_err(of(Field::Stiffness))?;
+            at_least_zero(spring.part.damping).map_err(of(Field::Damping))?;
+            finite(spring.part.preload).map_err(of(Field::Preload))?;
+        }
+        for (i, actuator) in self.0.actuators.iter().enumerate() {
+            let of = |field: Field| move |fault: SceneFault| fault.of(Part::Actuator(i), field);
+            self.between(actuator.part.between).map_err(of(Field::Between))?;
+            points(actuator.part.at).map_err(of(Field::Points))?;
+            at_least_zero(actuator.part.stiffness).map_err(of(Field::Stiffness))?;
+            at_least_zero(actuator.part.damping).map_err(of(Field::Damping))?;
+            self.varying(actuator.part.stroke).map_err(of(Field::Stroke))?;
+        }
+        Ok(())
+    }
+
+    fn loads(&self) -> Result<(), SceneError> {
+        for (i, load) in self.0.loads.iter().enumerate() {
+            let of = |field: Field| move |fault: SceneFault| fault.of(Part::Load(i), field);
+            self.body(load.on).map_err(of(Field::On))?;
+            points([load.at, Point::default()]).map_err(of(Field::Points))?;
+            for (axis, value) in [(Axis::X, load.x), (Axis::Z, load.z), (Axis::Pitch, load.pitch)] {
+                self.varying(value).map_err(of(Field::Component(axis)))?;
             }
         }
         Ok(())
     }
 
-    fn between(&self, sides: [Side; 2], path: impl Fn() -> String) -> Result<(), SceneError> {
-        let missing = |side: &Side| matches!(side, Side::Body(i) if *i >= self.0.bodies.len());
-        match sides.iter().find(|side| missing(side)) {
-            Some(side) => Err(SceneError::new(path(), format!("there is no body at {side:?}"))),
-            None => Ok(()),
+    /// Two sides that exist, and are two.
+    fn between(&self, sides: [Side; 2]) -> Result<(), SceneFault> {
+        for side in sides {
+            if let Side::Body(i) = side {
+                self.body(i)?;
+            }
         }
+        if sides[0] == sides[1] { Err(SceneFault::OneBody) } else { Ok(()) }
     }
 
-    fn waveform(&self, w: usize, path: impl Fn() -> String) -> Result<(), SceneError> {
-        if w < self.0.waveforms.len() {
-            return Ok(());
-        }
-        Err(SceneError::new(path(), format!("there is no waveform at place {w}")))
+    fn body(&self, i: usize) -> Result<(), SceneFault> {
+        if i < self.0.bodies.len() { Ok(()) } else { Err(SceneFault::NoBody(i)) }
     }
 
-    fn varying(&self, value: Varying, path: impl Fn() -> String) -> Result<(), SceneError> {
+    fn waveform(&self, w: usize) -> Result<(), SceneFault> {
+        if w < self.0.waveforms.len() { Ok(()) } else { Err(SceneFault::NoWaveform(w)) }
+    }
+
+    fn varying(&self, value: Varying) -> Result<(), SceneFault> {
         match value {
-            Varying::Constant(value) => finite(value, path),
-            Varying::Follows(w) => self.waveform(w, path),
+            Varying::Constant(value) => finite(value),
+            Varying::Follows(w) => self.waveform(w),
         }
     }
 }
 
-fn points(at: [Point; 2], path: impl Fn() -> String) -> Result<(), SceneError> {
-    at.iter().flat_map(|point| [point.x, point.z]).try_for_each(|value| finite(value, &path))
+fn points(at: [Point; 2]) -> Result<(), SceneFault> {
+    at.iter().flat_map(|point| [point.x, point.z]).try_for_each(finite)
 }
 
-fn finite(value: f64, path: impl Fn() -> String) -> Result<(), SceneError> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(SceneError::new(path(), format!("expected a finite number, got {value}")))
+fn finite(value: f64) -> Result<(), SceneFault> {
+    if value.is_finite() { Ok(()) } else { Err(SceneFault::NotFinite(value)) }
 }
 
-fn at_least_zero(value: f64, path: impl Fn() -> String) -> Result<(), SceneError> {
-    if value >= 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    Err(SceneError::new(path(), format!("expected a number of at least 0, got {value}")))
+fn at_least_zero(value: f64) -> Result<(), SceneFault> {
+    if value >= 0.0 && value.is_finite() { Ok(()) } else { Err(SceneFault::BelowZero(value)) }
 }

@@ -2,7 +2,7 @@
 
 use super::{Body, Contact, Free, Link, Load, Measure, Natural, Press, reach};
 use crate::scene::{self, ContactStart, Direction, EngineChoice, Named, Normal, Varying};
-use crate::{SceneError, Waveform};
+use crate::{Field, Part, SceneError, SceneFault, Waveform};
 use std::sync::Arc;
 use stickslip_contact::{
     Engine, FirstLoading, Interface, NormalGiven, Springs, SpringsError, TangentialGiven,
@@ -28,28 +28,27 @@ struct Indentations {
     first: f64,
 }
 
+/// What is wrong with which field of a contact.
+type Refused = (Field, SceneFault);
+
 /// A contact, without slot and scales, and its largest indentation.
 pub(super) fn build(
+    place: usize,
     Named { name, part }: &Named<scene::Contact>,
     around: &Surroundings<'_>,
 ) -> Result<(Contact, f64), SceneError> {
-    let path = |key: &str| format!("contacts.{name}.{key}");
+    let refused = |(field, fault): Refused| fault.of(Part::Contact(place), field);
     let [first, second] = part.between;
-    if first == second {
-        return Err(SceneError::new(path("between"), "a contact needs two different bodies"));
-    }
     let law = Interface::new(part.pair, part.profile.clone(), part.friction)
-        .map_err(|e| SceneError::new(path("friction"), e.to_string()))?;
-    let (press, known) = press(name, part, &law, around)?;
-    if let Some(reach) = law.profile().reach().filter(|reach| known.deepest >= *reach) {
-        let deepest = known.deepest;
-        let message =
-            format!("the indentation {deepest:.3e} m reaches beyond the sphere, which allows {reach:.3e} m");
-        return Err(SceneError::new(path("normal"), message).help("lower the load or enlarge the radius"));
+        .map_err(|error| refused((Field::Friction, error.into())))?;
+    let (press, known) = press(part, &law, around).map_err(refused)?;
+    let deepest = known.deepest;
+    if let Some(reach) = law.profile().reach().filter(|reach| deepest >= *reach) {
+        return Err(refused((Field::Normal, SceneFault::BeyondSphere { deepest, reach })));
     }
     let inert = part.friction == 0.0 || known.deepest <= 0.0;
-    let engine = engine(name, part, &law, known)?;
-    let start = start(name, part, &law, known.first)?;
+    let engine = engine(part, &law, known).map_err(refused)?;
+    let start = start(part, &law, known.first).map_err(refused)?;
     let mut u = Measure::between([(first, part.at[0]), (second, part.at[1])], Direction::X, around.bodies);
     u.constant -= around.at_start(&u) - start;
     let contact = Contact {
@@ -76,12 +75,7 @@ impl Surroundings<'_> {
     }
 }
 
-fn engine(
-    name: &str,
-    part: &scene::Contact,
-    law: &Interface,
-    known: Indentations,
-) -> Result<Engine, SceneError> {
+fn engine(part: &scene::Contact, law: &Interface, known: Indentations) -> Result<Engine, Refused> {
     let deepest = known.deepest;
     match part.engine {
         EngineChoice::Curve => Ok(Engine::Curve),
@@ -89,35 +83,28 @@ fn engine(
         EngineChoice::Springs { .. } if deepest <= 0.0 => Ok(Engine::Curve),
         EngineChoice::Springs { count, span } => {
             let span = span.unwrap_or_else(|| 2.0 * law.profile().radius(deepest));
-            let path = format!("contacts.{name}.engine.springs");
-            Ok(Engine::Row(Arc::new(row(&path, law, (count, span), known.first)?)))
+            Ok(Engine::Row(Arc::new(row(law, (count, span), known.first)?)))
         }
     }
 }
 
-const WIDE: &str = "leave the span out: the row is then as wide as the contact ever is";
-
 /// A row of springs that is wide enough for the contact's first indentation.
-fn row(path: &str, law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Springs, SceneError> {
-    let springs = Springs::new(law.profile(), count, span).map_err(|error| {
-        let key = if matches!(error, SpringsError::Count(_)) { "count" } else { "span" };
-        SceneError::new(format!("{path}.{key}"), error.to_string()).help(WIDE)
+fn row(law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Springs, Refused> {
+    let springs = Springs::new(law.profile(), count, span).map_err(|error| match error {
+        SpringsError::Count(_) => (Field::SpringCount, error.into()),
+        SpringsError::Span(_) | SpringsError::Narrow { .. } => (Field::Span, error.into()),
     })?;
     if first <= springs.reach() {
         return Ok(springs);
     }
     let width = 2.0 * law.profile().radius(first);
-    let message =
-        format!("expected at least the contact's width at the start, {width:.3e} m, got {span:e} m");
-    Err(SceneError::new(format!("{path}.span"), message).help(WIDE))
+    Err((Field::Span, SceneFault::Narrow { width, span }))
 }
 
 /// Displacement reached before the start, m.
-fn start(name: &str, part: &scene::Contact, law: &Interface, d: f64) -> Result<f64, SceneError> {
-    let path = || format!("contacts.{name}.start");
+fn start(part: &scene::Contact, law: &Interface, d: f64) -> Result<f64, Refused> {
     if part.start != ContactStart::Untouched && d <= 0.0 {
-        let message = "a contact that is open at the start cannot be loaded along x";
-        return Err(SceneError::new(path(), message).help("press it at t = 0, or leave it \"untouched\""));
+        return Err((Field::Start, SceneFault::Open));
     }
     match part.start {
         ContactStart::Untouched => Ok(0.0),
@@ -125,31 +112,25 @@ fn start(name: &str, part: &scene::Contact, law: &Interface, d: f64) -> Result<f
         ContactStart::Force(force) => {
             FirstLoading::solve(law, NormalGiven::Indentation(d), TangentialGiven::Force(force))
                 .map(|loading| loading.u)
-                .map_err(|e| SceneError::new(format!("{}.force", path()), e.to_string()))
+                .map_err(|error| (Field::StartForce, error.into()))
         }
     }
 }
 
 /// What presses a contact.
 fn press(
-    name: &str,
     part: &scene::Contact,
     law: &Interface,
     around: &Surroundings<'_>,
-) -> Result<(Press, Indentations), SceneError> {
-    let (key, value) = match part.normal {
-        Normal::Force(v) => ("force", v),
-        Normal::Indentation(v) => ("indentation", v),
-        Normal::Radius(v) => ("radius", v),
-        Normal::Coupled => return coupled(name, part, law, around),
+) -> Result<(Press, Indentations), Refused> {
+    let (field, value) = match part.normal {
+        Normal::Force(v) => (Field::NormalForce, v),
+        Normal::Indentation(v) => (Field::NormalIndentation, v),
+        Normal::Radius(v) => (Field::NormalRadius, v),
+        Normal::Coupled => return coupled(part, law, around),
     };
-    let path = format!("contacts.{name}.normal.{key}");
-    if key == "radius" && !law.profile().is_strictly_convex() {
-        return Err(SceneError::new(
-            path,
-            "the contact radius does not tell the indentation of this profile",
-        )
-        .help("give the normal force or the indentation"));
+    if field == Field::NormalRadius && !law.profile().is_strictly_convex() {
+        return Err((field, SceneFault::Undetermined));
     }
     let depth = |value: f64| match part.normal {
         Normal::Force(_) => law.indentation(value),
@@ -163,9 +144,8 @@ fn press(
             (low, high, around.waveforms[w].first().value)
         }
     };
-    if key != "indentation" && low < 0.0 {
-        let message = format!("expected a normal {key} that never falls below 0, got down to {low:e}");
-        return Err(SceneError::new(path, message));
+    if field != Field::NormalIndentation && low < 0.0 {
+        return Err((field, SceneFault::FallsBelowZero(low)));
     }
     let press = match (value, part.normal) {
         (Varying::Constant(v), _) => {
@@ -180,20 +160,15 @@ fn press(
 
 /// A contact pressed by the bodies' motion.
 fn coupled(
-    name: &str,
     part: &scene::Contact,
     law: &Interface,
     around: &Surroundings<'_>,
-) -> Result<(Press, Indentations), SceneError> {
+) -> Result<(Press, Indentations), Refused> {
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
     let mut d = Measure::between(ends, Direction::Z, around.bodies);
     d.constant -= part.gap;
     if d.is_constant() {
-        let message = "neither body moves along the normal: a coupled contact needs a z or a pitch that is free or \
-                       follows a waveform";
-        let help =
-            "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\"";
-        return Err(SceneError::new(format!("contacts.{name}.normal"), message).help(help));
+        return Err((Field::Normal, SceneFault::Unmoved));
     }
     let first = around.at_start(&d);
     let deepest = reach::deepest(law, f64::from(part.count.max(1)), &d, around);

@@ -2,7 +2,7 @@
 
 use super::{Contact, Link, Measure, Stroke};
 use crate::scene::Scene;
-use crate::{SceneError, Waveform};
+use crate::{Field, Part, SceneError, SceneFault, Waveform};
 
 /// Refuses dampers of links and contacts whose length jumps.
 pub(super) fn check(
@@ -13,9 +13,8 @@ pub(super) fn check(
 ) -> Result<(), SceneError> {
     let jumps = |w: &usize| waveforms[*w].has_jumps();
     let driven = |length: &Measure| length.driven.iter().map(|(w, _)| *w).find(jumps);
-    let refused = |part: String, w: usize| {
-        let message = format!("a damper cannot follow the jumps of waveform `{}`", scene.waveforms[w].name);
-        Err(SceneError::new(format!("{part}.damping"), message).help("give the waveform a flyback above 0"))
+    let refused = |part: Part, w: usize| {
+        Err(SceneFault::DampedJump(scene.waveforms[w].name.clone()).of(part, Field::Damping))
     };
     for (i, link) in links.iter().enumerate().filter(|(_, link)| link.damping > 0.0) {
         let stroke = match link.stroke {
@@ -23,16 +22,17 @@ pub(super) fn check(
             Stroke::Constant(_) => None,
         };
         if let Some(w) = driven(&link.elongation).or(stroke) {
-            let part = match scene.springs.get(i) {
-                Some(spring) => format!("springs.{}", spring.name),
-                None => format!("actuators.{}", scene.actuators[i - scene.springs.len()].name),
+            // The springs come first.
+            let part = match i.checked_sub(scene.springs.len()) {
+                None => Part::Spring(i),
+                Some(i) => Part::Actuator(i),
             };
             return refused(part, w);
         }
     }
-    for contact in contacts.iter().filter(|contact| contact.damping > 0.0) {
+    for (i, contact) in contacts.iter().enumerate().filter(|(_, contact)| contact.damping > 0.0) {
         if let Some(w) = driven(&contact.u) {
-            return refused(format!("contacts.{}", contact.name), w);
+            return refused(Part::Contact(i), w);
         }
     }
     Ok(())

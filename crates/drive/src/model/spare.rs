@@ -1,35 +1,59 @@
 //! What a model spares its runs.
 
-use super::{Contact, Link, Model, Stroke};
-use stickslip_contact::Engine;
+use super::{Contact, Link, Model, Press, Stroke};
+
+/// Parts of a scene that a model leaves out, by their places in the scene.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Spared {
+    /// Springs between bodies at rest.
+    pub springs: Vec<usize>,
+    /// Actuators between bodies at rest whose stroke is constant.
+    pub actuators: Vec<usize>,
+    /// Loads that the guides of their bodies carry.
+    pub loads: Vec<usize>,
+    /// Waveforms that nothing follows: their corners end no steps.
+    pub waveforms: Vec<usize>,
+}
+
+/// What sets the indentation of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pressing {
+    /// Nothing moves it: it is found once.
+    Constant,
+    /// It follows a waveform.
+    Followed,
+    /// It is solved from a waveform of the force or of the radius at every evaluation.
+    Solved,
+    /// The bodies' motion.
+    Bodies,
+}
 
 impl Model {
+    /// What of the scene no run will ever look at.
+    pub fn spared(&self) -> &Spared {
+        &self.spared
+    }
+
+    /// What sets the indentation of contact `index`.
+    pub fn pressing(&self, index: usize) -> Option<Pressing> {
+        Some(match self.contacts.get(index)?.press {
+            Press::Constant { .. } => Pressing::Constant,
+            Press::Indentation(_) => Pressing::Followed,
+            Press::Force(_) | Press::Radius(_) => Pressing::Solved,
+            Press::Coupled(_) => Pressing::Bodies,
+        })
+    }
+
+    /// Whether the force of contact `index` is a state of its own while the contact grows in full stick.
+    pub fn grows(&self, index: usize) -> bool {
+        self.contacts.get(index).is_some_and(|contact| contact.slot.is_some())
+    }
+
     /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts depends on
     /// where they are.
     pub fn travellers(&self) -> impl Iterator<Item = &str> {
         let travelling = self.free.iter().filter(|free| free.travels);
         travelling.map(|free| self.bodies[free.body].name.as_str())
-    }
-
-    /// Whether the stepper `event` may take the Nyström method, for no force depends on a velocity: no damper, no load whose
-    /// power does, no contact that grows along a curved path.
-    pub fn is_conservative(&self) -> bool {
-        let undamped = self.links.iter().all(|link| link.damping == 0.0);
-        let unbraked = self.contacts.iter().all(|contact| contact.damping == 0.0);
-        undamped && unbraked && self.loads.is_empty() && self.growing == 0 && !self.free.is_empty()
-    }
-
-    /// Whether the stepper `event` takes no steps between events: a single slider swings in closed form among paraboloids
-    /// under constant load that straight waveforms drag. Others are stepped through their partial slip.
-    pub fn swings(&self) -> bool {
-        let is_straight = |w: usize| self.waveforms[w].resolution() == f64::INFINITY;
-        let has_form = |contact: &&Contact| {
-            let is_curve = contact.engine == Engine::Curve && contact.law.profile().exponent() == Some(2.0);
-            is_curve && contact.is_constant() && contact.u.driven.iter().all(|(w, _)| is_straight(*w))
-        };
-        let mut pressed = self.contacts.iter().filter(|contact| !contact.is_never_pressed());
-        let is_single = self.free.len() == 1 && self.links.is_empty() && pressed.clone().next().is_some();
-        self.is_conservative() && is_single && pressed.all(|contact| has_form(&contact))
     }
 }
 

@@ -1,12 +1,14 @@
 //! Steps without located events: every accepted step is one chord of every contact.
 
-use super::output::{Grid, Looks};
-use super::steady::Steps;
-use super::watch::Watch;
+use super::bounds::Bounds;
+use super::horizon::Horizon;
+use super::ledger::Ledger;
+use super::output::Output;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
+use crate::method::Method;
 use crate::model::{Model, Motion};
-use crate::record::{self, Record};
+use crate::record::Record;
 use crate::state::{Layout, Mode, State};
 use crate::{Plan, RunError};
 use stickslip_contact::{ContactState, Segment};
@@ -16,15 +18,15 @@ pub(super) struct Chords<'a> {
     pub(super) model: &'a Model,
     pub(super) state: &'a mut State,
     pub(super) layout: Layout,
-    end: f64,
-    steps: Steps,
-    grid: Grid,
-    looks: Looks,
-    watch: Watch,
+    horizon: Horizon,
+    output: Output,
+    ledger: Ledger,
+    bounds: Bounds,
     record: &'a mut dyn Record,
     /// Sense of sliding and state of each contact after the last step.
     standings: Vec<(f64, ContactState)>,
-    row: Vec<f64>,
+    /// The contacts at the end of the step.
+    motions: Vec<Motion>,
 }
 
 impl<'a> Chords<'a> {
@@ -41,14 +43,15 @@ impl<'a> Chords<'a> {
         for mode in &mut state.modes {
             *mode = Mode::Whole { sense: 0.0 };
         }
-        let end = plan.duration;
-        let mut steps = Steps::of(model, plan);
-        steps.begin(state);
-        let grid = Grid::new(plan.every, state.t, end);
-        let looks = Looks::begin(model, state, record);
-        let watch = Watch::new(model, plan.limits);
+        let mut horizon = Horizon::new(model, plan);
+        horizon.steps.begin(state);
+        let mut output = Output::new(plan.every, layout);
+        output.set_out(state.t, horizon.end);
+        output.begin_looks(model, state, record);
+        let (ledger, bounds) = (Ledger::new(model, 0), Bounds::new(model, plan.limits));
         let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
-        Self { model, state, layout, end, steps, grid, looks, watch, record, standings, row: Vec::new() }
+        let motions = Vec::with_capacity(model.contacts.len());
+        Self { model, state, layout, horizon, output, ledger, bounds, record, standings, motions }
     }
 
     pub(super) fn equations(&self) -> Equations<'_> {
@@ -57,7 +60,7 @@ impl<'a> Chords<'a> {
 
     /// Whether the run is not at its end yet.
     pub(super) fn goes_on(&self) -> bool {
-        self.state.t < self.end
+        self.state.t < self.horizon.end
     }
 
     /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
@@ -76,11 +79,8 @@ impl<'a> Chords<'a> {
 
     /// Writes the first or the last row.
     pub(super) fn write_now(&mut self) {
-        self.grid.write_now(
-            &Equations::on(self.model, self.state, self.layout, true),
-            self.state,
-            self.record,
-        );
+        let eq = Equations::on(self.model, self.state, self.layout, true);
+        self.output.write_now(&eq, self.state, self.record);
     }
 
     /// Accepts the step that ends at t in y, or earlier where the run does.
@@ -98,11 +98,11 @@ impl<'a> Chords<'a> {
 
     /// Takes the steps of the drive that are over at t; where the run ends with one of them, its time and state.
     fn take_steps(&mut self, t: f64, y: &[f64]) -> Option<(f64, Vec<f64>)> {
-        while let Some(due) = self.steps.due(t) {
+        while let Some(due) = self.horizon.steps.due(t) {
             let step = Step { from: (self.state.t, &self.state.y), to: (t, y), free: self.layout.free };
-            if self.steps.take(0.0, step.value(self.steps.coordinate, due)) {
-                self.end = due;
-                self.grid.end_at(due);
+            if self.horizon.steps.take(0.0, step.value(self.horizon.steps.coordinate, due)) {
+                self.horizon.end = due;
+                self.output.end_at(due);
                 return Some((due, (0..y.len()).map(|i| step.value(i, due)).collect()));
             }
         }
@@ -112,44 +112,44 @@ impl<'a> Chords<'a> {
     /// Commits all contacts at time t in y.
     fn commit(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
         let eq = Equations::on(self.model, self.state, self.layout, true);
-        let motions: Vec<Motion> = self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])).collect();
-        for (c, (contact, motion)) in self.model.contacts.iter().zip(&motions).enumerate() {
-            let work = self.state.memories[c].commit(&contact.law, Segment::Straight(motion.apex()));
-            let work =
-                work.map_err(|source| RunError::Contact { t, contact: contact.name.clone(), source })?;
-            self.state.friction[c] += contact.count * work;
-        }
+        self.motions.clear();
+        self.motions.extend(self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])));
+        self.ledger.segments.clear();
+        let chords = self.motions.iter().map(|motion| Segment::Straight(motion.apex()));
+        self.ledger.segments.extend(chords.enumerate());
+        self.ledger.commit((self.model, self.layout), t, self.state)?;
         self.state.y.copy_from_slice(y);
         self.state.t = t;
         self.state.counts.steps += 1;
+        self.state.tally.step(Method::AskedFor);
         if self.record.wants_events() {
-            self.notice(&motions);
+            self.notice();
         }
-        self.watch.step(self.state, self.record)
+        self.bounds.step(self.state, self.record)
     }
 
     /// Rows and looks up to time t of the step that leads to `to`.
     fn write(&mut self, t: f64, to: (f64, &[f64])) {
         let eq = Equations::on(self.model, self.state, self.layout, true);
         let step = Step { from: (self.state.t, &self.state.y), to, free: self.layout.free };
-        while let Some(due) = self.grid.due(t) {
-            self.grid.write(&eq, self.state, due, &|i| step.value(i, due), self.record);
+        while let Some(due) = self.output.grid.due(t) {
+            self.output.grid.write(&eq, self.state, due, &|i| step.value(i, due), self.record);
         }
-        while let Some(due) = self.looks.due(t) {
+        while let Some(due) = self.output.looks.due(t) {
             let memories = self.model.contacts.iter().zip(&self.state.memories).map(|(contact, memory)| {
                 let apex = eq.motion(contact, due, |i| step.value(i, due)).apex();
                 let mut memory = memory.clone();
                 memory.commit(&contact.law, Segment::Straight(apex)).map(|_| memory)
             });
             let memories: Result<Vec<_>, _> = memories.collect();
-            self.looks.show(memories.as_deref().ok(), self.record);
+            self.output.looks.show(memories.as_deref().ok(), self.record);
         }
     }
 
     /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
     /// whether somebody watched.
-    fn notice(&mut self, motions: &[Motion]) {
-        for (c, motion) in motions.iter().enumerate() {
+    fn notice(&mut self) {
+        for (c, motion) in self.motions.iter().enumerate() {
             let contact = &self.model.contacts[c];
             let memory = &self.state.memories[c];
             let now = memory.preview(&contact.law, memory.apex()).state;
@@ -166,8 +166,7 @@ impl<'a> Chords<'a> {
             };
             let event = Event { t: self.state.t, source: Source::Contact(c), kind };
             let eq = Equations::on(self.model, self.state, self.layout, true);
-            record::fill(&eq, self.state, self.state.t, &|i| self.state.y[i], &mut self.row);
-            self.record.event(&event, &self.row);
+            self.output.event(&eq, self.state, &event, self.record);
         }
     }
 }

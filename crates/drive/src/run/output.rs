@@ -1,10 +1,69 @@
-//! What a run hands to its record beside events: rows on a regular grid, looks into the contacts.
+//! What a run hands to its record: rows on a regular grid, events, looks into the contacts.
 
 use crate::equations::Equations;
+use crate::event::Event;
 use crate::record::{self, Record};
-use crate::state::State;
+use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
+
+/// What a run hands to its record.
+pub(super) struct Output {
+    every: Option<f64>,
+    pub(super) grid: Grid,
+    pub(super) looks: Looks,
+    row: Vec<f64>,
+    /// Scratch: components of a moment, or their slopes.
+    pub(super) components: Vec<f64>,
+    /// Evaluations made for rows and looks only.
+    pub(super) evaluations: u64,
+}
+
+impl Output {
+    pub(super) fn new(every: Option<f64>, layout: Layout) -> Self {
+        let (row, components) = (Vec::new(), vec![0.0; layout.total()]);
+        let grid = Grid::new(None, 0.0, 0.0);
+        Self { every, grid, looks: Looks::NONE, row, components, evaluations: 0 }
+    }
+
+    /// Begins the rows of a run from one time to another, s.
+    pub(super) fn set_out(&mut self, from: f64, end: f64) {
+        self.grid = Grid::new(self.every, from, end);
+    }
+
+    /// Takes the first look.
+    pub(super) fn begin_looks(&mut self, model: &Model, state: &State, record: &mut dyn Record) {
+        self.looks = Looks::begin(model, state, record);
+    }
+
+    /// Whether a row or a look is due at t or before it.
+    #[inline(always)]
+    pub(super) fn due(&self, t: f64) -> bool {
+        self.grid.due(t).is_some() || self.looks.due(t).is_some()
+    }
+
+    /// Ends the rows earlier.
+    pub(super) fn end_at(&mut self, end: f64) {
+        self.grid.end_at(end);
+    }
+
+    /// Writes a row off the grid: the first and the last one.
+    pub(super) fn write_now(&mut self, equations: &Equations<'_>, state: &State, record: &mut dyn Record) {
+        self.grid.write_now(equations, state, record);
+    }
+
+    /// Writes an event and the row after it.
+    pub(super) fn event(
+        &mut self,
+        equations: &Equations<'_>,
+        state: &State,
+        event: &Event,
+        record: &mut dyn Record,
+    ) {
+        record::fill(equations, state, state.t, &|i| state.y[i], &mut self.row);
+        record.event(event, &self.row);
+    }
+}
 
 /// Rows due at multiples of an interval. The first and the last row are written by the run itself.
 pub(super) struct Grid {

@@ -8,7 +8,7 @@ use stickslip_contact::Profile;
 use stickslip_drive::scene::{
     Actuator, ContactStart, Coordinate, Normal, Scene, Side, Spring, Start, Varying,
 };
-use stickslip_drive::{Limits, Model, Plan, RunError, Shape, Stepper, Trace, run};
+use stickslip_drive::{Field, Limits, Model, Part, Plan, RunError, Shape, Stepper, Trace, run};
 
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(1)];
 
@@ -238,6 +238,6 @@ fn an_equilibrium_of_too_many_bodies_is_not_sought() {
     let start = |count: usize| Model::new(&chain(count)).unwrap().start(&event(1e-8, 1e-3));
     assert!(start(200).is_ok());
     let error = start(201).unwrap_err();
-    assert_eq!(error.path, "run.start");
-    assert_eq!(error.message, "expected at most 200 free bodies for an equilibrium, got 201");
+    assert_eq!((error.part, error.field), (Part::Run, Field::Start));
+    assert_eq!(error.fault.to_string(), "expected at most 200 free bodies for an equilibrium, got 201");
 }

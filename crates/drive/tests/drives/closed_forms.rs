@@ -10,7 +10,7 @@ use crate::parts::{
 use std::f64::consts::{PI, TAU};
 use stickslip_contact::{Pair, Profile};
 use stickslip_drive::scene::{Actuator, Contact, ContactStart, Gravity, Scene, Side, Spring, Start, Varying};
-use stickslip_drive::{EventKind, Harmonic, Model, Shape, Source, Stepper, Timing, Waveform};
+use stickslip_drive::{EventKind, Field, Harmonic, Model, Part, Shape, Source, Stepper, Timing, Waveform};
 
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(0)];
 const MU: f64 = 0.2;
@@ -315,8 +315,9 @@ fn no_equilibrium_beyond_the_limit_of_friction() {
     scene.loads.push(push(0, 1.1 * MU * FORCE));
     scene.start = Start::Equilibrium;
     let error = Model::new(&scene).unwrap().start(&event(1e-8, 1.0)).unwrap_err();
-    assert_eq!(error.path, "run.start");
-    assert!(error.message.contains("slider") && error.help.is_some(), "{error}");
+    assert_eq!((error.part, error.field), (Part::Run, Field::Start));
+    let message = error.fault.to_string();
+    assert!(message.contains("slider") && error.fault.advice().is_some(), "{error}");
     // A tenth of the limit stays unbalanced.
-    assert!(error.message.contains("e-2 N"), "{error}");
+    assert!(message.contains("e-2 N"), "{error}");
 }

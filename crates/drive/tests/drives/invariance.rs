@@ -5,12 +5,12 @@ use crate::parts::{Looker, damper, event, named, p1, piezo, plan, push, try_end}
 use proptest::{prelude::*, test_runner::RngSeed};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Load, Normal, Point, Scene, Side,
+    Axis, Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Load, Normal, Point, Scene, Side,
     Spring, Varying,
 };
 use stickslip_drive::{
-    Event, Limits, Model, Moments, Plan, Record, RunError, SceneError, Shape, State, Stepper, Timing, Trace,
-    Waveform, run,
+    Event, Field, Limits, Model, Moments, Part, Plan, Record, RunError, SceneError, SceneFault, Shape, State,
+    Stepper, Timing, Trace, Waveform, run,
 };
 
 const PERIOD: f64 = 1e-3;
@@ -198,37 +198,37 @@ fn jumping() -> Waveform {
 }
 
 #[test]
-fn errors_of_a_scene_name_the_key_that_is_wrong() {
+fn errors_of_a_scene_name_the_field_that_is_wrong() {
     type Change = fn(&mut Scene);
-    let cases: [(&str, Change); 13] = [
-        ("bodies.slider", |s| s.bodies[1].part.mass = None),
-        ("bodies.slider.mass", |s| s.bodies[1].part.mass = Some(0.0)),
-        ("bodies.slider.mass", |s| s.bodies[1].part.mass = Some(-1.0)),
-        ("bodies.slider.mass", |s| s.bodies[1].part.mass = Some(f64::NAN)),
-        ("bodies.slider.mass", |s| s.bodies[1].part.mass = Some(f64::INFINITY)),
-        ("contacts.ball.between", |s| s.contacts[0].part.between = [Side::Ground, Side::Ground]),
-        ("contacts.ball.friction", |s| s.contacts[0].part.friction = -0.2),
-        ("contacts.ball.friction", |s| s.contacts[0].part.friction = f64::NAN),
-        ("contacts.ball.normal.force", |s| {
+    let cases: [((Part, Field), Change); 13] = [
+        ((Part::Body(1), Field::Whole), |s| s.bodies[1].part.mass = None),
+        ((Part::Body(1), Field::Mass), |s| s.bodies[1].part.mass = Some(0.0)),
+        ((Part::Body(1), Field::Mass), |s| s.bodies[1].part.mass = Some(-1.0)),
+        ((Part::Body(1), Field::Mass), |s| s.bodies[1].part.mass = Some(f64::NAN)),
+        ((Part::Body(1), Field::Mass), |s| s.bodies[1].part.mass = Some(f64::INFINITY)),
+        ((Part::Contact(0), Field::Between), |s| s.contacts[0].part.between = [Side::Ground, Side::Ground]),
+        ((Part::Contact(0), Field::Friction), |s| s.contacts[0].part.friction = -0.2),
+        ((Part::Contact(0), Field::Friction), |s| s.contacts[0].part.friction = f64::NAN),
+        ((Part::Contact(0), Field::NormalForce), |s| {
             s.contacts[0].part.normal = Normal::Force(Varying::Constant(-1.0));
         }),
-        ("contacts.ball.normal.radius", |s| {
+        ((Part::Contact(0), Field::NormalRadius), |s| {
             s.contacts[0].part.profile = Profile::flat(1e-4).unwrap();
             s.contacts[0].part.normal = Normal::Radius(Varying::Constant(1e-5));
         }),
-        ("contacts.ball.normal", |s| {
+        ((Part::Contact(0), Field::Normal), |s| {
             s.contacts[0].part.profile = Profile::sphere(1e-6).unwrap();
             s.contacts[0].part.normal = Normal::Force(Varying::Constant(100.0));
         }),
-        ("contacts.ball.engine.springs.count", |s| {
+        ((Part::Contact(0), Field::SpringCount), |s| {
             s.contacts[0].part.engine = EngineChoice::Springs { count: 0, span: None };
         }),
-        ("contacts.ball.start.force", |s| s.contacts[0].part.start = ContactStart::Force(0.2)),
+        ((Part::Contact(0), Field::StartForce), |s| s.contacts[0].part.start = ContactStart::Force(0.2)),
     ];
-    for (path, change) in cases {
+    for (place, change) in cases {
         let error = broken(change).unwrap_err();
-        assert_eq!(error.path, path, "{error}");
-        assert!(!error.message.is_empty());
+        assert_eq!((error.part, error.field), place, "{error}");
+        assert!(!error.fault.to_string().is_empty());
     }
 }
 
@@ -239,12 +239,12 @@ fn jumps_are_refused_where_nothing_can_follow_them() {
     let model = Model::new(&scene).unwrap();
     for stepper in steppers().into_iter().skip(1) {
         let error = model.start(&plan(stepper, PERIOD)).unwrap_err();
-        assert_eq!(error.path, "run.stepper");
+        assert_eq!((error.part, error.field), (Part::Run, Field::Stepper));
     }
     scene.springs.push(named("drag", damper([Side::Body(0), Side::Body(1)], 1.0)));
     let error = Model::new(&scene).unwrap_err();
-    assert_eq!(error.path, "springs.drag.damping");
-    assert!(error.message.contains("drive"), "{error}");
+    assert_eq!((error.part, error.field), (Part::Spring(0), Field::Damping));
+    assert_eq!(error.fault, SceneFault::DampedJump("drive".to_owned()), "{error}");
 }
 
 #[test]
@@ -267,46 +267,46 @@ fn places_that_do_not_exist_are_refused() {
 #[test]
 fn numbers_out_of_range_are_refused() {
     type Change = fn(&mut Scene);
-    let cases: [(&str, Change); 14] = [
-        ("contacts.ball.count", |s| s.contacts[0].part.count = 0),
-        ("contacts.ball.normal.force", |s| {
+    let cases: [((Part, Field), Change); 14] = [
+        ((Part::Contact(0), Field::Count), |s| s.contacts[0].part.count = 0),
+        ((Part::Contact(0), Field::NormalForce), |s| {
             s.contacts[0].part.normal = Normal::Force(Varying::Constant(f64::NAN));
         }),
-        ("contacts.ball.normal.force", |s| {
+        ((Part::Contact(0), Field::NormalForce), |s| {
             s.contacts[0].part.normal = Normal::Force(Varying::Constant(f64::INFINITY));
         }),
-        ("contacts.ball.normal.indentation", |s| {
+        ((Part::Contact(0), Field::NormalIndentation), |s| {
             s.contacts[0].part.normal = Normal::Indentation(Varying::Constant(f64::NAN));
         }),
-        ("contacts.ball.start.displacement", |s| {
+        ((Part::Contact(0), Field::StartDisplacement), |s| {
             s.contacts[0].part.start = ContactStart::Displacement(f64::NAN);
         }),
-        ("bodies.slider.start.x", |s| s.bodies[1].part.x.position = f64::NAN),
-        ("bodies.slider.start.vx", |s| s.bodies[1].part.x.velocity = f64::INFINITY),
-        ("loads[0].x", |s| s.loads.push(push(1, f64::NAN))),
-        ("gravity.acceleration", |s| s.gravity.acceleration = f64::NAN),
-        ("springs.tie.damping", |s| {
+        ((Part::Body(1), Field::Position(Axis::X)), |s| s.bodies[1].part.x.position = f64::NAN),
+        ((Part::Body(1), Field::Velocity(Axis::X)), |s| s.bodies[1].part.x.velocity = f64::INFINITY),
+        ((Part::Load(0), Field::Component(Axis::X)), |s| s.loads.push(push(1, f64::NAN))),
+        ((Part::Gravity, Field::Acceleration), |s| s.gravity.acceleration = f64::NAN),
+        ((Part::Spring(0), Field::Damping), |s| {
             s.springs.push(named("tie", damper([Side::Ground, Side::Body(1)], f64::NAN)));
         }),
-        ("springs.tie.damping", |s| {
+        ((Part::Spring(0), Field::Damping), |s| {
             s.springs.push(named("tie", damper([Side::Ground, Side::Body(1)], -1.0)));
         }),
-        ("springs.tie.stiffness", |s| {
+        ((Part::Spring(0), Field::Stiffness), |s| {
             s.springs
                 .push(named("tie", Spring { stiffness: -1.0, ..damper([Side::Ground, Side::Body(1)], 0.0) }));
         }),
-        ("springs.tie.preload", |s| {
+        ((Part::Spring(0), Field::Preload), |s| {
             s.springs.push(named(
                 "tie",
                 Spring { preload: f64::NAN, ..damper([Side::Ground, Side::Body(1)], 0.0) },
             ));
         }),
-        ("gravity.incline", |s| s.gravity.incline = f64::INFINITY),
+        ((Part::Gravity, Field::Incline), |s| s.gravity.incline = f64::INFINITY),
     ];
-    for (path, change) in cases {
+    for (place, change) in cases {
         match broken(change) {
-            Ok(_) => panic!("{path}: taken"),
-            Err(error) => assert_eq!(error.path, path, "{error}"),
+            Ok(_) => panic!("{place:?}: taken"),
+            Err(error) => assert_eq!((error.part, error.field), place, "{error}"),
         }
     }
 }
@@ -317,17 +317,17 @@ fn plans_out_of_range_are_refused() {
     let model = Model::new(&p1()).unwrap();
     for bad in [0.0, -1e-6, f64::NAN, f64::INFINITY] {
         let plans = [
-            ("run.duration", Plan { duration: bad, ..good }),
-            ("output.every", Plan { every: Some(bad), ..good }),
-            ("run.stepper.event.tolerance", event(bad, PERIOD)),
-            ("run.stepper.verlet.step", plan(Stepper::Verlet { step: bad }, PERIOD)),
-            ("run.stepper.rk4.step", plan(Stepper::Rk4 { step: bad }, PERIOD)),
-            ("run.stepper.dopri5.tolerance", plan(Stepper::Dopri5 { tolerance: bad }, PERIOD)),
+            ((Part::Run, Field::Duration), Plan { duration: bad, ..good }),
+            ((Part::Run, Field::Interval), Plan { every: Some(bad), ..good }),
+            ((Part::Run, Field::Tolerance), event(bad, PERIOD)),
+            ((Part::Run, Field::Step), plan(Stepper::Verlet { step: bad }, PERIOD)),
+            ((Part::Run, Field::Step), plan(Stepper::Rk4 { step: bad }, PERIOD)),
+            ((Part::Run, Field::Tolerance), plan(Stepper::Dopri5 { tolerance: bad }, PERIOD)),
         ];
-        for (path, plan) in plans {
+        for (place, plan) in plans {
             match model.start(&plan) {
-                Ok(_) => panic!("{path} = {bad}: taken"),
-                Err(error) => assert_eq!(error.path, path, "{error}"),
+                Ok(_) => panic!("{place:?} = {bad}: taken"),
+                Err(error) => assert_eq!((error.part, error.field), place, "{error}"),
             }
         }
     }

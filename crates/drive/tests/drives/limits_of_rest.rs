@@ -7,16 +7,17 @@ use crate::stages::{
 };
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Body, Contact, Coordinate, EngineChoice, Named, Point, Scene, Side, Varying};
-use stickslip_drive::{EventKind, Shape};
+use stickslip_drive::{EventKind, Field, Part, Shape};
 
 const HEIGHT: f64 = 6e-3;
 
 /// The only error there is: what has no equilibrium, and what stays unbalanced.
 fn lost(scene: &Scene) -> (String, f64) {
     let error = rest(scene).unwrap_err();
-    assert_eq!(error.path, "run.start");
-    assert!(error.help.is_some());
-    let (what, amount) = error.message.split_once(": ").unwrap();
+    assert_eq!((error.part, error.field), (Part::Run, Field::Start));
+    assert!(error.fault.advice().is_some());
+    let message = error.fault.to_string();
+    let (what, amount) = message.split_once(": ").unwrap();
     (what.to_owned(), amount.split(' ').next().unwrap().parse().unwrap())
 }
 
@@ -133,8 +134,8 @@ fn rows_of_springs_come_to_the_same_rest() {
         assert!((a - b).abs() < 1e-6 * a, "{a:e} {b:e}");
     }
     let short = rest(&on_rows(scene, Some(1e-6))).unwrap_err();
-    assert_eq!(short.path, "contacts.foot0.engine");
-    assert!(short.message.starts_with("in static equilibrium the indentation"), "{short}");
+    assert_eq!((short.part, short.field), (Part::Contact(0), Field::Engine));
+    assert!(short.fault.to_string().starts_with("in static equilibrium the indentation"), "{short}");
 }
 
 /// A stage on an incline that calls for half of what friction can hold.

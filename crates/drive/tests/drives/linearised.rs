@@ -4,7 +4,7 @@ use crate::parts::{contact, damper, event, foot_and_slider, free, named, p1, pla
 use nalgebra::{DMatrix, DVector};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Body, Coordinate, Normal, Scene, Side, Spring, Varying};
-use stickslip_drive::{Indentations, Linearised, Model, Shape, State, Stepper};
+use stickslip_drive::{Field, Indentations, Linearised, Model, Part, Shape, State, Stepper};
 use stickslip_stepper::{FixedStep, Rk4, System, Verlet};
 
 const FOOT: Side = Side::Body(0);
@@ -213,9 +213,10 @@ fn a_step_beyond_the_longest_is_refused_before_the_run() {
     let limit = 2.0 / (stuck(1e-3, 1.0) / 0.02).sqrt();
     assert!(model.start(&plan(Stepper::Verlet { step: 0.999 * limit }, 1.0)).is_ok());
     let error = model.start(&plan(Stepper::Verlet { step: 1.001 * limit }, 1.0)).unwrap_err();
-    assert_eq!(error.path, "run.stepper.verlet.step");
-    assert!(error.message.starts_with(&format!("expected less than {limit:.3e} s")), "{}", error.message);
+    assert_eq!((error.part, error.field), (Part::Run, Field::Step));
+    let message = error.fault.to_string();
+    assert!(message.starts_with(&format!("expected less than {limit:.3e} s")), "{message}");
     let error = model.start(&plan(Stepper::Rk4 { step: 1.001 * 2.0_f64.sqrt() * limit }, 1.0)).unwrap_err();
-    assert_eq!(error.path, "run.stepper.rk4.step");
+    assert_eq!((error.part, error.field), (Part::Run, Field::Step));
     assert!(model.start(&event(1e-8, 1.0)).is_ok());
 }

@@ -6,7 +6,7 @@ use stickslip_drive::scene::{
     Axis, Body, Contact, ContactStart, Coordinate, Direction, Gravity, Load, Normal, Point, Scene, Side,
     Spring, Start, Varying,
 };
-use stickslip_drive::{Model, SceneError, Shape, State};
+use stickslip_drive::{Field, Model, Part, SceneError, Shape, State};
 
 const MASS: f64 = 0.02;
 const GROUND_BLOCK: [Side; 2] = [Side::Ground, Side::Body(0)];
@@ -47,11 +47,11 @@ fn changed(change: Change) -> Scene {
     scene
 }
 
-fn refused(change: Change, path: &str, words: &str) {
+fn refused(change: Change, place: (Part, Field), words: &str) {
     let error = start(&changed(change)).map(|_| ()).unwrap_err();
-    assert_eq!(error.path, path, "{error}");
-    assert!(error.message.contains(words), "{error}");
-    assert!(error.help.is_some_and(|help| !help.is_empty()), "{}", error.message);
+    assert_eq!((error.part, error.field), place, "{error}");
+    assert!(error.fault.to_string().contains(words), "{error}");
+    assert!(error.fault.advice().is_some_and(|advice| !advice.is_empty()), "{error}");
 }
 
 fn accepted(change: Change) -> (Model, State) {
@@ -65,14 +65,14 @@ fn spring(direction: Direction, x: f64) -> Spring {
 
 #[test]
 fn a_free_z_that_nothing_holds_is_refused() {
-    let (path, words) = ("bodies.block.z", "nothing holds z, which is free");
+    let (place, words) = ((Part::Body(0), Field::Coordinate(Axis::Z)), "nothing holds z, which is free");
     let fixed: Change = |s| {
         s.bodies[0].part.pitch = Coordinate::default();
         for contact in &mut s.contacts {
             contact.part.normal = Normal::Force(Varying::Constant(1.0));
         }
     };
-    refused(fixed, path, words);
+    refused(fixed, place, words);
     // A preload without stiffness does not hold, nor does a spring along x.
     refused(
         |s| {
@@ -82,7 +82,7 @@ fn a_free_z_that_nothing_holds_is_refused() {
             s.springs
                 .push(named("weight", Spring { stiffness: 0.0, preload: 1.0, ..spring(Direction::Z, 0.0) }));
         },
-        path,
+        place,
         words,
     );
     accepted(|s| {
@@ -96,13 +96,14 @@ fn a_free_z_that_nothing_holds_is_refused() {
 
 #[test]
 fn a_free_pitch_that_nothing_holds_is_refused() {
-    let (path, words) = ("bodies.block.pitch", "nothing holds pitch, which is free");
+    let (place, words) =
+        ((Part::Body(0), Field::Coordinate(Axis::Pitch)), "nothing holds pitch, which is free");
     refused(
         |s| {
             s.contacts.truncate(1);
             s.contacts[0].part.at = [Point::default(); 2];
         },
-        path,
+        place,
         words,
     );
     // Without friction the contact below pushes through the reference point.
@@ -112,7 +113,7 @@ fn a_free_pitch_that_nothing_holds_is_refused() {
             s.contacts[0].part.at[1].x = 0.0;
             s.contacts[0].part.friction = 0.0;
         },
-        path,
+        place,
         words,
     );
     let tied: Change = |s| {
@@ -125,25 +126,25 @@ fn a_free_pitch_that_nothing_holds_is_refused() {
 
 #[test]
 fn what_is_missing_is_named() {
-    refused(|s| s.bodies[0].part.mass = None, "bodies.block", "needs a mass");
-    refused(|s| s.bodies[0].part.inertia = None, "bodies.block", "needs a moment of inertia");
+    refused(|s| s.bodies[0].part.mass = None, (Part::Body(0), Field::Whole), "needs a mass");
+    refused(|s| s.bodies[0].part.inertia = None, (Part::Body(0), Field::Whole), "needs a moment of inertia");
     let no_partner: Change = |s| {
         s.bodies[0].part.z = Coordinate::default();
         s.bodies[0].part.pitch = Coordinate::default();
     };
-    refused(no_partner, "contacts.left.normal", "neither body moves along the normal");
+    refused(no_partner, (Part::Contact(0), Field::Normal), "neither body moves along the normal");
     let open: Change = |s| {
         s.start = Start::Given;
         s.contacts[0].part.gap = 1e-6;
         s.contacts[0].part.start = ContactStart::Force(1e-3);
     };
-    refused(open, "contacts.left.start", "open at the start");
+    refused(open, (Part::Contact(0), Field::Start), "open at the start");
 }
 
 #[test]
 fn a_sphere_that_the_loads_press_beyond_its_equator_is_refused() {
     let small: Change = |s| s.contacts[1].part.profile = Profile::sphere(1e-9).unwrap();
-    refused(small, "contacts.right.normal", "beyond the sphere");
+    refused(small, (Part::Contact(1), Field::Normal), "beyond the sphere");
 }
 
 /// A foot that jumps below a contact whose stuck springs are damped: an impulse without end.
@@ -155,7 +156,11 @@ fn a_damped_contact_cannot_follow_a_jump() {
         s.contacts[0].part.between[0] = Side::Body(1);
         s.contacts[0].part.damping = 1e-6;
     };
-    refused(damped, "contacts.left.damping", "a damper cannot follow the jumps of waveform `drive`");
+    refused(
+        damped,
+        (Part::Contact(0), Field::Damping),
+        "a damper cannot follow the jumps of waveform `drive`",
+    );
     let mut scene = changed(damped);
     scene.contacts[0].part.damping = 0.0;
     start(&scene).unwrap();
@@ -182,8 +187,11 @@ fn a_missing_equilibrium_names_its_coordinate() {
         let mut scene = block();
         scene.loads.push(load);
         let error = start(&scene).map(|_| ()).unwrap_err();
-        assert_eq!(error.path, "run.start");
-        assert!(error.message.contains(&format!("`block` has no static equilibrium {way}")), "{error}");
+        assert_eq!((error.part, error.field), (Part::Run, Field::Start));
+        assert!(
+            error.fault.to_string().contains(&format!("`block` has no static equilibrium {way}")),
+            "{error}"
+        );
     }
     for load in
         [push(0.19 * weight, 0.0, 0.0), push(0.0, 0.99 * weight, 0.0), push(0.0, 0.0, 7.9e-3 * weight)]

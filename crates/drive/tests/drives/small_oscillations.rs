@@ -12,7 +12,7 @@ use crate::stages::{
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use std::f64::consts::TAU;
 use stickslip_drive::scene::{Scene, Start};
-use stickslip_drive::{Model, Plan, Stepper};
+use stickslip_drive::{Field, Model, Part, Plan, SceneFault, Stepper};
 
 const HEIGHT: f64 = 6e-3;
 const STICKY: f64 = 1000.0;
@@ -227,5 +227,7 @@ fn verlet_stays_bounded_below_the_longest_step_and_is_refused_beyond_it() {
     assert!(most < 1e-9 * start[1].abs(), "{most:e}");
     let error =
         Model::new(&scene).unwrap().start(&Plan { stepper: Stepper::Verlet { step: 1.02 * limit }, ..plan });
-    assert_eq!(error.unwrap_err().path, "run.stepper.verlet.step");
+    let error = error.unwrap_err();
+    assert_eq!((error.part, error.field), (Part::Run, Field::Step));
+    assert!(matches!(error.fault, SceneFault::Unstable { .. }), "{error}");
 }

@@ -87,19 +87,15 @@ fn plan(periods: f64, stepper: Stepper, every: Option<f64>) -> Plan {
     Plan { duration: periods * PERIOD, stepper, limits: Limits::default(), every, until_steady: None }
 }
 
-fn from_rest(
-    size: f64,
-    scene: Result<Scene, stickslip_drive::SceneError>,
-    plan: Plan,
-) -> Result<Point, String> {
-    let model = scene.and_then(|scene| Model::new(&scene)).map_err(|error| error.to_string())?;
+fn from_rest(size: f64, scene: Result<Scene, String>, plan: Plan) -> Result<Point, String> {
+    let model = Model::new(&scene?).map_err(|error| error.to_string())?;
     Point::new(size, model, plan)
 }
 
 /// A contact that remembers shrinking swings, measured while a smaller one goes on; its size is the number of corners of its
 /// memory.
 fn swung(swings: u32) -> Result<Point, String> {
-    let (scene, from) = remembering(swings, INNER).map_err(|error| error.to_string())?;
+    let (scene, from) = remembering(swings, INNER)?;
     let model = Model::new(&scene).map_err(|error| error.to_string())?;
     let before = Plan { duration: from, ..plan(0.0, EVENT, None) };
     let mut state = model.start(&before).map_err(|error| error.to_string())?;

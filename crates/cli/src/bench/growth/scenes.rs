@@ -4,7 +4,7 @@ use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{
     Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Side, Varying,
 };
-use stickslip_drive::{Scene, SceneError, Shape, Timing, Waveform};
+use stickslip_drive::{Scene, Shape, Timing, Waveform, WaveformError};
 
 /// Period of the drive, s.
 pub(super) const PERIOD: f64 = 1e-3;
@@ -17,7 +17,7 @@ const INNER: f64 = 5e-9;
 const HEAVY: f64 = 1e3;
 
 /// P1 with so many sliders, each on so many contacts of its own that share 1 N, on this engine.
-pub(super) fn drive(sliders: u32, contacts: u32, engine: EngineChoice) -> Result<Scene, SceneError> {
+pub(super) fn drive(sliders: u32, contacts: u32, engine: EngineChoice) -> Result<Scene, String> {
     let shape = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1 * PERIOD };
     let mut scene = with_foot(Waveform::new(shape, Timing::every(PERIOD)))?;
     for slider in 0..sliders {
@@ -35,7 +35,7 @@ pub(super) fn drive(sliders: u32, contacts: u32, engine: EngineChoice) -> Result
 
 /// A heavy slider on a foot that swings ever less, so many times, and then by its last swing for ever; and the time at which
 /// that begins, s.
-pub(super) fn remembering(swings: u32, inner: u32) -> Result<(Scene, f64), SceneError> {
+pub(super) fn remembering(swings: u32, inner: u32) -> Result<(Scene, f64), String> {
     let half = 0.5 * PERIOD;
     let outer = |k: u32| OUTER.0 + (OUTER.1 - OUTER.0) * f64::from(k) / f64::from(swings.max(2) - 1);
     let amplitudes = (0..swings).map(outer).chain((0..2 * inner).map(|_| INNER));
@@ -49,8 +49,8 @@ pub(super) fn remembering(swings: u32, inner: u32) -> Result<(Scene, f64), Scene
     Ok((scene, f64::from(swings) * half))
 }
 
-fn with_foot(waveform: Result<Waveform, stickslip_drive::WaveformError>) -> Result<Scene, SceneError> {
-    let waveform = waveform.map_err(|error| fault("waveforms.drive", error.to_string()))?;
+fn with_foot(waveform: Result<Waveform, WaveformError>) -> Result<Scene, String> {
+    let waveform = waveform.map_err(|error| error.to_string())?;
     Ok(Scene {
         waveforms: vec![named("drive".to_owned(), waveform)],
         bodies: vec![named("foot".to_owned(), Body { x: Coordinate::follows(0), ..Body::default() })],
@@ -63,10 +63,9 @@ fn free(mass: f64) -> Body {
 }
 
 /// A steel ball between the foot and a body.
-fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Result<Contact, SceneError> {
-    let steel = Material::new(210e9, 0.3).map_err(|error| fault("materials.steel", error.to_string()))?;
-    let profile =
-        Profile::paraboloid(radius).map_err(|error| fault("contacts.ball.profile", error.to_string()))?;
+fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Result<Contact, String> {
+    let steel = Material::new(210e9, 0.3).map_err(|error| error.to_string())?;
+    let profile = Profile::paraboloid(radius).map_err(|error| error.to_string())?;
     Ok(Contact {
         between: [Side::Body(0), Side::Body(body)],
         at: [Point::default(); 2],
@@ -80,10 +79,6 @@ fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Resul
         engine,
         count: 1,
     })
-}
-
-fn fault(path: &str, message: String) -> SceneError {
-    SceneError { path: path.to_owned(), message, help: None }
 }
 
 fn named<T>(name: String, part: T) -> Named<T> {

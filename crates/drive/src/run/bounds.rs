@@ -1,10 +1,8 @@
 //! Guards against endless work.
 
-use crate::model::Contact;
 use crate::record::Record;
 use crate::{EventKind, Limits, Model, RunError, State};
 use std::time::Instant;
-use stickslip_contact::Engine;
 
 /// Events closer together than this part of a natural period count as accumulating …
 const ZENO_WINDOW: f64 = 1e-4;
@@ -16,20 +14,16 @@ const STRIDE: u64 = 1024;
 const SPRINGS_PER_STEP: usize = 1000;
 
 /// Watches limits, the clock, and events that accumulate.
-pub(super) struct Watch {
+pub(super) struct Bounds {
     limits: Limits,
     begun: Instant,
     stride: u64,
     windows: Vec<(f64, u32)>,
 }
 
-impl Watch {
+impl Bounds {
     pub(super) fn new(model: &Model, limits: Limits) -> Self {
-        let springs = |c: &Contact| match &c.engine {
-            Engine::Curve => 0,
-            Engine::Row(springs) => springs.count(),
-        };
-        let springs: usize = model.contacts.iter().map(springs).sum();
+        let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();
         let windows = vec![(f64::NEG_INFINITY, 0); model.contacts.len()];
         Self { limits, begun: Instant::now(), stride, windows }

@@ -1,12 +1,10 @@
 //! Finding the first guard that falls inside a step.
 
-use super::{Moving, Run};
-use crate::Model;
+use super::watch::{Moving, Watch};
 use crate::equations::Equations;
 use crate::guard::{Guard, NEARNESS};
-use crate::interval::{Interval, Steady};
+use crate::interval::Steady;
 use crate::model::{Contact, Motion};
-use crate::state::State;
 use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, End, Point, root, root_near};
 
 /// A guard of a contact: of a steady one a straight function of the state, of any other one a function of its motion.
@@ -25,13 +23,23 @@ pub(super) struct Fall<'e> {
     watched: Watched<'e>,
 }
 
+/// What is looked through: the step tried, and the contacts at both its ends.
+struct Search<'r, 'e, A> {
+    from: &'r [Moving],
+    to: &'r [Moving],
+    tolerance: f64,
+    solver: &'r mut A,
+    eq: &'r Equations<'e>,
+}
+
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl<'e> Watched<'e> {
     /// Does something with the guards of all contacts that can end the interval.
     #[inline(always)]
-    fn each(model: &'e Model, interval: &'e Interval<'e>, state: &State, mut act: impl FnMut(Self)) {
+    fn each(eq: &Equations<'e>, mut act: impl FnMut(Self)) {
+        let Some(interval) = eq.interval else { return };
         for steady in &interval.steady {
             let Steady { index, contact, .. } = *steady;
             for &guard in steady.guards {
@@ -39,52 +47,83 @@ impl<'e> Watched<'e> {
             }
         }
         for index in interval.unsteady() {
-            let contact = &model.contacts[index];
-            for &guard in Guard::of(contact, &state.modes[index]) {
+            let contact = &eq.model.contacts[index];
+            for &guard in Guard::of(contact, &eq.modes[index]) {
                 act(Self { index, contact, guard, steady: None });
             }
         }
     }
 }
 
-impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+impl Watch {
     /// The earliest fall in the step just attempted, on its dense output.
     #[inline(always)]
-    pub(super) fn first_fall<'e>(&mut self, eq: &Equations<'e>, state: &State) -> Option<Fall<'e>> {
+    pub(super) fn first_fall<'e, A: for<'q> Attempt<Equations<'q>>>(
+        &self,
+        solver: &mut A,
+        eq: &Equations<'e>,
+    ) -> Option<Fall<'e>> {
+        let Self { from, to, tolerance, .. } = self;
+        Search { from, to, tolerance: *tolerance, solver, eq }.first_fall()
+    }
+
+    /// The guard that ends the step, whatever its last bit says, and all others that are down or as good as down there:
+    /// simultaneous events are one.
+    pub(super) fn collect_fallen<'e, A: for<'q> Attempt<Equations<'q>>>(
+        &mut self,
+        solver: &mut A,
+        eq: &Equations<'e>,
+        fall: Fall<'e>,
+    ) {
+        let Self { from, to, tolerance, fired } = self;
+        let search = Search { from, to, tolerance: *tolerance, solver, eq };
+        fired.push((fall.watched.index, fall.watched.guard));
+        Watched::each(eq, |watched| {
+            let known = fired.iter().any(|(c, _)| *c == watched.index);
+            if !known && search.falls_too(watched) {
+                fired.push((watched.index, watched.guard));
+            }
+        });
+    }
+}
+
+impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
+    /// The earliest fall in the step just attempted, on its dense output.
+    #[inline(always)]
+    fn first_fall(&mut self) -> Option<Fall<'e>> {
         let mut first: Option<Fall<'e>> = None;
-        Watched::each(eq.model, eq.interval?, state, |watched| {
-            let g1 = self.at_end(state, watched);
-            let low = if g1 < 0.0 && self.has_fallen(state, watched, g1) {
+        Watched::each(self.eq, |watched| {
+            let g1 = self.at_end(watched);
+            let low = if g1 < 0.0 && self.has_fallen(watched, g1) {
                 Some((self.solver.span().end_time, g1))
             } else {
-                self.dip(eq, state, watched, g1)
+                self.dip(watched, g1)
             };
             if let Some(low) = low {
-                let t = self.fall(eq, state, watched, low);
+                let t = self.fall(watched, low);
                 if first.is_none_or(|first| t < first.t) {
                     first = Some(Fall { t, watched });
                 }
             }
         });
-        first.map(|first| self.before(eq, state, first))
+        first.map(|first| self.before(first))
     }
 
     /// Whether a guard with the value `g` later in the step has fallen below its deadband.
-    fn has_fallen(&self, state: &State, watched: Watched<'_>, g: f64) -> bool {
-        g < -self.bands(watched).0 && g < self.at_begin(state, watched)
+    fn has_fallen(&self, watched: Watched<'_>, g: f64) -> bool {
+        g < -self.bands(watched).0 && g < self.at_begin(watched)
     }
 
     /// A guard that is up at both ends of the step may be down where another one falls: the piece of memory that an
     /// edge has used up before it turns back. Then that one comes first.
-    fn before<'e>(&mut self, eq: &Equations<'e>, state: &State, mut first: Fall<'e>) -> Fall<'e> {
-        let Some(interval) = eq.interval else { return first };
-        Watched::each(eq.model, interval, state, |watched| {
+    fn before(&mut self, mut first: Fall<'e>) -> Fall<'e> {
+        Watched::each(self.eq, |watched| {
             if (watched.index, watched.guard) == (first.watched.index, first.watched.guard) {
                 return;
             }
-            let g = self.inside(eq, state, watched, first.t);
-            if g < 0.0 && self.has_fallen(state, watched, g) {
-                let t = self.fall(eq, state, watched, (first.t, g));
+            let g = self.inside(watched, first.t);
+            if g < 0.0 && self.has_fallen(watched, g) {
+                let t = self.fall(watched, (first.t, g));
                 if t < first.t {
                     first = Fall { t, watched };
                 }
@@ -95,15 +134,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// A guard that falls and returns inside the step: the time and value of its lowest point found.
     #[inline(always)]
-    fn dip<'e>(
-        &mut self,
-        eq: &Equations<'e>,
-        state: &State,
-        watched: Watched<'e>,
-        g1: f64,
-    ) -> Option<(f64, f64)> {
+    fn dip(&mut self, watched: Watched<'e>, g1: f64) -> Option<(f64, f64)> {
         if watched.contact.press.waveform().is_some() {
-            return self.looks(eq, state, watched);
+            return self.looks(watched);
         }
         match watched.guard {
             // It rises again only after the edge has turned, and then that comes first.
@@ -112,55 +145,49 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
                 let slope = watched.contact.law.stick_slope();
                 let closes = |at: &Motion| at.dd < 0.0 && at.du.abs() < -slope * at.dd;
                 let (from, to) = (&self.from[watched.index].motion, &self.to[watched.index].motion);
-                return if closes(from) || closes(to) { self.looks(eq, state, watched) } else { None };
+                return if closes(from) || closes(to) { self.looks(watched) } else { None };
             }
             _ => {}
         }
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
-        let (g0, rates) = (self.at_begin(state, watched), self.rates(state, watched));
+        let (g0, rates) = (self.at_begin(watched), self.rates(watched));
         let lowest = Cubic { y0: g0, dy0: rates[0], y1: g1, dy1: rates[1], h }.dip()?;
         if lowest.y > 0.1 * g0.min(g1).max(0.0) {
             return None;
         }
-        let low = self.look(eq, state, watched, t0 + lowest.x * h);
+        let low = self.look(watched, t0 + lowest.x * h);
         Some(low).filter(|(_, g)| *g < -self.bands(watched).0)
     }
 
     /// The first of some moments inside the step at which a guard has fallen, and its value there.
-    fn looks<'e>(&mut self, eq: &Equations<'e>, state: &State, watched: Watched<'e>) -> Option<(f64, f64)> {
+    fn looks(&mut self, watched: Watched<'e>) -> Option<(f64, f64)> {
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
-        let mut looks = LOOKS.into_iter().map(|share| self.look(eq, state, watched, t0 + share * h));
+        let mut looks = LOOKS.into_iter().map(|share| self.look(watched, t0 + share * h));
         let (t, g) = looks.find(|(_, g)| *g < 0.0)?;
-        self.has_fallen(state, watched, g).then_some((t, g))
+        self.has_fallen(watched, g).then_some((t, g))
     }
 
     /// A moment inside the step and the value of a guard there.
-    fn look<'e>(&mut self, eq: &Equations<'e>, state: &State, watched: Watched<'e>, t: f64) -> (f64, f64) {
-        self.solver.complete(eq, Completion::Dense);
-        (t, self.inside(eq, state, watched, t))
+    fn look(&mut self, watched: Watched<'e>, t: f64) -> (f64, f64) {
+        self.solver.complete(self.eq, Completion::Dense);
+        (t, self.inside(watched, t))
     }
 
     /// The moment at which a guard falls, between the start of the step and a time at which it is below zero.
     #[inline(never)]
-    fn fall<'e>(
-        &mut self,
-        eq: &Equations<'e>,
-        state: &State,
-        watched: Watched<'e>,
-        (low, below): (f64, f64),
-    ) -> f64 {
-        self.solver.complete(eq, Completion::Dense);
-        let (t0, g0) = (self.solver.span().time, self.at_begin(state, watched));
+    fn fall(&mut self, watched: Watched<'e>, (low, below): (f64, f64)) -> f64 {
+        self.solver.complete(self.eq, Completion::Dense);
+        let (t0, g0) = (self.solver.span().time, self.at_begin(watched));
         let (_, near) = self.bands(watched);
         // A flight may be one step from a lift-off to the next touch: its start is as good as a touch.
         if g0 <= 0.0 || self.solver.coasts() && g0 < near {
-            return self.leave(eq, state, watched, (t0, low));
+            return self.leave(watched, (t0, low));
         }
         // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.
         let tolerance = (0.1 * NEARNESS * self.tolerance * (low - t0)).max(4.0 * f64::EPSILON * low.abs());
-        let guess = self.guess(state, watched, (g0, low, below));
+        let guess = self.guess(watched, (g0, low, below));
         let value = |t: f64| {
-            let value = self.inside(eq, state, watched, t);
+            let value = self.inside(watched, t);
             // As good as there.
             if value.abs() < near { 0.0 } else { value }
         };
@@ -170,18 +197,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
     /// both ends of the step where its rates are known there.
-    fn guess(&self, state: &State, watched: Watched<'_>, (g0, low, below): (f64, f64, f64)) -> f64 {
+    fn guess(&self, watched: Watched<'_>, (g0, low, below): (f64, f64, f64)) -> f64 {
         if low < self.solver.span().end_time || watched.contact.press.waveform().is_some() {
             return 0.5;
         }
-        let rates = self.rates(state, watched);
+        let rates = self.rates(watched);
         let h = low - self.solver.span().time;
         Cubic { y0: g0, dy0: rates[0], y1: below, dy1: rates[1], h }.root()
     }
 
     /// A guard that starts within its deadband: it may first rise and then fall.
-    fn leave(&self, eq: &Equations<'_>, state: &State, watched: Watched<'_>, (t0, low): (f64, f64)) -> f64 {
-        let g = |t: f64| self.inside(eq, state, watched, t);
+    fn leave(&self, watched: Watched<'_>, (t0, low): (f64, f64)) -> f64 {
+        let g = |t: f64| self.inside(watched, t);
         let mut t = low;
         for _ in 0..40 {
             t = t0 + 0.5 * (t - t0);
@@ -195,35 +222,34 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Value of a guard at the start of the step.
     #[inline(always)]
-    fn at_begin(&self, state: &State, watched: Watched<'_>) -> f64 {
-        self.value(state, watched, (self.solver.span().time, self.solver.span().begin), &self.from)
+    fn at_begin(&self, watched: Watched<'_>) -> f64 {
+        self.value(watched, (self.solver.span().time, self.solver.span().begin), self.from)
     }
 
     /// Its value at the end of the step.
     #[inline(always)]
-    fn at_end(&self, state: &State, watched: Watched<'_>) -> f64 {
-        self.value(state, watched, (self.solver.span().end_time, self.solver.span().end), &self.to)
+    fn at_end(&self, watched: Watched<'_>) -> f64 {
+        self.value(watched, (self.solver.span().end_time, self.solver.span().end), self.to)
     }
 
     /// Its value at one end of the step: time and state there, and the contacts that are not steady.
     #[inline(always)]
     fn value(
         &self,
-        state: &State,
         Watched { index, contact, guard, steady }: Watched<'_>,
         (t, y): (f64, &[f64]),
         contacts: &[Moving],
     ) -> f64 {
         match steady {
-            Some(steady) => steady.guard(guard, t, |i| y[i], |i| y[self.layout.velocity(i)]),
-            None => guard.value(contact, state.law(index), &contacts[index].motion),
+            Some(steady) => steady.guard(guard, t, |i| y[i], |i| y[self.eq.layout.velocity(i)]),
+            None => guard.value(contact, self.eq.law(index), &contacts[index].motion),
         }
     }
 
     /// Its rates at both ends.
     #[inline(always)]
-    fn rates(&self, state: &State, Watched { index, contact, guard, steady }: Watched<'_>) -> [f64; 2] {
-        let (begin, end, n) = (self.solver.span().begin, self.solver.span().end, self.layout.free);
+    fn rates(&self, Watched { index, contact, guard, steady }: Watched<'_>) -> [f64; 2] {
+        let (begin, end, n) = (self.solver.span().begin, self.solver.span().end, self.eq.layout.free);
         match steady {
             Some(steady) => [
                 steady.guard_rate(
@@ -240,23 +266,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
                 ),
             ],
             None => [&self.from[index], &self.to[index]]
-                .map(|Moving { motion, second }| guard.rate(contact, &state.modes[index], motion, *second)),
+                .map(|Moving { motion, second }| guard.rate(contact, &self.eq.modes[index], motion, *second)),
         }
     }
 
     /// Its value at a time inside the step, on the dense output.
     #[inline(always)]
-    fn inside(
-        &self,
-        eq: &Equations<'_>,
-        state: &State,
-        Watched { index, contact, guard, steady }: Watched<'_>,
-        t: f64,
-    ) -> f64 {
+    fn inside(&self, Watched { index, contact, guard, steady }: Watched<'_>, t: f64) -> f64 {
         let value = |i: usize| self.solver.value(i, t);
         match steady {
-            Some(steady) => steady.guard(guard, t, value, |i| value(self.layout.velocity(i))),
-            None => guard.value(contact, state.law(index), &eq.motion(contact, t, value)),
+            Some(steady) => steady.guard(guard, t, value, |i| value(self.eq.layout.velocity(i))),
+            None => guard.value(contact, self.eq.law(index), &self.eq.motion(contact, t, value)),
         }
     }
 
@@ -269,23 +289,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         guard.bands(contact, self.tolerance, u)
     }
 
-    /// The guard that ends the step, by decree, and all others that are down or as good as down there:
-    /// simultaneous events are one.
-    pub(super) fn collect_fallen(&mut self, eq: &Equations<'_>, state: &State, fall: Fall<'_>) {
-        self.fired.push((fall.watched.index, fall.watched.guard));
-        let Some(interval) = eq.interval else { return };
-        Watched::each(eq.model, interval, state, |watched| {
-            let known = self.fired.iter().any(|(c, _)| *c == watched.index);
-            let (g0, g) = (self.at_begin(state, watched), self.at_end(state, watched));
-            let (dead, near) = self.bands(watched);
-            // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
-            let rises = || {
-                self.rates(state, watched)[0] * (self.solver.span().end_time - self.solver.span().time) > near
-            };
-            let falls = g < -dead || g < near && (g0 >= near || rises());
-            if !known && falls && g < g0 {
-                self.fired.push((watched.index, watched.guard));
-            }
-        });
+    /// Whether a guard is down at the end of the step, or as good as down.
+    fn falls_too(&self, watched: Watched<'_>) -> bool {
+        let (g0, g) = (self.at_begin(watched), self.at_end(watched));
+        let (dead, near) = self.bands(watched);
+        // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
+        let rises =
+            || self.rates(watched)[0] * (self.solver.span().end_time - self.solver.span().time) > near;
+        let falls = g < -dead || g < near && (g0 >= near || rises());
+        falls && g < g0
     }
 }

@@ -1,12 +1,14 @@
 //! Where the next step ends, and how its stages lie in it.
 
-use super::Run;
+use super::Located;
+use super::watch::Watch;
 use crate::equations::Equations;
 use crate::guard::Guard;
+use crate::interval::Steady;
 use crate::model::{Contact, Measure};
 use crate::quadrature;
 use crate::state::{Mode, State};
-use stickslip_stepper::{Attempt, Grade, Target};
+use stickslip_stepper::{Attempt, Grade};
 
 /// What the next step is to be.
 #[derive(Clone, Copy)]
@@ -15,7 +17,7 @@ pub(super) struct Aim {
     pub(super) target: f64,
     pub(super) grade: Grade,
     /// The longest that it may become, s.
-    most: f64,
+    pub(super) most: f64,
     /// Time to a singular moment ahead, s; ∞ without one.
     pub(super) singular: f64,
     /// The guard whose singular fall is expected at its end.
@@ -36,32 +38,30 @@ const OVERSTEP: f64 = 1.05;
 const FASTEST: f64 = 2.0;
 /// A step is not tried again with less than this part of it, and the next one is no shorter.
 pub(super) const SHRINK: f64 = 0.2;
-/// How often a step is tried again to end nearer to its singular moment.
-const CORRECTIONS: u32 = 2;
 
-impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The next step: as long as its control wishes, but not far beyond the first event that is expected.
-    pub(super) fn next_step(&self, state: &State, corner: f64) -> Aim {
-        let longest = self.longest_now();
+    pub(super) fn aim(&self, state: &State, corner: f64) -> Aim {
+        let longest = self.motion.longest_now(self.setting.model.fastest);
         let even = |step: f64| Aim {
-            target: aim(state.t, step, corner),
+            target: end(state.t, step, corner),
             grade: Grade::Even,
             most: step,
             singular: f64::INFINITY,
             closes: None,
         };
-        if self.solver.coasts() {
+        if self.motion.solver.coasts() {
             return even(longest);
         }
         let step = state.step.min(longest);
         let rounding = 16.0 * f64::EPSILON * state.t;
         let within = |end: Expected| OVERSTEP * end.left + rounding;
         // Even steps have become short for what a graded one is spared.
-        let most = step.max(self.calm / FASTEST).min(longest / FASTEST);
+        let most = step.max(self.motion.pace.proven / FASTEST).min(longest / FASTEST);
         let first = [self.piece_end(state), self.lift_off(state, step.max(most))].into_iter().flatten();
         let start = |step: f64| Aim { grade: self.start_grade(state, step), ..even(step) };
         let Some(first) = first.min_by(|a, b| a.left.total_cmp(&b.left)) else { return start(step) };
-        let over = 0.5 * self.slack * first.left;
+        let over = 0.5 * self.motion.pace.closeness * first.left;
         let to = first.left + over;
         let singular = if self.is_singular(state, first) { first.left } else { f64::INFINITY };
         let far = first.left > 2.0 * step.max(most) || over < rounding || state.t + to >= corner;
@@ -77,9 +77,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Whether a law ends with a force that goes with a power 3/2 of the time left, and enough of it to tell.
     fn is_singular(&self, state: &State, end: Expected) -> bool {
-        let (contact, motion) = (&self.model.contacts[end.contact], self.motion_from(end.contact));
+        let (contact, motion) = (
+            &self.setting.model.contacts[end.contact],
+            self.watch.motion_at_start(&self.interval, end.contact, &self.motion.solver),
+        );
         let left = end.guard.value(contact, state.law(end.contact), &motion);
-        let tells = |unit: f64| left > unit * self.telling;
+        let tells = |unit: f64| left > unit * self.motion.pace.resolved;
         match &state.modes[end.contact] {
             _ if end.guard == Guard::Contact => tells(contact.natural.depth),
             Mode::Slip(branch) => branch.ends_in_the_centre() && tells(contact.natural.displacement),
@@ -89,19 +92,20 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     fn start_grade(&self, state: &State, step: f64) -> Grade {
         let touched = |(c, contact): (usize, &Contact)| {
-            let motion = self.from[c].motion;
+            let motion = self.watch.from[c].motion;
             !contact.is_constant()
                 && matches!(state.modes[c], Mode::Grow | Mode::Slip(_))
-                && motion.d <= self.slack * motion.dd * step
+                && motion.d <= self.motion.pace.closeness * motion.dd * step
         };
-        if self.model.contacts.iter().enumerate().any(touched) { Grade::Start } else { Grade::Even }
+        if self.setting.model.contacts.iter().enumerate().any(touched) { Grade::Start } else { Grade::Even }
     }
 
     /// About when the first piece of memory will be used up: a step much longer would only be thrown away.
     fn piece_end(&self, state: &State) -> Option<Expected> {
-        let interval = self.interval.as_ref()?;
-        let steady = interval.steady.iter().map(|steady| (steady.index, self.expected_of_steady(steady)));
-        let all = steady.chain(interval.unsteady().map(|c| (c, self.expected_of(state, c))));
+        let (eq, n) = (self.setting.equations(state, &self.interval), self.setting.layout.free);
+        let of_steady = |steady: &Steady<'_>| Watch::expected_of_steady(steady, n, &self.motion.solver);
+        let steady = self.interval.steady.iter().map(|steady| (steady.index, of_steady(steady)));
+        let all = steady.chain(self.interval.unsteady().map(|c| (c, self.watch.expected_of(&eq, c))));
         let (contact, left) = all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, left)| left.is_finite())?;
         Some(Expected { left, contact, guard: Guard::Piece })
     }
@@ -109,7 +113,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// About when the first contact will end, if within twice a step.
     fn lift_off(&self, state: &State, step: f64) -> Option<Expected> {
         let mut first: Option<Expected> = None;
-        for (c, contact) in self.model.contacts.iter().enumerate() {
+        for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let Some(measure) = contact.coupling().filter(|_| state.modes[c] != Mode::Open) else { continue };
             if let Some(left) = self.leaves(c, contact, measure, 2.0 * step)
                 && first.is_none_or(|first| left < first.left)
@@ -123,12 +127,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
     /// Time to the end of a contact as if only its own normal force changed: then ḋ²/2 loses what the springs give,
     /// and ∫dd/ḋ is left.
     fn leaves(&self, c: usize, contact: &Contact, measure: &Measure, within: f64) -> Option<f64> {
-        let (motion, (bend, _)) = (self.from[c].motion, self.from[c].second);
+        let (motion, (bend, _)) = (self.watch.from[c].motion, self.watch.from[c].second);
         let (d, v) = (motion.d, motion.dd);
         if !(v < 0.0 && d > 0.0) {
             return None;
         }
-        let gain = contact.count * measure.mobility(|i| self.model.free[i].mobility);
+        let gain = contact.count * measure.mobility(|i| self.setting.model.free[i].mobility);
         let rest = bend + gain * contact.law.normal_force(d);
         let energy = contact.law.normal_energy(d);
         let square =
@@ -144,33 +148,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         .value;
         left.is_finite().then_some(left)
     }
-
-    /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
-    #[inline(always)]
-    pub(super) fn try_step(&mut self, eq: &Equations<'_>, state: &State, aim: &mut Aim, corner: f64) -> f64 {
-        let mut error = self.solver.attempt(eq, Target { end: aim.target, grade: aim.grade }, &self.scale);
-        let Some((c, guard)) = aim.closes else { return error };
-        let contact = &self.model.contacts[c];
-        for _ in 0..CORRECTIONS {
-            let (end, h) = (self.solver.span().end, aim.target - state.t);
-            let motion = eq.motion(contact, aim.target, |i| end[i]);
-            let value = guard.value(contact, state.law(c), &motion);
-            let rate = guard.rate(contact, &state.modes[c], &motion, (0.0, 0.0));
-            let missed = -value / rate;
-            let to = aim.target + missed + 0.5 * self.slack * h;
-            let fits = to - state.t > SHRINK * h && to - state.t < aim.most && to < corner;
-            if !(rate < 0.0 && error < 1.0 && missed.abs() > self.slack * h && fits) {
-                break;
-            }
-            aim.target = to;
-            error = self.solver.attempt(eq, Target { end: to, grade: aim.grade }, &self.scale);
-        }
-        error
-    }
 }
 
 /// End of the next step: the corner exactly, or so that no sliver is left before it.
-fn aim(t: f64, step: f64, corner: f64) -> f64 {
+fn end(t: f64, step: f64, corner: f64) -> f64 {
     let left = corner - t;
     if step >= 0.999 * left {
         corner

@@ -1,69 +1,65 @@
 //! Intervals that are taken in one go, without the stepper.
 
-use super::{Run, equations};
+use super::Located;
 use crate::RunError;
 use crate::equations::Equations;
 use crate::guard::Guard;
 use crate::interval::{Place, Steady};
+use crate::method::Method;
 use crate::record::Record;
-use crate::run::output::Grid;
+use crate::run::ledger::Books;
 use crate::state::State;
 use stickslip_stepper::Attempt;
 
-impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves to the next event, corner or end in one go; false, with nothing done, where the interval has no closed form.
-    pub(super) fn leap(
-        &mut self,
-        state: &mut State,
-        grid: &mut Grid,
-        record: &mut dyn Record,
-    ) -> Result<bool, RunError> {
-        if !self.leaps || !self.take_up(state) {
+    pub(super) fn leap(&mut self, state: &mut State, record: &mut dyn Record) -> Result<bool, RunError> {
+        if !self.interval.leaps() || !self.take_up(state) {
             return Ok(false);
         }
         let event = self.swing.end();
-        let corner = self.corner.min(self.end);
+        let corner = self.horizon.next();
         let mut to = if event.t < corner { event } else { self.swing.at(corner) };
         if to.t <= state.t {
             return Ok(false);
         }
-        if let Some(steady) = self.leap_over_steps(state, grid, to) {
+        if let Some(steady) = self.leap_over_steps(state, to) {
             to = steady;
         }
         state.counts.evaluations += self.swing.evaluations;
-        if grid.due(to.t).is_some() || self.looks.due(to.t).is_some() {
-            self.write_on_the_way(state, to, grid, record);
+        if self.output.due(to.t) {
+            self.write_on_the_way(state, to, record);
         }
         self.land(state, to)?;
-        let (is_event, is_corner) = (to.t == event.t, to.t == self.corner);
-        self.fired.clear();
+        let (is_event, is_corner) = (to.t == event.t, to.t == self.horizon.corner);
+        self.watch.fired.clear();
         if is_event {
             self.collect_reached(state);
         }
         if is_event || is_corner {
             self.pass_event(state, is_corner, record)?;
         }
-        self.watch.step(state, record)?;
+        self.bounds.step(state, record)?;
         Ok(true)
     }
 
     /// Takes up the interval and finds its event.
     fn take_up(&mut self, state: &State) -> bool {
         // What has no closed form now has none until the next event.
-        self.leaps = false;
-        let (Some(interval), [slider]) = (&self.interval, &self.model.free[..]) else { return false };
+        self.interval.traits.asked = true;
+        let [slider] = &self.setting.model.free[..] else { return false };
         let start = Place { t: state.t, x: state.y[0], v: state.y[1] };
         let length = slider.scale.0;
-        self.swing.begin(interval, slider, start) && self.swing.aim(length)
+        self.swing.begin(&self.interval, slider, start) && self.swing.aim(length)
     }
 
     /// The end of a period with which the steps of the drive are constant, if there is one on the way.
-    fn leap_over_steps(&mut self, state: &State, grid: &mut Grid, to: Place) -> Option<Place> {
-        while let Some(due) = self.steps.due(to.t) {
+    fn leap_over_steps(&mut self, state: &State, to: Place) -> Option<Place> {
+        while let Some(due) = self.horizon.steps.due(to.t) {
             let place = if due < to.t { self.swing.at(due) } else { to };
-            if self.steps.take(state.shifts[self.steps.coordinate], place.x) {
-                self.end = due;
-                grid.end_at(due);
+            if self.horizon.steps.take(state.shifts[self.horizon.steps.coordinate], place.x) {
+                self.horizon.end = due;
+                self.output.end_at(due);
                 return Some(place);
             }
         }
@@ -72,19 +68,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
 
     /// Rows and looks that are due on the way.
     #[inline(never)]
-    fn write_on_the_way(&mut self, state: &State, to: Place, grid: &mut Grid, record: &mut dyn Record) {
-        let eq = equations(self.model, self.layout, state);
-        let mut y = std::mem::take(&mut self.slopes);
-        while let Some(due) = grid.due(to.t) {
+    fn write_on_the_way(&mut self, state: &State, to: Place, record: &mut dyn Record) {
+        let eq = self.setting.plain(state);
+        let mut y = std::mem::take(&mut self.output.components);
+        while let Some(due) = self.output.grid.due(to.t) {
             self.fill(state, due, to, &mut y);
-            grid.write(&eq, state, due, &|i| y[i], record);
+            self.output.grid.write(&eq, state, due, &|i| y[i], record);
         }
-        while let Some(due) = self.looks.due(to.t) {
+        while let Some(due) = self.output.looks.due(to.t) {
             self.fill(state, due, to, &mut y);
             let memories = self.memories_at(&eq, state, due, |i| y[i]);
-            self.looks.show(memories.as_deref().ok(), record);
+            self.output.looks.show(memories.as_deref().ok(), record);
         }
-        self.slopes = y;
+        self.output.components = y;
     }
 
     /// Components at a time on the way.
@@ -92,29 +88,29 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let place = if due < to.t { self.swing.at(due) } else { to };
         y.copy_from_slice(&state.y);
         (y[0], y[1]) = (place.x, place.v);
-        y[self.layout.input()] += self.swing.work(&place);
+        y[self.setting.layout.input()] += self.swing.work(&place);
     }
 
     /// Moves the state to a place, and the memories of all contacts with it.
     fn land(&mut self, state: &mut State, to: Place) -> Result<(), RunError> {
         if let Some(i) = [to.x, to.v].iter().position(|y| !y.is_finite()) {
-            return Err(self.model.not_finite(to.t, i));
+            return Err(self.setting.model.not_finite(to.t, i));
         }
-        state.y[self.layout.input()] += self.swing.work(&to);
+        state.y[self.setting.layout.input()] += self.swing.work(&to);
         (state.y[0], state.y[1]) = (to.x, to.v);
         state.t = to.t;
         state.counts.steps += 1;
-        self.lags = false;
+        state.tally.step(if self.swing.is_free() { Method::Parabola } else { Method::Swing });
+        self.ledger.books = Books::Current;
         self.trace_steady(state);
-        self.commit(state)
+        self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }
 
     /// The guards that end the motion: all edges turn at once; of pieces those that are used up, or as good as.
     fn collect_reached(&mut self, state: &State) {
-        let Some(interval) = &self.interval else { return };
-        let steady = interval.steady.iter();
+        let steady = self.interval.steady.iter();
         if self.swing.turns {
-            self.fired.extend(steady.map(|steady| (steady.index, Guard::Drag)));
+            self.watch.fired.extend(steady.map(|steady| (steady.index, Guard::Drag)));
             return;
         }
         let pieces = steady.filter(|steady| steady.guards.contains(&Guard::Piece));
@@ -122,9 +118,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         let least = pieces.clone().map(left).fold(f64::INFINITY, f64::min);
         let reached = pieces.filter(|steady| {
             let u = steady.displacement(state.t, |_| state.y[0]);
-            let (_, near) = Guard::Piece.bands(steady.contact, self.tolerance, u);
+            let (_, near) = Guard::Piece.bands(steady.contact, self.setting.tolerance, u);
             left(steady) <= least.max(0.0) + near
         });
-        self.fired.extend(reached.map(|steady| (steady.index, Guard::Piece)));
+        self.watch.fired.extend(reached.map(|steady| (steady.index, Guard::Piece)));
     }
 }

@@ -1,29 +1,32 @@
 //! What is written of a step: rows and looks on its dense output.
 
-use super::{Run, equations};
+use super::Located;
+use super::path::Growth;
 use crate::equations::Equations;
 use crate::record::Record;
-use crate::run::output::Grid;
 use crate::state::{Mode, State};
 use stickslip_contact::{ContactError, Memory, Segment};
 use stickslip_stepper::{Attempt, Completion};
 
-impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Rows and looks that are due up to the end of the step. Kept out of the way of steps without any.
     #[inline(never)]
-    pub(super) fn write(&mut self, state: &State, t: f64, grid: &mut Grid, record: &mut dyn Record) {
-        let eq = equations(self.model, self.layout, state);
-        let asked = self.solver.evaluations();
-        self.with_equations(state, |run, eq| run.solver.complete(eq, Completion::Dense));
-        while let Some(due) = grid.due(t) {
-            grid.write(&eq, state, due, &|i| self.component_at(state, i, due), record);
+    pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
+        let eq = self.setting.plain(state);
+        let asked = self.motion.solver.evaluations();
+        self.motion.solver.complete(&self.setting.equations(state, &self.interval), Completion::Dense);
+        while let Some(due) = self.output.grid.due(t) {
+            // Integrals of the state that this run has no need to integrate stay as they are.
+            let known = self.motion.solver.span().end.len();
+            let y = |i: usize| if i < known { self.motion.solver.value(i, due) } else { state.y[i] };
+            self.output.grid.write(&eq, state, due, &y, record);
         }
-        while let Some(due) = self.looks.due(t) {
-            let memories = self.memories_at(&eq, state, due, |i| self.component(i, due));
-            self.looks.show(memories.as_deref().ok(), record);
+        while let Some(due) = self.output.looks.due(t) {
+            let memories = self.memories_at(&eq, state, due, |i| self.motion.component(i, due));
+            self.output.looks.show(memories.as_deref().ok(), record);
         }
         // What output asks for is no part of the run.
-        self.for_output += self.solver.evaluations() - asked;
+        self.output.evaluations += self.motion.solver.evaluations() - asked;
     }
 
     /// The memories of all contacts at a time inside the step, as if it ended there; `y` reads the components. Kept out of the way of rows.
@@ -36,11 +39,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Run<'_, A> {
         y: impl Fn(usize) -> f64,
     ) -> Result<Vec<Memory>, ContactError> {
         let mut path = Vec::new();
-        let contacts = self.model.contacts.iter().zip(&state.memories).enumerate();
+        let contacts = self.setting.model.contacts.iter().zip(&state.memories).enumerate();
         let memories = contacts.map(|(c, (contact, memory))| {
             let motion = eq.motion(contact, t, &y);
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
-                self.trace_growth(eq, state, (c, slot), (t, &motion), |piece| path.push(piece));
+                let growth = Growth { motion: &self.motion, eq, state, tolerance: self.setting.tolerance };
+                growth.trace((c, slot), (t, &motion), |piece| path.push(piece));
             } else {
                 path.push(Segment::Straight(motion.apex()));
             }

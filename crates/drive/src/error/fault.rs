@@ -1,0 +1,187 @@
+//! What can be wrong with a field of a scene or a plan.
+
+use super::{Field, Part, SceneError};
+use crate::scene::Axis;
+use stickslip_contact::{ContactError, FirstLoadingError, FrictionError, SpringsError};
+use thiserror::Error;
+
+/// What is wrong with a field. [`SceneFault::advice`] says what to try.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SceneFault {
+    /// Infinite or not a number.
+    #[error("expected a finite number, got {0}")]
+    NotFinite(f64),
+    /// Below zero or not finite.
+    #[error("expected a number of at least 0, got {0}")]
+    BelowZero(f64),
+    /// Zero, below or not finite.
+    #[error("expected a finite number above 0, got {0}")]
+    NotAboveZero(f64),
+    /// What presses a contact pulls at times: its lowest value, N or m.
+    #[error("expected a value that never falls below 0, got down to {0:e}")]
+    FallsBelowZero(f64),
+    /// No contact at all.
+    #[error("expected at least 1 contact, got 0")]
+    NoContact,
+    /// A side, or the body of a load, that is not in the scene.
+    #[error("there is no body at place {0}")]
+    NoBody(usize),
+    /// A waveform that is not in the scene.
+    #[error("there is no waveform at place {0}")]
+    NoWaveform(usize),
+    /// Both sides are the same.
+    #[error("expected two different bodies")]
+    OneBody,
+    /// A coordinate obeys Newton, but nothing says how slowly.
+    #[error("{}", no_inertia(*.0))]
+    NoInertia(Axis),
+    /// A free z or pitch on which nothing acts.
+    #[error("nothing holds {}, which is free", .0.key())]
+    Unheld(Axis),
+    /// A coupled contact between bodies that keep their distance.
+    #[error(
+        "neither body moves along the normal: a coupled contact needs a z or a pitch that is free or follows a waveform"
+    )]
+    Unmoved,
+    /// A radius is given to a profile that has it at more than one indentation.
+    #[error("the contact radius does not tell the indentation of this profile")]
+    Undetermined,
+    /// A coefficient of friction out of its range.
+    #[error(transparent)]
+    Friction(#[from] FrictionError),
+    /// A sphere pressed to its equator.
+    #[error("the indentation {deepest:.3e} m reaches beyond the sphere, which allows {reach:.3e} m")]
+    BeyondSphere {
+        /// Largest indentation, m.
+        deepest: f64,
+        /// Where the sphere ends, m.
+        reach: f64,
+    },
+    /// A contact that does not touch at t = 0 is to start with a tangential load.
+    #[error("a contact that is open at the start cannot be loaded along x")]
+    Open,
+    /// No monotonic loading reaches the start of a contact.
+    #[error(transparent)]
+    Loading(#[from] FirstLoadingError),
+    /// There is no such row of springs.
+    #[error(transparent)]
+    Springs(#[from] SpringsError),
+    /// A row of springs that is narrower than its contact at t = 0.
+    #[error("expected at least the contact's width at the start, {width:.3e} m, got {span:e} m")]
+    Narrow {
+        /// Width of the contact, m.
+        width: f64,
+        /// Length of the row, m.
+        span: f64,
+    },
+    /// A damper whose length jumps: its impulse would be a matter of definition.
+    #[error("a damper cannot follow the jumps of waveform `{0}`")]
+    DampedJump(String),
+    /// Steps of a given length or without events on waveforms that jump.
+    #[error("only the stepper \"event\" follows waveforms that jump")]
+    UnlocatedJump,
+    /// A fixed step with which the stiffest motion grows.
+    #[error("expected less than {limit:.3e} s, from where on the stiffest motion grows, got {step:e} s")]
+    Unstable {
+        /// Longest stable step, s.
+        limit: f64,
+        /// The step, s.
+        step: f64,
+    },
+    /// The search for an equilibrium would take too long.
+    #[error("expected at most {most} free bodies for an equilibrium, got {count}")]
+    TooManyFree {
+        /// Most free coordinates.
+        most: usize,
+        /// Number of free coordinates.
+        count: usize,
+    },
+    /// A contact cannot follow its bodies into equilibrium.
+    #[error("in static equilibrium {0}")]
+    Settling(ContactError),
+    /// Nothing balances what acts at t = 0.
+    #[error("`{body}` has no static equilibrium {}: {unbalanced:.3e} {} stay unbalanced", way(*.axis), unit(*.axis))]
+    NoEquilibrium {
+        /// Name of the body.
+        body: String,
+        /// Its coordinate.
+        axis: Axis,
+        /// Force or moment that nothing balances, N or N m.
+        unbalanced: f64,
+    },
+}
+
+impl SceneFault {
+    /// The fault in its place.
+    pub(crate) fn of(self, part: Part, field: Field) -> SceneError {
+        SceneError { part, field, fault: self }
+    }
+
+    /// What to try.
+    pub fn advice(&self) -> Option<String> {
+        let advice = match self {
+            Self::NoInertia(axis) => {
+                let example = if *axis == Axis::Pitch { "\"inertia\": 2e-7" } else { "\"mass\": \"10 g\"" };
+                return Some(format!("add {example}, or make {} \"fixed\"", axis.key()));
+            }
+            Self::Unheld(Axis::Pitch) => {
+                "give a contact, spring or actuator of this body a point \"at\" beside its reference point, or make \
+                 pitch \"fixed\""
+            }
+            Self::Unheld(Axis::X | Axis::Z) => {
+                "make the \"normal\" of a contact of this body \"coupled\", add a spring with \"direction\": \"z\", or \
+                 make z \"fixed\""
+            }
+            Self::Unmoved => {
+                "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
+            }
+            Self::Undetermined => "give the normal force or the indentation",
+            Self::BeyondSphere { .. } => "lower the load or enlarge the radius",
+            Self::Open => "press it at t = 0, or leave it \"untouched\"",
+            Self::Springs(_) | Self::Narrow { .. } => {
+                "leave the span out: the row is then as wide as the contact ever is"
+            }
+            Self::DampedJump(_) => "give the waveform a flyback above 0",
+            Self::UnlocatedJump => "take the event stepper, or give the waveform a flyback above 0",
+            Self::Unstable { .. } => {
+                "take a twentieth of that for accuracy, or the event stepper, which needs no step"
+            }
+            Self::TooManyFree { .. } => "give the bodies where they start",
+            Self::Settling(_) => "give the row a longer span, or use the engine \"curve\"",
+            Self::NoEquilibrium { .. } => "lower the load, press harder, or start from rest instead",
+            Self::NotFinite(_)
+            | Self::BelowZero(_)
+            | Self::NotAboveZero(_)
+            | Self::FallsBelowZero(_)
+            | Self::NoContact
+            | Self::NoBody(_)
+            | Self::NoWaveform(_)
+            | Self::OneBody
+            | Self::Friction(_)
+            | Self::Loading(_) => return None,
+        };
+        Some(advice.to_owned())
+    }
+}
+
+fn no_inertia(axis: Axis) -> &'static str {
+    match axis {
+        Axis::X | Axis::Z => "a body with a free coordinate needs a mass",
+        Axis::Pitch => "a body whose pitch is free needs a moment of inertia",
+    }
+}
+
+fn way(axis: Axis) -> &'static str {
+    match axis {
+        Axis::X => "along x",
+        Axis::Z => "along z",
+        Axis::Pitch => "in pitch",
+    }
+}
+
+fn unit(axis: Axis) -> &'static str {
+    match axis {
+        Axis::X | Axis::Z => "N",
+        Axis::Pitch => "N m",
+    }
+}

@@ -1,0 +1,160 @@
+//! Which method integrates what, and why: decided here and nowhere else.
+//!
+//! A run asks [`choice`] at the beginning of every interval between two events and [`treatment`] of every contact in it;
+//! [`Model::expected`] asks the same two functions of the intervals that a scene can come to, so that what is told of a run
+//! beforehand is what it does.
+
+mod expected;
+mod tally;
+mod why;
+
+pub use expected::Expected;
+pub use tally::Tally;
+pub use why::Why;
+
+use crate::model::{Contact, Model, Press};
+use crate::state::Mode;
+
+/// How a stretch of time is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// Nothing is free: the contacts are walked along their prescribed path from event to event.
+    Walk,
+    /// A single slider swings from event to event by one quadrature of time.
+    Swing,
+    /// All forces are constant: positions run along parabolas, nothing is evaluated.
+    Parabola,
+    /// Steps of the Runge–Kutta–Nyström pair of order 8(6).
+    Nystrom,
+    /// Steps of Dormand and Prince's Runge–Kutta pair of order 8(5,3).
+    DormandPrince,
+    /// Such a step whose stages crowd towards a singular moment at one of its ends.
+    Graded,
+    /// Steps of whichever stepper was asked for, one without located events.
+    AskedFor,
+}
+
+/// What is done about one contact between two events.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Treatment {
+    /// Nothing: it is never pressed.
+    Spared,
+    /// Only its gap is looked at.
+    Apart,
+    /// Its force is one closed form of u, and its memory stays where it is until the next event.
+    Closed,
+    /// It goes through the general equations, and its memory through every step.
+    General,
+}
+
+/// What of a scene decides the method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SceneTraits {
+    /// Number of free coordinates.
+    pub(crate) free: usize,
+    /// Why forces depend on velocities, if they do.
+    pub(crate) velocities: Option<Why>,
+    /// Whether springs, dampers or actuators act.
+    pub(crate) links: bool,
+    /// Whether loads vary in time.
+    pub(crate) loads: bool,
+}
+
+/// What of an interval between two events decides it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct IntervalTraits {
+    /// Whether every contact that is not apart is in gross slip.
+    pub(crate) slides: bool,
+    /// Whether what drags the contacts of closed form moves at constant rates.
+    pub(crate) straight: bool,
+    /// Whether a contact goes through the general equations.
+    pub(crate) general: bool,
+    /// Whether a gap may close.
+    pub(crate) gap: bool,
+    /// Whether the closed form of a swing has been asked for: what has none now has none until the next event.
+    pub(crate) asked: bool,
+}
+
+impl SceneTraits {
+    pub(crate) fn of(model: &Model) -> Self {
+        Self {
+            free: model.free.len(),
+            velocities: velocities(model),
+            links: !model.links.is_empty(),
+            loads: !model.loads.is_empty(),
+        }
+    }
+}
+
+/// Why a model's forces, or the rates of what is integrated beside its motion, depend on velocities.
+fn velocities(model: &Model) -> Option<Why> {
+    let damped = model.links.iter().any(|link| link.damping > 0.0);
+    let stuck = model.contacts.iter().any(|contact| contact.damping > 0.0);
+    match () {
+        () if damped => Some(Why::Damper),
+        () if stuck => Some(Why::ContactDamping),
+        // The power of a load that varies is a force times a velocity.
+        () if !model.loads.is_empty() => Some(Why::VaryingLoad),
+        () if model.growing > 0 => Some(Why::Growth),
+        () => None,
+    }
+}
+
+impl IntervalTraits {
+    /// Whether nothing acts but contacts of closed form and constant loads, and what drags them moves at constant rates.
+    pub(crate) fn is_simple(&self, scene: &SceneTraits) -> bool {
+        self.straight && !self.general && !scene.links
+    }
+
+    /// Whether all forces are the same throughout.
+    pub(crate) fn is_constant(&self, scene: &SceneTraits) -> bool {
+        self.slides && self.is_simple(scene) && !scene.loads
+    }
+
+    /// Whether the interval of a single slider is to be taken in one leap to its next event.
+    #[inline(always)]
+    pub(crate) fn leaps(&self, scene: &SceneTraits) -> bool {
+        scene.free == 1 && scene.velocities.is_none() && self.is_simple(scene) && !self.gap && !self.asked
+    }
+}
+
+/// The method of an interval, and why.
+pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method, Why) {
+    if scene.free > 0 && interval.is_constant(scene) {
+        (Method::Parabola, Why::ConstantForces)
+    } else if interval.leaps(scene) {
+        (Method::Swing, Why::OneQuadrature)
+    } else {
+        stepping(scene)
+    }
+}
+
+/// The method of intervals without a closed form.
+pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
+    match scene.velocities {
+        _ if scene.free == 0 => (Method::Walk, Why::NothingFree),
+        None => (Method::Nystrom, Why::NoVelocities),
+        Some(why) => (Method::DormandPrince, why),
+    }
+}
+
+/// What is done about a contact in a mode, and why; `followed` is what its followers make of u where that has a closed form.
+#[inline(always)]
+pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() -> bool) -> (Treatment, Why) {
+    match (mode, &contact.press) {
+        _ if contact.is_never_pressed() => (Treatment::Spared, Why::NeverPressed),
+        (Mode::Open, _) => (Treatment::Apart, Why::OnlyTheGap),
+        (Mode::Slip(_), Press::Constant { .. }) if contact.damping == 0.0 => {
+            if followed() {
+                (Treatment::Closed, Why::OneEdge)
+            } else {
+                (Treatment::General, Why::CurvedFollower)
+            }
+        }
+        (Mode::Slip(_), Press::Constant { .. }) => (Treatment::General, Why::ContactDamping),
+        (Mode::Slip(_), _) => (Treatment::General, Why::VaryingIndentation),
+        (Mode::Grow, _) => (Treatment::General, Why::Growth),
+        (Mode::Whole { .. }, _) if contact.inert => (Treatment::General, Why::NoFriction),
+        (Mode::Whole { .. }, _) => (Treatment::General, Why::WholeLaw),
+    }
+}

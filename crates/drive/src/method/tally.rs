@@ -1,0 +1,69 @@
+//! What a run did, counted.
+
+use super::{Method, Treatment};
+
+/// How often each method was taken, and each treatment given.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Tally {
+    methods: [u64; Method::ALL.len()],
+    /// By contact.
+    treatments: Vec<[u64; Treatment::ALL.len()]>,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Walk,
+        Self::Swing,
+        Self::Parabola,
+        Self::Nystrom,
+        Self::DormandPrince,
+        Self::Graded,
+        Self::AskedFor,
+    ];
+
+    /// What a user reads.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Walk => "walk from event to event",
+            Self::Swing => "closed form from event to event",
+            Self::Parabola => "parabola",
+            Self::Nystrom => "Runge–Kutta–Nyström 8(6)",
+            Self::DormandPrince => "Dormand–Prince 8(5,3)",
+            Self::Graded => "Dormand–Prince 8(5,3) with crowded stages",
+            Self::AskedFor => "the stepper asked for",
+        }
+    }
+}
+
+impl Treatment {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Spared, Self::Apart, Self::Closed, Self::General];
+}
+
+impl Tally {
+    /// Nothing yet, of a number of contacts.
+    pub(crate) fn of(contacts: usize) -> Self {
+        Self { methods: Default::default(), treatments: vec![Default::default(); contacts] }
+    }
+
+    /// Steps, or leaps, taken by a method.
+    pub fn steps(&self, method: Method) -> u64 {
+        self.methods[method as usize]
+    }
+
+    /// Intervals between two events in which a contact, by its place in the scene, was treated so.
+    pub fn intervals(&self, contact: usize, treatment: Treatment) -> u64 {
+        self.treatments.get(contact).map_or(0, |counts| counts[treatment as usize])
+    }
+
+    #[inline(always)]
+    pub(crate) fn step(&mut self, method: Method) {
+        self.methods[method as usize] += 1;
+    }
+
+    #[inline(always)]
+    pub(crate) fn interval(&mut self, contact: usize, treatment: Treatment) {
+        self.treatments[contact][treatment as usize] += 1;
+    }
+}

@@ -1,0 +1,25 @@
+//! Where a run ends, and the next moment that a step may not cross.
+
+use super::steady::Steps;
+use crate::{Model, Plan};
+
+/// Moments ahead.
+pub(super) struct Horizon {
+    /// End of the run, s.
+    pub(super) end: f64,
+    /// Earliest corner of a waveform, s.
+    pub(super) corner: f64,
+    /// The steps of the drive, where they may end the run.
+    pub(super) steps: Steps,
+}
+
+impl Horizon {
+    pub(super) fn new(model: &Model, plan: &Plan) -> Self {
+        Self { end: plan.duration, corner: f64::INFINITY, steps: Steps::of(model, plan) }
+    }
+
+    /// The first moment that a step may not cross, s.
+    pub(super) fn next(&self) -> f64 {
+        self.corner.min(self.end)
+    }
+}

@@ -1,0 +1,157 @@
+//! What happens at an event: contacts get their next law.
+
+use super::Located;
+use crate::RunError;
+use crate::equations::Equations;
+use crate::event::{Event, EventKind, Source};
+use crate::guard::Guard;
+use crate::model::{Contact, Measure, Motion};
+use crate::record::Record;
+use crate::state::{Mode, State};
+use stickslip_contact::Course;
+use stickslip_stepper::{Attempt, System};
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Sets the next law of every contact whose guard fell; after a corner, of all contacts it moves.
+    pub(super) fn handle_fallen(
+        &mut self,
+        state: &mut State,
+        corner: bool,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        for i in 0..self.watch.fired.len() {
+            let (c, guard) = self.watch.fired[i];
+            let contact = &self.setting.model.contacts[c];
+            let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
+            let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
+            // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
+            // end counts as reached.
+            let slack = if guard == Guard::Piece {
+                let left = guard.value(contact, state.law(c), &motion);
+                guard.bands(contact, self.setting.tolerance, motion.u).1 + left.max(0.0)
+            } else {
+                0.0
+            };
+            self.set_law(state, c, course, slack);
+            if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
+                kind = EventKind::GrossSlip;
+            }
+            self.note(state, Source::Contact(c), kind, record);
+            self.bounds.event(self.setting.model, state, (c, kind))?;
+        }
+        if corner {
+            for c in 0..self.setting.model.contacts.len() {
+                if !self.watch.fired.iter().any(|(fired, _)| *fired == c) {
+                    self.turn(state, c, record)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Decides afresh what a contact does after a corner, where velocities jump.
+    fn turn(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
+        let contact = &self.setting.model.contacts[c];
+        if contact.is_never_pressed() || !moved_by_waveform(contact) {
+            return Ok(());
+        }
+        // As it was before a jump, which sets laws for itself.
+        let old = self.turning.before[c];
+        state.grew[c] = false;
+        self.decide(state, c);
+        let kind = match (old, state.modes[c]) {
+            (Mode::Open, Mode::Open) | (Mode::Grow, Mode::Grow) => return Ok(()),
+            (Mode::Open, _) => EventKind::Touch,
+            (_, Mode::Open) => EventKind::LiftOff,
+            (_, Mode::Grow) => EventKind::FullStick,
+            (Mode::Grow, _) => EventKind::SlipBegins,
+            (old, new) if old.sense() == new.sense() => return Ok(()),
+            (old, _) if old.is_gross() => EventKind::GrossSlipEnds,
+            _ => EventKind::Reversal,
+        };
+        self.note(state, Source::Contact(c), kind, record);
+        self.bounds.event(self.setting.model, state, (c, kind))
+    }
+
+    /// Decides from velocities what a contact does, and from accelerations where it is at rest.
+    pub(super) fn decide(&mut self, state: &mut State, c: usize) {
+        let contact = &self.setting.model.contacts[c];
+        let eq = self.setting.plain(state);
+        let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
+        let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
+        if motion.du.abs() <= near && contact.law.stick_slope() * motion.dd.abs() <= near {
+            (motion.dd, motion.du) = self.push(state, c, &motion);
+        }
+        let course = state.memories[c].course(&contact.law, motion.d, motion.dd, motion.du);
+        let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
+        // A branch that goes on in its sense is still anchored where it was.
+        if !same || !matches!(state.modes[c], Mode::Slip(_)) {
+            self.set_law(state, c, course, 0.0);
+        }
+    }
+
+    /// Where a contact at rest sets out to, as a direction in (d, u): along its acceleration; within round-off of
+    /// equilibrium along its remaining velocity, and on in its present sense if there is none.
+    fn push(&mut self, state: &State, c: usize, motion: &Motion) -> (f64, f64) {
+        let contact = &self.setting.model.contacts[c];
+        let eq = self.setting.plain(state);
+        let slopes = &mut self.output.components;
+        eq.slopes(state.t, &state.y, slopes);
+        let of = |measure: &Measure| {
+            eq.acceleration(measure, state.t, |i| slopes[self.setting.layout.velocity(i)])
+        };
+        let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
+        let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;
+        if pull.abs().max(contact.law.stick_slope() * bend.abs()) > noise {
+            (bend, pull)
+        } else if motion.du != 0.0 {
+            (motion.dd, motion.du)
+        } else {
+            (motion.dd, state.modes[c].sense())
+        }
+    }
+
+    /// Sets the law of a contact, and the force and energy it starts to grow with.
+    pub(super) fn set_law(&self, state: &mut State, c: usize, course: Course, slack: f64) {
+        let contact = &self.setting.model.contacts[c];
+        let course = if course == Course::Open && contact.is_constant() && state.memories[c].apex().d > 0.0 {
+            Course::Forward
+        } else {
+            course
+        };
+        let was_gross = state.modes[c].is_gross();
+        state.modes[c] = Mode::of(contact, &state.memories[c], course, slack);
+        state.grew[c] = false;
+        match (was_gross, state.modes[c].is_gross()) {
+            (false, true) if state.step > 0.0 => state.stuck_step = state.step,
+            (true, false) => state.step = state.step.min(state.stuck_step),
+            _ => {}
+        }
+        if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+            let now = state.memories[c].preview(&contact.law, state.memories[c].apex());
+            state.y[self.setting.layout.force(slot)] = now.force;
+            state.y[self.setting.layout.elastic(slot)] = now.elastic;
+        }
+    }
+
+    /// Writes an event down.
+    pub(super) fn note(
+        &mut self,
+        state: &mut State,
+        source: Source,
+        kind: EventKind,
+        record: &mut dyn Record,
+    ) {
+        state.counts.events += 1;
+        if record.wants_events() {
+            let event = Event { t: state.t, source, kind };
+            self.output.event(&self.setting.plain(state), state, &event, record);
+        }
+    }
+}
+
+/// Whether a corner of any waveform changes the velocities of this contact directly.
+fn moved_by_waveform(contact: &Contact) -> bool {
+    let normal = contact.coupling().is_some_and(|measure| !measure.driven.is_empty());
+    contact.press.waveform().is_some() || normal || !contact.u.driven.is_empty()
+}

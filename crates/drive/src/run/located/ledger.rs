@@ -1,0 +1,147 @@
+//! From an accepted step to the segments that the contacts commit.
+
+use super::Located;
+use super::motion::Motion;
+use crate::RunError;
+use crate::equations::Equations;
+use crate::interval::Steady;
+use crate::model::{Model, Motion as ContactMotion};
+use crate::state::{Mode, State};
+use stickslip_contact::Segment;
+use stickslip_stepper::{Attempt, Completion};
+
+/// Most pieces into which a step's path of growth is cut.
+const MOST_PIECES: f64 = 256.0;
+
+/// How far a piece of a path of growth may bend, in units of the tolerance. Forces at both its ends are those of the state:
+/// a bend counts only where an edge stops inside the piece, and then for less than a hundredth.
+const BEND: f64 = 100.0;
+
+/// What the contacts commit.
+pub(super) struct Ledger {
+    /// Contacts, by their places, and the segments that lead them to the end of the step.
+    segments: Vec<(usize, Segment)>,
+    pub(super) books: Books,
+}
+
+/// Where the memories of steady contacts are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Books {
+    /// Where the state is.
+    Current,
+    /// At the last event.
+    Behind,
+}
+
+impl Ledger {
+    pub(super) fn new(model: &Model) -> Self {
+        let segments = Vec::with_capacity(model.contacts.len() + MOST_PIECES as usize);
+        Self { segments, books: Books::Current }
+    }
+
+    /// All contacts move their memory to where the step ended.
+    pub(super) fn commit(&self, model: &Model, state: &mut State) -> Result<(), RunError> {
+        for &(c, segment) in &self.segments {
+            let contact = &model.contacts[c];
+            let friction = state.memories[c]
+                .commit(&contact.law, segment)
+                .map_err(|source| RunError::Contact { t: state.t, contact: contact.name.clone(), source })?;
+            if contact.slot.is_none() {
+                state.friction[c] += contact.count * friction;
+            }
+            state.grew[c] = matches!(segment, Segment::Grown { .. });
+        }
+        Ok(())
+    }
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// The segments of all contacts that lead to the end of the step: chords, and for a contact that
+    /// grew in full stick its path in as many pieces as its bend asks for.
+    ///
+    /// A steady contact drags one edge over one piece of its memory: one chord to the next event is the same as many, and
+    /// a step that `goes_on` leaves its memory where it is.
+    pub(super) fn trace_step(&mut self, state: &State, t: f64, goes_on: bool) {
+        let segments = &mut self.ledger.segments;
+        segments.clear();
+        if goes_on && self.interval.is_steady() {
+            return;
+        }
+        let eq = self.setting.equations(state, &self.interval);
+        for (c, contact) in self.setting.model.contacts.iter().enumerate() {
+            if contact.is_never_pressed() || (goes_on && self.interval.steady(c).is_some()) {
+                continue;
+            }
+            let span = self.motion.solver.span();
+            let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
+            if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+                self.motion.solver.complete(&eq, Completion::Dense);
+                let growth =
+                    Growth { motion: &self.motion, eq: &eq, state, tolerance: self.setting.tolerance };
+                growth.trace((c, slot), (t, &motion), |piece| segments.push((c, piece)));
+            } else {
+                segments.push((c, Segment::Straight(motion.apex())));
+            }
+        }
+    }
+
+    /// Moves the memories of steady contacts to where a run stops short of an event.
+    pub(super) fn settle(&mut self, state: &mut State) {
+        self.trace_steady(state);
+        // What is not finite has been refused before.
+        let _ = self.ledger.commit(self.setting.model, state);
+    }
+
+    /// The segments of steady contacts, and of those that only are there, that lead to the state.
+    pub(super) fn trace_steady(&mut self, state: &State) {
+        let segments = &mut self.ledger.segments;
+        segments.clear();
+        let x = |i: usize| state.y[i];
+        let motion = |steady: &Steady<'_>| steady.motion(state.t, x, x).apex();
+        let segment = |steady: &Steady<'_>| (steady.index, Segment::Straight(motion(steady)));
+        segments.extend(self.interval.steady.iter().map(segment));
+        for &c in &self.interval.apart {
+            let motion = self.setting.plain(state).motion(&self.setting.model.contacts[c], state.t, x);
+            segments.push((c, Segment::Straight(motion.apex())));
+        }
+    }
+}
+
+/// The step in which a contact grows.
+pub(super) struct Growth<'r, 'e, A> {
+    pub(super) motion: &'r Motion<A>,
+    pub(super) eq: &'r Equations<'e>,
+    pub(super) state: &'r State,
+    pub(super) tolerance: f64,
+}
+
+impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
+    /// The path of a growing contact on the dense output up to a time and a motion inside the step, each piece bent by
+    /// less than [`BEND`] allows.
+    pub(super) fn trace(
+        &self,
+        (c, slot): (usize, usize),
+        (end, to): (f64, &ContactMotion),
+        mut push: impl FnMut(Segment),
+    ) {
+        let contact = &self.eq.model.contacts[c];
+        let (t0, h) = (self.state.t, end - self.state.t);
+        let at = |share: f64| {
+            let t = t0 + share * h;
+            self.eq.motion(contact, t, |i| self.motion.solver.value(i, t))
+        };
+        let (from, middle) = (self.state.memories[c].apex(), at(0.5));
+        let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
+        let bend = (middle.u - chord).abs() / (BEND * self.tolerance * contact.natural.displacement);
+        let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
+        let mut joins = self.state.grew[c];
+        for k in 1..=pieces as u32 {
+            let share = f64::from(k) / pieces;
+            let (to, t) = if share >= 1.0 { (*to, end) } else { (at(share), t0 + share * h) };
+            let force = self.motion.component(self.eq.layout.force(slot), t);
+            let energy = self.motion.component(self.eq.layout.elastic(slot), t);
+            push(Segment::Grown { to: to.apex(), force, energy, joins });
+            joins = true;
+        }
+    }
+}

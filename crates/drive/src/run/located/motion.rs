@@ -1,0 +1,202 @@
+//! The solver and what steers it.
+
+use super::Setting;
+use super::aim::{Aim, SHRINK};
+use super::allowance::Allowance;
+use crate::equations::Equations;
+use crate::model::{Free, Model};
+use crate::state::State;
+use crate::{Plan, Waveform};
+use stickslip_stepper::{Attempt, End, Grade, Target};
+
+/// Velocities this small, relative to the natural ones, are rounding: some hundred of their last places.
+const REST: f64 = 1e-13;
+/// Largest product of step and rate at rest. Long steps multiply rounding by their many large coefficients.
+const REST_REACH: f64 = 1.0;
+/// Steps of a row under a varying load in a period of the load, at least.
+const CHORDS_PER_PERIOD: f64 = 4096.0;
+/// How often a step is tried again to end nearer to its singular moment.
+const CORRECTIONS: u32 = 2;
+
+/// The solver and what steers it.
+pub(super) struct Motion<A> {
+    pub(super) solver: A,
+    pub(super) whereabouts: Whereabouts,
+    pub(super) allowance: Allowance,
+    pub(super) pace: Pace,
+}
+
+/// Where the solver stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Whereabouts {
+    /// Where the state is.
+    Here,
+    /// Left behind by leaps, or by laws that have changed.
+    Behind,
+}
+
+/// How long steps may be.
+pub(super) struct Pace {
+    /// Longest step, s: a fraction of the period of the fastest smooth waveform.
+    pub(super) longest: f64,
+    /// How near to a singular moment a step must end, as a part of it.
+    pub(super) closeness: f64,
+    /// How much must be left before such a moment for its law to matter, in natural lengths.
+    pub(super) resolved: f64,
+    /// Longest step since the last event, or since a graded one was refused, s.
+    pub(super) proven: f64,
+    pub(super) ahead: Ahead,
+    pub(super) grip: Grip,
+}
+
+/// What a singular moment ahead does to even steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ahead {
+    /// Nothing yet.
+    Clear,
+    /// It has made one too long.
+    Shortens,
+}
+
+/// What holds the bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Grip {
+    /// No contact does.
+    Slips,
+    /// A contact is in partial slip or sticks, or there is none.
+    Sticks,
+    /// The same, and all that is free is at rest.
+    Rests,
+}
+
+impl<A> Motion<A> {
+    pub(super) fn new(setting: &Setting<'_>, plan: &Plan, solver: A) -> Self {
+        let (model, tolerance) = (setting.model, setting.tolerance);
+        let pace = Pace {
+            longest: longest(model, plan),
+            closeness: closeness(model, tolerance),
+            resolved: tolerance.powf(2.0 / 3.0),
+            proven: 0.0,
+            ahead: Ahead::Clear,
+            grip: Grip::Slips,
+        };
+        Self { solver, whereabouts: Whereabouts::Behind, allowance: Allowance::new(model, tolerance), pace }
+    }
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
+    /// Puts the solver where the state is.
+    pub(super) fn start(&mut self, eq: &Equations<'_>, state: &State) {
+        self.whereabouts = Whereabouts::Here;
+        self.solver.start(eq, state.t, &state.y);
+    }
+
+    /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
+    #[inline(always)]
+    pub(super) fn attempt(&mut self, eq: &Equations<'_>, t: f64, aim: &mut Aim, corner: f64) -> f64 {
+        let target = Target { end: aim.target, grade: aim.grade };
+        let mut error = self.solver.attempt(eq, target, &self.allowance.scale);
+        let Some((c, guard)) = aim.closes else { return error };
+        let contact = &eq.model.contacts[c];
+        for _ in 0..CORRECTIONS {
+            let (end, h) = (self.solver.span().end, aim.target - t);
+            let motion = eq.motion(contact, aim.target, |i| end[i]);
+            let value = guard.value(contact, eq.law(c), &motion);
+            let rate = guard.rate(contact, &eq.modes[c], &motion, (0.0, 0.0));
+            let missed = -value / rate;
+            let to = aim.target + missed + 0.5 * self.pace.closeness * h;
+            let fits = to - t > SHRINK * h && to - t < aim.most && to < corner;
+            if !(rate < 0.0 && error < 1.0 && missed.abs() > self.pace.closeness * h && fits) {
+                break;
+            }
+            aim.target = to;
+            let target = Target { end: to, grade: aim.grade };
+            error = self.solver.attempt(eq, target, &self.allowance.scale);
+        }
+        error
+    }
+
+    /// Longest step from here, s. Where something holds, a swing below the tolerance must die away instead of being
+    /// nursed up to it, and one of the size of rounding must not be fed by more of it.
+    pub(super) fn longest_now(&self, fastest: f64) -> f64 {
+        let reach = match self.pace.grip {
+            Grip::Slips => return self.pace.longest,
+            Grip::Sticks => self.solver.stability_limit(),
+            Grip::Rests => REST_REACH,
+        };
+        self.pace.longest.min(reach / fastest)
+    }
+
+    /// Looks whether all that is free is at rest.
+    pub(super) fn rest(&mut self, model: &Model, state: &State) -> bool {
+        let rests = self.is_at_rest(model, state);
+        self.pace.grip = match self.pace.grip {
+            Grip::Slips => Grip::Slips,
+            Grip::Sticks | Grip::Rests if rests => Grip::Rests,
+            Grip::Sticks | Grip::Rests => Grip::Sticks,
+        };
+        rests
+    }
+
+    /// Whether all that is free is at rest but for rounding: velocities that some step has left, and accelerations that
+    /// will not make more of them.
+    fn is_at_rest(&self, model: &Model, state: &State) -> bool {
+        let velocity = |i: usize| model.free.len() + i;
+        let still = |(i, free): (usize, &Free)| {
+            let ((length, speed), pull) = (free.scale, self.solver.slope(velocity(i), End::Start));
+            state.y[velocity(i)].abs() <= REST * speed && pull.abs() * length <= REST * speed * speed
+        };
+        model.free.iter().enumerate().all(still)
+    }
+
+    /// Component `i` at a time inside the step; before its end by the dense output.
+    #[inline]
+    pub(super) fn component(&self, i: usize, t: f64) -> f64 {
+        if t == self.solver.span().end_time { self.solver.span().end[i] } else { self.solver.value(i, t) }
+    }
+}
+
+impl Pace {
+    /// After an event nothing is known of what is ahead.
+    pub(super) fn restart(&mut self) {
+        (self.proven, self.ahead) = (0.0, Ahead::Clear);
+    }
+
+    /// How the step after an accepted one of length `h` shrinks. On the way to a singular moment an even step has the same
+    /// error as the one before where it is the same part of what is left.
+    pub(super) fn nearing(&self, h: f64, singular: f64) -> f64 {
+        match self.ahead {
+            Ahead::Clear => 1.0,
+            Ahead::Shortens => (1.0 - h / singular).max(SHRINK),
+        }
+    }
+
+    /// What a refused step tells.
+    pub(super) fn refuse(&mut self, aim: &Aim) {
+        if aim.closes.is_some() {
+            self.proven = 0.0;
+        }
+        self.ahead = if aim.singular.is_finite() { Ahead::Shortens } else { Ahead::Clear };
+    }
+
+    /// The error by which a step is judged. From a singular moment it falls with the root of the length as that of an even
+    /// step with the length.
+    pub(super) fn judged(error: f64, grade: Grade) -> f64 {
+        if grade == Grade::Start && error > 1.0 { error * error } else { error }
+    }
+}
+
+/// Longest step, s. A row under a varying load follows chords: it needs steps that leave the load no bend.
+fn longest(model: &Model, plan: &Plan) -> f64 {
+    let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
+    let rows = model.contacts.iter().filter(|c| !c.engine.branches() && !c.is_constant());
+    let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
+    rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
+}
+
+/// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2 of
+/// the time counts with the power 5/2, of the damping of the stuck springs with the power 3/2.
+fn closeness(model: &Model, tolerance: f64) -> f64 {
+    let damped = model.contacts.iter().any(|contact| contact.damping > 0.0);
+    0.1 * tolerance.powf(if damped { 2.0 / 3.0 } else { 0.4 })
+}

@@ -1,0 +1,34 @@
+//! Coordinates that travel: counted from near by, so that a million periods cost no digit.
+
+use crate::Model;
+use crate::state::{Mode, State};
+
+/// A coordinate this many natural lengths away from its origin takes it along.
+const FAR: f64 = 1024.0;
+/// What is left of a double without its fraction.
+const SIGN_AND_EXPONENT: u64 = 0xfff0_0000_0000_0000;
+
+/// Moves the origins of coordinates that have travelled far. Due before a restart.
+pub(super) fn shift(model: &Model, state: &mut State) {
+    for (i, free) in model.free.iter().enumerate() {
+        if free.travels && state.y[i].abs() > FAR * free.scale.0 {
+            shift_one(model, state, i);
+        }
+    }
+}
+
+/// Moves one origin by the power of two next below the position: no sum is rounded.
+fn shift_one(model: &Model, state: &mut State, i: usize) {
+    let by = f64::from_bits(state.y[i].to_bits() & SIGN_AND_EXPONENT);
+    state.y[i] -= by;
+    state.shifts[i] += by;
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let along: f64 = contact.u.free.iter().filter(|(free, _)| *free == i).map(|(_, a)| a).sum();
+        if along != 0.0 {
+            state.memories[c].shift(-along * by);
+            if let Mode::Slip(branch) = &mut state.modes[c] {
+                branch.shift(-along * by);
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! The early end of a run whose steps have become constant.
+
+use super::Located;
+use crate::equations::Equations;
+use crate::state::State;
+use stickslip_stepper::{Attempt, Completion};
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Takes the steps of the drive that the attempt just made brings to their end; the one with which they are constant
+    /// ends the attempt and the run. Until then nothing is changed: the places are read off the dense output.
+    #[inline(never)]
+    pub(super) fn take_steps(&mut self, state: &State) {
+        let (t, i) = (self.motion.solver.span().end_time, self.horizon.steps.coordinate);
+        while let Some(due) = self.horizon.steps.due(t) {
+            let eq = self.setting.equations(state, &self.interval);
+            if due < t {
+                self.motion.solver.complete(&eq, Completion::Dense);
+            }
+            if !self.horizon.steps.take(state.shifts[i], self.motion.component(i, due)) {
+                continue;
+            }
+            self.horizon.end = due;
+            self.output.end_at(due);
+            if due < t {
+                self.motion.solver.cut(due);
+                self.watch.arrive(&eq, &self.motion.solver);
+                self.watch.fired.clear();
+            }
+            return;
+        }
+    }
+}

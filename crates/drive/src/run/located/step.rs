@@ -1,0 +1,182 @@
+//! One attempt, and what belongs to an accepted step.
+
+use super::aim::Aim;
+use super::motion::{Pace, Whereabouts};
+use super::watch::Watch;
+use super::{Located, Motion};
+use crate::RunError;
+use crate::equations::Equations;
+use crate::method::Method;
+use crate::record::Record;
+use crate::run::ledger::Books;
+use crate::state::State;
+use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, StepHistory, Verdict};
+
+/// How a step ends.
+#[derive(Clone, Copy, PartialEq)]
+enum Ending {
+    Smooth,
+    Event,
+    Corner,
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// A leap to the next event or, where that is not possible, one attempt and, if it succeeds, everything that belongs to
+    /// an accepted step: attempt → locate → accept → commit → next law.
+    pub(super) fn step(
+        &mut self,
+        state: &mut State,
+        control: &mut StepControl,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        if self.leap(state, record)? {
+            return Ok(());
+        }
+        if self.motion.whereabouts == Whereabouts::Behind {
+            self.catch_up(state);
+        }
+        let corner = self.horizon.next();
+        let mut aim = self.aim(state, corner);
+        if aim.target <= state.t {
+            return Err(RunError::StepTooSmall { t: state.t, step: state.step });
+        }
+        let eq = self.setting.equations(state, &self.interval);
+        let verdict = attempt(&mut self.motion, &mut self.watch, &eq, (state, control), (&mut aim, corner));
+        if !verdict.accepted {
+            return self.reject(state, control, (&aim, verdict), record);
+        }
+        let h = aim.target - state.t;
+        self.motion.pace.proven = self.motion.pace.proven.max(h);
+        if self.horizon.steps.due(self.motion.solver.span().end_time).is_some() {
+            self.take_steps(state);
+        }
+        let ending = self.ending(&aim, corner);
+        let wished = self.wished(state, ending, (h, verdict.next));
+        state.tally.step(self.method(&aim));
+        self.accept(state, record, ending == Ending::Smooth && self.watch.fired.is_empty())?;
+        state.step = match ending {
+            Ending::Smooth => self.motion.pace.nearing(h, aim.singular) * wished,
+            Ending::Event | Ending::Corner => control.after_event(wished),
+        };
+        if ending == Ending::Corner || !self.watch.fired.is_empty() {
+            self.pass_event(state, ending == Ending::Corner, record)?;
+        } else {
+            self.watch.go_on();
+            if self.motion.rest(self.setting.model, state) {
+                self.stop(state);
+            }
+        }
+        self.bounds.step(state, record)
+    }
+
+    fn ending(&self, aim: &Aim, corner: f64) -> Ending {
+        if self.motion.solver.span().end_time < aim.target {
+            Ending::Event
+        } else if aim.target == corner {
+            Ending::Corner
+        } else {
+            Ending::Smooth
+        }
+    }
+
+    /// The step that comes to be wished for after one of length `h`, its control having proposed another, s.
+    fn wished(&self, state: &State, ending: Ending, (h, next): (f64, f64)) -> f64 {
+        match (ending == Ending::Event, h < state.step) {
+            // The next law has not earned a longer step yet.
+            _ if self.motion.solver.coasts() => state.step,
+            (true, false) => h.min(next),
+            (true, true) => state.step,
+            (false, false) => next,
+            (false, true) => state.step.max(next),
+        }
+    }
+
+    /// The method of the step just made.
+    fn method(&self, aim: &Aim) -> Method {
+        match aim.grade {
+            _ if self.motion.solver.coasts() && self.setting.layout.free > 0 => Method::Parabola,
+            Grade::Even => self.setting.method,
+            Grade::Start | Grade::End => Method::Graded,
+        }
+    }
+
+    #[inline(never)]
+    fn reject(
+        &mut self,
+        state: &mut State,
+        control: &mut StepControl,
+        (aim, verdict): (&Aim, Verdict),
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        if aim.closes.is_some() {
+            // The next attempt is an even one: nothing follows from both errors together.
+            let rejected = Some(Rejection { step: aim.target - state.t, log_error: f64::INFINITY });
+            control.set_history(StepHistory { rejected, ..control.history() });
+        }
+        self.motion.pace.refuse(aim);
+        state.counts.rejected += 1;
+        state.step = verdict.next;
+        // Perhaps rounding has grown above what was allowed for it.
+        self.motion.allowance.set(self.setting.model, state);
+        if verdict.next > 4.0 * f64::EPSILON * state.t.abs() && verdict.next > f64::MIN_POSITIVE {
+            return self.bounds.step(state, record);
+        }
+        Err(RunError::StepTooSmall { t: state.t, step: verdict.next })
+    }
+
+    /// Rows and looks inside the step, then the commit of all contacts, then time moves on. `goes_on` says that no event
+    /// ends the step.
+    fn accept(&mut self, state: &mut State, record: &mut dyn Record, goes_on: bool) -> Result<(), RunError> {
+        let t = self.motion.solver.span().end_time;
+        self.trace_step(state, t, goes_on);
+        self.ledger.books = if goes_on { Books::Behind } else { Books::Current };
+        if self.output.due(t) {
+            self.write(state, t, record);
+        }
+        let end = self.motion.solver.span().end;
+        if let Some(i) = end.iter().position(|y| !y.is_finite()) {
+            return Err(self.setting.model.not_finite(t, i));
+        }
+        state.y[..end.len()].copy_from_slice(end);
+        state.t = t;
+        state.counts.steps += 1;
+        self.motion.solver.accept();
+        self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
+    }
+
+    /// Takes away what rounding has left of the velocities: it would add up over a long rest.
+    fn stop(&mut self, state: &mut State) {
+        let free = self.setting.layout.free;
+        if state.y[free..2 * free].iter().any(|v| *v != 0.0) {
+            state.y[free..2 * free].fill(0.0);
+            self.restart(state);
+        }
+    }
+}
+
+/// Tries a step and, if its error allows, looks for the first event in it and ends it there.
+#[inline(always)]
+fn attempt<A: for<'e> Attempt<Equations<'e>>>(
+    motion: &mut Motion<A>,
+    watch: &mut Watch,
+    eq: &Equations<'_>,
+    (state, control): (&State, &mut StepControl),
+    (aim, corner): (&mut Aim, f64),
+) -> Verdict {
+    let error = motion.attempt(eq, state.t, aim, corner);
+    let target = aim.target;
+    let verdict = control.propose(Pace::judged(error, aim.grade), target - state.t);
+    if verdict.accepted {
+        motion.solver.complete(eq, Completion::EndSlopes);
+        watch.arrive(eq, &motion.solver);
+        watch.fired.clear();
+        if let Some(fall) = watch.first_fall(&mut motion.solver, eq) {
+            if fall.t < target {
+                motion.solver.cut(fall.t);
+                watch.arrive(eq, &motion.solver);
+            }
+            watch.collect_fallen(&mut motion.solver, eq, fall);
+        }
+    }
+    verdict
+}

@@ -1,0 +1,97 @@
+//! What waveforms do at a corner.
+
+use super::Located;
+use crate::Waveform;
+use crate::equations::Equations;
+use crate::event::{EventKind, Source};
+use crate::model::{Contact, Model};
+use crate::record::{self, Record};
+use crate::state::{Mode, State};
+use stickslip_contact::{Memory, Segment};
+use stickslip_stepper::Attempt;
+
+/// What waveforms do at a corner.
+pub(super) struct Turning {
+    jumps: Jumps,
+    /// Modes before the corner.
+    pub(super) before: Vec<Mode>,
+    /// Waveforms that turned.
+    turned: Vec<(usize, EventKind)>,
+}
+
+/// Whether any waveform jumps: only then is the energy before a corner asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Jumps {
+    Never,
+    Possible,
+}
+
+impl Turning {
+    pub(super) fn new(model: &Model) -> Self {
+        let jumps =
+            if model.waveforms.iter().any(Waveform::has_jumps) { Jumps::Possible } else { Jumps::Never };
+        Self {
+            jumps,
+            before: Vec::with_capacity(model.contacts.len()),
+            turned: Vec::with_capacity(model.waveforms.len()),
+        }
+    }
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Moves every waveform whose piece ends now to its next piece, and books jumps. Events are noted when all of it
+    /// has happened: the state after them is whole.
+    pub(super) fn turn_corners(&mut self, state: &mut State, record: &mut dyn Record) {
+        let before = if self.turning.jumps == Jumps::Possible { self.stored(state) } else { 0.0 };
+        self.turning.before.clone_from(&state.modes);
+        let turned = &mut self.turning.turned;
+        turned.clear();
+        for (w, waveform) in self.setting.model.waveforms.iter().enumerate() {
+            while state.pieces[w].end <= state.t {
+                let jump = waveform.jump_after(&state.pieces[w]) != 0.0;
+                state.pieces[w] = waveform.after(&state.pieces[w]);
+                turned.push((w, if jump { EventKind::Jump } else { EventKind::Corner }));
+            }
+        }
+        if turned.iter().any(|(_, kind)| *kind == EventKind::Jump) {
+            self.jump(state, before);
+        }
+        for i in 0..self.turning.turned.len() {
+            let (w, kind) = self.turning.turned[i];
+            self.note(state, Source::Waveform(w), kind, record);
+        }
+    }
+
+    /// Bodies that follow a waveform jump: a straight path of every contact in no time. The work of the jump is what
+    /// the elastic energy, `before` until now, gains and friction takes.
+    fn jump(&mut self, state: &mut State, before: f64) {
+        let mut friction = 0.0;
+        for (c, contact) in self.setting.model.contacts.iter().enumerate() {
+            let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
+            // A jump is as finite as its waveform.
+            let from = state.memories[c].apex();
+            let work =
+                contact.count * state.memories[c].commit(&contact.law, Segment::Jump(to)).unwrap_or(0.0);
+            state.friction[c] += work;
+            friction += work;
+            if let (Some(branching), true) = (state.memories[c].branching(), to != from) {
+                let course = branching.course(&contact.law, to.d - from.d, to.u - from.u);
+                self.set_law(state, c, course, 0.0);
+            }
+        }
+        state.jumps += self.stored(state) - before + friction;
+    }
+
+    /// Energy of contacts and links, J, at the committed state; without that of a prescribed normal load.
+    fn stored(&self, state: &State) -> f64 {
+        let (model, eq) = (self.setting.model, self.setting.plain(state));
+        let energy = |(contact, memory): (&Contact, &Memory)| {
+            let apex = memory.apex();
+            let normal = contact.coupling().map_or(0.0, |_| contact.law.normal_energy(apex.d));
+            contact.count * (normal + memory.preview(&contact.law, apex).elastic)
+        };
+        let contacts = model.contacts.iter().zip(&state.memories).map(energy);
+        let links = model.links.iter().map(|l| record::link_energy(&eq, l, state.t, &|i| state.y[i]));
+        contacts.sum::<f64>() + links.sum::<f64>()
+    }
+}

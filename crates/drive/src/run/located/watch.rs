@@ -1,0 +1,138 @@
+//! The contacts at both ends of a step, and the guards that fell at its end.
+
+use crate::equations::Equations;
+use crate::guard::Guard;
+use crate::interval::{Interval, Steady};
+use crate::model::{Contact, Measure, Model, Motion};
+use crate::state::Mode;
+use stickslip_stepper::{End, Step};
+
+/// A contact at one end of a step. Steady contacts have none: their motion is read off the state where it is asked for.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Moving {
+    pub(super) motion: Motion,
+    /// d̈ and ü, m/s²; what a waveform does to the indentation otherwise than by moving a body is left out.
+    pub(super) second: (f64, f64),
+}
+
+/// The contacts at both ends of a step, and the guards that fell at its end.
+pub(super) struct Watch {
+    /// At its start.
+    pub(super) from: Vec<Moving>,
+    /// At its end.
+    pub(super) to: Vec<Moving>,
+    /// Guards that fell at the end of the step.
+    pub(super) fired: Vec<(usize, Guard)>,
+    pub(super) tolerance: f64,
+}
+
+impl Watch {
+    pub(super) fn new(model: &Model, tolerance: f64) -> Self {
+        let contacts = vec![Moving::default(); model.contacts.len()];
+        let fired = Vec::with_capacity(model.contacts.len());
+        Self { from: contacts.clone(), to: contacts, fired, tolerance }
+    }
+
+    /// The contacts at the start of the next step, after anything that makes slopes jump.
+    pub(super) fn set_out(&mut self, eq: &Equations<'_>, solver: &impl Step) {
+        if eq.interval.is_some_and(Interval::is_steady) {
+            return;
+        }
+        let span = solver.span();
+        follow(eq, &mut self.from, (span.time, span.begin), |i| solver.slope(i, End::Start));
+    }
+
+    /// The contacts at the end of the step.
+    pub(super) fn arrive(&mut self, eq: &Equations<'_>, solver: &impl Step) {
+        if eq.interval.is_some_and(Interval::is_steady) {
+            return;
+        }
+        let span = solver.span();
+        follow(eq, &mut self.to, (span.end_time, span.end), |i| solver.slope(i, End::End));
+    }
+
+    /// The end of a step is the start of the next one.
+    pub(super) fn go_on(&mut self) {
+        std::mem::swap(&mut self.from, &mut self.to);
+    }
+
+    /// Motion of contact `c` at the end of the step, at time t and components y.
+    pub(super) fn motion_at_end(&self, interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64])) -> Motion {
+        motion(interval, c, (t, y), &self.to)
+    }
+
+    /// Motion of contact `c` at the start of the step.
+    pub(super) fn motion_at_start(&self, interval: &Interval<'_>, c: usize, solver: &impl Step) -> Motion {
+        let span = solver.span();
+        motion(interval, c, (span.time, span.begin), &self.from)
+    }
+}
+
+fn motion(interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64]), contacts: &[Moving]) -> Motion {
+    match interval.steady(c) {
+        Some(steady) => {
+            let n = interval.scene.free;
+            steady.motion(t, |i| y[i], |i| y[n + i])
+        }
+        None => contacts[c].motion,
+    }
+}
+
+/// The contacts at time t and components y, with the slopes of its velocities.
+#[inline(always)]
+fn follow(
+    eq: &Equations<'_>,
+    contacts: &mut [Moving],
+    (t, y): (f64, &[f64]),
+    slope: impl Fn(usize) -> f64 + Copy,
+) {
+    let Some(interval) = eq.interval else { return };
+    for c in interval.unsteady() {
+        let contact = &eq.model.contacts[c];
+        let motion = eq.motion(contact, t, |i| y[i]);
+        contacts[c] = Moving { motion, second: second(eq, contact, t, slope) };
+    }
+}
+
+/// d̈ and ü of a contact from the slopes of the velocities.
+fn second(eq: &Equations<'_>, contact: &Contact, t: f64, slope: impl Fn(usize) -> f64) -> (f64, f64) {
+    let of = |measure: &Measure| eq.acceleration(measure, t, |i| slope(eq.layout.velocity(i)));
+    (contact.coupling().map_or(0.0, of), of(&contact.u))
+}
+
+impl Watch {
+    /// When a steady contact will have used up its piece of memory, s from the start of the step.
+    #[inline(always)]
+    pub(super) fn expected_of_steady(steady: &Steady<'_>, n: usize, solver: &impl Step) -> f64 {
+        if !steady.guards.contains(&Guard::Piece) {
+            return f64::INFINITY;
+        }
+        let span = solver.span();
+        let (t, begin) = (span.time, span.begin);
+        let (x, v, a) = (|i| begin[i], |i| begin[n + i], |i| solver.slope(n + i, End::Start));
+        let guard = |guard| steady.guard(guard, t, x, v);
+        reached(guard(Guard::Piece), guard(Guard::Drag), steady.guard_rate(Guard::Drag, t, v, a))
+    }
+
+    /// The same of any other contact.
+    pub(super) fn expected_of(&self, eq: &Equations<'_>, c: usize) -> f64 {
+        let (contact, mode) = (&eq.model.contacts[c], &eq.modes[c]);
+        let Mode::Slip(branch) = mode else { return f64::INFINITY };
+        let Moving { motion, second } = self.from[c];
+        let speed = Guard::Drag.value(contact, eq.law(c), &motion);
+        let pull = Guard::Drag.rate(contact, mode, &motion, second);
+        reached(branch.margin(motion.d, motion.u), speed, pull)
+    }
+}
+
+/// When what is left (m) will be used up at a speed (m/s) and its rate (m/s²): left = speed t + pull t²/2.
+#[inline(always)]
+fn reached(left: f64, speed: f64, pull: f64) -> f64 {
+    // A slowing edge may never get there.
+    let reaches = speed * speed + 2.0 * pull * left;
+    if speed > 0.0 && reaches > 0.0 && left > 0.0 {
+        2.0 * left / (speed + reaches.sqrt())
+    } else {
+        f64::INFINITY
+    }
+}

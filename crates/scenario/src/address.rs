@@ -1,0 +1,84 @@
+//! Where the parts and fields of a scene and a plan stand in the file: the only table from the one to the other.
+
+use crate::fault::Fault;
+use crate::path::{KeyPath, Step};
+use stickslip_drive::scene::{Axis, Named};
+use stickslip_drive::{Field, Part, Plan, Scene, SceneError, Stepper};
+
+/// What a scene or a plan is refused for, in the words and with the place of a fault.
+pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
+    let path = path(scene, plan, error.part, error.field);
+    Fault::new(path, error.fault.to_string()).maybe_help(error.fault.advice())
+}
+
+/// The key path of a field.
+fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPath {
+    let key = |key: &str| Step::Key(key.to_owned());
+    let mut steps = match part {
+        Part::Body(i) => named("bodies", &scene.bodies, i),
+        Part::Contact(i) => named("contacts", &scene.contacts, i),
+        Part::Spring(i) => named("springs", &scene.springs, i),
+        Part::Actuator(i) => named("actuators", &scene.actuators, i),
+        Part::Load(i) => vec![key("loads"), Step::Index(i)],
+        Part::Gravity => vec![key("gravity")],
+        Part::Run if field == Field::Interval => vec![key("output")],
+        Part::Run => vec![key("run")],
+    };
+    steps.extend(keys(field, plan.stepper).iter().map(|step| key(step)));
+    KeyPath(steps)
+}
+
+fn named<T>(kind: &str, parts: &[Named<T>], i: usize) -> Vec<Step> {
+    let name = parts.get(i).map(|part| part.name.clone());
+    [kind.to_owned()].into_iter().chain(name).map(Step::Key).collect()
+}
+
+/// The keys from a part to its field.
+fn keys(field: Field, stepper: Stepper) -> &'static [&'static str] {
+    match field {
+        Field::Whole => &[],
+        Field::Mass => &["mass"],
+        Field::Inertia => &["inertia"],
+        Field::Coordinate(Axis::X) | Field::Component(Axis::X) => &["x"],
+        Field::Coordinate(Axis::Z) | Field::Component(Axis::Z) => &["z"],
+        Field::Coordinate(Axis::Pitch) | Field::Component(Axis::Pitch) => &["pitch"],
+        Field::Position(Axis::X) => &["start", "x"],
+        Field::Position(Axis::Z) => &["start", "z"],
+        Field::Position(Axis::Pitch) => &["start", "pitch"],
+        Field::Velocity(Axis::X) => &["start", "vx"],
+        Field::Velocity(Axis::Z) => &["start", "vz"],
+        Field::Velocity(Axis::Pitch) => &["start", "vpitch"],
+        Field::Between => &["between"],
+        Field::Points => &["at"],
+        Field::Friction => &["friction"],
+        Field::Normal => &["normal"],
+        Field::NormalForce => &["normal", "force"],
+        Field::NormalIndentation => &["normal", "indentation"],
+        Field::NormalRadius => &["normal", "radius"],
+        Field::Gap => &["gap"],
+        Field::Damping => &["damping"],
+        Field::Start => &["start"],
+        Field::StartForce => &["start", "force"],
+        Field::StartDisplacement => &["start", "displacement"],
+        Field::Engine => &["engine"],
+        Field::SpringCount => &["engine", "springs", "count"],
+        Field::Span => &["engine", "springs", "span"],
+        Field::Count => &["count"],
+        Field::Stiffness => &["stiffness"],
+        Field::Preload => &["preload"],
+        Field::Stroke => &["stroke"],
+        Field::On => &["on"],
+        Field::Acceleration => &["acceleration"],
+        Field::Incline => &["incline"],
+        Field::Duration => &["duration"],
+        Field::Interval => &["every"],
+        Field::SteadyChange => &["until_steady"],
+        Field::Stepper => &["stepper"],
+        Field::Tolerance | Field::Step => match stepper {
+            Stepper::Event { .. } => &["stepper", "event", "tolerance"],
+            Stepper::Verlet { .. } => &["stepper", "verlet", "step"],
+            Stepper::Rk4 { .. } => &["stepper", "rk4", "step"],
+            Stepper::Dopri5 { .. } => &["stepper", "dopri5", "tolerance"],
+        },
+    }
+}
