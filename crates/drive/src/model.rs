@@ -16,7 +16,8 @@ pub use spare::{Pressing, Spared};
 
 use crate::scene::Axis;
 use crate::{Sample, Waveform};
-use stickslip_contact::{Apex, Engine, Interface};
+pub(crate) use stickslip_contact::Motion;
+use stickslip_contact::{Engine, Interface};
 
 /// A checked scene as constants: what evaluation needs and nothing else.
 #[derive(Debug, Clone, PartialEq)]
@@ -162,23 +163,6 @@ pub(crate) struct Load {
     /// 1, or m where a force turns.
     pub(crate) arm: f64,
     pub(crate) waveform: usize,
-}
-
-/// Motion of a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Motion {
-    pub(crate) d: f64,
-    pub(crate) u: f64,
-    /// ḋ, m/s.
-    pub(crate) dd: f64,
-    /// u̇, m/s.
-    pub(crate) du: f64,
-}
-
-impl Motion {
-    pub(crate) fn apex(&self) -> Apex {
-        Apex { d: self.d, u: self.u }
-    }
 }
 
 impl Press {

@@ -4,7 +4,7 @@ use super::sum::{Sum, View};
 use super::{Equations, Sample};
 use crate::model::{Link, Motion, Press, Stroke};
 use crate::state::Mode;
-use stickslip_contact::{Branch, Move};
+use stickslip_contact::{Branch, Dragged, Move};
 
 impl Equations<'_> {
     /// F_x of one contact, N, under its decreed law.
@@ -12,7 +12,7 @@ impl Equations<'_> {
     pub(crate) fn force(&self, c: usize, motion: &Motion, y: impl Fn(usize) -> f64) -> f64 {
         let contact = &self.model.contacts[c];
         match &self.modes[c] {
-            Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => self.dragged(c, branch, motion).0,
+            Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => self.dragged(c, branch, motion).force,
             Mode::Slip(branch) => {
                 let reduced_force = match &contact.press {
                     Press::Constant { reduced_force, .. } => *reduced_force,
@@ -35,10 +35,10 @@ impl Equations<'_> {
 
     /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
     #[inline(never)]
-    fn dragged(&self, c: usize, branch: &Branch, motion: &Motion) -> (f64, f64) {
+    fn dragged(&self, c: usize, branch: &Branch, motion: &Motion) -> Dragged {
         let branching = self.memories[c].branching();
         let law = &self.model.contacts[c].law;
-        branching.map_or((0.0, 0.0), |branching| branching.dragged(law, branch.sense(), motion.apex()))
+        branching.map(|it| it.dragged(law, branch.sense(), motion.apex())).unwrap_or_default()
     }
 
     /// Height of the slip front, m.
@@ -46,7 +46,7 @@ impl Equations<'_> {
         if branch.covers(motion.d, motion.u) {
             branch.front(motion.d, motion.u)
         } else {
-            self.dragged(c, branch, motion).1
+            self.dragged(c, branch, motion).front
         }
     }
 
@@ -77,7 +77,7 @@ impl Equations<'_> {
             }
             Mode::Slip(branch) => {
                 let front = self.front(c, branch, motion);
-                friction = branch.friction_power(&contact.law, front, (motion.d, motion.dd), motion.du);
+                friction = branch.friction_power(&contact.law, front, motion);
             }
             Mode::Open | Mode::Whole { .. } => {}
         }
@@ -128,7 +128,7 @@ impl Equations<'_> {
         let motion = Motion { d, u: u.value, dd, du: u.rate };
         let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
-                let [force, friction] = branch.drag(&contact.law, (d, dd), (u.value, u.rate), reduced_force);
+                let [force, friction] = branch.drag(&contact.law, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }
