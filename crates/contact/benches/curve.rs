@@ -69,7 +69,7 @@ fn commits(bench: &mut Criterion) {
                     lost + curve.commit(&law, black_box(back)).unwrap()
                 });
             });
-            assert!(curve.depth() < 30);
+            assert!(curve.knot_count() < 30);
         }
     }
 }

@@ -16,17 +16,24 @@
 //! Struct. 2015).
 
 mod branch;
+mod course;
 mod cut;
+mod front;
 mod knot;
 mod stack;
+mod steady;
 mod sweep;
+mod trial;
 
-pub use branch::{Branch, Course, SteadyBranch};
+pub use branch::{Branch, Dragged};
+pub use course::Course;
+pub use steady::SteadyBranch;
 
-use crate::{Apex, ContactError, ContactState, Interface, Move, Outcome, Response, Segment, SpringState};
+use crate::{Apex, ContactError, ContactState, Interface, Segment, SpringState};
 use cut::Drag;
+use front::Front;
 use knot::Knot;
-use stack::{Cone, KNOTS_PER_MOVE};
+use stack::{KNOTS_PER_MOVE, SlopeRange};
 
 /// State of a contact that remembers exactly.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +42,7 @@ pub struct Curve {
     knots: Vec<Knot>,
     apex: Apex,
     front: Front,
-    cone: Cone,
+    range: SlopeRange,
     capacity: usize,
     merged: Merged,
 }
@@ -49,19 +56,6 @@ pub struct Merged {
     pub force: f64,
     /// Sum of the magnitudes of the steps in the elastic energy, J.
     pub energy: f64,
-}
-
-/// Where the springs at their limit begin after the last move that was not zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Front {
-    /// +1 forward, -1 backward, 0 none at its limit.
-    sense: f64,
-    /// Springs higher than this are at their limit; -∞ in gross slip.
-    height: f64,
-}
-
-impl Front {
-    const STICK: Self = Self { sense: 0.0, height: f64::INFINITY };
 }
 
 impl Curve {
@@ -83,7 +77,14 @@ impl Curve {
             knots.push(first);
             knots.push(first.grow(law, at.d, 0.0, at.u));
         }
-        Self { knots, apex: at, front: Front::STICK, cone: Cone::ALL, capacity, merged: Merged::default() }
+        Self {
+            knots,
+            apex: at,
+            front: Front::STICK,
+            range: SlopeRange::ALL,
+            capacity,
+            merged: Merged::default(),
+        }
     }
 
     /// Where the contact stands.
@@ -91,7 +92,7 @@ impl Curve {
         self.apex
     }
 
-    /// Counts displacements from another place, `by` further on: u and anchors grow by as much. Nothing else changes; a
+    /// Counts displacements from another origin, `by` further back: u and anchors grow by as much. Nothing else changes; a
     /// shift by which no digit is lost leaves forces and energies as they are to the last bit.
     pub fn shift(&mut self, by: f64) {
         self.apex.u += by;
@@ -99,7 +100,7 @@ impl Curve {
     }
 
     /// Number of knots in the stack.
-    pub fn depth(&self) -> usize {
+    pub fn knot_count(&self) -> usize {
         self.knots.len()
     }
 
@@ -125,12 +126,12 @@ impl Curve {
 
     /// State of the whole contact after the last move that was not zero.
     pub fn state(&self, law: &Interface) -> ContactState {
-        zone(law, self.apex.d, self.front).0
+        self.front.zone(law, self.apex.d).0
     }
 
     /// Radius inside which no spring is at its limit, m.
     pub fn stick_radius(&self, law: &Interface) -> f64 {
-        zone(law, self.apex.d, self.front).1
+        self.front.zone(law, self.apex.d).1
     }
 
     /// Anchor p(h) of the springs at height h, m; none outside the contact.
@@ -162,50 +163,6 @@ impl Curve {
             SpringState::SlipForward
         } else {
             SpringState::SlipBackward
-        }
-    }
-
-    /// Force and tangents that a move would give. Costs the pieces that the move would cut, usually one.
-    pub fn trial(&self, law: &Interface, to: Move) -> Response {
-        match to {
-            Move::Grown { to, force } => {
-                Response { force, stiffness: law.stick_stiffness(to.d), coupling: 0.0 }
-            }
-            Move::Chord(to) => {
-                let touch;
-                let knots = match &self.knots[..] {
-                    [] => {
-                        touch = [self.touching(to)];
-                        &touch[..]
-                    }
-                    knots => knots,
-                };
-                respond(law, knots, to)
-            }
-        }
-    }
-
-    /// Everything that a chord would give, its friction work included.
-    pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {
-        let touch = [self.touching(to)];
-        let knots = if self.knots.is_empty() { &touch[..] } else { &self.knots[..] };
-        let from = if self.knots.is_empty() { touch[0].apex() } else { self.apex };
-        let modulus = law.tangential_modulus();
-        let friction = sweep::work(law, knots, from, to);
-        let top = knots[knots.len() - 1];
-        let (end, front) = match drag(law, knots, to) {
-            Drag::Open => return Outcome { friction, ..Outcome::default() },
-            Drag::Rest => (top, self.front),
-            Drag::Stick => (top.stick(law, to), Front::STICK),
-            Drag::Slip(edge) => (edge.end(law, &edge.foot(law, knots, to), Some(&top), to), edge.front()),
-        };
-        let (state, stick_radius) = zone(law, to.d, front);
-        Outcome {
-            force: modulus * end.shear,
-            elastic: 0.5 * modulus * end.square,
-            friction,
-            stick_radius,
-            state,
         }
     }
 
@@ -241,9 +198,9 @@ impl Curve {
             let touch = self.touching(to);
             self.knots.push(touch);
             self.apex = touch.apex();
-            self.cone = Cone::ALL;
+            self.range = SlopeRange::ALL;
         }
-        let friction = match drag(law, &self.knots, to) {
+        let friction = match Drag::of(law, &self.knots, to) {
             Drag::Open => {
                 let from = self.apex;
                 let friction =
@@ -269,44 +226,5 @@ impl Curve {
         let Apex { d, u } = self.apex;
         let share = if to.d > d { (-d / (to.d - d)).clamp(0.0, 1.0) } else { 0.0 };
         Knot::touch(u + share * (to.u - u))
-    }
-}
-
-/// Which way a chord drags a curve of at least one knot.
-#[inline]
-fn drag(law: &Interface, knots: &[Knot], to: Apex) -> Drag {
-    if to.d <= 0.0 { Drag::Open } else { Drag::of(law, knots, to) }
-}
-
-/// Force and tangents at the end of a chord from a curve of at least one knot.
-#[inline]
-fn respond(law: &Interface, knots: &[Knot], to: Apex) -> Response {
-    let top = &knots[knots.len() - 1];
-    let sticking = |shear: f64| Response {
-        force: law.tangential_modulus() * shear,
-        stiffness: law.stick_stiffness(to.d),
-        coupling: 0.0,
-    };
-    match drag(law, knots, to) {
-        Drag::Open => Response::default(),
-        Drag::Rest => sticking(top.shear),
-        Drag::Stick => sticking(top.stick(law, to).shear),
-        Drag::Slip(edge) => edge.response(law, knots, to),
-    }
-}
-
-/// State and stick radius of a contact of indentation d with a given slip front.
-fn zone(law: &Interface, d: f64, front: Front) -> (ContactState, f64) {
-    let profile = law.profile();
-    if d <= 0.0 {
-        (ContactState::Open, 0.0)
-    } else if front.sense == 0.0
-        || (front.height > 0.0 && profile.reduced_stiffness(front.height) >= profile.reduced_stiffness(d))
-    {
-        (ContactState::Stick, profile.radius(d))
-    } else if front.height <= 0.0 {
-        (ContactState::Slip, 0.0)
-    } else {
-        (ContactState::Partial, profile.radius(front.height))
     }
 }

@@ -1,8 +1,8 @@
 //! The engines behind one contract.
 
 use crate::{
-    Apex, Branch, ContactError, Course, Curve, Interface, Move, Outcome, Response, Row, Segment, SpringState,
-    Springs,
+    Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Move, Outcome, Response, Row, Segment,
+    SpringState, Springs,
 };
 use std::sync::Arc;
 
@@ -46,7 +46,7 @@ impl Engine {
 pub trait Tangential {
     /// Where the contact stands.
     fn apex(&self) -> Apex;
-    /// Counts displacements from another place, `by` further on.
+    /// Counts displacements from another origin, `by` further back.
     fn shift(&mut self, by: f64);
     /// Force and tangents that a move would give.
     fn trial(&self, law: &Interface, to: Move) -> Response;
@@ -70,8 +70,8 @@ pub trait Branching {
     /// The branch of a sense (+1 or -1) that starts at the committed apex; knots within `slack` (m) of the edge count as
     /// reached.
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch;
-    /// F_x (N) and height of the slip front (m) of a chord dragged by the edge of a sense.
-    fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64);
+    /// What a chord gives, dragged by the edge of a sense.
+    fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged;
     /// How far an apex lies above the curve at its own height, m; none while open and beyond its end.
     fn beside(&self, at: Apex) -> Option<f64>;
 }
@@ -97,7 +97,7 @@ pub enum Memory {
 /// One spring of a contact as it stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
-    /// Place, m.
+    /// Position x, m.
     pub x: f64,
     /// Stretch u - p, m; 0 while it does not touch.
     pub stretch: f64,
@@ -138,7 +138,7 @@ impl Branching for Curve {
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
         Self::branch(self, law, sense, slack)
     }
-    fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> (f64, f64) {
+    fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged {
         Self::dragged(self, law, sense, to)
     }
     fn beside(&self, at: Apex) -> Option<f64> {
@@ -185,7 +185,7 @@ impl Memory {
         either!(self, engine => Tangential::apex(engine))
     }
 
-    /// Counts displacements from another place, `by` further on.
+    /// Counts displacements from another origin, `by` further back.
     #[inline]
     pub fn shift(&mut self, by: f64) {
         either!(self, engine => Tangential::shift(engine, by));
@@ -230,7 +230,7 @@ impl Memory {
         }
     }
 
-    /// The springs of the contact, by ascending place: a row's own; of the curve those that would stand on `grid`.
+    /// The springs of the contact, by ascending position: a row's own; of the curve those that would stand on `grid`.
     pub fn springs<'a>(
         &'a self,
         law: &'a Interface,
@@ -238,17 +238,17 @@ impl Memory {
     ) -> Box<dyn Iterator<Item = Spring> + 'a> {
         match self {
             Self::Curve(curve) => {
-                let places = grid.positions().iter().zip(grid.heights_in_place());
-                Box::new(places.map(|(&x, h)| Spring {
+                let positions = grid.positions().iter().zip(grid.heights_by_position());
+                Box::new(positions.map(|(&x, h)| Spring {
                     x,
                     stretch: curve.stretch(h),
                     state: curve.spring_state(h),
                 }))
             }
             Self::Row(SpringRow { row, springs }) => {
-                let places = springs.positions().iter();
+                let positions = springs.positions().iter();
                 let insides = row.stretches(springs, law).zip(row.states(springs, law));
-                Box::new(places.zip(insides).map(|(&x, (stretch, state))| Spring { x, stretch, state }))
+                Box::new(positions.zip(insides).map(|(&x, (stretch, state))| Spring { x, stretch, state }))
             }
         }
     }

@@ -24,11 +24,11 @@ mod profile;
 mod quadrature;
 mod row;
 
-pub use curve::{Branch, Course, Curve, Merged, SteadyBranch};
+pub use curve::{Branch, Course, Curve, Dragged, Merged, SteadyBranch};
 pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};
 pub use material::{Material, MaterialError, Pair};
-pub use motion::{Apex, ContactError, ContactState, Move, Outcome, Response, Segment, SpringState};
+pub use motion::{Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState};
 pub use profile::{Profile, ProfileError};
 pub use row::{Row, Springs, SpringsError};

@@ -11,6 +11,27 @@ pub struct Apex {
     pub u: f64,
 }
 
+/// A contact in motion: where it stands and how fast it moves.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Motion {
+    /// Indentation d, m.
+    pub d: f64,
+    /// Tangential displacement u, m.
+    pub u: f64,
+    /// ḋ, m/s.
+    pub dd: f64,
+    /// u̇, m/s.
+    pub du: f64,
+}
+
+impl Motion {
+    /// Where the contact stands.
+    #[inline]
+    pub fn apex(&self) -> Apex {
+        Apex { d: self.d, u: self.u }
+    }
+}
+
 /// A move that is only tried, from the committed apex; it leaves no trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Move {

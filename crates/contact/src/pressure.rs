@@ -18,7 +18,7 @@ impl Interface {
     /// punch; none for a list of springs, which has no shape in three dimensions.
     pub fn peak_pressure(&self, d: f64) -> Option<f64> {
         let profile = self.profile();
-        if profile.springs().is_some() {
+        if profile.as_foundation().is_some() {
             return None;
         }
         let a = profile.radius(d);

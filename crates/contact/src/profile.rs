@@ -1,17 +1,19 @@
 //! Profiles of the gap, as what the foundation makes of them: three functions of one number.
 
+mod error;
 mod foundation;
 mod gap;
 mod kappa;
 mod power;
 mod sphere;
 
+pub use error::ProfileError;
 pub(crate) use foundation::Foundation;
 
 use crate::quadrature::GAUSS;
+use error::positive;
 use power::Power;
 use sphere::Sphere;
-use thiserror::Error;
 
 /// The profile of the gap between two bodies. Constant.
 ///
@@ -21,89 +23,40 @@ use thiserror::Error;
 /// M(h) = ∫₀ʰ m = [`Self::reduced_force`] and N(h) = ∫₀ʰ M = [`Self::reduced_energy`]. The three are 0 for h ≤ 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    law: Law,
+    shape: Shape,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Law {
+enum Shape {
     Flat { radius: f64 },
     Power(Power),
     Sphere(Sphere),
     Foundation(Foundation),
 }
 
-/// Why a profile cannot be built.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum ProfileError {
-    /// A radius must be positive and finite, m.
-    #[error("expected a radius above 0 m, got {0}")]
-    Radius(f64),
-    /// The slope of a cone must be positive and finite.
-    #[error("expected a slope above 0, got {0}")]
-    Slope(f64),
-    /// The coefficient of a power law must be positive and finite, and so must its reciprocal.
-    #[error("expected a coefficient above 0, got {0}")]
-    Coefficient(f64),
-    /// The exponent of a power law must be positive and finite.
-    #[error("expected an exponent above 0, got {0}")]
-    Exponent(f64),
-    /// A foundation needs at least one spring.
-    #[error("expected at least one height")]
-    Empty,
-    /// Each height has its length.
-    #[error("expected a length for each of the {heights} heights, got {lengths}")]
-    Unpaired {
-        /// Number of heights.
-        heights: usize,
-        /// Number of lengths.
-        lengths: usize,
-    },
-    /// A height must be finite and at least 0, m.
-    #[error("expected height {index} to be at least 0 m, got {value}")]
-    Height {
-        /// Place in the list, from 0.
-        index: usize,
-        /// What stands there.
-        value: f64,
-    },
-    /// A length must be positive and finite, m.
-    #[error("expected length {index} to be above 0 m, got {value}")]
-    Length {
-        /// Place in the list, from 0.
-        index: usize,
-        /// What stands there.
-        value: f64,
-    },
-}
-
-/// The value if it is positive and finite, otherwise the error made from it.
-fn positive(value: f64, error: fn(f64) -> ProfileError) -> Result<f64, ProfileError> {
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(error(value)) }
-}
-
 impl Profile {
     /// A flat punch of radius b (m): g = 0 for |x| < b, so m = 2b at every h > 0.
     pub fn flat(radius: f64) -> Result<Self, ProfileError> {
-        Ok(Self { law: Law::Flat { radius: positive(radius, ProfileError::Radius)? } })
+        Ok(Self { shape: Shape::Flat { radius: positive(radius, ProfileError::Radius)? } })
     }
 
     /// A cone f = r tanθ, given its slope tanθ: g = (π/2) tanθ |x|.
     pub fn cone(slope: f64) -> Result<Self, ProfileError> {
         let slope = positive(slope, ProfileError::Slope)?;
-        Ok(Self { law: Law::Power(Power::new(std::f64::consts::FRAC_PI_2 * slope, 1.0)?) })
+        Ok(Self { shape: Shape::Power(Power::new(std::f64::consts::FRAC_PI_2 * slope, 1.0)?) })
     }
 
     /// A paraboloid f = r²/2R of radius of curvature R (m), the Hertz contact: g = x²/R, M = (4/3)√R h^{3/2}.
     pub fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
         let radius = positive(radius, ProfileError::Radius)?;
-        Ok(Self { law: Law::Power(Power::paraboloid(radius)?) })
+        Ok(Self { shape: Shape::Power(Power::paraboloid(radius)?) })
     }
 
     /// A sphere of radius R (m), exact: f = R-√(R²-r²), g = (x/2) ln((R+x)/(R-x)).
     ///
     /// Not the paraboloid: at equal depth the contact radius is smaller by (a/R)²/6, 1.7e-5 at a/R = 0.01.
     pub fn sphere(radius: f64) -> Result<Self, ProfileError> {
-        Ok(Self { law: Law::Sphere(Sphere::new(positive(radius, ProfileError::Radius)?)) })
+        Ok(Self { shape: Shape::Sphere(Sphere::new(positive(radius, ProfileError::Radius)?)) })
     }
 
     /// A power law f = A rⁿ, A in m^{1-n}, n > 0: g = `κ_n` A |x|ⁿ, `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2).
@@ -111,39 +64,39 @@ impl Profile {
         positive(coefficient, ProfileError::Coefficient)?;
         positive(exponent, ProfileError::Exponent)?;
         let foundation = kappa::kappa(exponent) * coefficient;
-        Ok(Self { law: Law::Power(Power::new(foundation, exponent)?) })
+        Ok(Self { shape: Shape::Power(Power::new(foundation, exponent)?) })
     }
 
     /// A power law given by its foundation, g = B |x|ⁿ, B in m^{1-n}, n > 0.
     pub fn foundation_power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
-        Ok(Self { law: Law::Power(Power::new(coefficient, exponent)?) })
+        Ok(Self { shape: Shape::Power(Power::new(coefficient, exponent)?) })
     }
 
     /// A foundation given spring by spring: heights (m, at least 0, in any order) and the length of each (m).
     ///
     /// So enters a rough line g(x), monotone or not: the distribution of its heights alone matters.
     pub fn foundation(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
-        Ok(Self { law: Law::Foundation(Foundation::new(heights, lengths)?) })
+        Ok(Self { shape: Shape::Foundation(Foundation::new(heights, lengths)?) })
     }
 
     /// m(h), m: the normal stiffness over E\*, which is the total length of the foundation with g < h; 2a(h) for a
     /// convex profile.
     #[inline]
     pub fn reduced_stiffness(&self, h: f64) -> f64 {
-        match &self.law {
+        match &self.shape {
             _ if h.is_nan() || h <= 0.0 => 0.0,
-            Law::Flat { radius } => 2.0 * radius,
-            Law::Power(law) => law.reduced_stiffness(h),
-            Law::Sphere(law) => law.reduced_stiffness(h),
-            Law::Foundation(law) => law.reduced_stiffness(h),
+            Shape::Flat { radius } => 2.0 * radius,
+            Shape::Power(shape) => shape.reduced_stiffness(h),
+            Shape::Sphere(shape) => shape.reduced_stiffness(h),
+            Shape::Foundation(shape) => shape.reduced_stiffness(h),
         }
     }
 
     /// M(h) = ∫₀ʰ m, m²: the normal force over E\* (4.26).
     #[inline(always)]
     pub fn reduced_force(&self, h: f64) -> f64 {
-        match &self.law {
-            Law::Power(law) if h > 0.0 => law.reduced_force(h),
+        match &self.shape {
+            Shape::Power(shape) if h > 0.0 => shape.reduced_force(h),
             _ => self.other_reduced_force(h),
         }
     }
@@ -151,24 +104,24 @@ impl Profile {
     /// The profiles that are no power laws, kept out of the way of those that are.
     #[inline(never)]
     fn other_reduced_force(&self, h: f64) -> f64 {
-        match &self.law {
+        match &self.shape {
             _ if h.is_nan() || h <= 0.0 => 0.0,
-            Law::Flat { radius } => 2.0 * radius * h,
-            Law::Power(law) => law.reduced_force(h),
-            Law::Sphere(law) => law.reduced_force(h),
-            Law::Foundation(law) => law.reduced_force(h),
+            Shape::Flat { radius } => 2.0 * radius * h,
+            Shape::Power(shape) => shape.reduced_force(h),
+            Shape::Sphere(shape) => shape.reduced_force(h),
+            Shape::Foundation(shape) => shape.reduced_force(h),
         }
     }
 
     /// N(h) = ∫₀ʰ M, m³: the normal elastic energy over E\*.
     #[inline]
     pub fn reduced_energy(&self, h: f64) -> f64 {
-        match &self.law {
+        match &self.shape {
             _ if h.is_nan() || h <= 0.0 => 0.0,
-            Law::Flat { radius } => radius * h * h,
-            Law::Power(law) => law.reduced_energy(h),
-            Law::Sphere(law) => law.reduced_energy(h),
-            Law::Foundation(law) => law.reduced_energy(h),
+            Shape::Flat { radius } => radius * h * h,
+            Shape::Power(shape) => shape.reduced_energy(h),
+            Shape::Sphere(shape) => shape.reduced_energy(h),
+            Shape::Foundation(shape) => shape.reduced_energy(h),
         }
     }
 
@@ -184,29 +137,29 @@ impl Profile {
     /// A flat punch and a list of springs take one radius over a whole range of h: this is its lower end.
     #[inline]
     pub fn depth(&self, a: f64) -> f64 {
-        match &self.law {
+        match &self.shape {
             _ if a.is_nan() || a <= 0.0 => 0.0,
-            Law::Flat { radius } => {
+            Shape::Flat { radius } => {
                 if a > *radius {
                     f64::INFINITY
                 } else {
                     0.0
                 }
             }
-            Law::Power(law) => law.depth(a),
-            Law::Sphere(law) => law.depth(a),
-            Law::Foundation(law) => law.height_of_reduced_stiffness(2.0 * a),
+            Shape::Power(shape) => shape.depth(a),
+            Shape::Sphere(shape) => shape.depth(a),
+            Shape::Foundation(shape) => shape.height_of_reduced_stiffness(2.0 * a),
         }
     }
 
     /// dg/da at a > 0: what the indentation gains per contact radius; 0 where that is not defined, see
     /// [`Self::is_strictly_convex`].
     pub fn depth_slope(&self, a: f64) -> f64 {
-        match &self.law {
+        match &self.shape {
             _ if a.is_nan() || a <= 0.0 => 0.0,
-            Law::Power(law) => law.exponent() * law.depth(a) / a,
-            Law::Sphere(law) => law.depth_slope(a),
-            Law::Flat { .. } | Law::Foundation(_) => 0.0,
+            Shape::Power(shape) => shape.exponent() * shape.depth(a) / a,
+            Shape::Sphere(shape) => shape.depth_slope(a),
+            Shape::Flat { .. } | Shape::Foundation(_) => 0.0,
         }
     }
 
@@ -217,19 +170,19 @@ impl Profile {
 
     /// Height at which M (m²) is reached, m: the inverse of [`Self::reduced_force`]; 0 for M ≤ 0.
     pub fn height_of_reduced_force(&self, force: f64) -> f64 {
-        match &self.law {
+        match &self.shape {
             _ if force.is_nan() || force <= 0.0 => 0.0,
-            Law::Flat { radius } => force / (2.0 * radius),
-            Law::Power(law) => law.height_of_reduced_force(force),
-            Law::Sphere(law) => law.height_of_reduced_force(force),
-            Law::Foundation(law) => law.height_of_reduced_force(force),
+            Shape::Flat { radius } => force / (2.0 * radius),
+            Shape::Power(shape) => shape.height_of_reduced_force(force),
+            Shape::Sphere(shape) => shape.height_of_reduced_force(force),
+            Shape::Foundation(shape) => shape.height_of_reduced_force(force),
         }
     }
 
     /// Exponent n of a power law; none for every other profile, the flat punch (its limit n → ∞) included.
     pub fn exponent(&self) -> Option<f64> {
-        match &self.law {
-            Law::Power(law) => Some(law.exponent()),
+        match &self.shape {
+            Shape::Power(shape) => Some(shape.exponent()),
             _ => None,
         }
     }
@@ -239,20 +192,20 @@ impl Profile {
     /// A sphere ends where a → R: its height is limited to g(0.999R) = 3.796R, beyond which its functions
     /// still return finite numbers.
     pub fn reach(&self) -> Option<f64> {
-        match &self.law {
-            Law::Sphere(law) => Some(law.reach()),
+        match &self.shape {
+            Shape::Sphere(shape) => Some(shape.reach()),
             _ => None,
         }
     }
 
     /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
     pub fn has_kinks(&self) -> bool {
-        matches!(self.law, Law::Foundation(_))
+        matches!(self.shape, Shape::Foundation(_))
     }
 
     /// Whether each contact radius belongs to one indentation only.
     pub fn is_strictly_convex(&self) -> bool {
-        matches!(self.law, Law::Power(_) | Law::Sphere(_))
+        matches!(self.shape, Shape::Power(_) | Shape::Sphere(_))
     }
 
     /// ∫ w m dh over a thin strip of heights (its width well below its height) with w straight between its values
@@ -262,8 +215,8 @@ impl Profile {
     /// 1e-18 of it.
     pub(crate) fn moment(&self, [from, to]: [f64; 2], [low, high]: [f64; 2]) -> f64 {
         let width = to - from;
-        if let Law::Foundation(law) = &self.law {
-            return law.moment([from, to], [low, (high - low) / width]);
+        if let Shape::Foundation(shape) = &self.shape {
+            return shape.moment([from, to], [low, (high - low) / width]);
         }
         let (middle, mean, half) = (0.5 * (from + to), 0.5 * (low + high), 0.5 * (high - low));
         let node = |(x, weight): &(f64, f64)| {
@@ -272,10 +225,10 @@ impl Profile {
         width * GAUSS.iter().map(node).sum::<f64>()
     }
 
-    /// The springs of a foundation given spring by spring.
-    pub(crate) fn springs(&self) -> Option<&Foundation> {
-        match &self.law {
-            Law::Foundation(law) => Some(law),
+    /// The foundation, where it is given spring by spring.
+    pub(crate) fn as_foundation(&self) -> Option<&Foundation> {
+        match &self.shape {
+            Shape::Foundation(shape) => Some(shape),
             _ => None,
         }
     }

@@ -46,7 +46,7 @@ impl Row {
         self.apex
     }
 
-    /// Counts displacements from another place, `by` further on: u and anchors grow by as much. Nothing else changes.
+    /// Counts displacements from another origin, `by` further back: u and anchors grow by as much. Nothing else changes.
     pub fn shift(&mut self, by: f64) {
         self.apex.u += by;
         self.anchors[..self.touching].iter_mut().for_each(|anchor| *anchor += by);

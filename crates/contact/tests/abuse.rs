@@ -145,7 +145,7 @@ fn check(law: &Interface, curve: &Curve, scale: &Scale, capacity: usize) -> Resu
     let tiny = 8.0 * EPS * scale.force;
     prop_assert!(force.abs() <= limit * (1.0 + 1e-12) + tiny, "force {force:e} of {limit:e}, {at:?}");
     prop_assert!(elastic >= -64.0 * EPS * scale.energy, "elastic {elastic:e} of {:e}", scale.energy);
-    prop_assert!(curve.depth() <= capacity, "{} knots", curve.depth());
+    prop_assert!(curve.knot_count() <= capacity, "{} knots", curve.knot_count());
     let knots: Vec<(f64, f64)> = curve.knots().collect();
     prop_assert_eq!(knots.is_empty(), at.d <= 0.0);
     prop_assert!(knots.first().is_none_or(|k| k.0 == 0.0) && knots.last().is_none_or(|k| *k == (at.d, at.u)));
@@ -290,10 +290,10 @@ fn a_long_decay_in_a_small_stack_books_its_error() {
             let error = (small.elastic(&law) - large.elastic(&law)).abs();
             assert!(error <= booked.force * u_c + 1e-13 * limit * u_c, "turn {k}: {error:e} {booked:?}");
             worst = worst.max(error / (limit * u_c));
-            assert!(small.depth() <= 64);
+            assert!(small.knot_count() <= 64);
         }
         assert_eq!(large.merged().knots, 0);
-        assert!(large.depth() > 99_000 && small.merged().knots > 99_000);
+        assert!(large.knot_count() > 99_000 && small.merged().knots > 99_000);
         // On the way out the errors show most: every loop closes where the small stack has lost its turns.
         for k in 0..200 {
             let part = 0.9 * f64::from(k) / 199.0;
@@ -322,7 +322,7 @@ fn collinear_growth_in_tiny_steps_stays_one_piece() {
             for k in 1..=steps {
                 let d = 1e-6 * f64::from(k) / f64::from(steps);
                 lost += curve.commit(&law, to(d, offset + beta * d)).unwrap();
-                deepest = deepest.max(curve.depth());
+                deepest = deepest.max(curve.knot_count());
             }
             let (normal, limit) = (law.normal_force(1e-6), law.friction() * law.normal_force(1e-6));
             let force = curve.force(&law);
@@ -376,7 +376,10 @@ fn slightly_curved_growth_is_not_straightened() {
                 let half = curve.trial(&law, Move::Chord(Apex { d: 0.5 * d1, u: path(0.5 * d1) })).force;
                 let error = (half - exact(0.5 * d1)).abs();
                 assert!(error <= allowed, "{name}, {bend:e}: half {:e}", error / limit);
-                assert!(curve.depth() <= capacity && booked <= 1e-6 * limit, "{name}, {bend:e}: {booked:e}");
+                assert!(
+                    curve.knot_count() <= capacity && booked <= 1e-6 * limit,
+                    "{name}, {bend:e}: {booked:e}"
+                );
             }
         }
     }

@@ -317,12 +317,12 @@ fn nested_loops_close_and_are_forgotten() {
             (0..12).map(|k| 0.95 * 0.8_f64.powi(k) * if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
         let mut depths = Vec::new();
         for &turn in &turns {
-            depths.push(curve.depth());
+            depths.push(curve.knot_count());
             case.slide(&mut curve, turn);
             masing.go(turn);
             close(curve.force(&case.law) / case.limit(), masing.force(), 1e-12);
         }
-        assert_eq!(curve.depth(), depths[11] + 1);
+        assert_eq!(curve.knot_count(), depths[11] + 1);
         // Outwards: each turn is met again with the force it had, and the loop that ends there is forgotten.
         for k in (1..11).rev() {
             let (turn, beyond) = (turns[k], turns[k] - 0.1 * (turns[k - 1] - turns[k]));
@@ -335,11 +335,11 @@ fn nested_loops_close_and_are_forgotten() {
             masing.go(turn);
             close(curve.force(&case.law) / case.limit(), masing.force(), 1e-12);
             // Round-off may leave a sliver beside the turn, never more.
-            assert!(curve.depth() <= depths[k] + 2, "turn {k}: {} {}", curve.depth(), depths[k]);
+            assert!(curve.knot_count() <= depths[k] + 2, "turn {k}: {} {}", curve.knot_count(), depths[k]);
         }
         case.slide(&mut curve, 0.97);
         close(curve.force(&case.law) / case.limit(), virgin(case.p, 0.97), 1e-12);
-        assert_eq!(curve.depth(), depths[1]);
+        assert_eq!(curve.knot_count(), depths[1]);
     }
 }
 
@@ -541,7 +541,8 @@ fn raising_then_lowering_returns_to_the_last_bit() {
         let mut curve = case.curve();
         for part in [0.7, -0.2, 0.3] {
             case.slide(&mut curve, part);
-            let (force, elastic, knots) = (curve.force(&case.law), curve.elastic(&case.law), curve.depth());
+            let (force, elastic, knots) =
+                (curve.force(&case.law), curve.elastic(&case.law), curve.knot_count());
             let ways: [&[f64]; 3] = [&[1.7], &[1.1, 1.3, 2.9, 10.0], &[3.0, 2.0, 2.5, 1.5, 1.1]];
             for way in ways {
                 let mut work = 0.0;
@@ -550,7 +551,7 @@ fn raising_then_lowering_returns_to_the_last_bit() {
                 }
                 assert_eq!((curve.force(&case.law), curve.elastic(&case.law)), (force, elastic));
                 close(work / (case.limit() * U_C), 0.0, 1e-15);
-                assert_eq!(curve.depth(), knots);
+                assert_eq!(curve.knot_count(), knots);
             }
         }
     }

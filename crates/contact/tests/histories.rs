@@ -4,7 +4,9 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at what it did not expect")]
 
 use serde_json::Value;
-use stickslip_contact::{Apex, Curve, Interface, Move, Outcome, Pair, Profile, Row, Segment, Springs};
+use stickslip_contact::{
+    Apex, Curve, Dragged, Interface, Move, Outcome, Pair, Profile, Row, Segment, Springs,
+};
 
 struct History {
     law: Interface,
@@ -100,7 +102,12 @@ fn split_chords_end_where_whole_chords_end() {
             );
             assert!((friction - parts).abs() <= 1e-12 * work, "history {i}: friction {friction} {parts}");
         }
-        assert!(split.depth() <= whole.depth() + 8, "history {i}: {} {}", split.depth(), whole.depth());
+        assert!(
+            split.knot_count() <= whole.knot_count() + 8,
+            "history {i}: {} {}",
+            split.knot_count(),
+            whole.knot_count()
+        );
     }
 }
 
@@ -155,7 +162,7 @@ fn differing_states(history: &History, count: usize) -> (usize, usize) {
     let History { law, rows } = history;
     let span = 2.0 * law.profile().radius(largest(rows, 0));
     let springs = Springs::new(law.profile(), count, span).unwrap();
-    let heights: Vec<f64> = springs.heights_in_place().collect();
+    let heights: Vec<f64> = springs.heights_by_position().collect();
     let (mut curve, mut row) = (Curve::new(law, Apex::default()), Row::new(&springs));
     let (mut differing, mut compared) = (0, 0);
     for [d, u, ..] in rows.iter().copied() {
@@ -203,10 +210,10 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
     let stiffness = law.stick_stiffness(d);
     for sense in [1.0, -1.0] {
         let at = |beside: f64| curve.dragged(&law, sense, Apex { d, u: u + beside });
-        let (here, front) = at(0.0);
+        let Dragged { force: here, front } = at(0.0);
         assert!((front / d - 1.0).abs() < 1e-9);
         for beside in [1e-12, -1e-12] {
-            let slope = (at(beside).0 - here) / beside;
+            let slope = (at(beside).force - here) / beside;
             assert!((slope / stiffness - 1.0).abs() < 1e-3, "{sense} {beside:e}: {}", slope / stiffness);
         }
         // To second order, on the law's own piece: F + G\*m δ - σ G\*m'δ²/2(κ-σk).
@@ -215,7 +222,7 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
             / (law.stick_slope() - sense * 0.1);
         let beside = -sense * 1e-9;
         let known = here + stiffness * beside - 0.5 * sense * bend * beside * beside;
-        assert!(((at(beside).0 - known) / (known - here - stiffness * beside)).abs() < 0.02);
+        assert!(((at(beside).force - known) / (known - here - stiffness * beside)).abs() < 0.02);
     }
 }
 
@@ -234,7 +241,7 @@ fn an_edge_at_rest_begins_where_its_last_move_left_it() {
             let (rise, drag) = (2e-9 * (lottery.draw() - 0.5), 1e-9 * lottery.draw());
             at = Apex { d: at.d + rise, u: at.u + law.stick_slope() * rise.abs() + drag };
             curve.commit(&law, Segment::Straight(at)).unwrap();
-            let (force, front) = curve.dragged(&law, 1.0, at);
+            let Dragged { force, front } = curve.dragged(&law, 1.0, at);
             let known = law.profile().depth(curve.stick_radius(&law));
             assert!((front - known).abs() < 1e-9 * at.d, "{front:e} {known:e}");
             assert!((force / curve.force(&law) - 1.0).abs() < 1e-9);

@@ -10,7 +10,8 @@ pub(crate) use mode::Mode;
 
 use crate::Sample;
 use crate::model::Measure;
-use stickslip_contact::{Apex, Engine, Interface};
+pub(crate) use stickslip_contact::Motion;
+use stickslip_contact::{Engine, Interface};
 
 /// A contact's constants.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,23 +63,6 @@ pub(crate) enum Press {
     Radius(usize),
     /// The bodies' motion: d = z(first) - z(second) - gap at the contact point.
     Coupled(Measure),
-}
-
-/// Motion of a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Motion {
-    pub(crate) d: f64,
-    pub(crate) u: f64,
-    /// ḋ, m/s.
-    pub(crate) dd: f64,
-    /// u̇, m/s.
-    pub(crate) du: f64,
-}
-
-impl Motion {
-    pub(crate) fn apex(&self) -> Apex {
-        Apex { d: self.d, u: self.u }
-    }
 }
 
 impl Press {

@@ -5,7 +5,7 @@ use crate::Grade;
 /// What a method is, whatever it is at.
 pub trait Method {
     /// Largest |hλ| at which a motion e^{λt} that swings or fades does not grow.
-    fn reach(&self) -> f64;
+    fn stability_limit(&self) -> f64;
     /// Whether the coming steps are exact and free at any length.
     fn coasts(&self) -> bool;
     /// Evaluations of the slopes since construction.

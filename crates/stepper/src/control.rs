@@ -14,7 +14,7 @@ pub struct StepControl {
     limits: StepLimits,
     alpha: f64,
     beta: f64,
-    memory: Memory,
+    history: StepHistory,
 }
 
 /// What a [`StepControl`] may do.
@@ -38,18 +38,26 @@ impl Default for StepLimits {
 
 /// What the control remembers of earlier steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Memory {
-    /// Natural logarithm of the last accepted error, not below that of [`Memory::FLOOR`].
+pub struct StepHistory {
+    /// Natural logarithm of the last accepted error, not below that of [`StepHistory::FLOOR`].
     pub log_error: f64,
-    /// The last attempt, if it was rejected: its length and the natural logarithm of its error. The next step does not
-    /// grow then.
-    pub rejected: Option<(f64, f64)>,
+    /// The last attempt, if it was rejected. The next step does not grow then.
+    pub rejected: Option<Rejection>,
 }
 
-impl Memory {
+/// An attempt that was rejected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rejection {
+    /// Its length, s.
+    pub step: f64,
+    /// Natural logarithm of its error; ∞ where nothing follows from it.
+    pub log_error: f64,
+}
+
+impl StepHistory {
     /// Errors below this count as this: a step that fell far below the tolerance says nothing about the next one.
     pub const FLOOR: f64 = 1e-4;
-    /// Nothing remembered: as after a step with the error [`Memory::FLOOR`], which makes the first factor cautious.
+    /// Nothing remembered: as after a step with the error [`StepHistory::FLOOR`], which makes the first factor cautious.
     pub const BLANK: Self = Self { log_error: -9.210_340_371_976_182, rejected: None };
 }
 
@@ -68,7 +76,7 @@ impl StepControl {
     pub fn new(order: u32, limits: StepLimits) -> Self {
         let order = f64::from(order.max(1));
         let beta = 0.2 / order;
-        Self { limits, alpha: 1.0 / order - 0.75 * beta, beta, memory: Memory::BLANK }
+        Self { limits, alpha: 1.0 / order - 0.75 * beta, beta, history: StepHistory::BLANK }
     }
 
     /// Judges an attempt of length `h` with this `error`; anything but a number up to 1 is rejected.
@@ -76,20 +84,21 @@ impl StepControl {
     pub fn propose(&mut self, error: f64, h: f64) -> Verdict {
         let StepLimits { safety, shrink, grow, .. } = self.limits;
         if !error.is_finite() {
-            self.memory.rejected = Some((h, f64::INFINITY));
+            self.history.rejected = Some(Rejection { step: h, log_error: f64::INFINITY });
             return Verdict { accepted: false, next: h * shrink };
         }
         if error > 1.0 {
             let log_error = error.ln();
-            let factor = safety * (-self.decay((h, log_error)) * log_error).exp();
-            self.memory.rejected = Some((h, log_error));
+            let rejection = Rejection { step: h, log_error };
+            let factor = safety * (-self.decay(rejection) * log_error).exp();
+            self.history.rejected = Some(rejection);
             return Verdict { accepted: false, next: h * factor.max(shrink) };
         }
         // Below the smallest normal number the logarithm would leave the range of the exponential.
         let log_error = error.max(f64::MIN_POSITIVE).ln();
-        let factor = safety * (self.beta * self.memory.log_error - self.alpha * log_error).exp();
-        let ceiling = if self.memory.rejected.is_some() { 1.0 } else { grow };
-        self.memory = Memory { log_error: log_error.max(Memory::BLANK.log_error), rejected: None };
+        let factor = safety * (self.beta * self.history.log_error - self.alpha * log_error).exp();
+        let ceiling = if self.history.rejected.is_some() { 1.0 } else { grow };
+        self.history = StepHistory { log_error: log_error.max(StepHistory::BLANK.log_error), rejected: None };
         Verdict { accepted: true, next: self.limit(h * factor.max(shrink).min(ceiling)) }
     }
 
@@ -97,28 +106,28 @@ impl StepControl {
     ///
     /// A step cut to a tenth has an error of 1e-8 of the uncut one and says nothing about the next. The caller passes
     /// as `wished` the step it would have liked (what [`propose`](Self::propose) gave last before the cut); it comes
-    /// back, at most the longest allowed, and the memory of errors is wiped. Do not call `propose` for the cut step.
+    /// back, at most the longest allowed, and the history is wiped. Do not call `propose` for the cut step.
     pub fn after_event(&mut self, wished: f64) -> f64 {
-        self.memory = Memory::BLANK;
+        self.history = StepHistory::BLANK;
         self.limit(wished)
     }
 
     /// What is remembered, to be saved with the state of a run.
     #[must_use]
-    pub fn memory(&self) -> Memory {
-        self.memory
+    pub fn history(&self) -> StepHistory {
+        self.history
     }
 
-    /// Goes on from a saved memory.
-    pub fn set_memory(&mut self, memory: Memory) {
-        self.memory = memory;
+    /// Goes on from a saved history.
+    pub fn set_history(&mut self, history: StepHistory) {
+        self.history = history;
     }
 
     /// The power of the error with which a rejected step is shortened. Two rejections in a row show the power of the step
     /// with which the error falls: where something is not smooth, less than the method's.
-    fn decay(&self, (h, log_error): (f64, f64)) -> f64 {
-        let power = |(before, log_before): (f64, f64)| (log_before - log_error) / (before / h).ln();
-        let shown = self.memory.rejected.map(power).filter(|power| *power > 0.0);
+    fn decay(&self, now: Rejection) -> f64 {
+        let power = |before: Rejection| (before.log_error - now.log_error) / (before.step / now.step).ln();
+        let shown = self.history.rejected.map(power).filter(|power| *power > 0.0);
         shown.map_or(self.alpha, |power| power.recip().clamp(self.alpha, 1.0))
     }
 
@@ -136,8 +145,8 @@ mod tests {
     }
 
     #[test]
-    fn blank_memory_is_the_floor() {
-        assert!((Memory::BLANK.log_error - Memory::FLOOR.ln()).abs() < 1e-15);
+    fn blank_history_is_the_floor() {
+        assert!((StepHistory::BLANK.log_error - StepHistory::FLOOR.ln()).abs() < 1e-15);
     }
 
     #[test]
@@ -196,16 +205,16 @@ mod tests {
         let mut control = StepControl::new(8, limits);
         let wished = control.propose(0.5, 1.0).next;
         assert_eq!(control.after_event(wished), wished);
-        assert_eq!(control.memory(), Memory::BLANK);
+        assert_eq!(control.history(), StepHistory::BLANK);
         assert_eq!(control.after_event(7.0), 3.0);
     }
 
     #[test]
-    fn memory_is_all_that_it_remembers() {
+    fn history_is_all_that_it_remembers() {
         let mut one = control();
         one.propose(0.3, 1.0);
         let mut two = control();
-        two.set_memory(one.memory());
+        two.set_history(one.history());
         assert_eq!(one, two);
         assert_eq!(one.propose(0.7, 1.0), two.propose(0.7, 1.0));
     }

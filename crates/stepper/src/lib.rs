@@ -12,7 +12,7 @@
 //! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities.
 //! * [`Paired`]: both, for conservative systems with singular moments.
 //! * [`StepControl`]: how long the next step is.
-//! * [`root()`], [`bracket`], [`hermite_dip`]: where inside a step a guard crosses zero.
+//! * [`root()`], [`narrow`], [`Cubic`]: where inside a step a guard crosses zero.
 //! * [`FixedStep`], [`Rk4`], [`Verlet`]: steps of a given length.
 //! * [`reference`](mod@reference): a driver for the solver `Dopri5` of the crate `ode_solvers`, without events.
 //!
@@ -55,13 +55,15 @@ pub use attempt::{Attempt, Completion, End, Method, Span, Step, Target};
 mod dop853;
 pub use dop853::{Dop853, Grade, ORDER as DOP853_ORDER};
 mod nystrom;
-pub use nystrom::{Conservative, Lane, Lanes, Many, Nystrom, ORDER as NYSTROM_ORDER, One, Track};
+pub use nystrom::{Conservative, Many, Nystrom, ORDER as NYSTROM_ORDER, One, Storage, Track, Values};
 mod paired;
 pub use paired::Paired;
 mod control;
-pub use control::{Memory as ControlMemory, StepControl, StepLimits, Verdict};
+pub use control::{Rejection, StepControl, StepHistory, StepLimits, Verdict};
 mod root;
-pub use root::{bracket, hermite_dip, hermite_root, root, root_near};
+pub use root::{Bracket, Point, narrow, root, root_near};
+mod cubic;
+pub use cubic::Cubic;
 mod fixed_step;
 pub use fixed_step::FixedStep;
 mod rk4;

@@ -7,19 +7,18 @@
 //! IMA Journal of Numerical Analysis 7 (1987) 423–430. The dense output is Hermite–Birkhoff: accelerations at seven
 //! nodes of the step, those inside evaluated again on the interpolant of the stages.
 
-mod lanes;
+mod dense;
+mod estimate;
+mod stages;
+mod storage;
 mod tableau;
 mod track;
 
-pub use lanes::{Lane, Lanes, Many, One};
+pub use storage::{Many, One, Storage, Values};
 pub use track::Track;
 
 use crate::{Attempt, Completion, End, Method, Span, Step, Target};
-use tableau::{
-    END, NODES, POSITION_ERROR, POSITIONS, REFINED, REFINED_POSITIONS, SAMPLED, STAGES, VELOCITY,
-    VELOCITY_ERROR,
-};
-use track::dot;
+use tableau::END;
 
 /// Power of the step with which the error estimate falls.
 pub const ORDER: u32 = 7;
@@ -40,16 +39,16 @@ pub trait Conservative {
 
 /// One step of RKN8(6)9 at a time, as [`Dop853`](crate::Dop853) does it.
 #[derive(Debug, Clone)]
-pub struct Nystrom<L: Lanes = Many> {
+pub struct Nystrom<N: Storage = Many> {
     time: f64,
     end_time: f64,
     step: f64,
-    begin: L::State,
-    end: L::State,
-    stage: L::Positions,
-    rates: L::Rates,
+    begin: N::State,
+    end: N::State,
+    stage: N::Positions,
+    rates: N::Rates,
     /// Of each position and then each quadrature.
-    tracks: L::Tracks,
+    tracks: N::Tracks,
     constant: bool,
     first_known: bool,
     last_known: bool,
@@ -73,18 +72,18 @@ impl Nystrom<One> {
     }
 }
 
-impl<L: Lanes> Nystrom<L> {
+impl<N: Storage> Nystrom<N> {
     fn with_room(positions: usize, quadratures: usize) -> Self {
         let (rates, total) = (positions + quadratures, 2 * positions + quadratures);
         Self {
             time: 0.0,
             end_time: 0.0,
             step: 0.0,
-            begin: Lane::of(total),
-            end: Lane::of(total),
-            stage: Lane::of(positions),
-            rates: Lane::of(rates),
-            tracks: Lane::of(rates),
+            begin: Values::of(total),
+            end: Values::of(total),
+            stage: Values::of(positions),
+            rates: Values::of(rates),
+            tracks: Values::of(rates),
             constant: false,
             first_known: false,
             last_known: false,
@@ -97,101 +96,6 @@ impl<L: Lanes> Nystrom<L> {
     #[inline(always)]
     fn positions(&self) -> usize {
         self.stage.as_ref().len()
-    }
-
-    #[inline(always)]
-    fn evaluate<S: Conservative + ?Sized>(&mut self, system: &S, t: f64, stage: usize) {
-        system.accelerations(t, self.stage.as_ref(), self.rates.as_mut());
-        self.evaluations += 1;
-        for (track, rate) in self.tracks.as_mut().iter_mut().zip(self.rates.as_ref()) {
-            track.k[stage] = *rate;
-        }
-    }
-
-    /// Positions of stage `J`, and what acts there.
-    #[inline(always)]
-    fn advance<const J: usize, S: Conservative + ?Sized>(&mut self, system: &S, t: f64) {
-        let h = self.step;
-        // Of all that a position is made of only the stage before is new: it comes last, and nothing waits for it.
-        let (before, last) = (&POSITIONS[J], J - 1);
-        for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
-            let known = track.x + h * (NODES[J] * track.v + h * dot(before, &track.k, last));
-            *to = if before[last] == 0.0 { known } else { known + h * h * before[last] * track.k[last] };
-        }
-        self.evaluate(system, t, J);
-    }
-
-    /// All stages at once where nothing changes: the end is the parabola's.
-    #[inline(never)]
-    fn advance_constant(&mut self) {
-        let h = self.step;
-        for track in self.tracks.as_mut() {
-            track.k = [track.k[0]; STAGES];
-        }
-        for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
-            *to = track.x + h * (track.v + 0.5 * h * track.k[0]);
-        }
-    }
-
-    /// The end of the step by the weights of order 8; the last stage has the end's positions.
-    #[inline]
-    fn conclude(&mut self) {
-        let (h, n) = (self.step, self.positions());
-        self.end.as_mut()[..n].copy_from_slice(self.stage.as_ref());
-        for (to, track) in self.end.as_mut()[n..].iter_mut().zip(self.tracks.as_ref()) {
-            *to = track.v + h * dot(&VELOCITY, &track.k, 8);
-        }
-    }
-
-    /// Largest difference of the two orders in units of `scale`.
-    #[inline]
-    fn error(&self, scale: &[f64]) -> f64 {
-        let (h, n) = (self.step, self.positions());
-        let (positions, velocities) = scale.split_at(n);
-        let (mut largest, mut sum) = (0.0_f64, 0.0);
-        let mut add = |error: f64, scale: f64| {
-            let error = (error / scale).abs();
-            largest = if error > largest { error } else { largest };
-            // A comparison drops NaN, a sum does not.
-            sum += error;
-        };
-        for (track, scale) in self.tracks.as_ref().iter().zip(positions) {
-            add(h * h * dot(&POSITION_ERROR, &track.k, 7), *scale);
-        }
-        for (track, scale) in self.tracks.as_ref().iter().zip(velocities) {
-            add(h * dot(&VELOCITY_ERROR, &track.k, STAGES), *scale);
-        }
-        sum += self.end.as_ref().iter().sum::<f64>();
-        if sum.is_finite() { largest } else { f64::INFINITY }
-    }
-
-    /// Component `i` at a fraction of the step.
-    #[inline]
-    fn at(&self, i: usize, share: f64) -> f64 {
-        match i.checked_sub(self.positions()) {
-            None => self.tracks.as_ref()[i].position(self.step, share),
-            Some(i) => self.tracks.as_ref()[i].velocity(self.step, share),
-        }
-    }
-
-    /// Evaluates the samples inside the step again: the stages there are of order 4 only.
-    fn refine<S: Conservative + ?Sized>(&mut self, system: &S) {
-        let (h, n) = (self.step, self.positions());
-        for track in &mut self.tracks.as_mut()[..n] {
-            for (r, sample) in REFINED.enumerate() {
-                let node = NODES[SAMPLED[sample]];
-                let bend: f64 =
-                    REFINED_POSITIONS[r].iter().zip(SAMPLED).map(|(w, stage)| w * track.k[stage]).sum();
-                track.refined[r] = track.x + node * h * (track.v + node * h * bend);
-            }
-        }
-        for (r, sample) in REFINED.enumerate() {
-            let stage = SAMPLED[sample];
-            for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
-                *to = track.refined[r];
-            }
-            self.evaluate(system, self.time + NODES[stage] * h, stage);
-        }
     }
 
     /// Takes the start of the step over into the tracks.
@@ -229,22 +133,11 @@ impl<L: Lanes> Nystrom<L> {
             self.last_known = true;
         }
     }
-
-    fn interpolate<S: Conservative + ?Sized>(&mut self, system: &S) {
-        if self.dense_known {
-            return;
-        }
-        if !self.constant {
-            self.refine(system);
-        }
-        self.tracks.as_mut().iter_mut().for_each(Track::interpolate);
-        self.dense_known = true;
-    }
 }
 
-impl<L: Lanes> Method for Nystrom<L> {
+impl<N: Storage> Method for Nystrom<N> {
     /// Swings grow from 3.3 on; they fade fastest here.
-    fn reach(&self) -> f64 {
+    fn stability_limit(&self) -> f64 {
         3.0
     }
 
@@ -258,7 +151,7 @@ impl<L: Lanes> Method for Nystrom<L> {
     }
 }
 
-impl<L: Lanes> Step for Nystrom<L> {
+impl<N: Storage> Step for Nystrom<N> {
     fn span(&self) -> Span<'_> {
         Span { time: self.time, end_time: self.end_time, begin: self.begin.as_ref(), end: self.end.as_ref() }
     }
@@ -297,7 +190,7 @@ impl<L: Lanes> Step for Nystrom<L> {
     }
 }
 
-impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
+impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.time = t;
         let begin = self.begin.as_mut();
@@ -306,43 +199,12 @@ impl<S: Conservative + ?Sized, L: Lanes> Attempt<S> for Nystrom<L> {
     }
 
     fn first_step(&mut self, _: &S, longest: f64, scale: &[f64]) -> f64 {
-        // A step in which what acts at its start moves a body by its natural scale, or a hundredth of the longest.
-        let n = self.positions();
-        let bend = self.tracks.as_ref()[..n]
-            .iter()
-            .zip(&scale[n..])
-            .map(|(track, scale)| track.k[0].abs() / scale)
-            .fold(0.0, f64::max);
-        let step = if bend > 0.0 {
-            (1.0 / bend).powf(1.0 / f64::from(ORDER)) * longest.powf(1.0 - 1.0 / f64::from(ORDER))
-        } else {
-            longest
-        };
-        (0.01 * step).min(longest)
+        self.starting_step(longest, scale)
     }
 
     /// Stages lie evenly, whatever grade is asked for.
     fn attempt(&mut self, system: &S, Target { end, .. }: Target, scale: &[f64]) -> f64 {
-        if !self.first_known {
-            self.restart_slopes(system);
-        }
-        self.forget_step();
-        let (t, h) = (self.time, end - self.time);
-        (self.step, self.end_time) = (h, end);
-        if self.constant {
-            self.advance_constant();
-        } else {
-            self.advance::<1, S>(system, t + NODES[1] * h);
-            self.advance::<2, S>(system, t + NODES[2] * h);
-            self.advance::<3, S>(system, t + NODES[3] * h);
-            self.advance::<4, S>(system, t + NODES[4] * h);
-            self.advance::<5, S>(system, t + NODES[5] * h);
-            self.advance::<6, S>(system, t + NODES[6] * h);
-            self.advance::<7, S>(system, end);
-            self.advance::<8, S>(system, end);
-        }
-        self.conclude();
-        self.last_known = true;
+        self.step_to(system, end);
         self.error(scale)
     }
 

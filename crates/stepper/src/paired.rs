@@ -4,14 +4,14 @@
 //! with it its order. Such steps are few, one before each start of gross slip; they go by [`Dop853`].
 
 use crate::{
-    Attempt, Completion, Conservative, Dop853, End, Grade, Lanes, Many, Method, Nystrom, One, Span, Step,
+    Attempt, Completion, Conservative, Dop853, End, Grade, Many, Method, Nystrom, One, Span, Step, Storage,
     System, Target,
 };
 
 /// [`Nystrom`] for even steps, [`Dop853`] for graded ones, of one and the same motion.
 #[derive(Debug, Clone)]
-pub struct Paired<L: Lanes = Many> {
-    even: Nystrom<L>,
+pub struct Paired<N: Storage = Many> {
+    even: Nystrom<N>,
     graded: Dop853,
     /// Which of both made the last attempt; it is where the motion is.
     last: By,
@@ -41,8 +41,8 @@ impl Paired<One> {
     }
 }
 
-impl<L: Lanes> Paired<L> {
-    fn of(even: Nystrom<L>, graded: Dop853) -> Self {
+impl<N: Storage> Paired<N> {
+    fn of(even: Nystrom<N>, graded: Dop853) -> Self {
         Self { even, graded, last: By::Even, both: false }
     }
 
@@ -85,9 +85,9 @@ macro_rules! last {
     };
 }
 
-impl<L: Lanes> Method for Paired<L> {
-    fn reach(&self) -> f64 {
-        self.even.reach()
+impl<N: Storage> Method for Paired<N> {
+    fn stability_limit(&self) -> f64 {
+        self.even.stability_limit()
     }
 
     fn coasts(&self) -> bool {
@@ -99,7 +99,7 @@ impl<L: Lanes> Method for Paired<L> {
     }
 }
 
-impl<L: Lanes> Step for Paired<L> {
+impl<N: Storage> Step for Paired<N> {
     #[inline]
     fn span(&self) -> Span<'_> {
         last!(self, span())
@@ -125,7 +125,7 @@ impl<L: Lanes> Step for Paired<L> {
     }
 }
 
-impl<S: System + Conservative + ?Sized, L: Lanes> Attempt<S> for Paired<L> {
+impl<S: System + Conservative + ?Sized, N: Storage> Attempt<S> for Paired<N> {
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.even.start(system, t, y);
         (self.last, self.both) = (By::Even, false);

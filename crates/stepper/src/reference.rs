@@ -5,15 +5,18 @@
 //! stretch, because it cannot restart; states of fixed size up to 16 components, because dynamic ones allocate dozens
 //! of times per step.
 
+mod scaled;
+
 use crate::System;
 use nalgebra::allocator::Allocator;
 use nalgebra::{Const, DefaultAllocator, Dim, Dyn, OVector};
 use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{Dopri5, OutputType};
-use std::ops::Mul;
+use scaled::{Progress, Scaled, UNCONTROLLED};
+use std::ops::{Mul, Range};
 
-/// A system that moves its memory itself when a step has been accepted.
-pub trait Memory: System {
+/// A system that is told of each accepted step, and moves its memory then.
+pub trait Accepting: System {
     /// Commits the step that ended at time `t` in the state `y` (`total` components); `false` ends the stretch there.
     fn accept(&mut self, t: f64, y: &[f64]) -> bool;
 }
@@ -70,10 +73,10 @@ pub enum ReferenceError {
         got: usize,
     },
     /// A tolerance that is missing or not positive.
-    #[error("expected an absolute tolerance above 0 for component {place}, got {got}")]
+    #[error("expected an absolute tolerance above 0 for component {index}, got {got}")]
     Scale {
         /// Coupled component.
-        place: usize,
+        index: usize,
         /// Tolerance given; NaN if missing.
         got: f64,
     },
@@ -117,7 +120,7 @@ impl From<IntegrationError> for ReferenceError {
     }
 }
 
-/// Integrates `memory` from `span.0` to `span.1` (s), starting in `y`, and has it accept every accepted step.
+/// Integrates `system` over a `span` of time (s), starting in `y`, and tells it of every accepted step.
 ///
 /// `scale` is the absolute tolerance of each coupled component, above 0; the error is their root mean square.
 /// Quadratures are carried along but do not steer.
@@ -126,43 +129,44 @@ impl From<IntegrationError> for ReferenceError {
 ///
 /// [`ReferenceError`]: arguments that fit no system, or a stretch that could not be finished; what was accepted until
 /// then stays accepted.
-pub fn integrate<M: Memory>(
-    memory: &mut M,
-    span: (f64, f64),
+pub fn integrate<S: Accepting>(
+    system: &mut S,
+    span: Range<f64>,
     y: &[f64],
     scale: &[f64],
     options: &ReferenceOptions,
 ) -> Result<ReferenceRun, ReferenceError> {
-    check(memory, span, y, scale, options)?;
+    check(system, &span, y, scale, options)?;
     let job = Job { span, y, scale, options };
-    match memory.total() {
-        0..=2 => job.run(memory, Const::<2>),
-        3..=4 => job.run(memory, Const::<4>),
-        5..=6 => job.run(memory, Const::<6>),
-        7..=8 => job.run(memory, Const::<8>),
-        9..=12 => job.run(memory, Const::<12>),
-        13..=16 => job.run(memory, Const::<16>),
-        total => job.run(memory, Dyn(total)),
+    match system.total() {
+        0..=2 => job.run(system, Const::<2>),
+        3..=4 => job.run(system, Const::<4>),
+        5..=6 => job.run(system, Const::<6>),
+        7..=8 => job.run(system, Const::<8>),
+        9..=12 => job.run(system, Const::<12>),
+        13..=16 => job.run(system, Const::<16>),
+        total => job.run(system, Dyn(total)),
     }
 }
 
-fn check<M: Memory>(
-    memory: &M,
-    (start, end): (f64, f64),
+fn check<S: Accepting>(
+    system: &S,
+    span: &Range<f64>,
     y: &[f64],
     scale: &[f64],
     options: &ReferenceOptions,
 ) -> Result<(), ReferenceError> {
+    let Range { start, end } = *span;
     if !(start < end && start.is_finite() && end.is_finite()) {
         return Err(ReferenceError::Span { start, end });
     }
-    if y.len() != memory.total() {
-        return Err(ReferenceError::State { expected: memory.total(), got: y.len() });
+    if y.len() != system.total() {
+        return Err(ReferenceError::State { expected: system.total(), got: y.len() });
     }
-    for place in 0..memory.dimension() {
-        let got = scale.get(place).copied().unwrap_or(f64::NAN);
+    for index in 0..system.dimension() {
+        let got = scale.get(index).copied().unwrap_or(f64::NAN);
         if !(got > 0.0 && got.is_finite()) {
-            return Err(ReferenceError::Scale { place, got });
+            return Err(ReferenceError::Scale { index, got });
         }
     }
     let ReferenceOptions { first, longest, .. } = *options;
@@ -174,20 +178,20 @@ fn check<M: Memory>(
 
 /// One stretch, checked.
 struct Job<'a> {
-    span: (f64, f64),
+    span: Range<f64>,
     y: &'a [f64],
     scale: &'a [f64],
     options: &'a ReferenceOptions,
 }
 
 impl Job<'_> {
-    fn run<M: Memory, D: Dim>(&self, memory: &mut M, size: D) -> Result<ReferenceRun, ReferenceError>
+    fn run<S: Accepting, D: Dim>(&self, system: &mut S, size: D) -> Result<ReferenceRun, ReferenceError>
     where
         DefaultAllocator: Allocator<D>,
         OVector<f64, D>: Mul<f64, Output = OVector<f64, D>>,
     {
-        let (dimension, total) = (memory.dimension(), memory.total());
-        let (start, end) = self.span;
+        let (dimension, total) = (system.dimension(), system.total());
+        let Range { start, end } = self.span;
         let longest = self.options.longest.min(end - start);
         // The solver knows one tolerance for all: it integrates y/weight at the tolerance 1. A quadrature's weight is
         // so large that its error vanishes; a power of two scales it without rounding.
@@ -200,7 +204,7 @@ impl Job<'_> {
         // Its mean runs over padding and quadratures too; this makes it one over the coupled components.
         let tolerance = (dimension.max(1) as f64 / size.value() as f64).sqrt();
         let mut progress = Progress { time: start, end, steps: [0.0; 2], y: self.y.to_vec() };
-        let scaled = Scaled { memory, weight, dimension, total, progress: &mut progress };
+        let scaled = Scaled { system, weight, dimension, total, progress: &mut progress };
         let first = self.options.first.unwrap_or(0.0).min(longest);
         // Safety 0.9, β 0.04 and the factors 0.2 and 10 are the crate's defaults. Its test for stiffness is put off for
         // ever: a step bounded by stability is what an explicit reference does.
@@ -231,56 +235,5 @@ impl Job<'_> {
             step: progress.steps[0].max(progress.steps[1]),
             y: progress.y,
         })
-    }
-}
-
-/// Weight of a component whose error is not controlled, 2³⁰⁰.
-const UNCONTROLLED: f64 = f64::from_bits((1023 + 300) << 52);
-
-/// Where the solver is.
-struct Progress {
-    time: f64,
-    end: f64,
-    steps: [f64; 2],
-    y: Vec<f64>,
-}
-
-/// The system as the crate `ode_solvers` wants it: in units of the tolerances, padded with zeros.
-struct Scaled<'a, M, D: Dim>
-where
-    DefaultAllocator: Allocator<D>,
-{
-    memory: &'a mut M,
-    weight: OVector<f64, D>,
-    dimension: usize,
-    total: usize,
-    progress: &'a mut Progress,
-}
-
-impl<M: Memory, D: Dim> ode_solvers::System<f64, OVector<f64, D>> for Scaled<'_, M, D>
-where
-    DefaultAllocator: Allocator<D>,
-{
-    fn system(&self, t: f64, z: &OVector<f64, D>, dz: &mut OVector<f64, D>) {
-        let y = z.component_mul(&self.weight);
-        let out = dz.as_mut_slice();
-        self.memory.slopes(t, &y.as_slice()[..self.dimension], &mut out[..self.total]);
-        for (slope, weight) in out.iter_mut().zip(self.weight.as_slice()).take(self.total) {
-            *slope /= weight;
-        }
-        out[self.total..].fill(0.0);
-    }
-
-    fn solout(&mut self, t: f64, z: &OVector<f64, D>, _: &OVector<f64, D>) -> bool {
-        let Progress { time, end, steps, y } = &mut *self.progress;
-        // The last step's sum t + (end - t) may miss the end, a corner, by a bit.
-        let t = if (t - *end).abs() <= 2.0 * f64::EPSILON * end.abs() { *end } else { t };
-        for ((y, z), weight) in y.iter_mut().zip(z.as_slice()).zip(self.weight.as_slice()) {
-            *y = z * weight;
-        }
-        *steps = [steps[1], t - *time];
-        *time = t;
-        // The crate asks whether to stop.
-        !self.memory.accept(t, y)
     }
 }

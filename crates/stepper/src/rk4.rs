@@ -28,9 +28,9 @@ impl Rk4 {
     }
 
     #[inline(always)]
-    fn stage<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64], reach: f64) {
+    fn stage<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64], ahead: f64) {
         for ((to, y), k) in self.stage.iter_mut().zip(y).zip(&self.slope) {
-            *to = y + reach * k;
+            *to = y + ahead * k;
         }
         system.slopes(t, &self.stage, &mut self.slope);
     }

@@ -3,7 +3,7 @@
 mod systems;
 
 use stickslip_stepper::System;
-use stickslip_stepper::reference::{Memory, ReferenceError, ReferenceOptions, integrate};
+use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, integrate};
 use systems::{Forced, Oscillator};
 
 /// A system that writes down when it was told to accept.
@@ -29,7 +29,7 @@ impl<S: System> System for Log<S> {
     }
 }
 
-impl<S: System> Memory for Log<S> {
+impl<S: System> Accepting for Log<S> {
     fn accept(&mut self, t: f64, y: &[f64]) -> bool {
         self.accepted.push((t, y.to_vec()));
         t < self.enough
@@ -76,7 +76,7 @@ fn every_size_of_state_meets_the_closed_form() {
         }
         let start = y.clone();
         let scale = vec![1e-9; 2 * pairs];
-        let run = integrate(&mut system, (0.0, 2.0), &y, &scale, &ReferenceOptions::default()).unwrap();
+        let run = integrate(&mut system, 0.0..2.0, &y, &scale, &ReferenceOptions::default()).unwrap();
         let (sin, cos) = 2.0_f64.sin_cos();
         for (i, x) in start[..pairs].iter().enumerate() {
             assert!((run.y[i] - x * cos).abs() < 1e-7);
@@ -91,8 +91,8 @@ fn every_size_of_state_meets_the_closed_form() {
 #[test]
 fn accepts_each_step_once_in_order_with_its_own_state() {
     let mut system = log(Forced);
-    let run = integrate(&mut system, (0.0, 1.2), &[0.5, 1.0, 0.0], &[1e-9; 2], &ReferenceOptions::default())
-        .unwrap();
+    let run =
+        integrate(&mut system, 0.0..1.2, &[0.5, 1.0, 0.0], &[1e-9; 2], &ReferenceOptions::default()).unwrap();
     assert!(run.steps > 5 && run.evaluations >= 6 * run.steps);
     let mut before = 0.0;
     for (t, y) in &system.accepted {
@@ -125,9 +125,9 @@ fn tolerance_counts_coupled_components_only() {
         }
     }
     let options = ReferenceOptions { first: Some(0.01), ..ReferenceOptions::default() };
-    let bare = integrate(&mut log(Bare), (0.0, 9.0), &[1.0, 0.0], &[1e-8; 2], &options).unwrap();
+    let bare = integrate(&mut log(Bare), 0.0..9.0, &[1.0, 0.0], &[1e-8; 2], &options).unwrap();
     let mut full = log(Oscillator { omega: 1.0 });
-    let full = integrate(&mut full, (0.0, 9.0), &[1.0, 0.0, 0.0, 0.0], &[1e-8; 2], &options).unwrap();
+    let full = integrate(&mut full, 0.0..9.0, &[1.0, 0.0, 0.0, 0.0], &[1e-8; 2], &options).unwrap();
     assert_eq!((bare.steps, bare.rejected, bare.evaluations), (full.steps, full.rejected, full.evaluations));
     assert!((bare.y[0] - full.y[0]).abs() < 1e-14);
 }
@@ -139,7 +139,7 @@ fn stretches_join_and_the_longest_step_is_kept() {
     let options = ReferenceOptions { longest: 0.05, ..ReferenceOptions::default() };
     let mut y = vec![1.0, 0.0, 0.0, 0.0];
     for (a, b) in [(0.0, 1.0), (1.0, 2.5), (2.5, 3.0)] {
-        let run = integrate(&mut system, (a, b), &y, &[1e-10; 2], &options).unwrap();
+        let run = integrate(&mut system, a..b, &y, &[1e-10; 2], &options).unwrap();
         assert!(run.step <= 0.05 * (1.0 + 1e-12));
         y = run.y;
     }
@@ -156,26 +156,20 @@ fn errors_say_what_was_wrong() {
     let mut try_it = |span, y: &[f64], scale: &[f64], options: &ReferenceOptions| {
         integrate(&mut system, span, y, scale, options).unwrap_err()
     };
-    assert_eq!(try_it((1.0, 1.0), &y, &[1.0; 2], &options), ReferenceError::Span { start: 1.0, end: 1.0 });
-    assert_eq!(
-        try_it((0.0, 1.0), &y[..3], &[1.0; 2], &options),
-        ReferenceError::State { expected: 4, got: 3 }
-    );
-    assert_eq!(try_it((0.0, 1.0), &y, &[1.0, 0.0], &options), ReferenceError::Scale { place: 1, got: 0.0 });
+    assert_eq!(try_it(1.0..1.0, &y, &[1.0; 2], &options), ReferenceError::Span { start: 1.0, end: 1.0 });
+    assert_eq!(try_it(0.0..1.0, &y[..3], &[1.0; 2], &options), ReferenceError::State { expected: 4, got: 3 });
+    assert_eq!(try_it(0.0..1.0, &y, &[1.0, 0.0], &options), ReferenceError::Scale { index: 1, got: 0.0 });
     let few = ReferenceOptions { steps: 10, ..options };
-    assert!(matches!(
-        try_it((0.0, 1e6), &y, &[1e-9; 2], &few),
-        ReferenceError::TooManySteps { steps: 11, .. }
-    ));
+    assert!(matches!(try_it(0.0..1e6, &y, &[1e-9; 2], &few), ReferenceError::TooManySteps { steps: 11, .. }));
     let none = ReferenceOptions { longest: 0.0, ..options };
-    assert!(matches!(try_it((0.0, 1.0), &y, &[1.0; 2], &none), ReferenceError::Options { .. }));
+    assert!(matches!(try_it(0.0..1.0, &y, &[1.0; 2], &none), ReferenceError::Options { .. }));
 }
 
 #[test]
 fn slopes_that_are_not_finite_end_in_an_error() {
     let mut system = log(Oscillator { omega: f64::NAN });
     let options = ReferenceOptions { steps: 100, ..ReferenceOptions::default() };
-    let run = integrate(&mut system, (0.0, 1.0), &[1.0, 0.0, 0.0, 0.0], &[1e-6; 2], &options);
+    let run = integrate(&mut system, 0.0..1.0, &[1.0, 0.0, 0.0, 0.0], &[1e-6; 2], &options);
     assert!(
         matches!(run, Err(ReferenceError::TooManySteps { .. } | ReferenceError::StepTooSmall { .. })),
         "{run:?}"
@@ -187,7 +181,7 @@ fn slopes_that_are_not_finite_end_in_an_error() {
 fn who_has_had_enough_ends_the_stretch() {
     let mut log = Log { enough: 2.0, ..log(Many { pairs: 1 }) };
     let y = [1.0, 0.0, 0.0];
-    let run = integrate(&mut log, (0.0, 10.0), &y, &[1e-8; 2], &ReferenceOptions::default()).unwrap();
+    let run = integrate(&mut log, 0.0..10.0, &y, &[1e-8; 2], &ReferenceOptions::default()).unwrap();
     let (last, before) = (log.accepted.last().unwrap(), &log.accepted[log.accepted.len() - 2]);
     assert!(before.0 < 2.0 && (2.0..3.0).contains(&last.0), "{} {}", before.0, last.0);
     assert_eq!(run.y, last.1);

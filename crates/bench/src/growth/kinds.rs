@@ -101,7 +101,7 @@ fn swung(swings: u32) -> Result<Point, String> {
     stickslip_drive::run(&model, &before, &mut state, &mut Nothing(&()))
         .map_err(|error| error.to_string())?;
     let depth = match state.memories().first() {
-        Some(Memory::Curve(curve)) => curve.depth(),
+        Some(Memory::Curve(curve)) => curve.knot_count(),
         _ => 0,
     };
     let after = Plan { duration: from + f64::from(INNER) * PERIOD, ..before };

@@ -1,6 +1,6 @@
 //! Where a chord of the apex cuts the curve.
 
-use super::Front;
+use super::front::Front;
 use super::knot::Knot;
 use crate::{Apex, Interface, Response};
 
@@ -31,20 +31,23 @@ pub(super) struct Edge {
 }
 
 impl Drag {
-    /// The drag of a chord from the end of the curve (at least one knot) to an apex inside contact.
+    /// The drag of a chord from the end of the curve (at least one knot) to an apex.
     #[inline]
     pub(super) fn of(law: &Interface, knots: &[Knot], to: Apex) -> Self {
+        if to.d <= 0.0 {
+            return Self::Open;
+        }
         let Some(top) = knots.last() else { return Self::Open };
-        let (rise, shift) = (to.d - top.h, to.u - top.p);
+        let (rise, travel) = (to.d - top.h, to.u - top.p);
         let limit = law.stick_slope() * rise;
-        if rise == 0.0 && shift == 0.0 {
+        if rise == 0.0 && travel == 0.0 {
             return Self::Rest;
         }
-        if rise > 0.0 && shift.abs() <= limit {
+        if rise > 0.0 && travel.abs() <= limit {
             return Self::Stick;
         }
         // Both edges close in on a shrinking contact; the apex lies on one side of the old curve.
-        let forward = if shift.abs() >= -limit { shift > 0.0 } else { to.u > anchor(knots, to.d) };
+        let forward = if travel.abs() >= -limit { travel > 0.0 } else { to.u > anchor(knots, to.d) };
         Self::Slip(Edge::find(law, knots, if forward { 1.0 } else { -1.0 }, to))
     }
 }
@@ -77,7 +80,7 @@ pub(super) fn onward(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> (
     };
     let end = &knots[kept.min(knots.len() - 1)];
     let level = sense * to.u - slope * to.d;
-    let rise = sense * base.p - slope * base.h - level;
+    let rise = base.level(sense, slope) - level;
     let height =
         if runs_along(slope, sense, end) { base.h } else { base.h + rise / (slope - sense * end.slope) };
     let reduced_force = law.profile().reduced_force(height);
@@ -91,9 +94,8 @@ impl Edge {
     pub(super) fn find(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> Self {
         let slope = law.stick_slope();
         let level = sense * to.u - slope * to.d;
-        let reach = |k: &Knot| sense * k.p - slope * k.h;
         let mut kept = knots.len();
-        while kept > 0 && (reach(&knots[kept - 1]) < level || knots[kept - 1].h > to.d) {
+        while kept > 0 && (knots[kept - 1].level(sense, slope) < level || knots[kept - 1].h > to.d) {
             kept -= 1;
         }
         let Some(base) = kept.checked_sub(1).map(|i| &knots[i]) else {
@@ -104,7 +106,8 @@ impl Edge {
         };
         let steep = slope - sense * end.slope;
         // A piece along the edge itself has no crossing: it is cut at its foot.
-        let rise = if steep > 4.0 * f64::EPSILON * slope { (reach(base) - level) / steep } else { 0.0 };
+        let rise =
+            if steep > 4.0 * f64::EPSILON * slope { (base.level(sense, slope) - level) / steep } else { 0.0 };
         let height = (base.h + rise).min(end.h).min(to.d);
         Self { sense, kept, height: height.max(base.h), splits: height > base.h }
     }

@@ -41,6 +41,12 @@ impl Knot {
         }
     }
 
+    /// σp - κh in the frame of a sense σ, m: what the edge of that sense compares.
+    #[inline]
+    pub(super) fn level(&self, sense: f64, slope: f64) -> f64 {
+        sense * self.p - slope * self.h
+    }
+
     /// The apex that stands on this knot.
     pub(super) fn apex(&self) -> Apex {
         Apex { d: self.h, u: self.p }

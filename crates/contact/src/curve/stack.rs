@@ -1,19 +1,20 @@
 //! The stack of knots: how it grows, is cut, and stays bounded.
 
 use super::cut::Edge;
+use super::front::Front;
 use super::knot::Knot;
-use super::{Curve, Front, sweep};
+use super::{Curve, sweep};
 use crate::{Apex, Interface};
 
 /// Slopes of the top piece that keep every knot merged into it within round-off of where it was: without this
 /// bound a slightly curved growth in many tiny steps would be straightened without limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cone {
+pub(super) struct SlopeRange {
     low: f64,
     high: f64,
 }
 
-impl Cone {
+impl SlopeRange {
     pub(super) const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
     pub(super) const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 }
@@ -21,7 +22,7 @@ impl Cone {
 /// Deviation of a merged knot, in units of the last place of the largest of |u| and κd.
 const COLLINEAR_ULPS: f64 = 2.0;
 
-/// Knots that one move adds at most: the place where it cuts, or touches, and the apex.
+/// Knots that one move adds at most: the knot where it cuts, or touches, and the apex.
 pub(super) const KNOTS_PER_MOVE: usize = 2;
 
 impl Curve {
@@ -38,7 +39,7 @@ impl Curve {
             self.knots.push(knot);
         }
         self.front = Front::STICK;
-        self.cone = Cone::NONE;
+        self.range = SlopeRange::NONE;
         self.apex = to;
     }
 
@@ -51,21 +52,21 @@ impl Curve {
             let base = self.knots[count - 2];
             let slack =
                 COLLINEAR_ULPS * f64::EPSILON * top.p.abs().max(knot.p.abs()).max(law.stick_slope() * knot.h);
-            let reach = top.h - base.h;
-            let cone = Cone {
-                low: self.cone.low.max((top.p - base.p - slack) / reach),
-                high: self.cone.high.min((top.p - base.p + slack) / reach),
+            let rise = top.h - base.h;
+            let range = SlopeRange {
+                low: self.range.low.max((top.p - base.p - slack) / rise),
+                high: self.range.high.min((top.p - base.p + slack) / rise),
             };
             let slope = (knot.p - base.p) / (knot.h - base.h);
             let straight = top.slope == top.gain && top.slope.abs() < law.stick_slope();
-            if straight && (cone.low..=cone.high).contains(&slope) {
+            if straight && (range.low..=range.high).contains(&slope) {
                 self.knots[count - 1] = base.grow(law, knot.h, slope, knot.p);
-                self.cone = cone;
+                self.range = range;
                 return;
             }
         }
         self.knots.push(knot);
-        self.cone = Cone::ALL;
+        self.range = SlopeRange::ALL;
     }
 
     /// Replaces what was cut by the straight edge of the wedge; gives the friction work, J.
@@ -84,7 +85,7 @@ impl Curve {
             top.p = to.u;
         }
         self.front = edge.front();
-        self.cone = Cone::NONE;
+        self.range = SlopeRange::NONE;
         friction
     }
 
@@ -95,12 +96,12 @@ impl Curve {
             ((c.slope - b.slope) * (b.h - a.h) * (c.h - b.h)).abs()
         };
         let smallest = self.knots.windows(3).map(triangle).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((place, _)) = smallest else { return };
+        let Some((index, _)) = smallest else { return };
         let (force, energy) = (self.force(law), self.elastic(law));
-        self.knots.remove(place + 1);
-        for i in place + 1..self.knots.len() {
+        self.knots.remove(index + 1);
+        for i in index + 1..self.knots.len() {
             let (below, old) = (self.knots[i - 1], self.knots[i]);
-            let (slope, gain) = if i == place + 1 {
+            let (slope, gain) = if i == index + 1 {
                 let slope = (old.p - below.p) / (old.h - below.h);
                 (slope, slope)
             } else {

@@ -17,18 +17,18 @@ use crate::{Apex, Interface, Profile};
 
 /// Friction work of a chord, J. `knots` is the old curve (at least one knot) and ends at `from`.
 pub(super) fn work(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f64 {
-    let (rise, shift) = (to.d - from.d, to.u - from.u);
+    let (rise, travel) = (to.d - from.d, to.u - from.u);
     let slope = law.stick_slope();
-    let sticks = rise >= 0.0 && shift.abs() <= slope * rise;
+    let sticks = rise >= 0.0 && travel.abs() <= slope * rise;
     let Some(top) = knots.last() else { return 0.0 };
     if sticks || from.d <= 0.0 && to.d <= 0.0 {
         return 0.0;
     }
-    let to = if to.d > 0.0 { to } else { Apex { d: 0.0, u: from.u - from.d * shift / rise } };
-    let (rise, shift) = (to.d - from.d, to.u - from.u);
-    let forward = if shift.abs() >= -slope * rise { shift > 0.0 } else { to.u > anchor(knots, to.d) };
+    let to = if to.d > 0.0 { to } else { Apex { d: 0.0, u: from.u - from.d * travel / rise } };
+    let (rise, travel) = (to.d - from.d, to.u - from.u);
+    let forward = if travel.abs() >= -slope * rise { travel > 0.0 } else { to.u > anchor(knots, to.d) };
     let sense = if forward { 1.0 } else { -1.0 };
-    let sweep = Sweep { law, from, to, rise, shift, sense, level: sense * to.u - slope * to.d };
+    let sweep = Sweep { law, from, to, rise, travel, sense, level: sense * to.u - slope * to.d };
 
     let edge = Edge::find(law, knots, sense, to);
     let foot = edge.foot(law, knots, to);
@@ -43,8 +43,8 @@ pub(super) fn slipped(
     (edge, foot): (&Edge, &Knot),
 ) -> f64 {
     let Some(top) = knots.last() else { return 0.0 };
-    let (sense, rise, shift) = (edge.sense, to.d - from.d, to.u - from.u);
-    let sweep = Sweep { law, from, to, rise, shift, sense, level: sense * to.u - law.stick_slope() * to.d };
+    let (sense, rise, travel) = (edge.sense, to.d - from.d, to.u - from.u);
+    let sweep = Sweep { law, from, to, rise, travel, sense, level: sense * to.u - law.stick_slope() * to.d };
     sweep.swept(knots, top, edge, foot)
 }
 
@@ -54,7 +54,7 @@ struct Sweep<'a> {
     from: Apex,
     to: Apex,
     rise: f64,
-    shift: f64,
+    travel: f64,
     sense: f64,
     level: f64,
 }
@@ -74,7 +74,8 @@ impl Sweep<'_> {
             lower = *upper;
         }
         if self.rise > 0.0 {
-            total += self.piece(top, &top.grow(self.law, self.to.d, self.shift / self.rise, self.to.u), drag);
+            total +=
+                self.piece(top, &top.grow(self.law, self.to.d, self.travel / self.rise, self.to.u), drag);
         }
         self.law.tangential_modulus() * slope * total
     }
@@ -114,7 +115,7 @@ impl Sweep<'_> {
     /// Springs that leave the contact where the path crosses their height; on both sides of the old curve if
     /// the path of a shrinking contact crosses it.
     fn leaving(&self, lower: &Knot, upper: &Knot) -> f64 {
-        let path = self.shift / self.rise;
+        let path = self.travel / self.rise;
         let drag = |k: &Knot| self.from.u + (k.h - self.from.d) * path - k.p;
         let (below, beyond) = (drag(lower), drag(upper));
         let rate = path - upper.slope;
@@ -137,7 +138,7 @@ impl Sweep<'_> {
 
     /// r = dd/dL for the edge of a sense.
     fn curl(&self, sense: f64) -> f64 {
-        let climb = sense * self.shift - self.law.stick_slope() * self.rise;
+        let climb = sense * self.travel - self.law.stick_slope() * self.rise;
         if self.rise == 0.0 || climb <= 0.0 { 0.0 } else { self.rise / climb }
     }
 }

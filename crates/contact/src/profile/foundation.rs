@@ -12,7 +12,7 @@ pub(crate) struct Foundation {
     heights: Vec<f64>,
     /// Length of each, m.
     lengths: Vec<f64>,
-    /// Place in `heights` of each spring in the order given.
+    /// Index in `heights` of each spring in the order given.
     ranks: Vec<usize>,
     /// Sums at each height, the spring of that height included in m.
     sums: Vec<Sums>,
@@ -66,7 +66,7 @@ impl Foundation {
         &self.lengths
     }
 
-    /// Place among the ascending heights of each spring in the order given.
+    /// Index among the ascending heights of each spring in the order given.
     pub(crate) fn ranks(&self) -> &[usize] {
         &self.ranks
     }
@@ -107,16 +107,16 @@ impl Foundation {
 
     /// Lowest height whose spring completes the length m > 0; infinite beyond all springs.
     pub(super) fn height_of_reduced_stiffness(&self, length: f64) -> f64 {
-        let place = self.sums.partition_point(|sums| sums.reduced_stiffness < length);
-        self.heights.get(place).copied().unwrap_or(f64::INFINITY)
+        let index = self.sums.partition_point(|sums| sums.reduced_stiffness < length);
+        self.heights.get(index).copied().unwrap_or(f64::INFINITY)
     }
 
     /// Height at which M > 0 is reached.
     pub(super) fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
         // M is 0 at the lowest height, so at least one spring lies below.
-        let place = self.sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
-        let sums = self.sums[place];
-        self.heights[place] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
+        let index = self.sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
+        let sums = self.sums[index];
+        self.heights[index] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
     }
 }
 

@@ -1,7 +1,7 @@
 //! The gap itself, for those who want to see it.
 
 use super::kappa::kappa;
-use super::{Law, Profile};
+use super::{Profile, Shape};
 
 impl Profile {
     /// f(r), m: the gap at the distance r ≥ 0 (m) from the axis before anything is pressed; none beyond a flat punch or a
@@ -9,12 +9,12 @@ impl Profile {
     ///
     /// Of a power law f = g/`κ_n` (4.20): r²/2R for the paraboloid.
     pub fn gap(&self, r: f64) -> Option<f64> {
-        match &self.law {
+        match &self.shape {
             _ if r.is_nan() || r < 0.0 => None,
-            Law::Flat { radius } => (r <= *radius).then_some(0.0),
-            Law::Power(law) => Some(law.depth(r) / kappa(law.exponent())),
-            Law::Sphere(law) => law.gap(r),
-            Law::Foundation(_) => None,
+            Shape::Flat { radius } => (r <= *radius).then_some(0.0),
+            Shape::Power(shape) => Some(shape.depth(r) / kappa(shape.exponent())),
+            Shape::Sphere(shape) => shape.gap(r),
+            Shape::Foundation(_) => None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Power laws g = B|x|ⁿ: closed forms throughout.
 
-use super::{ProfileError, positive};
+use super::ProfileError;
+use super::error::positive;
 
 /// g = |x|ⁿ/s, s = 1/B: a(h) = (sh)^{1/n}, m = 2a, M = mh n/(n+1), N = Mh n/(2n+1).
 #[derive(Debug, Clone, PartialEq)]

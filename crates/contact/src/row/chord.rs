@@ -35,9 +35,16 @@ pub(super) struct Slide {
 
 impl Chord {
     pub(super) fn new(from: Apex, to: Apex, slope: f64) -> Self {
-        let (shift, growth) = (to.u - from.u, slope * (to.d - from.d));
+        let (travel, growth) = (to.u - from.u, slope * (to.d - from.d));
         let inverse = |rate: f64| if rate > 0.0 { 1.0 / rate } else { 0.0 };
-        Self { from, to, slope, growth, forward: inverse(shift - growth), backward: inverse(-shift - growth) }
+        Self {
+            from,
+            to,
+            slope,
+            growth,
+            forward: inverse(travel - growth),
+            backward: inverse(-travel - growth),
+        }
     }
 
     /// Limit κ(d-h) at the end.

@@ -15,9 +15,9 @@ pub struct Springs {
     lengths: Vec<f64>,
     /// Half the length of the distinct springs before each, m; one more entry for all of them.
     radii: Vec<f64>,
-    /// Place x of every spring, m, ascending.
+    /// Position x of every spring, m, ascending.
     positions: Vec<f64>,
-    /// Place among the distinct springs of every spring.
+    /// Index among the distinct springs of every spring.
     ranks: Vec<usize>,
     reach: f64,
 }
@@ -60,7 +60,7 @@ impl Springs {
     ///
     /// If there is no spring or too many, or the span is not positive or narrower than a flat punch.
     pub fn new(profile: &Profile, count: usize, span: f64) -> Result<Self, SpringsError> {
-        if let Some(foundation) = profile.springs() {
+        if let Some(foundation) = profile.as_foundation() {
             return Ok(Self::of_list(foundation.heights(), foundation.lengths(), foundation.ranks()));
         }
         if !(1..=Self::MAX_COUNT).contains(&count) {
@@ -73,13 +73,13 @@ impl Springs {
         let cell = span / count as f64;
         // Position i and its mirror image are spring |2i+1-count|/2, counted from the centre.
         let ranks: Vec<usize> = (0..count).map(|i| (2 * i + 1).abs_diff(count) / 2).collect();
-        let place = |twice: f64| 0.5 * twice * cell;
-        let positions = (0..count).map(|i| place((2 * i + 1) as f64 - count as f64)).collect();
+        let position = |twice: f64| 0.5 * twice * cell;
+        let positions = (0..count).map(|i| position((2 * i + 1) as f64 - count as f64)).collect();
         let distinct = count.div_ceil(2);
         let odd = count % 2 == 1;
         let from_centre = |rank: usize| if odd { 2 * rank } else { 2 * rank + 1 };
         let heights: Vec<f64> =
-            (0..distinct).map(|rank| profile.depth(place(from_centre(rank) as f64))).collect();
+            (0..distinct).map(|rank| profile.depth(position(from_centre(rank) as f64))).collect();
         let alone = |rank: usize| odd && rank == 0;
         let lengths = (0..distinct).map(|rank| if alone(rank) { cell } else { 2.0 * cell }).collect();
         Ok(Self::assemble(heights, lengths, positions, ranks, reach))
@@ -89,12 +89,12 @@ impl Springs {
     fn of_list(heights: &[f64], lengths: &[f64], ranks: &[usize]) -> Self {
         let total: f64 = lengths.iter().sum();
         let mut edge = -0.5 * total;
-        let place = |&rank: &usize| {
+        let position = |&rank: &usize| {
             let centre = edge + 0.5 * lengths[rank];
             edge += lengths[rank];
             centre
         };
-        let positions = ranks.iter().map(place).collect();
+        let positions = ranks.iter().map(position).collect();
         Self::assemble(heights.to_vec(), lengths.to_vec(), positions, ranks.to_vec(), f64::INFINITY)
     }
 
@@ -120,11 +120,11 @@ impl Springs {
     }
 
     /// Height of every spring, m, in the order of [`Self::positions`].
-    pub fn heights_in_place(&self) -> impl Iterator<Item = f64> + '_ {
+    pub fn heights_by_position(&self) -> impl Iterator<Item = f64> + '_ {
         self.ranks().iter().map(|rank| self.heights()[*rank])
     }
 
-    /// Place x of every spring, m, ascending; springs of a list lie side by side in the order given.
+    /// Position x of every spring, m, ascending; springs of a list lie side by side in the order given.
     pub fn positions(&self) -> &[f64] {
         &self.positions
     }
@@ -153,7 +153,7 @@ impl Springs {
         self.range(0, count)
     }
 
-    /// The distinct springs from one place up to another.
+    /// The distinct springs from one index up to another.
     #[inline]
     pub(super) fn range(&self, start: usize, end: usize) -> Cells<'_> {
         Cells { heights: &self.heights[start..end], lengths: &self.lengths[start..end] }

@@ -1,7 +1,7 @@
 //! What a contact exerts along the slide under its law.
 
 use super::{Contact, Mode, Motion, Press};
-use stickslip_contact::{Branch, Memory, Move};
+use stickslip_contact::{Branch, Dragged, Memory, Move};
 
 /// Slopes of the states of a contact that grows, and of the integrals beside them.
 #[derive(Debug, Clone, Copy, Default)]
@@ -25,7 +25,7 @@ impl Contact {
     ) -> f64 {
         match mode {
             Mode::Slip(branch) if !branch.covers(motion.d, motion.u) => {
-                self.dragged(memory, branch, motion).0
+                self.dragged(memory, branch, motion).force
             }
             Mode::Slip(branch) => {
                 let reduced_force = match &self.press {
@@ -49,11 +49,9 @@ impl Contact {
 
     /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
     #[inline(never)]
-    fn dragged(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> (f64, f64) {
-        let dragged = |branching: &dyn stickslip_contact::Branching| {
-            branching.dragged(&self.law, branch.sense(), motion.apex())
-        };
-        memory.branching().map_or((0.0, 0.0), dragged)
+    fn dragged(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> Dragged {
+        let branching = memory.branching();
+        branching.map(|it| it.dragged(&self.law, branch.sense(), motion.apex())).unwrap_or_default()
     }
 
     /// Height of the slip front, m.
@@ -61,7 +59,7 @@ impl Contact {
         if branch.covers(motion.d, motion.u) {
             branch.front(motion.d, motion.u)
         } else {
-            self.dragged(memory, branch, motion).1
+            self.dragged(memory, branch, motion).front
         }
     }
 
@@ -95,7 +93,7 @@ impl Contact {
             },
             Mode::Slip(branch) => {
                 let front = self.front(memory, branch, motion);
-                let friction = branch.friction_power(&self.law, front, (motion.d, motion.dd), motion.du);
+                let friction = branch.friction_power(&self.law, front, motion);
                 GrowthRates { friction, ..GrowthRates::default() }
             }
             Mode::Open | Mode::Whole { .. } => GrowthRates::default(),

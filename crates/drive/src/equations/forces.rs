@@ -47,7 +47,7 @@ impl Equations<'_> {
         let motion = Motion { d, u: u.value, dd, du: u.rate };
         let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
-                let [force, friction] = branch.drag(&contact.law, (d, dd), (u.value, u.rate), reduced_force);
+                let [force, friction] = branch.drag(&contact.law, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }

@@ -4,7 +4,7 @@ use super::chords::Chords;
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Waveform};
 use stickslip_stepper::System;
-use stickslip_stepper::reference::{Memory, ReferenceError, ReferenceOptions, integrate};
+use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, integrate};
 
 /// Longest step, in quarters of the shortest wave. In gross slip nothing in the equations tells of a wave that goes by under
 /// a long step, nor of the short time in which it holds a body.
@@ -34,7 +34,7 @@ impl System for Driven<'_> {
     }
 }
 
-impl Memory for Driven<'_> {
+impl Accepting for Driven<'_> {
     fn accept(&mut self, t: f64, y: &[f64]) -> bool {
         if t > self.chords.state.t {
             self.outcome = self.chords.accept(t, y);
@@ -66,7 +66,7 @@ pub(super) fn run(
         let y = driven.chords.state.y.clone();
         let limit = plan.limits.steps.saturating_sub(driven.chords.state.counts.steps);
         options.steps = u32::try_from(limit).unwrap_or(u32::MAX);
-        let stretch = integrate(&mut driven, (t, corner), &y, &scale, &options)
+        let stretch = integrate(&mut driven, t..corner, &y, &scale, &options)
             .map_err(|error| failure(&error, plan, &driven.chords));
         match stretch {
             Ok(stretch) => {

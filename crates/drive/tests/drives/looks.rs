@@ -54,7 +54,7 @@ fn a_contact_under_constant_load_is_the_closed_form_at_every_look() {
             vec![(0.0, 0.0), (d - stroke / slope, 0.0), half, (d, u)]
         };
         let Memory::Curve(curve) = &memories[0] else { panic!("a curve") };
-        assert_eq!(curve.depth(), known.len(), "{t}");
+        assert_eq!(curve.knot_count(), known.len(), "{t}");
         for ((h, p), (known_h, known_p)) in curve.knots().zip(known) {
             assert!((h - known_h).abs() < 1e-14 * d && (p - known_p).abs() < 1e-14 * u_c, "{t}: {h} {p}");
         }

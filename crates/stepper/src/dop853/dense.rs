@@ -87,10 +87,10 @@ impl Dop853 {
     /// σ at time `t` of the step attempted, exactly 0 and 1 at its ends.
     #[inline]
     pub(super) fn fraction(&self, t: f64) -> f64 {
-        if t == self.reach {
+        if t == self.target {
             1.0
         } else {
-            self.grade.fraction((t - self.time) / self.step, (self.reach - t) / self.step)
+            self.grade.fraction((t - self.time) / self.step, (self.target - t) / self.step)
         }
     }
 }

@@ -4,7 +4,7 @@
 //! section II.5 (method of order 8 by Dormand and Prince with 12 stages), section II.6 (dense output of order 7) and
 //! section II.10 (the estimators of order 5 and 3), as printed in their program DOP853 and rounded to the nearest double.
 //!
-//! A row is a sparse linear form of the slopes k₁ … k₁₆ (places 0 … 15). Each becomes one straight sum without loop,
+//! A row is a sparse linear form of the slopes k₁ … k₁₆ (indices 0 … 15). Each becomes one straight sum without loop,
 //! zero or bounds check. The newest slope stands apart: everything else can be summed while its evaluation is under way.
 
 /// The sixteen slopes of one component: twelve stages, the end point, three more for the dense output.
@@ -12,11 +12,11 @@ pub(super) type Slopes = [f64; 16];
 
 /// A linear form of the slopes, split at the newest of them.
 pub(super) trait Row {
-    /// Place of the newest slope.
+    /// Index of the newest slope.
     const NEWEST: usize;
     /// Coefficient of the newest slope.
     const LAST: f64;
-    /// Coefficients by the place of their slope.
+    /// Coefficients by the index of their slope.
     #[cfg(test)]
     const TERMS: &'static [(usize, f64)];
 
@@ -57,7 +57,7 @@ macro_rules! rows {
     )+};
 }
 
-/// Place of the slope at the end of the step (k₁₃).
+/// Index of the slope at the end of the step (k₁₃).
 pub(super) const END: usize = 12;
 
 /// Nodes of all stages as fractions of the step.

@@ -5,7 +5,7 @@
 
 /// Number of stages; the last one is the first of the next step.
 pub(super) const STAGES: usize = 9;
-/// Place of the stage at the end of the step.
+/// Index of the stage at the end of the step.
 pub(super) const END: usize = 8;
 
 /// Nodes c.

@@ -121,7 +121,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     pub(super) fn longest_now(&self, fastest: f64) -> f64 {
         let reach = match self.pace.grip {
             Grip::Slips => return self.pace.longest,
-            Grip::Sticks => self.solver.reach(),
+            Grip::Sticks => self.solver.stability_limit(),
             Grip::Rests => REST_REACH,
         };
         self.pace.longest.min(reach / fastest)

@@ -4,7 +4,7 @@ use super::watch::{Fallen, Moving, Watch};
 use crate::contact::{Contact, Guard, Motion, NEARNESS, bands};
 use crate::equations::Equations;
 use crate::interval::Steady;
-use stickslip_stepper::{Attempt, Completion, End, hermite_dip, hermite_root, root, root_near};
+use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, End, Point, root, root_near};
 
 /// A guard that is watched: of a steady contact a straight function of the state, of any other one a function of its motion,
 /// of a block whatever that says.
@@ -170,11 +170,11 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
         let (g0, rates) = (self.at_begin(watched), self.rates(watched));
-        let (share, lowest) = hermite_dip(g0, rates[0], g1, rates[1], h)?;
-        if lowest > 0.1 * g0.min(g1).max(0.0) {
+        let lowest = Cubic { y0: g0, dy0: rates[0], y1: g1, dy1: rates[1], h }.dip()?;
+        if lowest.y > 0.1 * g0.min(g1).max(0.0) {
             return None;
         }
-        let low = self.look(watched, t0 + share * h);
+        let low = self.look(watched, t0 + lowest.x * h);
         Some(low).filter(|(_, g)| *g < -self.bands(watched).0)
     }
 
@@ -210,7 +210,8 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
             // As good as there.
             if value.abs() < near { 0.0 } else { value }
         };
-        root_near(value, (t0, low), (g0, below), guess, tolerance)
+        let bracket = Bracket { from: Point { x: t0, y: g0 }, to: Point { x: low, y: below } };
+        root_near(value, bracket, guess, tolerance)
     }
 
     /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
@@ -220,7 +221,8 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
             return 0.5;
         }
         let rates = self.rates(watched);
-        hermite_root(g0, rates[0], below, rates[1], low - self.solver.span().time)
+        let h = low - self.solver.span().time;
+        Cubic { y0: g0, dy0: rates[0], y1: below, dy1: rates[1], h }.root()
     }
 
     /// A guard that starts within its deadband: it may first rise and then fall.
@@ -230,8 +232,8 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         for _ in 0..40 {
             t = t0 + 0.5 * (t - t0);
             if g(t) > 0.0 {
-                let (high, below) = (g(t), g(low));
-                return root(g, t, low, high, below, 4.0 * f64::EPSILON * low.abs());
+                let bracket = Bracket { from: Point { x: t, y: g(t) }, to: Point { x: low, y: g(low) } };
+                return root(g, bracket, 4.0 * f64::EPSILON * low.abs());
             }
         }
         t

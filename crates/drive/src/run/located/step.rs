@@ -10,7 +10,7 @@ use crate::method::Method;
 use crate::record::Record;
 use crate::run::ledger::Books;
 use crate::state::State;
-use stickslip_stepper::{Attempt, Completion, ControlMemory, Grade, StepControl, Verdict};
+use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, StepHistory, Verdict};
 
 /// How a step ends.
 #[derive(Clone, Copy, PartialEq)]
@@ -110,8 +110,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) -> Result<(), RunError> {
         if aim.closes.is_some() {
             // The next attempt is an even one: nothing follows from both errors together.
-            let rejected = Some((aim.target - state.t, f64::INFINITY));
-            control.set_memory(ControlMemory { rejected, ..control.memory() });
+            let rejected = Some(Rejection { step: aim.target - state.t, log_error: f64::INFINITY });
+            control.set_history(StepHistory { rejected, ..control.history() });
         }
         self.motion.pace.refuse(aim);
         state.counts.rejected += 1;

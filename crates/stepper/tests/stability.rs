@@ -1,4 +1,4 @@
-//! How far a step may reach before motions that fade or swing begin to grow.
+//! How long a step may be before motions that fade or swing begin to grow.
 
 use stickslip_stepper::{Attempt, Conservative, Dop853, Method, Nystrom, Step, System, Target};
 
@@ -25,26 +25,26 @@ impl System for Fades {
 }
 
 /// |R(hλ)| of one step.
-fn growth(angle: f64, reach: f64) -> f64 {
+fn growth(angle: f64, step: f64) -> f64 {
     let system = Fades { real: angle.cos(), imaginary: angle.sin() };
     let mut stepper = Dop853::new(2, 2);
     stepper.start(&system, 0.0, &[1.0, 0.0]);
-    stepper.attempt(&system, Target::even(reach), &[1.0; 2]);
+    stepper.attempt(&system, Target::even(step), &[1.0; 2]);
     stepper.span().end[0].hypot(stepper.span().end[1])
 }
 
 #[test]
-fn in_reach_of_dop853_nothing_grows_that_fades_or_swings() {
-    let reach = Dop853::new(2, 2).reach();
+fn below_the_limit_of_dop853_nothing_grows_that_fades_or_swings() {
+    let limit = Dop853::new(2, 2).stability_limit();
     for k in 0..=90 {
         let angle = f64::from(90 + k).to_radians();
         for part in 1..=50 {
-            let within = growth(angle, reach * f64::from(part) / 50.0);
+            let within = growth(angle, limit * f64::from(part) / 50.0);
             assert!(within < 1.0 + 1e-12, "{angle} {part}: {within}");
         }
     }
     // A swing of the longest step fades by a sixth, and one a quarter longer grows.
-    assert!(growth(90_f64.to_radians(), reach) < 0.85 && growth(90_f64.to_radians(), 1.25 * reach) > 1.1);
+    assert!(growth(90_f64.to_radians(), limit) < 0.85 && growth(90_f64.to_radians(), 1.25 * limit) > 1.1);
 }
 
 /// ẍ = -x.
@@ -57,11 +57,11 @@ impl Conservative for Swings {
 }
 
 /// Spectral radius of the step's matrix on (x, v).
-fn spectral_radius(reach: f64) -> f64 {
+fn spectral_radius(step: f64) -> f64 {
     let column = |start: [f64; 2]| {
         let mut stepper = Nystrom::new(1, 0);
         stepper.start(&Swings, 0.0, &start);
-        stepper.attempt(&Swings, Target::even(reach), &[1.0; 2]);
+        stepper.attempt(&Swings, Target::even(step), &[1.0; 2]);
         let end = stepper.span().end;
         [end[0], end[1]]
     };
@@ -72,11 +72,11 @@ fn spectral_radius(reach: f64) -> f64 {
 }
 
 #[test]
-fn in_reach_of_nystrom_no_swing_grows() {
-    let reach = Nystrom::new(1, 0).reach();
+fn below_the_limit_of_nystrom_no_swing_grows() {
+    let limit = Nystrom::new(1, 0).stability_limit();
     for part in 1..=100 {
-        let within = spectral_radius(reach * f64::from(part) / 100.0);
+        let within = spectral_radius(limit * f64::from(part) / 100.0);
         assert!(within < 1.0 + 1e-12, "{part}: {within}");
     }
-    assert!(spectral_radius(reach) < 1.0 - 1e-4 && spectral_radius(1.2 * reach) > 1.0);
+    assert!(spectral_radius(limit) < 1.0 - 1e-4 && spectral_radius(1.2 * limit) > 1.0);
 }

@@ -3,30 +3,30 @@
 use super::Track;
 
 /// How many positions and quadratures there are: the storage of a [`Nystrom`](super::Nystrom).
-pub trait Lanes {
+pub trait Storage {
     /// A number for each position.
-    type Positions: Lane<f64>;
+    type Positions: Values<f64>;
     /// A number for each position and quadrature.
-    type Rates: Lane<f64>;
+    type Rates: Values<f64>;
     /// A number for each position, velocity and quadrature.
-    type State: Lane<f64>;
+    type State: Values<f64>;
     /// A track for each position and quadrature.
-    type Tracks: Lane<Track>;
+    type Tracks: Values<Track>;
 }
 
 /// A row of values of one kind.
-pub trait Lane<T>: AsRef<[T]> + AsMut<[T]> + std::fmt::Debug + Clone {
+pub trait Values<T>: AsRef<[T]> + AsMut<[T]> + std::fmt::Debug + Clone {
     /// `count` values to begin with.
     fn of(count: usize) -> Self;
 }
 
-impl<T: Default + Clone + std::fmt::Debug> Lane<T> for Vec<T> {
+impl<T: Default + Clone + std::fmt::Debug> Values<T> for Vec<T> {
     fn of(count: usize) -> Self {
         vec![T::default(); count]
     }
 }
 
-impl<T: Default + Copy + std::fmt::Debug, const N: usize> Lane<T> for [T; N] {
+impl<T: Default + Copy + std::fmt::Debug, const N: usize> Values<T> for [T; N] {
     /// Those of any other `count` than `N` are left out or too many.
     fn of(_: usize) -> Self {
         [T::default(); N]
@@ -37,7 +37,7 @@ impl<T: Default + Copy + std::fmt::Debug, const N: usize> Lane<T> for [T; N] {
 #[derive(Debug, Clone, Copy)]
 pub struct Many;
 
-impl Lanes for Many {
+impl Storage for Many {
     type Positions = Vec<f64>;
     type Rates = Vec<f64>;
     type State = Vec<f64>;
@@ -48,7 +48,7 @@ impl Lanes for Many {
 #[derive(Debug, Clone, Copy)]
 pub struct One;
 
-impl Lanes for One {
+impl Storage for One {
     type Positions = [f64; 1];
     type Rates = [f64; 2];
     type State = [f64; 3];

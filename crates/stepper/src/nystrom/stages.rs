@@ -1,0 +1,76 @@
+//! The stages of a step, and its end.
+
+use super::tableau::{NODES, POSITIONS, STAGES, VELOCITY};
+use super::track::dot;
+use super::{Conservative, Nystrom, Storage};
+
+impl<N: Storage> Nystrom<N> {
+    /// Takes all stages up to a time and concludes the step.
+    #[inline(always)]
+    pub(super) fn step_to<S: Conservative + ?Sized>(&mut self, system: &S, end: f64) {
+        if !self.first_known {
+            self.restart_slopes(system);
+        }
+        self.forget_step();
+        let (t, h) = (self.time, end - self.time);
+        (self.step, self.end_time) = (h, end);
+        if self.constant {
+            self.advance_constant();
+        } else {
+            self.advance::<1, S>(system, t + NODES[1] * h);
+            self.advance::<2, S>(system, t + NODES[2] * h);
+            self.advance::<3, S>(system, t + NODES[3] * h);
+            self.advance::<4, S>(system, t + NODES[4] * h);
+            self.advance::<5, S>(system, t + NODES[5] * h);
+            self.advance::<6, S>(system, t + NODES[6] * h);
+            self.advance::<7, S>(system, end);
+            self.advance::<8, S>(system, end);
+        }
+        self.conclude();
+        self.last_known = true;
+    }
+
+    #[inline(always)]
+    pub(super) fn evaluate<S: Conservative + ?Sized>(&mut self, system: &S, t: f64, stage: usize) {
+        system.accelerations(t, self.stage.as_ref(), self.rates.as_mut());
+        self.evaluations += 1;
+        for (track, rate) in self.tracks.as_mut().iter_mut().zip(self.rates.as_ref()) {
+            track.k[stage] = *rate;
+        }
+    }
+
+    /// Positions of stage `J`, and what acts there.
+    #[inline(always)]
+    fn advance<const J: usize, S: Conservative + ?Sized>(&mut self, system: &S, t: f64) {
+        let h = self.step;
+        // Of all that a position is made of only the stage before is new: it comes last, and nothing waits for it.
+        let (before, last) = (&POSITIONS[J], J - 1);
+        for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
+            let known = track.x + h * (NODES[J] * track.v + h * dot(before, &track.k, last));
+            *to = if before[last] == 0.0 { known } else { known + h * h * before[last] * track.k[last] };
+        }
+        self.evaluate(system, t, J);
+    }
+
+    /// All stages at once where nothing changes: the end is the parabola's.
+    #[inline(never)]
+    fn advance_constant(&mut self) {
+        let h = self.step;
+        for track in self.tracks.as_mut() {
+            track.k = [track.k[0]; STAGES];
+        }
+        for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
+            *to = track.x + h * (track.v + 0.5 * h * track.k[0]);
+        }
+    }
+
+    /// The end of the step by the weights of order 8; the last stage has the end's positions.
+    #[inline]
+    fn conclude(&mut self) {
+        let (h, n) = (self.step, self.positions());
+        self.end.as_mut()[..n].copy_from_slice(self.stage.as_ref());
+        for (to, track) in self.end.as_mut()[n..].iter_mut().zip(self.tracks.as_ref()) {
+            *to = track.v + h * dot(&VELOCITY, &track.k, 8);
+        }
+    }
+}
