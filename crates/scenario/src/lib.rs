@@ -1,7 +1,11 @@
 //! The scenario file: the only crate that reads its JSON.
 //!
 //! [`Scenario::load`] makes a [`Scene`](stickslip_drive::Scene) and a [`Plan`](stickslip_drive::Plan) of a file. The
-//! form of the file and its meaning are two sets of types with one conversion between them, which does all checking.
+//! form of the file and its meaning are two sets of types with one conversion between them. What
+//! a file may hold is checked here; what makes a pair, a profile or a contact in `stickslip-contact`; what makes a scene
+//! or a plan in `stickslip-drive`, when the model is built. Their typed errors get their words and their place in the file
+//! here: [`Scenario::refusal`].
+//!
 //! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept. The first
 //! error ends the reading: what follows one is too often its consequence. What is allowed and odd is a warning, of which
 //! a [`Scenario`] carries several.
@@ -10,7 +14,8 @@
 //! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
 //! stand where, with the docs that become the schema), `refusal` (what serde says about it, in our words) and `shape`
 //! (what serde lets pass); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
-//! (canonical JSON); `pairing` (what contacts are made of); `address` (where a scene's parts stand in the file); `schema`, and `guide`, which answers from it.
+//! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
+//! `schema`, and `guide`, which answers from it.
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
 mod address;

@@ -7,7 +7,7 @@ use crate::form::Form;
 use crate::meaning::{self, Figures, MemoryOutput, SpringsOutput};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
-use crate::{address, document, overrides, refusal, resolved, shape, suggest, syntax, tables, text};
+use crate::{document, overrides, refusal, resolved, shape, suggest, syntax, tables, text};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -209,7 +209,7 @@ impl Scenario {
 
     /// What the scene or the plan is refused for, pointed into the file.
     pub fn refusal(&self, error: &SceneError) -> ScenarioError {
-        self.document.report(address::fault(&self.scene, self.plan, error)).into()
+        self.document.report(meaning::refused::fault(&self.scene, self.plan, error)).into()
     }
 
     /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.

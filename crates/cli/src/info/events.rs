@@ -148,7 +148,7 @@ fn of_contact(job: &Job, c: usize, (linear, modes): (&Linearised, &[NormalMode])
     let (scene, duration) = (&job.scenario.scene, job.scenario.plan.duration);
     let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
     let Some(d) = job.model.indentations(&job.start, c) else { return 0.0 };
-    if d.most <= 0.0 || contact.friction == 0.0 {
+    if d.most <= 0.0 || contact.interface.friction() == 0.0 {
         return 0.0;
     }
     let (per_ringing, per_turns) = (PER_RINGING.of(contact.normal), PER_TURNS.of(contact.normal));

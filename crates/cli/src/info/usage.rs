@@ -98,7 +98,7 @@ impl Usage {
                 );
                 continue;
             }
-            if contact.part.friction == 0.0 {
+            if contact.part.interface.friction() == 0.0 {
                 self.skips("tangential force", name, "no friction");
                 continue;
             }
