@@ -12,8 +12,8 @@
 //!
 //! In reading order: `text` (bytes that are text), `syntax` (strict JSON, limits, duplicate keys, what people write
 //! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
-//! stand where, with the docs that become the schema), `refusal` (what serde says about it, in our words) and `shape`
-//! (what serde lets pass); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
+//! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
+//! fit, as data and in words); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
 //! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
 //! `schema`, and `guide`, which answers from it.
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
@@ -27,16 +27,17 @@ mod folder;
 mod form;
 mod guide;
 mod meaning;
+mod misfit;
 mod overrides;
 mod pairing;
 mod path;
 mod place;
 mod quantity;
+mod reader;
 mod refusal;
 mod resolved;
 mod scenario;
 mod schema;
-mod shape;
 mod suggest;
 mod syntax;
 mod tables;
