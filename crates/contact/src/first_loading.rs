@@ -80,6 +80,14 @@ pub enum FirstLoadingError {
         /// `μF_N`, N.
         limit: f64,
     },
+    /// A sphere ends at its equator, m.
+    #[error("the indentation {d:.3e} m reaches beyond the sphere, which allows {reach:.3e} m")]
+    BeyondSphere {
+        /// Indentation, m.
+        d: f64,
+        /// Where the sphere ends, m: [`Profile::reach`](crate::Profile::reach).
+        reach: f64,
+    },
     /// A flat punch or a list of springs keeps one radius over a range of depths.
     #[error("a radius does not determine the depth of this profile: give a depth or a force")]
     Undetermined,
@@ -98,7 +106,7 @@ impl FirstLoading {
         normal: NormalGiven,
         tangential: TangentialGiven,
     ) -> Result<Self, FirstLoadingError> {
-        let d = indentation(law, normal)?;
+        let d = normal.indentation(law)?;
         let a = law.profile().radius(d);
         let (u, core) = slide(law, d, a, tangential)?;
         let normal_force = law.normal_force(d);
@@ -113,16 +121,30 @@ impl FirstLoading {
     }
 }
 
-/// The indentation d.
-fn indentation(law: &Interface, given: NormalGiven) -> Result<f64, FirstLoadingError> {
-    match given {
-        NormalGiven::Indentation(d) if d.is_finite() => Ok(d),
-        NormalGiven::Indentation(d) => Err(FirstLoadingError::Indentation(d)),
-        NormalGiven::Force(force) if force >= 0.0 && force.is_finite() => Ok(law.indentation(force)),
-        NormalGiven::Force(force) => Err(FirstLoadingError::NormalForce(force)),
-        NormalGiven::Radius(a) => {
-            let d = depth(law, a)?;
-            if a >= 0.0 && d.is_finite() { Ok(d) } else { Err(FirstLoadingError::Radius(a)) }
+impl NormalGiven {
+    /// The indentation d of an interface with this quantity, m.
+    ///
+    /// # Errors
+    ///
+    /// If the quantity is out of its range, a radius that does not determine a depth, or beyond the equator of a sphere.
+    pub fn indentation(self, law: &Interface) -> Result<f64, FirstLoadingError> {
+        let d = match self {
+            Self::Indentation(d) if d.is_finite() => d,
+            Self::Indentation(d) => return Err(FirstLoadingError::Indentation(d)),
+            Self::Force(force) if force >= 0.0 && force.is_finite() => law.indentation(force),
+            Self::Force(force) => return Err(FirstLoadingError::NormalForce(force)),
+            Self::Radius(a) => {
+                let d = depth(law, a)?;
+                if a >= 0.0 && d.is_finite() {
+                    d
+                } else {
+                    return Err(FirstLoadingError::Radius(a));
+                }
+            }
+        };
+        match law.profile().reach() {
+            Some(reach) if d >= reach => Err(FirstLoadingError::BeyondSphere { d, reach }),
+            _ => Ok(d),
         }
     }
 }

@@ -6,8 +6,7 @@ use thiserror::Error;
 /// The constants of one contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interface {
-    normal_modulus: f64,
-    tangential_modulus: f64,
+    pair: Pair,
     friction: f64,
     slope: f64,
     profile: Profile,
@@ -27,24 +26,23 @@ impl Interface {
         if !(0.0..=Self::MAX_FRICTION).contains(&friction) {
             return Err(FrictionError(friction));
         }
-        let (normal, tangential) = (pair.normal_modulus(), pair.tangential_modulus());
-        Ok(Self {
-            normal_modulus: normal,
-            tangential_modulus: tangential,
-            friction,
-            slope: friction * normal / tangential,
-            profile,
-        })
+        let slope = friction * pair.normal_modulus() / pair.tangential_modulus();
+        Ok(Self { pair, friction, slope, profile })
+    }
+
+    /// The effective moduli and the mismatch of the two bodies.
+    pub fn pair(&self) -> Pair {
+        self.pair
     }
 
     /// Effective modulus E\*, Pa.
     pub fn normal_modulus(&self) -> f64 {
-        self.normal_modulus
+        self.pair.normal_modulus()
     }
 
     /// Effective shear modulus G\*, Pa.
     pub fn tangential_modulus(&self) -> f64 {
-        self.tangential_modulus
+        self.pair.tangential_modulus()
     }
 
     /// Coulomb's coefficient of friction μ.
@@ -64,22 +62,22 @@ impl Interface {
 
     /// Normal force F_N = E\* M(d), N (4.26); zero while the contact is open (d ≤ 0).
     pub fn normal_force(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus * self.profile.reduced_force(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus() * self.profile.reduced_force(d) } else { 0.0 }
     }
 
     /// Normal stiffness ∂F_N/∂d = E\* m(d), N/m.
     pub fn normal_stiffness(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus * self.profile.reduced_stiffness(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus() * self.profile.reduced_stiffness(d) } else { 0.0 }
     }
 
     /// Elastic energy of the normal deformation E\* N(d), J.
     pub fn normal_energy(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus * self.profile.reduced_energy(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus() * self.profile.reduced_energy(d) } else { 0.0 }
     }
 
     /// Tangential stiffness of full stick G\* m(d), N/m; 2G\*a for a convex profile.
     pub fn stick_stiffness(&self, d: f64) -> f64 {
-        if d > 0.0 { self.tangential_modulus * self.profile.reduced_stiffness(d) } else { 0.0 }
+        if d > 0.0 { self.tangential_modulus() * self.profile.reduced_stiffness(d) } else { 0.0 }
     }
 
     /// u_c = κd, m: displacement at which gross slip starts, the same for every profile (4.28).
@@ -89,6 +87,23 @@ impl Interface {
 
     /// Indentation d that carries the normal force, m: the inverse of [`Self::normal_force`]; 0 at 0 N.
     pub fn indentation(&self, normal_force: f64) -> f64 {
-        self.profile.height_of_reduced_force(normal_force / self.normal_modulus)
+        self.profile.height_of_reduced_force(normal_force / self.normal_modulus())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coefficient_of_friction_out_of_range_is_refused() {
+        let law = |friction| {
+            Interface::new(Pair::from_moduli(3.0, 2.0).unwrap(), Profile::paraboloid(1.0).unwrap(), friction)
+        };
+        for friction in [-0.2, -f64::MIN_POSITIVE, 1000.1, f64::INFINITY, f64::NAN] {
+            assert!(law(friction).is_err(), "{friction}");
+        }
+        assert_eq!(law(-0.2), Err(FrictionError(-0.2)));
+        assert!(law(0.0).is_ok() && law(Interface::MAX_FRICTION).is_ok());
     }
 }

@@ -240,4 +240,15 @@ fn what_does_not_fit_is_refused() {
         FirstLoading::solve(&sphere, NormalGiven::Radius(1.0), rest),
         Err(FirstLoadingError::Radius(1.0))
     );
+    let reach = sphere.profile().reach().unwrap();
+    let beyond = Err(FirstLoadingError::BeyondSphere { d: reach, reach });
+    assert_eq!(NormalGiven::Indentation(reach).indentation(&sphere), beyond);
+    assert!(NormalGiven::Force(1.0001 * sphere.normal_force(reach)).indentation(&sphere).is_err());
+    assert!(NormalGiven::Radius(0.9995).indentation(&sphere).is_err());
+    for inside in
+        [NormalGiven::Indentation(0.999 * reach), NormalGiven::Force(0.999 * sphere.normal_force(reach))]
+    {
+        assert!(inside.indentation(&sphere).is_ok(), "{inside:?}");
+    }
+    assert_eq!(NormalGiven::Radius(0.5).indentation(&sphere), Ok(sphere.profile().depth(0.5)));
 }

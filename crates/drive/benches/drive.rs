@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use stickslip_contact::{Material, Pair, Profile};
+use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
     Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Scene, Side, Varying,
 };
@@ -21,9 +21,7 @@ fn p1() -> Scene {
     let contact = Contact {
         between: [Side::Body(0), Side::Body(1)],
         at: [Point::default(); 2],
-        pair: Pair::new(steel, steel),
-        profile: Profile::paraboloid(1e-3).unwrap(),
-        friction: 0.15,
+        interface: Interface::new(Pair::new(steel, steel), Profile::paraboloid(1e-3).unwrap(), 0.15).unwrap(),
         normal: Normal::Force(Varying::Constant(1.0)),
         gap: 0.0,
         damping: 0.0,

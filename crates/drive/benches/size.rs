@@ -13,7 +13,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use stickslip_contact::{Material, Pair, Profile};
+use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
     Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Gravity, Named, Normal, Point, Scene,
     Side, Spring, Start, Varying,
@@ -41,9 +41,7 @@ fn ball(place: f64, coordinates: usize) -> Contact {
     Contact {
         between: [Side::Body(0), Side::Body(1)],
         at: [Point { x: place, z: 0.0 }, Point { x: place, z: -HEIGHT }],
-        pair: Pair::new(steel, steel),
-        profile: Profile::paraboloid(1e-3).unwrap(),
-        friction: 0.2,
+        interface: Interface::new(Pair::new(steel, steel), Profile::paraboloid(1e-3).unwrap(), 0.2).unwrap(),
         normal: if coordinates == 1 { constant } else { Normal::Coupled },
         gap: 0.0,
         damping: 0.0,

@@ -34,8 +34,11 @@ pub struct UntilSteady {
 }
 
 impl Plan {
-    /// Fails for a number out of its range.
-    pub(crate) fn check(&self) -> Result<(), SceneError> {
+    /// Whether its numbers lie in their ranges; what starts a run asks.
+    ///
+    /// # Errors
+    /// The first number that does not.
+    pub fn check(&self) -> Result<(), SceneError> {
         let above_zero = |field: Field, value: f64| {
             if value > 0.0 && value.is_finite() {
                 return Ok(());

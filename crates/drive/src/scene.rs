@@ -2,7 +2,7 @@
 
 use crate::Waveform;
 use crate::component::SharedBlock;
-use stickslip_contact::{Pair, Profile};
+use stickslip_contact::Interface;
 
 /// Everything a drive consists of.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -132,12 +132,8 @@ pub struct Contact {
     pub between: [Side; 2],
     /// The contact point on either body.
     pub at: [Point; 2],
-    /// Effective moduli.
-    pub pair: Pair,
-    /// Profile of the gap.
-    pub profile: Profile,
-    /// Coulomb's coefficient of friction.
-    pub friction: f64,
+    /// Effective moduli, profile of the gap and Coulomb's coefficient of friction.
+    pub interface: Interface,
     /// What presses the contact.
     pub normal: Normal,
     /// Gap between the bodies in the position drawn, m; negative: pressed. For [`Normal::Coupled`].

@@ -57,7 +57,7 @@ impl<'a> Sketch<'a> {
         SceneContact {
             name,
             between: fixtures(part.between, part.at),
-            profile: shape(&part.profile),
+            profile: shape(part.interface.profile()),
             press: match part.normal {
                 Normal::Force(force) => Press::Force(self.amount(force)),
                 Normal::Indentation(depth) => Press::Indentation(self.amount(depth)),

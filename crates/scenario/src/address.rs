@@ -1,18 +1,12 @@
 //! Where the parts and fields of a scene and a plan stand in the file: the only table from the one to the other.
 
-use crate::fault::Fault;
 use crate::path::{KeyPath, Step};
+use crate::units::Kind;
 use stickslip_drive::scene::{Axis, Named};
 use stickslip_drive::{Field, Part, Plan, Scene, SceneError, Stepper};
 
-/// What a scene or a plan is refused for, in the words and with the place of a fault.
-pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
-    let path = path(scene, plan, error.part, error.field);
-    Fault::new(path, error.fault.to_string()).maybe_help(error.fault.advice())
-}
-
 /// The key path of a field.
-fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPath {
+pub(crate) fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPath {
     let key = |key: &str| Step::Key(key.to_owned());
     let mut steps = match part {
         Part::Body(i) => named("bodies", &scene.bodies, i),
@@ -35,6 +29,21 @@ fn named<T>(kind: &str, parts: &[Named<T>], i: usize) -> Vec<Step> {
     [kind.to_owned()].into_iter().chain(name).map(Step::Key).collect()
 }
 
+/// The dimension of a field that has a unit and a range in the file.
+pub(crate) fn kind(error: &SceneError) -> Option<Kind> {
+    Some(match (error.part, error.field) {
+        (Part::Contact(_), Field::Damping) => Kind::Time,
+        (_, Field::Damping) => Kind::Damping,
+        (_, Field::Mass) => Kind::Mass,
+        (_, Field::Inertia) => Kind::Inertia,
+        (_, Field::Stiffness) => Kind::Stiffness,
+        (_, Field::NormalForce) => Kind::Force,
+        (_, Field::NormalIndentation | Field::NormalRadius) => Kind::Length,
+        (_, Field::Duration | Field::Interval | Field::Step) => Kind::Time,
+        _ => return None,
+    })
+}
+
 /// The keys from a part to its field.
 fn keys(field: Field, stepper: Stepper) -> &'static [&'static str] {
     match field {
@@ -52,7 +61,6 @@ fn keys(field: Field, stepper: Stepper) -> &'static [&'static str] {
         Field::Velocity(Axis::Pitch) => &["start", "vpitch"],
         Field::Between => &["between"],
         Field::Points => &["at"],
-        Field::Friction => &["friction"],
         Field::Normal => &["normal"],
         Field::NormalForce => &["normal", "force"],
         Field::NormalIndentation => &["normal", "indentation"],

@@ -3,6 +3,7 @@
 use crate::guide::Help;
 use crate::path::KeyPath;
 use crate::place::Span;
+use std::fmt::Display;
 
 /// Which half of an entry the marker stands under.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +31,16 @@ impl Fault {
     pub(crate) fn new(path: KeyPath, message: impl Into<String>) -> Self {
         let message = message.into();
         Self { path, mark: Mark::Value, span: None, message, help: Help::None, value: false }
+    }
+
+    /// A value that is not what was expected; the report adds what stands in the file.
+    pub(crate) fn expected(path: KeyPath, what: impl Display) -> Self {
+        Self::new(path, format!("expected {what}")).with_value().ask(Help::Meaning)
+    }
+
+    /// A key that must be there is not.
+    pub(crate) fn missing(path: KeyPath, key: &str) -> Self {
+        Self::new(path, format!("missing key \"{key}\"")).on_key().ask(Help::Missing(key.to_owned()))
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {

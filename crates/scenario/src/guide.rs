@@ -60,11 +60,6 @@ impl Guide {
         GUIDE.get_or_init(|| Self { root: schema::tree() })
     }
 
-    /// The schema of a whole scenario.
-    pub(crate) fn root(&self) -> &Value {
-        &self.root
-    }
-
     /// What the schema says about the value under a path.
     pub(crate) fn at(&self, path: &KeyPath) -> Option<&Value> {
         path.0.iter().try_fold(&self.root, |schema, step| self.enter(schema, step))
@@ -92,13 +87,6 @@ impl Guide {
         let named = name.and_then(|name| self.root.get("$defs")?.get(name));
         let kinds = ["oneOf", "anyOf"].into_iter().filter_map(|key| schema.get(key)?.as_array()).flatten();
         named.into_iter().chain(kinds)
-    }
-
-    /// Whether a list may stand here.
-    pub(crate) fn has_lists(&self, schema: &Value) -> bool {
-        schema.get("type").is_some_and(|kind| kind == "array")
-            || is_later(schema)
-            || self.parts(schema).any(|part| self.has_lists(part))
     }
 
     /// The first sentence of the description, as part of another one.

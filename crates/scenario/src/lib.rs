@@ -1,16 +1,21 @@
 //! The scenario file: the only crate that reads its JSON.
 //!
 //! [`Scenario::load`] makes a [`Scene`](stickslip_drive::Scene) and a [`Plan`](stickslip_drive::Plan) of a file. The
-//! form of the file and its meaning are two sets of types with one conversion between them, which does all checking.
+//! form of the file and its meaning are two sets of types with one conversion between them. What
+//! a file may hold is checked here; what makes a pair, a profile or a contact in `stickslip-contact`; what makes a scene
+//! or a plan in `stickslip-drive`, when the model is built. Their typed errors get their words and their place in the file
+//! here: [`Scenario::refusal`].
+//!
 //! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept. The first
 //! error ends the reading: what follows one is too often its consequence. What is allowed and odd is a warning, of which
 //! a [`Scenario`] carries several.
 //!
 //! In reading order: `text` (bytes that are text), `syntax` (strict JSON, limits, duplicate keys, what people write
 //! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
-//! stand where, with the docs that become the schema), `refusal` (what serde says about it, in our words) and `shape`
-//! (what serde lets pass); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
-//! (canonical JSON); `pairing` (what contacts are made of); `address` (where a scene's parts stand in the file); `schema`, and `guide`, which answers from it.
+//! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
+//! fit, as data and in words); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
+//! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
+//! `schema`, and `guide`, which answers from it.
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
 mod address;
@@ -22,16 +27,17 @@ mod folder;
 mod form;
 mod guide;
 mod meaning;
+mod misfit;
 mod overrides;
 mod pairing;
 mod path;
 mod place;
 mod quantity;
+mod reader;
 mod refusal;
 mod resolved;
 mod scenario;
 mod schema;
-mod shape;
 mod suggest;
 mod syntax;
 mod tables;

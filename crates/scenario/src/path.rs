@@ -2,7 +2,6 @@
 
 use crate::document::shown;
 use crate::fault::Fault;
-use crate::guide::Help;
 use std::fmt;
 
 /// One step from a value to one inside it.
@@ -106,13 +105,12 @@ impl<'a> At<'a> {
 
     /// The value here is not what was expected; the report adds what stands in the file.
     pub(crate) fn expected(&self, what: impl fmt::Display) -> Fault {
-        Fault::new(self.path(), format!("expected {what}")).with_value().ask(Help::Meaning)
+        Fault::expected(self.path(), what)
     }
 
     /// A key that must be there is not.
     pub(crate) fn missing(&self, key: &str) -> Fault {
-        let fault = Fault::new(self.path(), format!("missing key \"{key}\"")).on_key();
-        fault.ask(Help::Missing(key.to_owned()))
+        Fault::missing(self.path(), key)
     }
 
     /// A key or value of the form that this version does not implement.

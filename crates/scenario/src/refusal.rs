@@ -1,18 +1,19 @@
-//! What serde says about a form that does not fit, in the words and with the place of a fault.
+//! What does not fit the form, in the words and with the place of a fault.
 
 use crate::document::{Document, shown};
 use crate::fault::Fault;
 use crate::guide::{Guide, Help};
+use crate::misfit::{Misfit, Wanted};
 use crate::path::{KeyPath, Step};
-use crate::quantity::{HELP, number_help};
+use crate::quantity::number_help;
 use crate::suggest;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 
 /// Gives a refusal its place and its words.
-pub(crate) fn fault(document: &Document, error: &serde_path_to_error::Error<serde_json::Error>) -> Fault {
+pub(crate) fn fault(document: &Document, error: &serde_path_to_error::Error<Misfit>) -> Fault {
     let refusal = Refusal { document, guide: Guide::get(), path: path(document, error.path()) };
-    refusal.fault(&error.inner().to_string())
+    refusal.fault(error.inner())
 }
 
 /// The path as far as it stands in the file: serde also counts variants that are bare strings.
@@ -36,28 +37,24 @@ struct Refusal<'a> {
 }
 
 impl Refusal<'_> {
-    fn fault(self, message: &str) -> Fault {
-        if let Some((name, known)) = quoted(message, "unknown field `") {
-            return self.unknown_key(name, &known);
-        }
-        if let Some((name, _)) = quoted(message, "unknown variant `") {
-            return self.unknown_kind(name);
-        }
-        if let Some(name) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
-            let fault = Fault::new(self.path, format!("missing key \"{name}\"")).on_key();
-            return fault.ask(Help::Missing(name.to_owned()));
-        }
-        for prefix in ["invalid type: ", "invalid value: ", "invalid length "] {
-            let parts = message.strip_prefix(prefix).and_then(|m| m.rsplit_once(", expected "));
-            if let Some((came, wanted)) = parts {
-                return self.unexpected(came, wanted);
+    fn fault(self, misfit: &Misfit) -> Fault {
+        match misfit {
+            Misfit::UnknownKey { name, known } => self.unknown_key(name, known),
+            Misfit::UnknownKind(name) => self.unknown_kind(name),
+            Misfit::Missing(name) => Fault::missing(self.path, name),
+            Misfit::NotOneKind => self.not_one_kind(),
+            Misfit::Unfit(wanted) => self.unfit(wanted),
+            Misfit::Length { wanted, got } => {
+                Fault::new(self.path, format!("expected {wanted}, got {got} entries")).ask(Help::Shape)
             }
+            Misfit::Said { message, help } => self.said(message, help.clone()),
         }
-        let (text, help) = message.split_once(HELP).unwrap_or((message, ""));
-        let help = (!help.is_empty()).then(|| help.to_owned());
+    }
+
+    fn said(self, message: &str, help: Option<String>) -> Fault {
         let follow = self.follow_help();
-        let ask = if text.contains("names") { Help::Shape } else { Help::Meaning };
-        Fault::new(self.path, text).maybe_help(help).maybe_help(follow).ask(ask)
+        let ask = if self.value().is_some_and(Value::is_array) { Help::Shape } else { Help::Meaning };
+        Fault::new(self.path, message).maybe_help(help).maybe_help(follow).ask(ask)
     }
 
     fn unknown_key(mut self, name: &str, known: &[&str]) -> Fault {
@@ -101,42 +98,51 @@ impl Refusal<'_> {
         if is_key { fault.on_key() } else { fault }
     }
 
-    fn unexpected(self, came: &str, wanted: &str) -> Fault {
-        if wanted.contains("map with a single key") || wanted == "fewer elements in map" {
-            return self.not_one_kind();
-        }
-        if let ("unit", Some(Step::Key(name))) = (wanted, self.path.0.last()) {
-            let message = format!("expected \"{}\" alone, without an object around it", shown(name));
-            return Fault::new(self.path, message).on_key();
-        }
-        if let ("newtype variant", Some(Value::String(kind))) = (wanted, self.value()) {
-            let message = format!("expected an object such as {{\"{0}\": …}}, got \"{0}\"", shown(kind));
-            let example = self.guide.example_of(&self.path, kind);
-            return Fault::new(self.path, message)
-                .maybe_help(example.map(|example| format!("write {example}")));
-        }
-        let kinds = self.guide.kinds(&self.path);
-        let (wanted, ask) = match wanted {
-            "f64" => ("a number", Help::Meaning),
-            "a string" => ("a string in double quotes", Help::Meaning),
-            "a whole number" => (wanted, Help::Meaning),
-            "a sequence" => ("a list", Help::Shape),
-            "an object of named parts" | "a pair [time, value]" => (wanted, Help::Shape),
-            other if other.starts_with("the name of a waveform") => (other, Help::None),
-            "string or map" => (&*one_of(&kinds), Help::Shape),
-            "a map" | "map" | "struct variant" => ("an object", Help::Shape),
-            "unit variant" => ("a bare name", Help::Shape),
-            other if other.starts_with("struct ") => ("an object", Help::Shape),
-            other => (other, Help::Meaning),
+    fn unfit(self, wanted: &Wanted) -> Fault {
+        let kinds;
+        let (called, ask) = match wanted {
+            Wanted::Number => ("a number", Help::Meaning),
+            Wanted::WholeNumber => ("a whole number", Help::Meaning),
+            Wanted::Text => ("a string in double quotes", Help::Meaning),
+            Wanted::List => ("a list", Help::Shape),
+            Wanted::Object => ("an object", Help::Shape),
+            Wanted::Shape(called) => (called.as_str(), Help::Shape),
+            // The name of a waveform says all there is to say.
+            Wanted::Value(called) if self.is_under("follows") => (called.as_str(), Help::None),
+            Wanted::Value(called) => (called.as_str(), Help::Meaning),
+            Wanted::Kind => {
+                kinds = one_of(&self.guide.kinds(&self.path));
+                (kinds.as_str(), Help::Shape)
+            }
+            Wanted::Nothing => return self.with_inside(),
+            Wanted::Inside => return self.without_inside(),
         };
-        let count = came.chars().all(|c| c.is_ascii_digit());
-        let written = if count { Some(format!("{came} entries")) } else { self.came() };
-        let message = match written {
-            Some(written) => format!("expected {wanted}, got {written}"),
-            None => format!("expected {wanted}"),
+        let message = match self.came() {
+            Some(written) => format!("expected {called}, got {written}"),
+            None => format!("expected {called}"),
         };
-        let help = self.follow_help().or_else(|| self.number_in_quotes(wanted)).or_else(|| self.unnamed());
+        let is_number = matches!(wanted, Wanted::Number | Wanted::WholeNumber);
+        let quoted = || self.number_in_quotes().filter(|_| is_number);
+        let help = self.follow_help().or_else(quoted).or_else(|| self.unnamed());
         Fault::new(self.path, message).maybe_help(help).ask(ask)
+    }
+
+    /// Something inside a kind of value that has no inside.
+    fn with_inside(self) -> Fault {
+        let kind = match self.path.0.last() {
+            Some(Step::Key(kind)) => shown(kind),
+            Some(Step::Index(_)) | None => String::new(),
+        };
+        Fault::new(self.path, format!("expected \"{kind}\" alone, without an object around it")).on_key()
+    }
+
+    /// A kind of value whose inside is missing.
+    fn without_inside(self) -> Fault {
+        let kind = self.value().and_then(Value::as_str).unwrap_or("");
+        let example = self.guide.example_of(&self.path, kind);
+        let kind = shown(kind);
+        let message = format!("expected an object such as {{\"{kind}\": …}}, got \"{kind}\"");
+        Fault::new(self.path, message).maybe_help(example.map(|example| format!("write {example}")))
     }
 
     /// No key where one says which kind of value it is, or several.
@@ -170,15 +176,16 @@ impl Refusal<'_> {
     }
 
     /// A number in quotes where no unit is wanted, or one that is none.
-    fn number_in_quotes(&self, wanted: &str) -> Option<String> {
+    fn number_in_quotes(&self) -> Option<String> {
         let text = self.value()?.as_str()?.trim();
-        if !matches!(wanted, "a number" | "a whole number") {
-            return None;
-        }
         match text.parse::<f64>() {
             Ok(number) if number.is_finite() => Some("write the number without quotes".to_owned()),
             _ => number_help(text).map(str::to_owned),
         }
+    }
+
+    fn is_under(&self, key: &str) -> bool {
+        matches!(self.path.0.last(), Some(Step::Key(last)) if last == key)
     }
 
     /// A key of a part where the part's name should stand.
@@ -210,16 +217,6 @@ impl Refusal<'_> {
         self.document.value.get("waveforms")?.get(text)?;
         Some(format!("to follow the waveform write {{\"follows\": \"{text}\"}}"))
     }
-}
-
-/// The name after a prefix, and the names listed as expected.
-fn quoted<'a>(message: &'a str, prefix: &str) -> Option<(&'a str, Vec<&'a str>)> {
-    let rest = message.strip_prefix(prefix)?;
-    let (name, known) = match rest.rsplit_once("`, expected ") {
-        Some((name, known)) => (name, known),
-        None => (rest.rsplit_once("`, there are no ")?.0, ""),
-    };
-    Some((name, known.split('`').skip(1).step_by(2).collect()))
 }
 
 fn one_of(kinds: &[String]) -> String {

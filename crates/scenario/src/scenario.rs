@@ -7,7 +7,8 @@ use crate::form::Form;
 use crate::meaning::{self, Figures, MemoryOutput, SpringsOutput};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
-use crate::{address, document, overrides, refusal, resolved, shape, suggest, syntax, tables, text};
+use crate::reader::Reader;
+use crate::{document, overrides, refusal, resolved, suggest, syntax, tables, text};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -158,9 +159,8 @@ impl Scenario {
         }
         // Once more: an override may have touched it.
         check_version(&document).map_err(|fault| document.report(fault))?;
-        let mut form: Form = serde_path_to_error::deserialize(&document.value)
+        let mut form: Form = serde_path_to_error::deserialize(Reader(&document.value))
             .map_err(|error| document.report(refusal::fault(&document, &error)))?;
-        shape::check(&document.value).map_err(|fault| document.report(fault))?;
         let inlined =
             tables::inline(&mut form, base, &mut document).map_err(|fault| document.report(fault))?;
         let meaning = meaning::of(&form).map_err(|fault| document.report(fault))?;
@@ -209,7 +209,7 @@ impl Scenario {
 
     /// What the scene or the plan is refused for, pointed into the file.
     pub fn refusal(&self, error: &SceneError) -> ScenarioError {
-        self.document.report(address::fault(&self.scene, self.plan, error)).into()
+        self.document.report(meaning::refused::fault(&self.scene, self.plan, error)).into()
     }
 
     /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.

@@ -5,7 +5,7 @@
 use proptest::prelude::*;
 use std::fs;
 use std::path::Path;
-use stickslip_contact::{Material, Pair, Profile};
+use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
     ContactStart, Coordinate, Direction, EngineChoice, Freedom, Normal, Point, Side, Start, Varying,
 };
@@ -50,8 +50,8 @@ fn the_example_means_what_the_contract_says() {
     let ball = &scene.contacts[0].part;
     let pair = Pair::new(Material::new(400e9, 0.27).unwrap(), Material::new(210e9, 0.30).unwrap());
     assert_eq!(ball.between, [Side::Body(0), Side::Body(1)]);
-    assert_eq!((ball.pair, &ball.profile), (pair, &Profile::paraboloid(5e-4).unwrap()));
-    assert_eq!((ball.friction, ball.count), (0.2, 3));
+    assert_eq!(ball.interface, Interface::new(pair, Profile::paraboloid(5e-4).unwrap(), 0.2).unwrap());
+    assert_eq!(ball.count, 3);
     assert_eq!(ball.normal, Normal::Force(Varying::Constant(0.3)));
     assert_eq!((ball.start, ball.engine), (ContactStart::Untouched, EngineChoice::Curve));
     assert_eq!((scene.loads[0].on, scene.loads[0].x), (1, Varying::Constant(-0.02)));
@@ -69,8 +69,8 @@ fn every_part_of_the_form_arrives() {
     assert_eq!(scene.contacts[2].part.start, ContactStart::Force(-0.01));
     assert_eq!(scene.contacts[3].part.start, ContactStart::Displacement(3e-9));
     assert_eq!(
-        scene.contacts[5].part.profile,
-        Profile::foundation(&[0.0, 1e-8, 2e-8], &[1e-6, 2e-6, 1e-6]).unwrap()
+        scene.contacts[5].part.interface.profile(),
+        &Profile::foundation(&[0.0, 1e-8, 2e-8], &[1e-6, 2e-6, 1e-6]).unwrap()
     );
     assert_eq!(scene.springs[0].part.stiffness, 2e6);
     assert_eq!(scene.actuators[0].part.stiffness, 2e7);
@@ -157,7 +157,7 @@ fn overrides_change_add_and_are_checked_like_the_file() {
         Scenario::load_with(QUICKSTART, overrides).unwrap_or_else(|error| panic!("{error}"))
     };
     assert_eq!(with(&[("run.duration", "20 ms")]).plan.duration, 0.02);
-    assert_eq!(with(&[("contacts.ball.friction", "0.3")]).scene.contacts[0].part.friction, 0.3);
+    assert_eq!(with(&[("contacts.ball.friction", "0.3")]).scene.contacts[0].part.interface.friction(), 0.3);
     assert_eq!(with(&[("loads[0].x", "1e-3")]).scene.loads[0].x, Varying::Constant(1e-3));
     assert_eq!(with(&[("run.limits.steps", "1e6")]).plan.limits.steps, 1_000_000);
     assert_eq!(with(&[("gravity.incline", "90 deg")]).scene.gravity.acceleration, 9.80665);

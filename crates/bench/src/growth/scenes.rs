@@ -1,6 +1,6 @@
 //! The benchmark drive P1 with more of one thing.
 
-use stickslip_contact::{Material, Pair, Profile};
+use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
     Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Side, Varying,
 };
@@ -13,6 +13,8 @@ const SPREAD: f64 = 0.01;
 /// Swings of a memory's outer loops, m: shrinking from the first to the last, then the inner one.
 const OUTER: (f64, f64) = (50e-9, 10e-9);
 const INNER: f64 = 5e-9;
+/// Coulomb's coefficient of friction.
+const FRICTION: f64 = 0.15;
 /// Mass that hardly moves while its contact is swung, kg.
 const HEAVY: f64 = 1e3;
 
@@ -69,9 +71,8 @@ fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Resul
     Ok(Contact {
         between: [Side::Body(0), Side::Body(body)],
         at: [Point::default(); 2],
-        pair: Pair::new(steel, steel),
-        profile,
-        friction: 0.15,
+        interface: Interface::new(Pair::new(steel, steel), profile, FRICTION)
+            .map_err(|error| error.to_string())?,
         normal: Normal::Force(Varying::Constant(force)),
         gap: 0.0,
         damping: 0.0,

@@ -2,7 +2,7 @@
 
 use super::{Field, Part, SceneError};
 use crate::scene::Axis;
-use stickslip_contact::{ContactError, FirstLoadingError, FrictionError, SpringsError};
+use stickslip_contact::{ContactError, FirstLoadingError, SpringsError};
 use thiserror::Error;
 
 /// What is wrong with a field. [`SceneFault::advice`] says what to try.
@@ -17,9 +17,6 @@ pub enum SceneFault {
     /// Zero, below or not finite.
     #[error("expected a finite number above 0, got {0}")]
     NotAboveZero(f64),
-    /// What presses a contact pulls at times: its lowest value, N or m.
-    #[error("expected a value that never falls below 0, got down to {0:e}")]
-    FallsBelowZero(f64),
     /// No contact at all.
     #[error("expected at least 1 contact, got 0")]
     NoContact,
@@ -43,24 +40,10 @@ pub enum SceneFault {
         "neither body moves along the normal: a coupled contact needs a z or a pitch that is free or follows a waveform"
     )]
     Unmoved,
-    /// A radius is given to a profile that has it at more than one indentation.
-    #[error("the contact radius does not tell the indentation of this profile")]
-    Undetermined,
-    /// A coefficient of friction out of its range.
-    #[error(transparent)]
-    Friction(#[from] FrictionError),
-    /// A sphere pressed to its equator.
-    #[error("the indentation {deepest:.3e} m reaches beyond the sphere, which allows {reach:.3e} m")]
-    BeyondSphere {
-        /// Largest indentation, m.
-        deepest: f64,
-        /// Where the sphere ends, m.
-        reach: f64,
-    },
     /// A contact that does not touch at t = 0 is to start with a tangential load.
     #[error("a contact that is open at the start cannot be loaded along x")]
     Open,
-    /// No monotonic loading reaches the start of a contact.
+    /// A contact cannot be pressed like that, or no monotonic loading reaches its start.
     #[error(transparent)]
     Loading(#[from] FirstLoadingError),
     /// There is no such row of springs.
@@ -146,8 +129,8 @@ impl SceneFault {
             Self::Unmoved => {
                 "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
             }
-            Self::Undetermined => "give the normal force or the indentation",
-            Self::BeyondSphere { .. } => "lower the load or enlarge the radius",
+            Self::Loading(FirstLoadingError::Undetermined) => "give the normal force or the indentation",
+            Self::Loading(FirstLoadingError::BeyondSphere { .. }) => "lower the load or enlarge the radius",
             Self::Open => "press it at t = 0, or leave it \"untouched\"",
             Self::Springs(_) | Self::Narrow { .. } => {
                 "leave the span out: the row is then as wide as the contact ever is"
@@ -163,13 +146,11 @@ impl SceneFault {
             Self::NotFinite(_)
             | Self::BelowZero(_)
             | Self::NotAboveZero(_)
-            | Self::FallsBelowZero(_)
             | Self::NoContact
             | Self::NoBody(_)
             | Self::NoWaveform(_)
             | Self::TooWide { .. }
             | Self::OneBody
-            | Self::Friction(_)
             | Self::Loading(_) => return None,
         };
         Some(advice.to_owned())

@@ -57,8 +57,6 @@ pub enum Field {
     Between,
     /// The points of a contact, spring or actuator on its bodies, or where a load attacks.
     Points,
-    /// Coulomb's coefficient of a contact.
-    Friction,
     /// What presses a contact.
     Normal,
     /// The force that presses a contact.
@@ -139,7 +137,6 @@ impl fmt::Display for Field {
             Self::Velocity(axis) => return write!(f, "speed of {} at the start", axis.key()),
             Self::Between => "sides",
             Self::Points => "points",
-            Self::Friction => "friction",
             Self::Normal => "normal load",
             Self::NormalForce => "normal force",
             Self::NormalIndentation => "indentation",

@@ -137,7 +137,7 @@ fn of_contact(
 ) -> f64 {
     let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
     let Some(d) = model.indentations(start, c) else { return 0.0 };
-    if d.most <= 0.0 || contact.friction == 0.0 {
+    if d.most <= 0.0 || contact.interface.friction() == 0.0 {
         return 0.0;
     }
     let (per_ringing, per_turns) = (PER_RINGING.of(contact.normal), PER_TURNS.of(contact.normal));

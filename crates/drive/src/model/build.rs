@@ -107,16 +107,11 @@ fn free_coordinate(body: usize, axis: Axis, mass: f64, force: f64, coordinate: C
 
 /// Mass or moment of inertia of a free coordinate.
 fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneError> {
-    let (value, field) = match axis {
-        Axis::X | Axis::Z => (body.mass, Field::Mass),
-        Axis::Pitch => (body.inertia, Field::Inertia),
+    let value = match axis {
+        Axis::X | Axis::Z => body.mass,
+        Axis::Pitch => body.inertia,
     };
-    let part = Part::Body(place);
-    match value {
-        Some(value) if value > 0.0 && value.is_finite() => Ok(value),
-        Some(value) => Err(SceneFault::NotAboveZero(value).of(part, field)),
-        None => Err(SceneFault::NoInertia(axis).of(part, Field::Whole)),
-    }
+    value.ok_or_else(|| SceneFault::NoInertia(axis).of(Part::Body(place), Field::Whole))
 }
 
 fn links(scene: &Scene, bodies: &[Body]) -> Vec<Link> {

@@ -7,6 +7,9 @@ use crate::{Field, Part, SceneError, SceneFault};
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let check = Check(scene);
     for (i, body) in scene.bodies.iter().enumerate() {
+        for (field, value) in [(Field::Mass, body.part.mass), (Field::Inertia, body.part.inertia)] {
+            value.map_or(Ok(()), above_zero).map_err(|fault| fault.of(Part::Body(i), field))?;
+        }
         for (axis, coordinate) in body.part.coordinates() {
             let of = |field: Field| move |fault: SceneFault| fault.of(Part::Body(i), field);
             finite(coordinate.position).map_err(of(Field::Position(axis)))?;
@@ -65,7 +68,7 @@ impl Check<'_> {
             let of = |field: Field| move |fault: SceneFault| fault.of(Part::Actuator(i), field);
             self.between(actuator.part.between).map_err(of(Field::Between))?;
             points(actuator.part.at).map_err(of(Field::Points))?;
-            at_least_zero(actuator.part.stiffness).map_err(of(Field::Stiffness))?;
+            above_zero(actuator.part.stiffness).map_err(of(Field::Stiffness))?;
             at_least_zero(actuator.part.damping).map_err(of(Field::Damping))?;
             match actuator.part.stroke {
                 Varying::Constant(stroke) => finite(stroke),
@@ -126,6 +129,10 @@ fn points(at: [Point; 2]) -> Result<(), SceneFault> {
 
 fn finite(value: f64) -> Result<(), SceneFault> {
     if value.is_finite() { Ok(()) } else { Err(SceneFault::NotFinite(value)) }
+}
+
+fn above_zero(value: f64) -> Result<(), SceneFault> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(SceneFault::NotAboveZero(value)) }
 }
 
 fn at_least_zero(value: f64) -> Result<(), SceneFault> {

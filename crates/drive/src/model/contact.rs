@@ -6,7 +6,7 @@ use crate::scene::{self, ContactStart, Direction, EngineChoice, Named, Normal, V
 use crate::{Field, Part, SceneError, SceneFault};
 use std::sync::Arc;
 use stickslip_contact::{
-    Engine, FirstLoading, Interface, NormalGiven, Springs, SpringsError, TangentialGiven,
+    Engine, FirstLoading, FirstLoadingError, Interface, NormalGiven, Springs, SpringsError, TangentialGiven,
 };
 
 /// What a contact is built among.
@@ -20,13 +20,15 @@ pub(super) struct Surroundings<'a> {
     pub(super) equilibrium: bool,
 }
 
-/// Indentations of a contact that are known beforehand, m.
+/// What is known beforehand of how a contact is pressed.
 #[derive(Debug, Clone, Copy)]
-struct Indentations {
-    /// The largest; of a coupled contact the one that the loads and motions at the start can be expected to reach.
+struct Pressed {
+    /// Largest indentation, m; of a coupled contact the one that the loads and motions at the start can be expected to reach.
     deepest: f64,
-    /// At t = 0.
+    /// Indentation at t = 0, m.
     first: f64,
+    /// Normal force at t = 0, N: as it is given, where it is.
+    force: f64,
 }
 
 /// What is wrong with which field of a contact.
@@ -40,22 +42,17 @@ pub(super) fn build(
 ) -> Result<(Contact, f64), SceneError> {
     let refused = |(field, fault): Refused| fault.of(Part::Contact(place), field);
     let [first, second] = part.between;
-    let law = Interface::new(part.pair, part.profile.clone(), part.friction)
-        .map_err(|error| refused((Field::Friction, error.into())))?;
-    let (press, known) = press(part, &law, around).map_err(refused)?;
-    let deepest = known.deepest;
-    if let Some(reach) = law.profile().reach().filter(|reach| deepest >= *reach) {
-        return Err(refused((Field::Normal, SceneFault::BeyondSphere { deepest, reach })));
-    }
-    let inert = part.friction == 0.0 || known.deepest <= 0.0;
-    let engine = engine(part, &law, known).map_err(refused)?;
-    let start = start(part, &law, known.first).map_err(refused)?;
+    let law = &part.interface;
+    let (press, known) = press(part, around).map_err(refused)?;
+    let inert = law.friction() == 0.0 || known.deepest <= 0.0;
+    let engine = engine(part, known).map_err(refused)?;
+    let start = start(part, known).map_err(refused)?;
     let mut u = Measure::between([(first, part.at[0]), (second, part.at[1])], Direction::X, around.bodies);
     u.constant -= around.at_start(&u) - start;
     let contact = Contact {
         name: name.clone(),
         u,
-        law,
+        law: law.clone(),
         engine,
         press,
         count: f64::from(part.count.max(1)),
@@ -76,8 +73,8 @@ impl Surroundings<'_> {
     }
 }
 
-fn engine(part: &scene::Contact, law: &Interface, known: Indentations) -> Result<Engine, Refused> {
-    let deepest = known.deepest;
+fn engine(part: &scene::Contact, known: Pressed) -> Result<Engine, Refused> {
+    let (law, deepest) = (&part.interface, known.deepest);
     match part.engine {
         EngineChoice::Curve => Ok(Engine::Curve),
         // Never pressed: there is nothing for a row to span.
@@ -103,7 +100,8 @@ fn row(law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Sprin
 }
 
 /// Displacement reached before the start, m.
-fn start(part: &scene::Contact, law: &Interface, d: f64) -> Result<f64, Refused> {
+fn start(part: &scene::Contact, known: Pressed) -> Result<f64, Refused> {
+    let (law, d) = (&part.interface, known.first);
     if part.start != ContactStart::Untouched && d <= 0.0 {
         return Err((Field::Start, SceneFault::Open));
     }
@@ -111,6 +109,12 @@ fn start(part: &scene::Contact, law: &Interface, d: f64) -> Result<f64, Refused>
         ContactStart::Untouched => Ok(0.0),
         ContactStart::Displacement(u) => Ok(u),
         ContactStart::Force(force) => {
+            let limit = law.friction() * known.force;
+            // A first loading may end in gross slip, a start must not: at the limit itself the contact slips.
+            if force != 0.0 && force.abs() >= limit {
+                let slips = FirstLoadingError::TangentialForce { force, limit };
+                return Err((Field::StartForce, slips.into()));
+            }
             FirstLoading::solve(law, NormalGiven::Indentation(d), TangentialGiven::Force(force))
                 .map(|loading| loading.u)
                 .map_err(|error| (Field::StartForce, error.into()))
@@ -119,24 +123,18 @@ fn start(part: &scene::Contact, law: &Interface, d: f64) -> Result<f64, Refused>
 }
 
 /// What presses a contact.
-fn press(
-    part: &scene::Contact,
-    law: &Interface,
-    around: &Surroundings<'_>,
-) -> Result<(Press, Indentations), Refused> {
-    let (field, value) = match part.normal {
-        Normal::Force(v) => (Field::NormalForce, v),
-        Normal::Indentation(v) => (Field::NormalIndentation, v),
-        Normal::Radius(v) => (Field::NormalRadius, v),
-        Normal::Coupled => return coupled(part, law, around),
+fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
+    let law = &part.interface;
+    let (field, value, given): (_, _, fn(f64) -> NormalGiven) = match part.normal {
+        Normal::Force(v) => (Field::NormalForce, v, NormalGiven::Force),
+        Normal::Indentation(v) => (Field::NormalIndentation, v, NormalGiven::Indentation),
+        Normal::Radius(v) => (Field::NormalRadius, v, NormalGiven::Radius),
+        Normal::Coupled => return coupled(part, around),
     };
-    if field == Field::NormalRadius && !law.profile().is_strictly_convex() {
-        return Err((field, SceneFault::Undetermined));
-    }
-    let depth = |value: f64| match part.normal {
-        Normal::Force(_) => law.indentation(value),
-        Normal::Indentation(_) | Normal::Coupled => value,
-        Normal::Radius(_) => law.profile().depth(value),
+    let depth = |value: f64| match given(value) {
+        NormalGiven::Force(force) => law.indentation(force),
+        NormalGiven::Indentation(d) => d,
+        NormalGiven::Radius(a) => law.profile().depth(a),
     };
     let (low, high, first) = match value {
         Varying::Constant(v) => (v, v, v),
@@ -145,26 +143,23 @@ fn press(
             (low, high, around.signals.first(w).value)
         }
     };
-    if field != Field::NormalIndentation && low < 0.0 {
-        return Err((field, SceneFault::FallsBelowZero(low)));
+    for value in [low, high] {
+        given(value).indentation(law).map_err(|error| (field, error.into()))?;
     }
+    let d = depth(first);
     let press = match (value, part.normal) {
-        (Varying::Constant(v), _) => {
-            Press::Constant { d: depth(v), reduced_force: law.profile().reduced_force(depth(v)) }
-        }
+        (Varying::Constant(_), _) => Press::Constant { d, reduced_force: law.profile().reduced_force(d) },
         (Varying::Follows(w), Normal::Force(_)) => Press::Force(w),
         (Varying::Follows(w), Normal::Radius(_)) => Press::Radius(w),
         (Varying::Follows(w), _) => Press::Indentation(w),
     };
-    Ok((press, Indentations { deepest: depth(high), first: depth(first) }))
+    let force = if field == Field::NormalForce { first } else { law.normal_force(d) };
+    Ok((press, Pressed { deepest: depth(high), first: d, force }))
 }
 
 /// A contact pressed by the bodies' motion.
-fn coupled(
-    part: &scene::Contact,
-    law: &Interface,
-    around: &Surroundings<'_>,
-) -> Result<(Press, Indentations), Refused> {
+fn coupled(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
+    let law = &part.interface;
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
     let mut d = Measure::between(ends, Direction::Z, around.bodies);
     d.constant -= part.gap;
@@ -173,5 +168,6 @@ fn coupled(
     }
     let first = around.at_start(&d);
     let deepest = reach::deepest(law, f64::from(part.count.max(1)), &d, around);
-    Ok((Press::Coupled(d), Indentations { deepest, first }))
+    NormalGiven::Indentation(deepest).indentation(law).map_err(|error| (Field::Normal, error.into()))?;
+    Ok((Press::Coupled(d), Pressed { deepest, first, force: law.normal_force(first) }))
 }

@@ -144,7 +144,7 @@ fn a_contact_that_never_slips_is_a_spring() {
     // μ = 1000: the slider follows the foot like an oscillator, m ẍ = k(s - x), s = A sin ωt, from rest; k = 2G*b.
     let (amplitude, radius, mass, t) = (1e-7, 20e-6, 0.02, 4.3e-3);
     let ball = contact(FOOT_SLIDER, Profile::flat(radius).unwrap(), 1000.0, 1.0);
-    let natural = (2.0 * ball.pair.tangential_modulus() * radius / mass).sqrt();
+    let natural = (2.0 * ball.interface.tangential_modulus() * radius / mass).sqrt();
     let scene = foot_and_slider(wave("drive", sine(amplitude), 1e-3), mass, ball);
     let model = Model::new(&scene).unwrap();
     // The tolerance is relative to u_c, here some thousand amplitudes.

@@ -4,8 +4,8 @@
 //! (2019), section 4.4.
 
 use crate::parts::{
-    FOOT_SLIDER, column, contact, damper, end, event, follower, foot_and_slider, free, named, piezo, plan,
-    push, sine, trace, wave,
+    FOOT_SLIDER, column, contact, damper, end, event, follower, foot_and_slider, free, named, of_pair,
+    of_profile, piezo, plan, push, sine, trace, wave,
 };
 use std::f64::consts::{PI, TAU};
 use stickslip_contact::{Pair, Profile};
@@ -30,7 +30,7 @@ impl Known {
     /// Indentation and contact radius of the profile under [`FORCE`].
     fn new(between: [Side; 2], profile: Profile, (d, a): (f64, f64)) -> Self {
         let pair = Pair::from_moduli(E, G).unwrap();
-        let contact = Contact { pair, ..contact(between, profile, MU, FORCE) };
+        let contact = of_pair(pair, &contact(between, profile, MU, FORCE));
         Self { contact, u_c: MU * E / G * d, stiffness: 2.0 * G * a }
     }
 
@@ -59,8 +59,8 @@ fn rigid_coulomb_sawtooth() {
             let known = Known::paraboloid(FOOT_SLIDER, 1e-3);
             // u_c = μE*/G* d and d goes with E* to the power -2/3.
             let stiffer = (known.u_c / u_c).powf(1.5);
-            let mut contact = known.contact;
-            contact.pair = Pair::from_moduli(stiffer * E, stiffer * G).unwrap();
+            let pair = Pair::from_moduli(stiffer * E, stiffer * G).unwrap();
+            let contact = of_pair(pair, &known.contact);
             let drive = wave("drive", Shape::Sawtooth { stroke: 1e-6, flyback: 20e-6 }, 1e-3);
             let mut scene = foot_and_slider(drive, MU * FORCE / 200.0, contact);
             scene.loads.push(push(1, -load * MU * FORCE));
@@ -138,7 +138,7 @@ fn free_decay() {
     // a/R = 1e-3: sphere and paraboloid differ by 1e-6.
     for profile in [Profile::paraboloid(0.1), Profile::sphere(0.1)] {
         let mut known = Known::paraboloid(GROUND_SLIDER, 0.1);
-        known.contact.profile = profile.unwrap();
+        known.contact = of_profile(profile.unwrap(), &known.contact);
         known.contact.start = ContactStart::Displacement(0.3 * known.u_c);
         let mass = 0.02;
         let mut scene = Scene { bodies: vec![named("slider", free(mass))], ..Scene::default() };

@@ -1,6 +1,6 @@
 //! Damping β of the springs that stick: a force βG\*m(c)u̇ beside the law of the contact.
 
-use crate::parts::{FOOT_SLIDER, column, contact, event, follower, free, named, push, trace};
+use crate::parts::{FOOT_SLIDER, column, contact, event, follower, free, named, of_pair, push, trace};
 use std::f64::consts::TAU;
 use stickslip_contact::{Pair, Profile};
 use stickslip_drive::scene::{Body, Contact, Scene, Side};
@@ -13,7 +13,8 @@ const E: f64 = 1.15e11;
 const G: f64 = 0.95e11;
 
 fn known(between: [Side; 2], profile: Profile, damping: f64) -> Contact {
-    Contact { pair: Pair::from_moduli(E, G).unwrap(), damping, ..contact(between, profile, MU, FORCE) }
+    let pair = Pair::from_moduli(E, G).unwrap();
+    Contact { damping, ..of_pair(pair, &contact(between, profile, MU, FORCE)) }
 }
 
 /// A flat punch of radius b sticks whole, k = 2G\*b: under a step load F the slider is the oscillator

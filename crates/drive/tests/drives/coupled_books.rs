@@ -1,6 +1,8 @@
 //! The books of energy where bodies move in the plane: contacts land, grow, rock, shrink and leave.
 
-use crate::parts::{channel, column, event, fitted_order, foot_and_slider, named, plan, trace, wave};
+use crate::parts::{
+    channel, column, event, fitted_order, foot_and_slider, named, of_profile, plan, trace, wave,
+};
 use crate::stages::{
     BALL, Foot, GROUND_STAGE, SIX, THREE, coupled, earth, planar, rest, stage, tangential_modulus, upright,
 };
@@ -55,7 +57,7 @@ fn driven(shape: Shape, profile: &Profile) -> Scene {
     (scene.waveforms, scene.bodies) = (base.waveforms, vec![base.bodies[0].clone(), slider]);
     for contact in &mut scene.contacts {
         contact.part.between = [Side::Body(0), Side::Body(1)];
-        contact.part.profile = profile.clone();
+        contact.part = of_profile(profile.clone(), &contact.part);
     }
     scene.gravity = earth(0.0);
     scene

@@ -1,7 +1,7 @@
 //! A body that lands, rolls and leaves: impacts of a sphere on a plane.
 
 use crate::parts::{column, end, event, fitted_order, named, plan, trace};
-use stickslip_contact::{Pair, Profile};
+use stickslip_contact::{Interface, Pair, Profile};
 use stickslip_drive::scene::{
     Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Normal, Point, Scene, Side,
 };
@@ -27,9 +27,12 @@ fn ball(ratio: f64, psi: f64) -> Scene {
     let contact = Contact {
         between: [Side::Ground, Side::Body(0)],
         at: [Point::default(), Point { x: 0.0, z: -RADIUS }],
-        pair: Pair::from_moduli(MODULUS, ratio * MODULUS).unwrap(),
-        profile: Profile::paraboloid(RADIUS).unwrap(),
-        friction: FRICTION,
+        interface: Interface::new(
+            Pair::from_moduli(MODULUS, ratio * MODULUS).unwrap(),
+            Profile::paraboloid(RADIUS).unwrap(),
+            FRICTION,
+        )
+        .unwrap(),
         normal: Normal::Coupled,
         gap: 0.0,
         damping: 0.0,

@@ -3,7 +3,7 @@
 
 use crate::parts::{contact, damper, follower, free, named, piezo, push};
 use std::f64::consts::TAU;
-use stickslip_contact::{Interface, Profile};
+use stickslip_contact::Profile;
 use stickslip_drive::scene::{
     Actuator, Contact, ContactStart, Gravity, Load, Named, Normal, Scene, Side, Spring, Varying,
 };
@@ -94,7 +94,7 @@ fn profile(draw: &mut Draw, kind: u64) -> (Profile, &'static str) {
 
 /// u_c (m) and G\*m(d) (N/m) of one contact at its mean load.
 fn scales(contact: &Contact, force: f64) -> (f64, f64) {
-    let law = Interface::new(contact.pair, contact.profile.clone(), contact.friction).unwrap();
+    let law = &contact.interface;
     let d = law.indentation(force);
     (law.gross_slip_displacement(d), law.stick_stiffness(d))
 }
@@ -117,7 +117,7 @@ pub(crate) fn deal(seed: u64) -> Drawn {
     let mass = stuck / (TAU * frequency).powi(2);
     let period = (draw.between(5.0, 12.0) / frequency * 1e6).round() * 1e-6;
     let stroke = draw.between(1.5, 6.0) * u_c;
-    let hold = ball.friction * force * f64::from(ball.count);
+    let hold = ball.interface.friction() * force * f64::from(ball.count);
     let (shape, corners) = shape(&mut draw, seed % 6, stroke, period);
     let mut title = format!("seed {seed}: {} on {profile_name}", name(&shape));
     let mut scene = Scene {

@@ -1,8 +1,8 @@
 //! Contacts that vibrate, along the normal and along the slide: when slip dies out, when it goes on, what friction is left.
 
 use crate::parts::{
-    FOOT_SLIDER, channel, column, contact, damper, end, event, follower, foot_and_slider, free, named, plan,
-    push, sine, trace, wave,
+    FOOT_SLIDER, channel, column, contact, damper, end, event, follower, foot_and_slider, free, named,
+    of_pair, of_profile, plan, push, sine, trace, wave,
 };
 use std::f64::consts::{PI, TAU};
 use stickslip_contact::{Pair, Profile};
@@ -24,7 +24,7 @@ fn depth(force: f64) -> f64 {
 
 fn ball(between: [Side; 2], force: f64) -> Contact {
     let pair = Pair::from_moduli(E, G).unwrap();
-    Contact { pair, ..contact(between, Profile::paraboloid(RADIUS).unwrap(), MU, force) }
+    of_pair(pair, &contact(between, Profile::paraboloid(RADIUS).unwrap(), MU, force))
 }
 
 /// Normal force, mean and amplitude, N; its period, s, is slow against the slider's own, 0.05 ms or less.
@@ -128,7 +128,7 @@ fn static_friction_under_tangential_vibration() {
         let profile = profile.unwrap();
         for part in [0.1, 0.3, 0.6, 0.9] {
             let u_c = KAPPA * d;
-            let mut pressed = Contact { profile: profile.clone(), ..ball(FOOT_SLIDER, 1.0) };
+            let mut pressed = of_profile(profile.clone(), &ball(FOOT_SLIDER, 1.0));
             pressed.start = ContactStart::Displacement((1.0 - part) * u_c);
             let points = vec![(0.0, 0.0), (3.0 * PERIOD, -3e-4 * u_c)];
             let creep = Waveform::new(Shape::Table { points }, Timing::every(3.0 * PERIOD)).unwrap();

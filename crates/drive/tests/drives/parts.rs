@@ -1,6 +1,6 @@
 //! Parts of scenes, plans, and runs that must succeed.
 
-use stickslip_contact::{Material, Memory, Pair, Profile};
+use stickslip_contact::{Interface, Material, Memory, Pair, Profile};
 use stickslip_drive::scene::{
     Actuator, Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Load, Named, Normal, Point,
     Scene, Side, Spring, Varying,
@@ -41,9 +41,7 @@ pub(crate) fn contact(between: [Side; 2], profile: Profile, friction: f64, force
     Contact {
         between,
         at: [Point::default(); 2],
-        pair: steel(),
-        profile,
-        friction,
+        interface: Interface::new(steel(), profile, friction).unwrap(),
         normal: Normal::Force(Varying::Constant(force)),
         gap: 0.0,
         damping: 0.0,
@@ -51,6 +49,27 @@ pub(crate) fn contact(between: [Side; 2], profile: Profile, friction: f64, force
         engine: EngineChoice::Curve,
         count: 1,
     }
+}
+
+/// The contact between bodies of other moduli.
+pub(crate) fn of_pair(pair: Pair, contact: &Contact) -> Contact {
+    let old = &contact.interface;
+    let interface = Interface::new(pair, old.profile().clone(), old.friction()).unwrap();
+    Contact { interface, ..contact.clone() }
+}
+
+/// The contact with another profile.
+pub(crate) fn of_profile(profile: Profile, contact: &Contact) -> Contact {
+    let old = &contact.interface;
+    let interface = Interface::new(old.pair(), profile, old.friction()).unwrap();
+    Contact { interface, ..contact.clone() }
+}
+
+/// The contact with another coefficient of friction.
+pub(crate) fn of_friction(friction: f64, contact: &Contact) -> Contact {
+    let old = &contact.interface;
+    let interface = Interface::new(old.pair(), old.profile().clone(), friction).unwrap();
+    Contact { interface, ..contact.clone() }
 }
 
 pub(crate) fn damper(between: [Side; 2], damping: f64) -> Spring {

@@ -1,6 +1,6 @@
 //! Planar scenes that make no model or have no start, and their nearest neighbours that do.
 
-use crate::parts::{contact, damper, event, named, piezo, wave};
+use crate::parts::{contact, damper, event, named, of_friction, of_profile, piezo, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
     Axis, Body, Contact, ContactStart, Coordinate, Direction, Gravity, Load, Normal, Point, Scene, Side,
@@ -111,7 +111,7 @@ fn a_free_pitch_that_nothing_holds_is_refused() {
         |s| {
             s.contacts.truncate(1);
             s.contacts[0].part.at[1].x = 0.0;
-            s.contacts[0].part.friction = 0.0;
+            s.contacts[0].part = of_friction(0.0, &s.contacts[0].part);
         },
         place,
         words,
@@ -143,7 +143,8 @@ fn what_is_missing_is_named() {
 
 #[test]
 fn a_sphere_that_the_loads_press_beyond_its_equator_is_refused() {
-    let small: Change = |s| s.contacts[1].part.profile = Profile::sphere(1e-9).unwrap();
+    let small: Change =
+        |s| s.contacts[1].part = of_profile(Profile::sphere(1e-9).unwrap(), &s.contacts[1].part);
     refused(small, (Part::Contact(1), Field::Normal), "beyond the sphere");
 }
 

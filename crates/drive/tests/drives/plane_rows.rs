@@ -3,8 +3,8 @@
 
 use crate::lottery::on_rows;
 use crate::parts::{
-    FOOT_SLIDER, channel, contact, damper, event, fitted_order, follower, free, named, piezo, plan, sine,
-    trace, wave,
+    FOOT_SLIDER, channel, contact, damper, event, fitted_order, follower, free, named, of_pair, piezo, plan,
+    sine, trace, wave,
 };
 use stickslip_contact::{Material, Pair, Profile};
 use stickslip_drive::scene::{
@@ -22,9 +22,8 @@ fn pair(youngs_modulus: f64, poisson_ratio: f64) -> Pair {
 fn ball(between: [Side; 2], pair: Pair, (radius, friction): (f64, f64), at: (f64, f64)) -> Contact {
     Contact {
         at: [Point::default(), Point { x: at.0, z: at.1 }],
-        pair,
         normal: Normal::Coupled,
-        ..contact(between, Profile::paraboloid(radius).unwrap(), friction, 0.0)
+        ..of_pair(pair, &contact(between, Profile::paraboloid(radius).unwrap(), friction, 0.0))
     }
 }
 

@@ -172,9 +172,10 @@ fn imbalance(stack: &Stack, rest: &Rest) -> f64 {
     for (c, (Named { part, .. }, law)) in scene.contacts.iter().zip(&stack.laws).enumerate() {
         let (count, depth, along) = (f64::from(part.count), rest.depth(part), rest.tangential(c));
         let (normal, noise) = (law.force(depth), law.stiffness(depth) * ulp);
-        assert!(along.abs() <= part.friction * (normal * (1.0 + 1e-12) + noise), "{along:e} of {normal:e}");
+        let coefficient = part.interface.friction();
+        assert!(along.abs() <= coefficient * (normal * (1.0 + 1e-12) + noise), "{along:e} of {normal:e}");
         forces.pair(part.between, part.at, (count * along, count * normal));
-        friction.pair(part.between, part.at, (count * part.friction.min(1.0) * normal, 0.0));
+        friction.pair(part.between, part.at, (count * coefficient.min(1.0) * normal, 0.0));
         rounding.pair(part.between, part.at, (count * noise, count * noise));
     }
     for Named { part, .. } in &scene.springs {

@@ -1,10 +1,12 @@
 //! A drive of three ruby balls on steel, a design with real materials: its steady steps, the stroke at which it starts
 //! to step, and what the damping of its contacts does to the ringing that follows every flyback.
 
-use crate::parts::{FOOT_SLIDER, channel, contact, end, event, foot_and_slider, plan, push, trace, wave};
+use crate::parts::{
+    FOOT_SLIDER, channel, contact, end, event, foot_and_slider, of_pair, plan, push, trace, wave,
+};
 use std::f64::consts::TAU;
 use stickslip_contact::{Material, Pair, Profile};
-use stickslip_drive::scene::{EngineChoice, Scene};
+use stickslip_drive::scene::{Contact, EngineChoice, Scene};
 use stickslip_drive::{Plan, Shape, Stepper};
 
 const PERIOD: f64 = 10e-3;
@@ -21,9 +23,9 @@ const ROWS: usize = 5000;
 /// The drive under λμF_N against its motion, with contacts damped by β.
 fn drive(stroke: f64, flyback: f64, load: f64, beta: f64) -> Scene {
     let ruby = Material::new(400e9, 0.27).unwrap();
-    let mut balls = contact(FOOT_SLIDER, Profile::paraboloid(0.5e-3).unwrap(), 0.2, 0.3);
-    (balls.pair, balls.count) = (Pair::new(ruby, Material::new(210e9, 0.30).unwrap()), 3);
-    balls.damping = beta;
+    let pair = Pair::new(ruby, Material::new(210e9, 0.30).unwrap());
+    let ball = of_pair(pair, &contact(FOOT_SLIDER, Profile::paraboloid(0.5e-3).unwrap(), 0.2, 0.3));
+    let balls = Contact { count: 3, damping: beta, ..ball };
     let sawtooth = wave("drive", Shape::Sawtooth { stroke, flyback }, PERIOD);
     let mut scene = foot_and_slider(sawtooth, 0.01, balls);
     scene.loads.push(push(1, -load * 0.2 * 0.9));

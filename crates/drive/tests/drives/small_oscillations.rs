@@ -4,7 +4,7 @@
 //! parts of (A/d)², and slip at their edges, which shifts it by parts of A/u_c. So the amplitude here is a few 1e-4 of
 //! d, and the coefficient of friction so high that it is below 1e-6 of u_c.
 
-use crate::parts::{column, event, fitted_order, plan, trace};
+use crate::parts::{column, event, fitted_order, of_profile, plan, trace};
 use crate::stages::{
     BALL, Foot, INERTIA, MASS, PowerLaw, SIX, THREE, earth, force_at, hertz_radius, normal_modulus, rest,
     stage, tangential_modulus,
@@ -199,7 +199,7 @@ fn the_matrices_of_a_model_are_those_written_out_by_hand() {
 fn verlet_stays_bounded_below_the_longest_step_and_is_refused_beyond_it() {
     let mut scene = stage(&THREE, HEIGHT, 0.5);
     for contact in &mut scene.contacts {
-        contact.part.profile = PowerLaw::flat(0.05 * BALL).1;
+        contact.part = of_profile(PowerLaw::flat(0.05 * BALL).1, &contact.part);
     }
     scene.gravity = earth(0.1);
     let model = Model::new(&scene).unwrap();

@@ -1,6 +1,6 @@
 //! Static equilibria against statics done by hand.
 
-use crate::parts::named;
+use crate::parts::{named, of_profile};
 use crate::stages::{
     BALL, Foot, MASS, PowerLaw, SIX, THREE, earth, force_at, hertz, hertz_radius, moment, normal_modulus,
     rest, stage, upright,
@@ -188,7 +188,8 @@ fn every_profile_carries_what_the_lever_says() {
         for (what, mut scene, wrench) in loaded(&THREE) {
             for gap in GAPS {
                 for contact in &mut scene.contacts {
-                    (contact.part.profile, contact.part.gap) = (profile.clone(), gap);
+                    contact.part = of_profile(profile.clone(), &contact.part);
+                    contact.part.gap = gap;
                 }
                 let rest = rest(&scene).unwrap_or_else(|e| panic!("{e} {scene:?}"));
                 for (c, want) in wrench.on_two(THREE).into_iter().enumerate() {

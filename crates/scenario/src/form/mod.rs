@@ -13,7 +13,9 @@ mod value;
 mod waveform;
 
 pub(crate) use body::{BodyForm, BodyStartForm, FreedomForm};
-pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, NormalForm, ProfileForm};
+pub(crate) use contact::{
+    ContactForm, ContactStartForm, EngineForm, FoundationForm, NormalForm, ProfileForm,
+};
 pub(crate) use coupling::{ActuatorForm, DirectionForm, GravityForm, LoadForm, SpringForm};
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;

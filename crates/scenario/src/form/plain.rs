@@ -39,7 +39,7 @@ impl<'de> Deserialize<'de> for Count {
                 Err(E::invalid_value(de::Unexpected::Float(value), &self))
             }
         }
-        deserializer.deserialize_any(CountVisitor)
+        deserializer.deserialize_u64(CountVisitor)
     }
 }
 

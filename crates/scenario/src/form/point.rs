@@ -26,7 +26,7 @@ fn no_length() -> Length {
     Length::new(0.0)
 }
 
-// By hand: what serde derives would take a list [x, z] as well, which leaves open which is which.
+// By hand: whoever writes a list [x, z] is told how a point is written.
 impl<'de> Deserialize<'de> for PointForm {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct PointVisitor;
@@ -49,6 +49,6 @@ impl<'de> Deserialize<'de> for PointForm {
                 Ok(point)
             }
         }
-        deserializer.deserialize_map(PointVisitor)
+        deserializer.deserialize_any(PointVisitor)
     }
 }

@@ -220,7 +220,7 @@ impl<'de> Deserialize<'de> for Point {
                 Ok(Point(time, value))
             }
         }
-        deserializer.deserialize_seq(PointVisitor)
+        deserializer.deserialize_tuple(2, PointVisitor)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use crate::form::{BodyForm, BodyStartForm, FreedomForm, RunStartForm};
 use crate::path::At;
 use crate::units::Kind;
-use stickslip_contact::Material;
+use stickslip_contact::{Material, MaterialError};
 use stickslip_drive::scene::{Axis, Body, Coordinate, Freedom, Named, Start};
 
 impl Builder<'_> {
@@ -19,13 +19,16 @@ impl Builder<'_> {
         let root = At::ROOT;
         let at = root.key("materials");
         let at = at.key(name);
-        let modulus = range::above_zero(&at.key("youngs_modulus"), form.youngs_modulus)?;
-        let ratio = form.poisson_ratio;
-        if !(ratio > -1.0 && ratio <= 0.5) {
-            let fault = at.key("poisson_ratio").expected("a number above -1 and up to 0.5");
-            return Err(fault.help("0.2 to 0.35 for most solids, 0.5 for rubber"));
-        }
-        Material::new(modulus, ratio).map_err(|error| at.fault(error.to_string()))
+        Material::new(form.youngs_modulus.si, form.poisson_ratio).map_err(|error| match error {
+            MaterialError::YoungsModulus(_) => {
+                at.key("youngs_modulus").expected(range::above(Kind::Pressure))
+            }
+            MaterialError::PoissonRatio(_) => at
+                .key("poisson_ratio")
+                .expected("a number above -1 and up to 0.5")
+                .help("0.2 to 0.35 for most solids, 0.5 for rubber"),
+            MaterialError::EffectiveModulus(_) => at.fault(error.to_string()),
+        })
     }
 
     /// All bodies, in the order of the file.
@@ -41,9 +44,7 @@ impl Builder<'_> {
     }
 
     fn body_of(&mut self, at: &At<'_>, form: &BodyForm) -> Result<Body, Fault> {
-        let mass = form.mass.map(|mass| range::above_zero(&at.key("mass"), mass)).transpose()?;
-        let inertia =
-            form.inertia.map(|inertia| range::above_zero(&at.key("inertia"), inertia)).transpose()?;
+        let (mass, inertia) = (form.mass.map(|mass| mass.si), form.inertia.map(|inertia| inertia.si));
         let x = self.coordinate(at, Axis::X, form)?;
         let z = self.coordinate(at, Axis::Z, form)?;
         let pitch = self.coordinate(at, Axis::Pitch, form)?;
@@ -58,10 +59,7 @@ impl Builder<'_> {
         };
         let freedom = match freedom {
             FreedomForm::Fixed => Freedom::Fixed,
-            FreedomForm::Free => {
-                can_be_free(at, axis, form)?;
-                Freedom::Free
-            }
+            FreedomForm::Free => Freedom::Free,
             FreedomForm::Follows(waveform) => {
                 Freedom::Follows(self.follow(&at.key(axis.key()), waveform, kind)?)
             }
@@ -112,20 +110,5 @@ impl Builder<'_> {
             RunStartForm::Equilibrium => Start::Equilibrium,
         };
         Ok(())
-    }
-}
-
-/// What obeys Newton needs a mass, what turns a moment of inertia.
-fn can_be_free(at: &At<'_>, axis: Axis, form: &BodyForm) -> Result<(), Fault> {
-    let key = axis.key();
-    match axis {
-        Axis::X | Axis::Z if form.mass.is_none() => {
-            let help = format!("{key} is free: a body that obeys Newton needs a mass");
-            Err(at.missing("mass").help(help))
-        }
-        Axis::Pitch if form.inertia.is_none() => {
-            Err(at.missing("inertia").help("pitch is free: a body that turns needs a moment of inertia"))
-        }
-        Axis::X | Axis::Z | Axis::Pitch => Ok(()),
     }
 }

@@ -21,8 +21,8 @@ impl Builder<'_> {
                 between: self.between(&at, &spring.between)?,
                 at: self.points(&at, &spring.between, &spring.at)?,
                 direction: direction(spring.direction),
-                stiffness: range::at_least_zero(&at.key("stiffness"), spring.stiffness)?,
-                damping: range::at_least_zero(&at.key("damping"), spring.damping)?,
+                stiffness: spring.stiffness.si,
+                damping: spring.damping.si,
                 preload: spring.preload.si,
             };
             self.scene.springs.push(Named { name: name.to_owned(), part });
@@ -55,8 +55,8 @@ impl Builder<'_> {
                 between: self.between(&at, &actuator.between)?,
                 at: self.points(&at, &actuator.between, &actuator.at)?,
                 direction: direction(actuator.direction),
-                stiffness: range::above_zero(&at.key("stiffness"), actuator.stiffness)?,
-                damping: range::at_least_zero(&at.key("damping"), actuator.damping)?,
+                stiffness: actuator.stiffness.si,
+                damping: actuator.damping.si,
                 stroke: self.varying(&at.key("stroke"), stroke)?,
             };
             self.scene.actuators.push(Named { name: name.to_owned(), part });

@@ -1,4 +1,4 @@
-//! From the form to a scene and a plan: all checking happens here, once.
+//! From the form to a scene and a plan, and from what these are refused for back to the form.
 
 mod body;
 mod contact;
@@ -7,7 +7,9 @@ mod motion;
 mod names;
 mod output;
 mod point;
+mod profile;
 mod range;
+pub(crate) mod refused;
 mod run;
 pub(crate) mod warnings;
 mod waveform;

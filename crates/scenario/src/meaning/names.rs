@@ -89,10 +89,6 @@ impl Builder<'_> {
                     Side::Body(self.body(&at.index(i), name).map_err(|fault| self.or_ground(fault, name))?);
             }
         }
-        if sides[0] == sides[1] {
-            let message = format!("expected two different bodies, got \"{}\" twice", names.0[0]);
-            return Err(at.index(1).fault(message).help("name two bodies, or one and \"ground\""));
-        }
         Ok(sides)
     }
 

@@ -3,13 +3,14 @@
 use crate::fault::Fault;
 use crate::path::At;
 use crate::quantity::{Dimension, Quantity};
+use crate::units::Kind;
 
 /// The value of a quantity above zero.
 pub(super) fn above_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) -> Result<f64, Fault> {
     if quantity.si > 0.0 {
         return Ok(quantity.si);
     }
-    Err(at.expected(format_args!("{} above 0 {}", D::KIND.article(), D::KIND.si())))
+    Err(at.expected(above(D::KIND)))
 }
 
 /// The value of a quantity of at least zero.
@@ -17,12 +18,25 @@ pub(super) fn at_least_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) ->
     if quantity.si >= 0.0 {
         return Ok(quantity.si);
     }
-    Err(at.expected(format_args!("{} of at least 0 {}", D::KIND.article(), D::KIND.si())))
+    Err(at.expected(at_least(D::KIND)))
 }
+
+/// What stands where a quantity must be above zero.
+pub(super) fn above(kind: Kind) -> String {
+    format!("{} above 0 {}", kind.article(), kind.si())
+}
+
+/// What stands where a quantity must be at least zero.
+pub(super) fn at_least(kind: Kind) -> String {
+    format!("{} of at least 0 {}", kind.article(), kind.si())
+}
+
+/// What stands where a plain number must be above zero.
+pub(super) const ABOVE: &str = "a number above 0";
 
 /// A plain number above zero.
 pub(super) fn number_above_zero(at: &At<'_>, value: f64) -> Result<f64, Fault> {
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(at.expected("a number above 0")) }
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(at.expected(ABOVE)) }
 }
 
 /// A plain number between two bounds, both included.

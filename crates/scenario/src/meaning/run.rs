@@ -1,10 +1,9 @@
 //! Figures, plan and output.
 
-use super::{Builder, Figures, range};
+use super::{Builder, Figures, range, refused};
 use crate::fault::Fault;
 use crate::form::{LimitsForm, StepperForm};
 use crate::path::At;
-use crate::quantity::Time;
 use crate::suggest;
 use stickslip_drive::scene::Freedom;
 use stickslip_drive::{Accuracy, Limits, Plan, Stepper, UntilSteady};
@@ -65,7 +64,7 @@ impl Builder<'_> {
         let root = At::ROOT;
         let at = root.key("run");
         let duration = match (form.duration, form.cycles) {
-            (Some(duration), None) => range::above_zero(&at.key("duration"), duration)?,
+            (Some(duration), None) => duration.si,
             (None, Some(cycles)) => self.cycles(&at.key("cycles"), cycles, figures)?,
             (None, None) => {
                 return Err(at.missing("duration").help("a run has a duration or a number of cycles"));
@@ -78,16 +77,18 @@ impl Builder<'_> {
                     .help("keep one of them"));
             }
         };
-        let every = match self.form.output.every {
-            Some(every) => Some(range::above_zero(&root.key("output").key("every"), every)?),
-            None => None,
-        };
-        let stepper = stepper(&at.key("stepper"), &form.stepper, duration)?;
+        let every = self.form.output.every.map(|every| every.si);
+        let stepper = stepper(&at.key("stepper"), &form.stepper)?;
         let until_steady = form
             .until_steady
             .map(|change| self.until_steady(&at.key("until_steady"), change, figures))
             .transpose()?;
-        Ok(Plan { duration, stepper, limits: limits(&at.key("limits"), &form.limits)?, every, until_steady })
+        let limits = limits(&at.key("limits"), &form.limits)?;
+        let plan = Plan { duration, stepper, limits, every, until_steady };
+        // Before anything is compared with its numbers.
+        plan.check().map_err(|error| refused::fault(&self.scene, plan, &error))?;
+        within_run(&at.key("stepper"), plan)?;
+        Ok(plan)
     }
 
     fn until_steady(&self, at: &At<'_>, change: f64, figures: Figures) -> Result<UntilSteady, Fault> {
@@ -130,25 +131,25 @@ impl Builder<'_> {
     }
 }
 
-fn stepper(at: &At<'_>, form: &StepperForm, duration: f64) -> Result<Stepper, Fault> {
+fn stepper(at: &At<'_>, form: &StepperForm) -> Result<Stepper, Fault> {
     let stepper = form.asked();
-    let at = at.key(stepper.name());
-    match stepper.accuracy() {
-        Accuracy::Tolerance(tolerance) => {
-            let (least, most) = TOLERANCE;
-            range::number_between(&at.key("tolerance"), tolerance, least, most)
-                .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most scenes"))?;
-        }
-        Accuracy::Step(step) => {
-            let at = at.key("step");
-            if range::above_zero(&at, Time::new(step))? > duration {
-                let duration = range::short(duration);
-                let most = format_args!("a time up to the duration of the run, {duration} s");
-                return Err(at.expected(most));
-            }
-        }
+    if let Accuracy::Tolerance(tolerance) = stepper.accuracy() {
+        range::number_between(&at.key(stepper.name()).key("tolerance"), tolerance, TOLERANCE.0, TOLERANCE.1)
+            .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most scenes"))?;
     }
     Ok(stepper)
+}
+
+/// A fixed step is not longer than the run.
+fn within_run(at: &At<'_>, plan: Plan) -> Result<(), Fault> {
+    let name = plan.stepper.name();
+    let Accuracy::Step(step) = plan.stepper.accuracy() else { return Ok(()) };
+    if step <= plan.duration {
+        return Ok(());
+    }
+    let duration = range::short(plan.duration);
+    let what = format!("a time up to the duration of the run, {duration} s");
+    Err(at.key(name).key("step").expected(what))
 }
 
 fn limits(at: &At<'_>, form: &LimitsForm) -> Result<Limits, Fault> {

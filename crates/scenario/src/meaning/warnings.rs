@@ -111,7 +111,7 @@ impl Oddities<'_> {
         let at = root.key("contacts");
         for contact in &self.scene.contacts {
             let at = at.key(&contact.name);
-            let friction = contact.part.friction;
+            let friction = contact.part.interface.friction();
             if friction > FRICTION {
                 let fault = at.key("friction").fault(format!("{friction} is more than any dry pair has"));
                 self.found.push(fault.help("twenty per cent are 0.2; typical 0.05 to 0.6"));

@@ -93,47 +93,6 @@ impl Builder<'_> {
             Moving::Follows(waveform) => self.follow(at, waveform, D::KIND).map(Varying::Follows),
         }
     }
-
-    /// A quantity that may vary in time but never falls below zero.
-    pub(super) fn varying_at_least_zero<D: Dimension>(
-        &mut self,
-        at: &At<'_>,
-        value: &Moving<D>,
-    ) -> Result<Varying, Fault> {
-        if let Moving::Constant(quantity) = value {
-            return range::at_least_zero(at, *quantity).map(Varying::Constant);
-        }
-        let varying = self.varying(at, value)?;
-        let (low, _) = self.range(varying);
-        if low < 0.0 {
-            let (article, si) = (D::KIND.article(), D::KIND.si());
-            let message = format!(
-                "expected {article} of at least 0 {si} at all times, but the waveform falls to {} {si}",
-                range::short(low)
-            );
-            return Err(at.key("follows").fault(message).help("add an offset, or take a smaller amplitude"));
-        }
-        Ok(varying)
-    }
-
-    /// Lowest and highest value over all time.
-    pub(super) fn range(&self, varying: Varying) -> (f64, f64) {
-        match varying {
-            Varying::Constant(value) => (value, value),
-            Varying::Follows(index) => self.scene.waveforms[index].part.range(),
-        }
-    }
-
-    /// Value at t = 0.
-    pub(super) fn at_start(&self, varying: Varying) -> f64 {
-        match varying {
-            Varying::Constant(value) => value,
-            Varying::Follows(index) => {
-                let waveform = &self.scene.waveforms[index].part;
-                waveform.sample(&waveform.piece_at(0.0), 0.0).value
-            }
-        }
-    }
 }
 
 fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values) -> Result<(Waveform, f64), Fault> {

@@ -102,7 +102,7 @@ pub(super) fn of(job: &Job) -> Parts<ContactInfo> {
 fn contact(job: &Job, c: usize, law: &Interface) -> Option<ContactInfo> {
     let contact = &job.scenario.scene.contacts.get(c)?.part;
     let depths = job.model.indentations(&job.start, c)?;
-    let beta = contact.pair.dundurs_beta();
+    let beta = law.pair().dundurs_beta();
     let varies = !job.has_constant_load(c);
     let pressed = |d: f64| facts::Pressed::of(job.setup(), c, d).map(Pressed::of);
     Some(ContactInfo {

@@ -82,7 +82,7 @@ impl Usage {
                 self.skips("contact", name, Why::NeverPressed.to_string());
                 continue;
             }
-            if contact.part.friction == 0.0 {
+            if contact.part.interface.friction() == 0.0 {
                 self.skips("tangential force", name, Why::NoFriction.to_string());
                 continue;
             }

@@ -1,0 +1,135 @@
+//! What a scene or a plan is refused for, in the words and at the place of the file.
+
+use super::names::GROUND;
+use super::range;
+use crate::address;
+use crate::fault::Fault;
+use crate::path::{KeyPath, Step};
+use stickslip_contact::FirstLoadingError;
+use stickslip_drive::scene::{Axis, Normal, Scene, Side, Varying};
+use stickslip_drive::{Part, Plan, SceneError, SceneFault};
+
+/// The fault that a refusal is in the file.
+pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
+    let path = address::path(scene, plan, error.part, error.field);
+    match &error.fault {
+        SceneFault::NotAboveZero(_) => {
+            Fault::expected(path, address::kind(error).map_or(range::ABOVE.to_owned(), range::above))
+        }
+        SceneFault::BelowZero(_) => match address::kind(error) {
+            Some(kind) => Fault::expected(path, range::at_least(kind)),
+            None => plain(path, error),
+        },
+        SceneFault::NoInertia(axis) => no_inertia(path, *axis),
+        SceneFault::OneBody => one_body(scene, path, error.part),
+        SceneFault::Loading(reason) => loading(scene, path, error, *reason),
+        _ => plain(path, error),
+    }
+}
+
+/// In the words of the scene.
+fn plain(path: KeyPath, error: &SceneError) -> Fault {
+    Fault::new(path, error.fault.to_string()).maybe_help(error.fault.advice())
+}
+
+/// What obeys Newton needs a mass, what turns a moment of inertia.
+fn no_inertia(path: KeyPath, axis: Axis) -> Fault {
+    match axis {
+        Axis::X | Axis::Z => {
+            let help = format!("{} is free: a body that obeys Newton needs a mass", axis.key());
+            Fault::missing(path, "mass").help(help)
+        }
+        Axis::Pitch => {
+            Fault::missing(path, "inertia").help("pitch is free: a body that turns needs a moment of inertia")
+        }
+    }
+}
+
+/// The second of the two names is the one too many.
+fn one_body(scene: &Scene, mut path: KeyPath, part: Part) -> Fault {
+    let side = match part {
+        Part::Contact(i) => scene.contacts.get(i).map(|contact| contact.part.between[1]),
+        Part::Spring(i) => scene.springs.get(i).map(|spring| spring.part.between[1]),
+        Part::Actuator(i) => scene.actuators.get(i).map(|actuator| actuator.part.between[1]),
+        Part::Body(_) | Part::Load(_) | Part::Block(_) | Part::Gravity | Part::Run => None,
+    };
+    let name = match side {
+        Some(Side::Body(i)) => scene.bodies.get(i).map_or("", |body| &body.name),
+        Some(Side::Ground) | None => GROUND,
+    };
+    path.0.push(Step::Index(1));
+    Fault::new(path, format!("expected two different bodies, got \"{name}\" twice"))
+        .help("name two bodies, or one and \"ground\"")
+}
+
+/// A contact that cannot be pressed or pushed as the file says.
+fn loading(scene: &Scene, path: KeyPath, error: &SceneError, reason: FirstLoadingError) -> Fault {
+    match reason {
+        FirstLoadingError::TangentialForce { limit, .. } => {
+            let limit = range::short(limit);
+            Fault::expected(path, format_args!("a force below μF_N = {limit} N in magnitude"))
+                .help("at μF_N the contact slips; this is the force of one contact, whatever \"count\" says")
+        }
+        FirstLoadingError::Undetermined => {
+            let message = "the radius of this profile does not tell how deep it is pressed";
+            Fault::new(path, message).on_key().help("give \"force\" or \"indentation\"")
+        }
+        FirstLoadingError::NormalForce(low) | FirstLoadingError::Radius(low) if low < 0.0 => {
+            below_zero(scene, path, error, low)
+        }
+        FirstLoadingError::Radius(_) | FirstLoadingError::BeyondSphere { .. } => {
+            beyond_sphere(scene, &path, error).unwrap_or_else(|| plain(path, error))
+        }
+        _ => plain(path, error),
+    }
+}
+
+/// A contact that is pulled, always or at times.
+fn below_zero(scene: &Scene, mut path: KeyPath, error: &SceneError, low: f64) -> Fault {
+    let Some(kind) = address::kind(error) else { return plain(path, error) };
+    if let Some((Varying::Constant(_), _)) = pressing(scene, error.part) {
+        return Fault::expected(path, range::at_least(kind));
+    }
+    path.0.push(Step::Key("follows".to_owned()));
+    let message = format!(
+        "expected {} at all times, but the waveform falls to {} {}",
+        range::at_least(kind),
+        range::short(low),
+        kind.si()
+    );
+    Fault::new(path, message).help("add an offset, or take a smaller amplitude")
+}
+
+/// A sphere ends at its equator; how deep the bodies press a coupled one is a matter of the whole scene.
+fn beyond_sphere(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<Fault> {
+    let (Part::Contact(i), Some((varying, normal))) = (error.part, pressing(scene, error.part)) else {
+        return None;
+    };
+    let interface = &scene.contacts.get(i)?.part.interface;
+    let reach = interface.profile().reach()?;
+    let most = match normal {
+        Normal::Force(_) => interface.normal_force(reach),
+        Normal::Radius(_) => interface.profile().radius(reach),
+        Normal::Indentation(_) | Normal::Coupled => reach,
+    };
+    let high = match varying {
+        Varying::Constant(value) => value,
+        Varying::Follows(w) => scene.waveforms.get(w)?.part.range().1,
+    };
+    let (most, high, unit) = (range::short(most), range::short(high), address::kind(error)?.si());
+    let message = format!(
+        "expected less than {most} {unit}, where the contact reaches the sphere's equator, got {high} {unit}"
+    );
+    let help = "half-spaces touch in circles much smaller than the sphere";
+    Some(Fault::new(path.clone(), message).help(help))
+}
+
+/// What is given to press a contact.
+fn pressing(scene: &Scene, part: Part) -> Option<(Varying, Normal)> {
+    let Part::Contact(i) = part else { return None };
+    let normal = scene.contacts.get(i)?.part.normal;
+    match normal {
+        Normal::Force(value) | Normal::Indentation(value) | Normal::Radius(value) => Some((value, normal)),
+        Normal::Coupled => None,
+    }
+}
