@@ -139,7 +139,7 @@ fn refuse(scene: &Scene) -> Result<(), String> {
             scene.loads.iter().any(|load| [load.x, load.z, load.pitch].into_iter().any(varies)),
             "loads that vary",
         ),
-        (scene.contacts.iter().any(|contact| contact.part.damping != 0.0), "damped contacts"),
+        (scene.contacts.iter().any(|contact| contact.part.interface.damping() != 0.0), "damped contacts"),
         (scene.waveforms.iter().any(|waveform| waveform.part.has_jumps()), "waveforms that jump"),
     ];
     outside.into_iter().find(|(is, _)| *is).map_or(Ok(()), |(_, what)| Err(what.to_owned()))

@@ -2,7 +2,7 @@
 
 use crate::{
     Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Move, Outcome, Response, Row, Segment,
-    SpringState, Springs,
+    SpringState, Springs, Timed,
 };
 use std::sync::Arc;
 
@@ -49,13 +49,13 @@ pub trait Tangential {
     /// Counts displacements from another origin, `by` further back.
     fn shift(&mut self, by: f64);
     /// Force and tangents that a move would give.
-    fn trial(&self, law: &Interface, to: Move) -> Response;
+    fn trial(&self, law: &Interface, to: Timed<Move>) -> Response;
     /// F_x that a chord would give, N: the cheapest question.
     fn force(&self, law: &Interface, to: Apex) -> f64;
     /// Everything that a chord would give, its friction work included.
     fn preview(&self, law: &Interface, to: Apex) -> Outcome;
     /// Accepts a segment and returns its friction work, J. Fails without a trace.
-    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError>;
+    fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
     /// The smooth branches of an engine that has them. None where the law has kinks of its own between any two moves:
     /// then the whole law is integrated, and only reversals of sliding are events.
     fn branching(&self) -> Option<&dyn Branching> {
@@ -113,8 +113,9 @@ impl Tangential for Curve {
         Self::shift(self, by);
     }
     #[inline]
-    fn trial(&self, law: &Interface, to: Move) -> Response {
-        Self::trial(self, law, to)
+    fn trial(&self, law: &Interface, to: Timed<Move>) -> Response {
+        let springs = Self::trial(self, law, to.path);
+        damped(law, springs, self.apex(), to)
     }
     #[inline]
     fn force(&self, law: &Interface, to: Apex) -> f64 {
@@ -123,8 +124,8 @@ impl Tangential for Curve {
     fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         Self::preview(self, law, to)
     }
-    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
-        Self::commit(self, law, segment)
+    fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
+        Self::commit(self, law, segment.path)
     }
     fn branching(&self) -> Option<&dyn Branching> {
         Some(self)
@@ -153,8 +154,9 @@ impl Tangential for SpringRow {
     fn shift(&mut self, by: f64) {
         self.row.shift(by);
     }
-    fn trial(&self, law: &Interface, to: Move) -> Response {
-        self.row.trial(&self.springs, law, to)
+    fn trial(&self, law: &Interface, to: Timed<Move>) -> Response {
+        let springs = self.row.trial(&self.springs, law, to.path);
+        damped(law, springs, self.row.apex(), to)
     }
     fn force(&self, law: &Interface, to: Apex) -> f64 {
         self.row.force(&self.springs, law, to)
@@ -162,9 +164,19 @@ impl Tangential for SpringRow {
     fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         self.row.preview(&self.springs, law, Move::Chord(to))
     }
-    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
-        self.row.commit(&self.springs, law, segment)
+    fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
+        self.row.commit(&self.springs, law, segment.path)
     }
+}
+
+/// What the springs that stick at the end of a move carry by their damping is added to their force.
+#[inline]
+fn damped(law: &Interface, springs: Response, from: Apex, Timed { path, duration }: Timed<Move>) -> Response {
+    if duration == 0.0 || law.damping() == 0.0 {
+        return springs;
+    }
+    let rate = (path.end().u - from.u) / duration;
+    Response { force: springs.force + law.viscosity(springs.stiffness) * rate, ..springs }
 }
 
 /// One method of whichever engine it is: a match costs less than a call through a table, and a row's inner loops are
@@ -193,7 +205,8 @@ impl Memory {
 
     /// Force and tangents that a move would give.
     #[inline]
-    pub fn trial(&self, law: &Interface, to: Move) -> Response {
+    pub fn trial(&self, law: &Interface, to: impl Into<Timed<Move>>) -> Response {
+        let to = to.into();
         either!(self, engine => Tangential::trial(engine, law, to))
     }
 
@@ -209,7 +222,12 @@ impl Memory {
     }
 
     /// Accepts a segment and returns its friction work, J. Fails without a trace.
-    pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+    pub fn commit(
+        &mut self,
+        law: &Interface,
+        segment: impl Into<Timed<Segment>>,
+    ) -> Result<f64, ContactError> {
+        let segment = segment.into();
         either!(self, engine => Tangential::commit(engine, law, segment))
     }
 

@@ -10,6 +10,7 @@ pub struct Interface {
     friction: f64,
     slope: f64,
     profile: Profile,
+    damping: f64,
 }
 
 /// Coulomb's coefficient of friction is out of its range.
@@ -27,7 +28,28 @@ impl Interface {
             return Err(FrictionError(friction));
         }
         let slope = friction * pair.normal_modulus() / pair.tangential_modulus();
-        Ok(Self { pair, friction, slope, profile })
+        Ok(Self { pair, friction, slope, profile, damping: 0.0 })
+    }
+
+    /// The same with stuck springs that carry βG\*ṡ beside G\*s, ṡ the rate of their stretch; β in s, at least 0.
+    ///
+    /// Only the elastic part G\*s decides what slips, so |F_x| may exceed μF_N by up to βG\*m(c)|u̇|, c the radius that sticks;
+    /// in gross slip nothing sticks and |F_x| = μF_N. F_x jumps where u̇ jumps, and where a loop closes at u̇ ≠ 0, because c
+    /// jumps there: loops in the plane of u and F_x close in their elastic part only. A mass on a stuck contact of resonance ω
+    /// has the damping ratio βω/2.
+    #[must_use]
+    pub fn with_damping(self, damping: f64) -> Self {
+        Self { damping, ..self }
+    }
+
+    /// Time constant β of the stuck springs, s.
+    pub fn damping(&self) -> f64 {
+        self.damping
+    }
+
+    /// What springs of a stiffness (N/m) that stick oppose to a rate, N s/m: β times it.
+    pub fn viscosity(&self, stuck: f64) -> f64 {
+        self.damping * stuck
     }
 
     /// The effective moduli and the mismatch of the two bodies.

@@ -29,6 +29,8 @@ pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};
 pub use material::{Material, MaterialError, Pair};
-pub use motion::{Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState};
+pub use motion::{
+    Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState, Timed,
+};
 pub use profile::{Profile, ProfileError};
 pub use row::{Row, Springs, SpringsError};

@@ -67,6 +67,36 @@ pub enum Segment {
     },
 }
 
+/// A path and how long it takes. A law without damping does not ask; a path on its own is one in no hurry, quasi-static.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timed<P> {
+    /// The path.
+    pub path: P,
+    /// Δt, s; 0 where rates do not count.
+    pub duration: f64,
+}
+
+impl From<Move> for Timed<Move> {
+    fn from(path: Move) -> Self {
+        Self { path, duration: 0.0 }
+    }
+}
+
+impl From<Segment> for Timed<Segment> {
+    fn from(path: Segment) -> Self {
+        Self { path, duration: 0.0 }
+    }
+}
+
+impl Move {
+    /// Where the move ends.
+    pub fn end(&self) -> Apex {
+        match *self {
+            Self::Chord(to) | Self::Grown { to, .. } => to,
+        }
+    }
+}
+
 impl Segment {
     /// Where the segment ends.
     pub fn end(&self) -> Apex {

@@ -77,7 +77,7 @@ impl Row {
     ///
     /// A row has no use for an integrated force: growth along a curved path is taken as the chord to its end.
     pub fn trial(&self, springs: &Springs, law: &Interface, to: Move) -> Response {
-        let (to, slope) = (end(to), law.stick_slope());
+        let (to, slope) = (to.end(), law.stick_slope());
         let after = self.touching_at(springs, to.d);
         let kept = after.min(self.touching);
         let mut tally = lanes::tally(springs.first(kept), &self.anchors[..kept], to, slope);
@@ -102,7 +102,7 @@ impl Row {
 
     /// Everything that a move would give, its friction work included. Costs several trials.
     pub fn preview(&self, springs: &Springs, law: &Interface, to: Move) -> Outcome {
-        let chord = Chord::new(self.apex, end(to), law.stick_slope());
+        let chord = Chord::new(self.apex, to.end(), law.stick_slope());
         let after = self.touching_at(springs, chord.to.d);
         let all = springs.first(after);
         let (mut shear, mut square) = (0.0, 0.0);
@@ -219,14 +219,6 @@ impl Row {
         } else {
             SpringState::SlipForward
         }
-    }
-}
-
-/// Where a move ends.
-#[inline]
-fn end(to: Move) -> Apex {
-    match to {
-        Move::Chord(to) | Move::Grown { to, .. } => to,
     }
 }
 

@@ -24,7 +24,6 @@ fn p1() -> Scene {
         interface: Interface::new(Pair::new(steel, steel), Profile::paraboloid(1e-3).unwrap(), 0.15).unwrap(),
         normal: Normal::Force(Varying::Constant(1.0)),
         gap: 0.0,
-        damping: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,

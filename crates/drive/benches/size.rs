@@ -44,7 +44,6 @@ fn ball(place: f64, coordinates: usize) -> Contact {
         interface: Interface::new(Pair::new(steel, steel), Profile::paraboloid(1e-3).unwrap(), 0.2).unwrap(),
         normal: if coordinates == 1 { constant } else { Normal::Coupled },
         gap: 0.0,
-        damping: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,

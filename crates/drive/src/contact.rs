@@ -26,8 +26,6 @@ pub(crate) struct Contact {
     pub(crate) count: f64,
     /// Displacement reached before the start, m.
     pub(crate) start: f64,
-    /// Time constant β of the stuck springs, s.
-    pub(crate) damping: f64,
     /// Whether the contact can never carry a tangential force: no friction, or never pressed.
     pub(crate) inert: bool,
     /// Whether nothing that it does ends a step: never pressed, or neither friction nor bodies that press it.

@@ -86,7 +86,7 @@ impl Model {
             if !contact.inert {
                 let stiffness = contact.count * contact.law.stick_stiffness(d);
                 add(&mut linearised.stiffness, &linearised.contacts[c], stiffness);
-                add(&mut linearised.damping, &linearised.contacts[c], contact.damping * stiffness);
+                add(&mut linearised.damping, &linearised.contacts[c], contact.law.viscosity(stiffness));
             }
             if let Some(normal) = contact.coupling() {
                 add(&mut linearised.stiffness, &normal.free, contact.count * contact.law.normal_stiffness(d));

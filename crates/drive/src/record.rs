@@ -247,9 +247,9 @@ fn contact_columns(
     if !contact.is_constant() && contact.coupling().is_none() {
         books.input += normal;
     }
-    let damping = match contact.damping {
+    let damping = match contact.law.damping() {
         0.0 => 0.0,
-        _ => contact.damping_coefficient(equations.law(c), &motion) * motion.du,
+        _ => contact.viscosity(equations.law(c), &motion) * motion.du,
     };
     books.elastic += normal + count * outcome.elastic;
     books.friction += friction;

@@ -138,13 +138,6 @@ pub struct Contact {
     pub normal: Normal,
     /// Gap between the bodies in the position drawn, m; negative: pressed. For [`Normal::Coupled`].
     pub gap: f64,
-    /// Time constant β of the stuck springs, s, which then carry βG\*ṡ beside G\*s: βG\*m(c)u̇ together, c the radius that
-    /// sticks. A mass on a stuck contact of resonance ω has the damping ratio βω/2.
-    ///
-    /// Only the elastic part G\*s decides what slips, so |F_x| may exceed μF_N by up to βG\*m(c)|u̇|; in gross slip nothing
-    /// sticks and |F_x| = μF_N. F_x jumps where u̇ jumps, and where a loop closes at u̇ ≠ 0, because c jumps there: loops in
-    /// the plane of u and F_x close in their elastic part only.
-    pub damping: f64,
     /// The contact's own starting state.
     pub start: ContactStart,
     /// How the tangential problem is solved.

@@ -120,7 +120,8 @@ impl Job {
 
     /// Whether the force of contact `c` follows from the way of its bodies along the slide alone.
     pub fn has_law_without_time(&self, c: usize) -> bool {
-        let damping = self.scenario.scene.contacts.get(c).map_or(0.0, |contact| contact.part.damping);
+        let damping =
+            self.scenario.scene.contacts.get(c).map_or(0.0, |contact| contact.part.interface.damping());
         self.has_constant_load(c) && damping == 0.0
     }
 

@@ -101,7 +101,7 @@ fn every_part_of_a_planar_body_arrives() {
     assert_eq!(scene.bodies[2].part.z, Coordinate { position: 2e-6, ..Coordinate::default() });
     assert_eq!(scene.bodies[3].part.pitch, Coordinate::FREE);
     let ball = &scene.contacts[0].part;
-    assert_eq!((ball.normal, ball.gap, ball.damping), (Normal::Coupled, -2e-8, 1e-6));
+    assert_eq!((ball.normal, ball.gap, ball.interface.damping()), (Normal::Coupled, -2e-8, 1e-6));
     assert_eq!(ball.at, [Point { x: 1e-3, z: 0.0 }, Point { x: 5e-3, z: -3e-3 }]);
     assert_eq!(scene.contacts[1].part.at, [Point::default(), Point { x: 0.0, z: -0.02 }]);
     let (press, jack) = (&scene.springs[0].part, &scene.actuators[0].part);

@@ -75,7 +75,6 @@ fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Resul
             .map_err(|error| error.to_string())?,
         normal: Normal::Force(Varying::Constant(force)),
         gap: 0.0,
-        damping: 0.0,
         start: ContactStart::Untouched,
         engine,
         count: 1,

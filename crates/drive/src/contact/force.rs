@@ -63,8 +63,8 @@ impl Contact {
         }
     }
 
-    /// Force of the contact's own damping, N: that of the springs that stick, β times their stiffness.
-    pub(crate) fn damping_coefficient(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
+    /// What the springs that stick oppose to u̇, N s/m.
+    pub(crate) fn viscosity(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
         let stuck = match mode {
             Mode::Open => 0.0,
             Mode::Grow => self.law.stick_stiffness(motion.d),
@@ -74,7 +74,7 @@ impl Contact {
             }
             Mode::Whole { .. } => memory.trial(&self.law, Move::Chord(motion.apex())).stiffness,
         };
-        self.damping * stuck
+        self.law.viscosity(stuck)
     }
 
     /// Slopes of what a growing contact carries beside its motion.

@@ -60,8 +60,8 @@ impl Equations<'_> {
                 force
             }
         };
-        if contact.damping > 0.0 {
-            let damping = contact.damping_coefficient(self.law(c), &motion);
+        if contact.law.damping() > 0.0 {
+            let damping = contact.viscosity(self.law(c), &motion);
             sum.damping += contact.count * damping * motion.du * motion.du;
             force += damping * motion.du;
         }

@@ -36,7 +36,7 @@ impl Check<'_> {
         self.between(part.between).map_err(of(Field::Between))?;
         points(part.at).map_err(of(Field::Points))?;
         finite(part.gap).map_err(of(Field::Gap))?;
-        at_least_zero(part.damping).map_err(of(Field::Damping))?;
+        at_least_zero(part.interface.damping()).map_err(of(Field::Damping))?;
         match part.normal {
             Normal::Force(v) => self.varying(v).map_err(of(Field::NormalForce))?,
             Normal::Indentation(v) => self.varying(v).map_err(of(Field::NormalIndentation))?,

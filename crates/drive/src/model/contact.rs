@@ -57,7 +57,6 @@ pub(super) fn build(
         press,
         count: f64::from(part.count.max(1)),
         start,
-        damping: part.damping,
         inert,
         unguarded: known.deepest <= 0.0 || inert && part.normal != Normal::Coupled,
         slot: None,

@@ -49,7 +49,8 @@ impl<'a> Chords<'a> {
         let mut output = Output::new(plan.every, layout);
         output.set_out(state.t, horizon.end);
         output.begin_looks(model, state, record);
-        let (ledger, bounds) = (Ledger::new(model, 0), Bounds::new(model, plan.limits));
+        let (mut ledger, bounds) = (Ledger::new(model, 0), Bounds::new(model, plan.limits));
+        ledger.set_out(state.t);
         let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
         let motions = Vec::with_capacity(model.contacts.len());
         Self { model, state, layout, horizon, output, ledger, bounds, record, standings, motions }
@@ -115,9 +116,10 @@ impl<'a> Chords<'a> {
         let eq = Equations::on(self.model, self.state, self.layout, true);
         self.motions.clear();
         self.motions.extend(self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])));
-        self.ledger.segments.clear();
-        let chords = self.motions.iter().map(|motion| Segment::Straight(motion.apex()));
-        self.ledger.segments.extend(chords.enumerate());
+        self.ledger.clear();
+        for (c, motion) in self.motions.iter().enumerate() {
+            self.ledger.push(c, t, Segment::Straight(motion.apex()));
+        }
         self.ledger.commit((self.model, self.layout), t, self.state)?;
         self.state.y.copy_from_slice(y);
         self.state.t = t;

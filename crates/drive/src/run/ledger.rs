@@ -5,12 +5,14 @@ use crate::component::{Passage, Refused};
 use crate::equations::{Components, Equations};
 use crate::model::{Model, Wired};
 use crate::state::{Layout, State};
-use stickslip_contact::Segment;
+use stickslip_contact::{Segment, Timed};
 
 /// What the contacts commit.
 pub(super) struct Ledger {
     /// Contacts, by their places, and the segments that lead them to the end of the step.
-    pub(super) segments: Vec<(usize, Segment)>,
+    segments: Vec<(usize, Timed<Segment>)>,
+    /// When each contact's path was last written down, s.
+    last: Vec<f64>,
     pub(super) books: Books,
     /// The blocks' paths, and when they last moved, s.
     passages: Vec<Passage>,
@@ -37,10 +39,29 @@ impl Ledger {
         };
         Self {
             segments: Vec::with_capacity(model.contacts.len() + more),
+            last: vec![0.0; model.contacts.len()],
             books: Books::Current,
             passages: model.blocks.iter().map(passage).collect(),
             committed: 0.0,
         }
+    }
+
+    /// Begins at a time, s.
+    pub(super) fn set_out(&mut self, t: f64) {
+        self.last.fill(t);
+        self.committed = t;
+    }
+
+    /// Begins a page.
+    pub(super) fn clear(&mut self) {
+        self.segments.clear();
+    }
+
+    /// Writes down the path of contact `c` up to time t, s.
+    #[inline]
+    pub(super) fn push(&mut self, c: usize, t: f64, path: Segment) {
+        let duration = t - std::mem::replace(&mut self.last[c], t);
+        self.segments.push((c, Timed { path, duration }));
     }
 
     /// All contacts move their memory to where the step ended, at time t, s.
@@ -59,7 +80,7 @@ impl Ledger {
             if contact.slot.is_none() || layout.growing == 0 {
                 state.friction[c] += contact.count * friction;
             }
-            state.grew[c] = matches!(segment, Segment::Grown { .. });
+            state.grew[c] = matches!(segment.path, Segment::Grown { .. });
         }
         Ok(())
     }

@@ -138,6 +138,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     fn go(mut self, order: u32, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         state.carry_over(self.setting.model, self.setting.layout);
         self.output.set_out(state.t, self.horizon.end);
+        self.ledger.set_out(state.t);
         let limits = StepLimits { longest: self.motion.pace.longest, ..StepLimits::default() };
         let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(order, limits));
         self.begin(state);

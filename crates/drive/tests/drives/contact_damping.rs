@@ -1,6 +1,8 @@
 //! Damping β of the springs that stick: a force βG\*m(c)u̇ beside the law of the contact.
 
-use crate::parts::{FOOT_SLIDER, column, contact, event, follower, free, named, of_pair, push, trace};
+use crate::parts::{
+    FOOT_SLIDER, column, contact, damped, event, follower, free, named, of_pair, push, trace,
+};
 use std::f64::consts::TAU;
 use stickslip_contact::{Pair, Profile};
 use stickslip_drive::scene::{Body, Contact, Scene, Side};
@@ -14,7 +16,7 @@ const G: f64 = 0.95e11;
 
 fn known(between: [Side; 2], profile: Profile, damping: f64) -> Contact {
     let pair = Pair::from_moduli(E, G).unwrap();
-    Contact { damping, ..of_pair(pair, &contact(between, profile, MU, FORCE)) }
+    damped(of_pair(pair, &contact(between, profile, MU, FORCE)), damping)
 }
 
 /// A flat punch of radius b sticks whole, k = 2G\*b: under a step load F the slider is the oscillator

@@ -35,7 +35,6 @@ fn ball(ratio: f64, psi: f64) -> Scene {
         .unwrap(),
         normal: Normal::Coupled,
         gap: 0.0,
-        damping: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,

@@ -44,7 +44,6 @@ pub(crate) fn contact(between: [Side; 2], profile: Profile, friction: f64, force
         interface: Interface::new(steel(), profile, friction).unwrap(),
         normal: Normal::Force(Varying::Constant(force)),
         gap: 0.0,
-        damping: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,
@@ -70,6 +69,11 @@ pub(crate) fn of_friction(friction: f64, contact: &Contact) -> Contact {
     let old = &contact.interface;
     let interface = Interface::new(old.pair(), old.profile().clone(), friction).unwrap();
     Contact { interface, ..contact.clone() }
+}
+
+/// The same contact with stuck springs of a time constant β, s.
+pub(crate) fn damped(contact: Contact, beta: f64) -> Contact {
+    Contact { interface: contact.interface.clone().with_damping(beta), ..contact }
 }
 
 pub(crate) fn damper(between: [Side; 2], damping: f64) -> Spring {

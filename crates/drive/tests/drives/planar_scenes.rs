@@ -1,6 +1,6 @@
 //! Planar scenes that make no model or have no start, and their nearest neighbours that do.
 
-use crate::parts::{contact, damper, event, named, of_friction, of_profile, piezo, wave};
+use crate::parts::{contact, damped, damper, event, named, of_friction, of_profile, piezo, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
     Axis, Body, Contact, ContactStart, Coordinate, Direction, Gravity, Load, Normal, Point, Scene, Side,
@@ -155,7 +155,7 @@ fn a_damped_contact_cannot_follow_a_jump() {
         s.waveforms.push(wave("drive", Shape::Sawtooth { stroke: 1e-7, flyback: 0.0 }, 1e-3));
         s.bodies.push(named("foot", Body { x: Coordinate::follows(0), ..Body::default() }));
         s.contacts[0].part.between[0] = Side::Body(1);
-        s.contacts[0].part.damping = 1e-6;
+        s.contacts[0].part = damped(s.contacts[0].part.clone(), 1e-6);
     };
     refused(
         damped,
@@ -163,7 +163,7 @@ fn a_damped_contact_cannot_follow_a_jump() {
         "a damper cannot follow the jumps of waveform `drive`",
     );
     let mut scene = changed(damped);
-    scene.contacts[0].part.damping = 0.0;
+    scene.contacts[0].part = damped(scene.contacts[0].part.clone(), 0.0);
     start(&scene).unwrap();
 }
 

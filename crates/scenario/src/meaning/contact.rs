@@ -37,14 +37,14 @@ impl Builder<'_> {
                 friction_at.expected(format_args!("a number between 0 and {}", Interface::MAX_FRICTION));
             fault.help("the Coulomb coefficient of the pair; typical 0.05 to 0.6")
         })?;
+        let interface = interface.with_damping(form.damping.si);
         let normal = self.normal(&at.key("normal"), &form.normal)?;
         let start = contact_start(&form.start);
         let engine = self.engine(&at.key("engine"), &form.engine)?;
         let count = range::count_between(&at.key("count"), form.count.0, 1, MAX_COUNT)? as u32;
         let gap = gap(at, form)?;
         let at = self.points(at, &form.between, &form.at)?;
-        let damping = form.damping.si;
-        Ok(Contact { between, at, interface, normal, gap, damping, start, engine, count })
+        Ok(Contact { between, at, interface, normal, gap, start, engine, count })
     }
 
     fn pair(&self, at: &At<'_>, names: &[String; 2]) -> Result<Pair, Fault> {

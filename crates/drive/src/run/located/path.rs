@@ -4,7 +4,6 @@ use super::Located;
 use super::motion::Motion;
 use crate::contact::{Mode, Motion as ContactMotion};
 use crate::equations::Equations;
-use crate::interval::Steady;
 use crate::state::State;
 use stickslip_contact::Segment;
 use stickslip_stepper::{Attempt, Completion};
@@ -23,8 +22,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// A steady contact drags one edge over one piece of its memory: one chord to the next event is the same as many, and
     /// a step that `goes_on` leaves its memory where it is.
     pub(super) fn trace_step(&mut self, state: &State, t: f64, goes_on: bool) {
-        let segments = &mut self.ledger.segments;
-        segments.clear();
+        let ledger = &mut self.ledger;
+        ledger.clear();
         if goes_on && self.interval.is_steady() {
             return;
         }
@@ -39,9 +38,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 self.motion.solver.complete(&eq, Completion::Dense);
                 let growth =
                     Growth { motion: &self.motion, eq: &eq, state, tolerance: self.setting.tolerance };
-                growth.trace((c, slot), (t, &motion), |piece| segments.push((c, piece)));
+                growth.trace((c, slot), (t, &motion), |t, piece| ledger.push(c, t, piece));
             } else {
-                segments.push((c, Segment::Straight(motion.apex())));
+                ledger.push(c, t, Segment::Straight(motion.apex()));
             }
         }
     }
@@ -55,15 +54,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// The segments of steady contacts, and of those that only are there, that lead to the state.
     pub(super) fn trace_steady(&mut self, state: &State) {
-        let segments = &mut self.ledger.segments;
-        segments.clear();
+        let (ledger, t) = (&mut self.ledger, state.t);
+        ledger.clear();
         let x = |i: usize| state.y[i];
-        let motion = |steady: &Steady<'_>| steady.motion(state.t, x, x).apex();
-        let segment = |steady: &Steady<'_>| (steady.index, Segment::Straight(motion(steady)));
-        segments.extend(self.interval.steady.iter().map(segment));
+        for steady in &self.interval.steady {
+            ledger.push(steady.index, t, Segment::Straight(steady.motion(t, x, x).apex()));
+        }
         for &c in &self.interval.apart {
-            let motion = self.setting.plain(state).motion(&self.setting.model.contacts[c], state.t, x);
-            segments.push((c, Segment::Straight(motion.apex())));
+            let motion = self.setting.plain(state).motion(&self.setting.model.contacts[c], t, x);
+            ledger.push(c, t, Segment::Straight(motion.apex()));
         }
     }
 }
@@ -83,7 +82,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
         &self,
         (c, slot): (usize, usize),
         (end, to): (f64, &ContactMotion),
-        mut push: impl FnMut(Segment),
+        mut push: impl FnMut(f64, Segment),
     ) {
         let contact = &self.eq.model.contacts[c];
         let (t0, h) = (self.state.t, end - self.state.t);
@@ -101,7 +100,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
             let (to, t) = if share >= 1.0 { (*to, end) } else { (at(share), t0 + share * h) };
             let force = self.motion.component(self.eq.layout.force(slot), t);
             let energy = self.motion.component(self.eq.layout.elastic(slot), t);
-            push(Segment::Grown { to: to.apex(), force, energy, joins });
+            push(t, Segment::Grown { to: to.apex(), force, energy, joins });
             joins = true;
         }
     }

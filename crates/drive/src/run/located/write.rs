@@ -45,7 +45,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let motion = eq.motion(contact, t, &y);
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
                 let growth = Growth { motion: &self.motion, eq, state, tolerance: self.setting.tolerance };
-                growth.trace((c, slot), (t, &motion), |piece| path.push(piece));
+                growth.trace((c, slot), (t, &motion), |_, piece| path.push(piece));
             } else {
                 path.push(Segment::Straight(motion.apex()));
             }
