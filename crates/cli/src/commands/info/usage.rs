@@ -1,11 +1,11 @@
 //! What a run computes of a scene, and what it skips and why.
 
-use super::contacts::name;
-use super::motion;
 use serde::Serialize;
 use stickslip_drive::Stepper;
+use stickslip_drive::facts::followers;
 use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Normal, Scene, Side, Varying};
 use stickslip_results::Job;
+use stickslip_results::info::name;
 
 /// What is computed and what is not.
 #[derive(Debug, Default, Serialize)]
@@ -208,7 +208,7 @@ impl Usage {
         for material in job.scenario.unused_materials() {
             self.skips("material", material, "no contact is made of it");
         }
-        let followers = motion::followers(scene);
+        let followers = followers(scene);
         for (w, waveform) in scene.waveforms.iter().enumerate() {
             if !followers.iter().any(|follower| follower.waveform == w) {
                 self.skips("waveform", &waveform.name, "nothing follows it: its corners end no steps");
