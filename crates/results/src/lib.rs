@@ -7,7 +7,7 @@
 //!
 //! In reading order:
 //!
-//! * [`Job`], within its `limits`; [`Expectation`], what it will take; [`Columns`]; [`program`], which computes;
+//! * [`Job`], within its `limits`; [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
 //! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
 //! * what it leaves: [`Kept`] with [`Series`] and [`Tracks`] in memory, `books` (energies); `table`, `insides` and `sheet` on
 //!   disk, under the names of [`files`], in a [`folder`]; its [`fingerprint`];
@@ -24,11 +24,11 @@ pub mod compare;
 pub mod complaint;
 mod contact_path;
 pub mod curves;
-mod expectation;
 pub mod files;
 pub mod fingerprint;
 pub mod folder;
 pub mod frame;
+pub mod info;
 mod insides;
 mod job;
 mod kept;
@@ -55,7 +55,6 @@ mod watcher;
 
 pub use columns::Columns;
 pub use contact_path::contact_path;
-pub use expectation::{Events, Expectation, PerPeriod};
 pub use job::{Job, Refusal, hash};
 pub use kept::Kept;
 pub use outcome::Outcome;

@@ -1,25 +1,20 @@
 //! `stickslip info`: what a scenario means, before it runs.
 
 mod columns;
-mod contacts;
 mod digits;
-mod motion;
-mod stepping;
 mod tables;
-mod usage;
 
 use crate::arguments::InfoArguments;
 use crate::console::answer::say;
 use crate::console::verdict::Verdict;
-use contacts::ContactInfo;
-use motion::{BodyInfo, ModeInfo, WaveformInfo};
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
-use stepping::Stepping;
+use stickslip_results::Job;
 use stickslip_results::Parts;
-use stickslip_results::{Expectation, Job};
-use usage::Usage;
+use stickslip_results::info::{
+    self, BodyInfo, ContactInfo, Expectation, ModeInfo, Stepping, Usage, WaveformInfo,
+};
 
 /// Derived numbers of a scenario, in SI.
 #[derive(Debug, Serialize)]
@@ -57,14 +52,14 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
 
 impl Info {
     fn of(job: &Job) -> Self {
-        let modes = motion::modes(job);
+        let modes = info::modes(job);
         Self {
             scenario: job.name.clone(),
             title: job.scenario.title.clone(),
             scenario_sha256: job.hash.clone(),
-            bodies: motion::bodies(job),
-            waveforms: motion::waveforms(job),
-            contacts: contacts::of(job),
+            bodies: info::bodies(job),
+            waveforms: info::waveforms(job),
+            contacts: info::contacts(job),
             stepping: Stepping::of(job),
             expected: Expectation::of(job),
             usage: Usage::of(job),

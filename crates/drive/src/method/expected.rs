@@ -127,6 +127,7 @@ impl Model {
             // A slider dragged forward drags a contact whose second body it is backward.
             let lean = contact.u.free.first().map_or(1.0, |(_, a)| a.signum());
             let course = match phase.pressed {
+                Course::Open if !constant && !self.can_part(start, c) => Course::Forward,
                 pressed if !constant => pressed,
                 _ if lean < 0.0 => Course::Backward,
                 _ => Course::Forward,
@@ -136,6 +137,11 @@ impl Model {
             state.memories[c] = memory;
         }
         state
+    }
+
+    /// Whether contact `c` can be apart.
+    fn can_part(&self, start: &State, c: usize) -> bool {
+        self.indentations(start, c).is_none_or(|d| d.least <= 0.0)
     }
 
     /// The memory of a contact that has been dragged so far, in u_c, to where it stands.

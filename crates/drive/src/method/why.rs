@@ -52,8 +52,8 @@ impl fmt::Display for Why {
             Self::OneQuadrature => {
                 "one slider, paraboloids under constant load, straight waveforms: an interval is one quadrature"
             }
-            Self::ConstantForces => "in gross slip or flight under constant loads: the motion is a parabola",
-            Self::AtRest => "where the closed form ends: at rest, or without a turning point",
+            Self::ConstantForces => "in gross slip or flight all forces are constant",
+            Self::AtRest => "where a swing comes to rest or does not turn",
             Self::NoVelocities => "no force depends on a velocity: a third of the evaluations is spared",
             Self::Damper => "the force of a damper depends on a velocity",
             Self::ContactDamping => "the force of damped stuck springs depends on a velocity",

@@ -151,18 +151,18 @@ fn a_sphere_that_the_loads_press_beyond_its_equator_is_refused() {
 /// A foot that jumps below a contact whose stuck springs are damped: an impulse without end.
 #[test]
 fn a_damped_contact_cannot_follow_a_jump() {
-    let damped: Change = |s| {
+    let jumping: Change = |s| {
         s.waveforms.push(wave("drive", Shape::Sawtooth { stroke: 1e-7, flyback: 0.0 }, 1e-3));
         s.bodies.push(named("foot", Body { x: Coordinate::follows(0), ..Body::default() }));
         s.contacts[0].part.between[0] = Side::Body(1);
         s.contacts[0].part = damped(s.contacts[0].part.clone(), 1e-6);
     };
     refused(
-        damped,
+        jumping,
         (Part::Contact(0), Field::Damping),
         "a damper cannot follow the jumps of waveform `drive`",
     );
-    let mut scene = changed(damped);
+    let mut scene = changed(jumping);
     scene.contacts[0].part = damped(scene.contacts[0].part.clone(), 0.0);
     start(&scene).unwrap();
 }

@@ -101,10 +101,9 @@ fn walking_drive() -> Case {
     let turn = |amplitude, degrees: f64| Shape::Sine { amplitude, phase: degrees.to_radians(), offset: 0.0 };
     let foot = |w| Body { z: Coordinate::follows(w + 1), ..follower(w) };
     let free = Coordinate::FREE;
-    let feet = |foot| Contact {
-        count: 2,
-        damping: 2e-6,
-        ..ball([Side::Body(foot), Side::Body(2)], pair(370e9, 0.22), (2e-3, 0.25), (0.0, 0.0))
+    let feet = |foot| {
+        let ball = ball([Side::Body(foot), Side::Body(2)], pair(370e9, 0.22), (2e-3, 0.25), (0.0, 0.0));
+        crate::parts::damped(Contact { count: 2, ..ball }, 2e-6)
     };
     let scene = Scene {
         waveforms: vec![

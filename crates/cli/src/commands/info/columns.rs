@@ -1,10 +1,10 @@
 //! Contacts as columns side by side.
 
-use super::contacts::{ContactInfo, Loaded, Pressed};
 use super::digits::digits;
 use super::tables::{WIDTH, grid, unbroken};
 use crate::console::quantity::quantity;
 use stickslip_results::Real;
+use stickslip_results::info::{ContactInfo, Loaded, Pressed};
 
 /// Space that a column takes beside its text.
 const PADDING: usize = 2;

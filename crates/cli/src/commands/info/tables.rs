@@ -3,11 +3,11 @@
 use super::Info;
 use super::columns::{self, span};
 use super::digits::{bytes, digits, mass, two_digits, whole};
-use super::motion::{BodyInfo, Freed, ModeInfo, WaveformInfo};
-use super::usage::Item;
 use crate::console::quantity::quantity;
 use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
 use stickslip_results::Real;
+use stickslip_results::info::Item;
+use stickslip_results::info::{BodyInfo, Freed, ModeInfo, WaveformInfo};
 
 /// Widest line.
 pub(super) const WIDTH: u16 = 100;
@@ -42,7 +42,7 @@ impl Info {
     fn bodies(&self) -> String {
         let row = |(name, body): &(String, BodyInfo)| {
             let coordinates =
-                body.coordinates.0.iter().map(|(axis, freed)| format!("{axis} {}", freed.words()));
+                body.coordinates.0.iter().map(|(axis, freed)| format!("{axis} {}", words(freed)));
             vec![
                 name.clone(),
                 body.mass.map_or(String::new(), mass),
@@ -144,13 +144,12 @@ impl Info {
     }
 }
 
-impl Freed {
-    fn words(&self) -> String {
-        match self {
-            Self::Fixed => "fixed".to_owned(),
-            Self::Free => "free".to_owned(),
-            Self::Follows(waveform) => format!("follows {waveform}"),
-        }
+/// What a coordinate does.
+fn words(freed: &Freed) -> String {
+    match freed {
+        Freed::Fixed => "fixed".to_owned(),
+        Freed::Free => "free".to_owned(),
+        Freed::Follows(waveform) => format!("follows {waveform}"),
     }
 }
 

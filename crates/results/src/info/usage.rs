@@ -1,29 +1,35 @@
 //! What a run computes of a scene, and what it skips and why.
 
-use super::contacts::name;
+use super::name;
+use crate::Job;
 use serde::Serialize;
 use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Side};
 use stickslip_drive::{Expected, Method, Pressing, Treatment, Why};
-use stickslip_results::Job;
 
 /// What is computed and what is not.
 #[derive(Debug, Default, Serialize)]
-pub(super) struct Usage {
-    pub(super) used: Vec<Item>,
-    pub(super) skipped: Vec<Item>,
+pub struct Usage {
+    /// What a run computes.
+    pub used: Vec<Item>,
+    /// What it skips.
+    pub skipped: Vec<Item>,
 }
 
 /// Something of these parts, and why it is computed or not.
 #[derive(Debug, Serialize)]
-pub(super) struct Item {
-    pub(super) what: &'static str,
+pub struct Item {
+    /// What it is.
+    pub what: &'static str,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(super) of: Vec<String>,
-    pub(super) why: String,
+    /// Of which parts of the scene; none where it is of the whole.
+    pub of: Vec<String>,
+    /// Why.
+    pub why: String,
 }
 
 impl Usage {
-    pub(super) fn of(job: &Job) -> Self {
+    /// Of a scenario. What is told of methods and contacts is asked of the functions by which a run decides.
+    pub fn of(job: &Job) -> Self {
         let mut usage = Self::default();
         let expected = job.model.expected(&job.start, job.scenario.plan.stepper);
         usage.motion(job, &expected);
@@ -70,7 +76,7 @@ impl Usage {
             self.skips("stages for velocities", "", Why::NoVelocities.to_string());
         }
         if expected.takes(Method::Parabola) {
-            self.skips("evaluations", "", Why::ConstantForces.to_string());
+            self.skips("evaluations", "", format!("{}: the motion is a parabola", Why::ConstantForces));
         }
     }
 

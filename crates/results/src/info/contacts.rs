@@ -1,100 +1,104 @@
 //! Contacts: pair, scales, stiffness.
 
+use crate::job::Job;
+use crate::parts::Parts;
+use crate::real::Real;
 use serde::Serialize;
 use stickslip_contact::Interface;
 use stickslip_drive::facts;
 use stickslip_drive::scene::Side;
-use stickslip_results::Job;
-use stickslip_results::Parts;
-use stickslip_results::Real;
 
 /// Rounding of Dundurs' β of two materials that are similar.
 const ROUNDING: f64 = 1e-12;
 
 /// A contact.
 #[derive(Debug, Serialize)]
-pub(super) struct ContactInfo {
+pub struct ContactInfo {
     /// First and second body.
-    pub(super) between: [String; 2],
-    pub(super) materials: [String; 2],
-    pub(super) profile: String,
+    pub between: [String; 2],
+    /// Names of their materials.
+    pub materials: [String; 2],
+    /// The profile, in words.
+    pub profile: String,
     /// Number of identical contacts.
-    pub(super) count: u32,
-    /// E*.
+    pub count: u32,
+    /// E*, Pa.
     #[serde(rename = "normal_modulus_Pa")]
-    pub(super) normal_modulus: Real,
-    /// G*.
+    pub normal_modulus: Real,
+    /// G*, Pa.
     #[serde(rename = "tangential_modulus_Pa")]
-    pub(super) tangential_modulus: Real,
+    pub tangential_modulus: Real,
     /// Dundurs' β, [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂] (Dundurs, J. Appl. Mech. 36, 650, 1969).
-    pub(super) dundurs_beta: Real,
+    pub dundurs_beta: Real,
     /// Whether β is 0, which makes the theory exact.
-    pub(super) elastically_similar: bool,
-    pub(super) friction: Real,
+    pub elastically_similar: bool,
+    /// μ.
+    pub friction: Real,
     /// κ = μE*/G*.
-    pub(super) stick_slope: Real,
+    pub stick_slope: Real,
     /// At t = 0.
-    pub(super) start: Pressed,
-    /// At the smallest and the largest indentation of a load that varies.
+    pub start: Pressed,
+    /// At the smallest indentation of a load that varies.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) least: Option<Pressed>,
+    pub least: Option<Pressed>,
+    /// At the largest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) most: Option<Pressed>,
+    pub most: Option<Pressed>,
 }
 
 /// What depends on the indentation. Forces, radius and pressure are those of one contact, stiffnesses of all `count`.
 #[derive(Debug, Serialize)]
-pub(super) struct Pressed {
+pub struct Pressed {
     /// F_N of one contact.
     #[serde(rename = "normal_force_N")]
-    pub(super) normal_force: Real,
+    pub normal_force: Real,
     /// d; negative: open.
     #[serde(rename = "indentation_m")]
-    pub(super) indentation: Real,
+    pub indentation: Real,
     /// a.
     #[serde(rename = "contact_radius_m")]
-    pub(super) radius: Real,
+    pub radius: Real,
     /// Infinite at tips and edges; none for a list of springs.
     #[serde(rename = "peak_pressure_Pa", skip_serializing_if = "Option::is_none")]
-    pub(super) peak_pressure: Option<Real>,
+    pub peak_pressure: Option<Real>,
     /// u_c = κd.
     #[serde(rename = "gross_slip_displacement_m")]
-    pub(super) gross_slip: Real,
+    pub gross_slip: Real,
     /// S₀ of the quasi-static, damped limit without load.
     #[serde(rename = "zero_step_stroke_m")]
-    pub(super) zero_step_stroke: Real,
+    pub zero_step_stroke: Real,
     /// What the constant load on the slider makes of it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) loaded: Option<Loaded>,
+    pub loaded: Option<Loaded>,
     /// μF_N of all contacts.
     #[serde(rename = "limit_force_N")]
-    pub(super) limit_force: Real,
+    pub limit_force: Real,
     /// ∂F_x/∂u of all contacts in full stick; 0 without friction.
     #[serde(rename = "tangential_stiffness_N_m")]
-    pub(super) tangential_stiffness: Real,
+    pub tangential_stiffness: Real,
     /// ∂F_N/∂d of all contacts.
     #[serde(rename = "normal_stiffness_N_m")]
-    pub(super) normal_stiffness: Real,
+    pub normal_stiffness: Real,
     /// Of the stuck contacts alone between their two bodies; none where neither is free.
     #[serde(rename = "contact_resonance_Hz", skip_serializing_if = "Option::is_none")]
-    pub(super) resonance: Option<Real>,
+    pub resonance: Option<Real>,
 }
 
 /// A constant load on a body that depends on one contact only.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Loaded {
+pub struct Loaded {
     /// Loads and gravity along x.
     #[serde(rename = "force_N")]
-    pub(super) force: Real,
+    pub force: Real,
     /// |force|/μF_N.
-    pub(super) share: Real,
+    pub share: Real,
     /// S₀ where the load opposes the steps; none where the contact does not hold it.
     #[serde(rename = "zero_step_stroke_m", skip_serializing_if = "Option::is_none")]
-    pub(super) zero_step_stroke: Option<Real>,
+    pub zero_step_stroke: Option<Real>,
 }
 
 /// All contacts.
-pub(super) fn of(job: &Job) -> Parts<ContactInfo> {
+pub fn contacts(job: &Job) -> Parts<ContactInfo> {
     let contacts = job.model.contacts().enumerate();
     Parts(contacts.filter_map(|(c, (name, law))| Some((name.to_owned(), contact(job, c, law)?))).collect())
 }
@@ -145,7 +149,7 @@ impl Pressed {
 }
 
 /// Name of a side.
-pub(super) fn name(job: &Job, side: Side) -> String {
+pub fn name(job: &Job, side: Side) -> String {
     match side {
         Side::Ground => "ground".to_owned(),
         Side::Body(body) => job.scenario.scene.bodies.get(body).map(|b| b.name.clone()).unwrap_or_default(),

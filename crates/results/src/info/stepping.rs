@@ -1,31 +1,38 @@
 //! How time is stepped, and what fixed steps could be.
 
+use crate::job::Job;
+use crate::real::Real;
 use serde::Serialize;
 use stickslip_drive::Stepper;
-use stickslip_results::{Job, Real};
 
 /// How time is stepped, and what fixed steps could be.
 #[derive(Debug, Serialize)]
-pub(super) struct Stepping {
-    pub(super) stepper: &'static str,
+pub struct Stepping {
+    /// Name of the stepper that the run takes.
+    pub stepper: &'static str,
+    /// Its tolerance, …
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) tolerance: Option<Real>,
+    pub tolerance: Option<Real>,
+    /// … or its step.
     #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
-    pub(super) step: Option<Real>,
+    pub step: Option<Real>,
+    /// Simulated time.
     #[serde(rename = "duration_s")]
-    pub(super) duration: Real,
+    pub duration: Real,
     /// Largest change of a step, relative, at which the run ends earlier.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) until_steady: Option<Real>,
-    /// Longest stable steps with all contacts stuck and as deep as they get; none where nothing swings.
+    pub until_steady: Option<Real>,
+    /// Longest stable step of velocity Verlet with all contacts stuck and as deep as they get; none where nothing swings.
     #[serde(rename = "longest_verlet_step_s", skip_serializing_if = "Option::is_none")]
-    pub(super) longest_verlet: Option<Real>,
+    pub longest_verlet: Option<Real>,
+    /// The same of the classical Runge–Kutta method.
     #[serde(rename = "longest_rk4_step_s", skip_serializing_if = "Option::is_none")]
-    pub(super) longest_rk4: Option<Real>,
+    pub longest_rk4: Option<Real>,
 }
 
 impl Stepping {
-    pub(super) fn of(job: &Job) -> Self {
+    /// That of a job.
+    pub fn of(job: &Job) -> Self {
         let (stepper, word, value) = job.stepper();
         let value_if = |wanted| (word == wanted).then_some(Real(value));
         let longest = |stepper| job.model.longest_step(stepper).filter(|step| step.is_finite()).map(Real);

@@ -1,65 +1,68 @@
 //! What moves: bodies, waveforms, normal modes.
 
+use crate::job::Job;
+use crate::parts::Parts;
+use crate::real::Real;
 use serde::Serialize;
 use stickslip_drive::Waveform;
-use stickslip_drive::facts::{self, Follower, Mode};
+use stickslip_drive::facts::{self, Follower, Mode, followers};
 use stickslip_drive::scene::{Axis, Coordinate, Freedom, Scene};
-use stickslip_results::Job;
-use stickslip_results::Parts;
-use stickslip_results::Real;
-
-pub(super) use stickslip_drive::facts::followers;
 
 /// A body.
 #[derive(Debug, Serialize)]
-pub(super) struct BodyInfo {
+pub struct BodyInfo {
+    /// Mass; none of a body that needs none.
     #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
-    pub(super) mass: Option<Real>,
+    pub mass: Option<Real>,
     /// What each coordinate does, by name.
-    pub(super) coordinates: Parts<Freed>,
+    pub coordinates: Parts<Freed>,
 }
 
 /// What a coordinate does, in the scenario's words.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Freed {
+pub enum Freed {
+    /// Stays where it was drawn.
     Fixed,
+    /// Moves by its equation of motion.
     Free,
+    /// Follows this waveform.
     Follows(String),
 }
 
 /// A waveform.
 #[derive(Debug, Serialize)]
-pub(super) struct WaveformInfo {
+pub struct WaveformInfo {
+    /// Period; none of a waveform that does not repeat.
     #[serde(rename = "period_s", skip_serializing_if = "Option::is_none")]
-    pub(super) period: Option<Real>,
+    pub period: Option<Real>,
     /// Smallest and largest value over all time, where it drives lengths …
     #[serde(rename = "range_m", skip_serializing_if = "Option::is_none")]
-    pub(super) lengths: Option<[Real; 2]>,
+    pub lengths: Option<[Real; 2]>,
     /// … and where it drives forces.
     #[serde(rename = "range_N", skip_serializing_if = "Option::is_none")]
-    pub(super) forces: Option<[Real; 2]>,
+    pub forces: Option<[Real; 2]>,
     /// What follows it.
-    pub(super) drives: Vec<String>,
+    pub drives: Vec<String>,
 }
 
 /// A normal mode with all contacts stuck.
 #[derive(Debug, Serialize)]
-pub(super) struct ModeInfo {
+pub struct ModeInfo {
     /// With all contacts as deep as at t = 0; 0: nothing holds this motion.
     #[serde(rename = "frequency_Hz")]
-    pub(super) frequency: Real,
+    pub frequency: Real,
     /// Of the mode of this place with all contacts at their smallest and largest indentation, where loads vary.
     #[serde(rename = "frequency_range_Hz", skip_serializing_if = "Option::is_none")]
-    pub(super) range: Option<[Real; 2]>,
+    pub range: Option<[Real; 2]>,
     /// Share of critical damping.
-    pub(super) damping_ratio: Real,
+    pub damping_ratio: Real,
     /// Displacements of the coordinates, the largest 1.
-    pub(super) shape: Parts<Real>,
+    pub shape: Parts<Real>,
 }
 
 /// All bodies.
-pub(super) fn bodies(job: &Job) -> Parts<BodyInfo> {
+pub fn bodies(job: &Job) -> Parts<BodyInfo> {
     let scene = &job.scenario.scene;
     let body = |body: &stickslip_drive::scene::Named<stickslip_drive::scene::Body>| {
         let of = |(axis, coordinate): (Axis, Coordinate)| {
@@ -87,7 +90,7 @@ impl Freed {
 }
 
 /// All waveforms.
-pub(super) fn waveforms(job: &Job) -> Parts<WaveformInfo> {
+pub fn waveforms(job: &Job) -> Parts<WaveformInfo> {
     let followers = followers(&job.scenario.scene);
     let waveform = |(w, named): (usize, &stickslip_drive::scene::Named<Waveform>)| {
         let mine: Vec<&Follower> = followers.iter().filter(|follower| follower.waveform == w).collect();
@@ -107,7 +110,7 @@ pub(super) fn waveforms(job: &Job) -> Parts<WaveformInfo> {
 }
 
 /// All normal modes.
-pub(super) fn modes(job: &Job) -> Vec<ModeInfo> {
+pub fn modes(job: &Job) -> Vec<ModeInfo> {
     let mode = |mode: Mode| ModeInfo {
         frequency: Real(mode.frequency),
         range: mode.range.map(|(low, high)| [Real(low), Real(high)]),
