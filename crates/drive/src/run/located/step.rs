@@ -94,7 +94,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The method of the step just made.
     fn method(&self, aim: &Aim) -> Method {
         match aim.grade {
-            _ if self.motion.solver.coasts() && self.setting.layout.free > 0 => Method::Parabola,
+            _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
             Grade::Even => self.setting.method,
             Grade::Start | Grade::End => Method::Graded,
         }

@@ -1,0 +1,183 @@
+//! What is told of a run beforehand is what it does: the methods and the treatments of contacts that
+//! [`stickslip_drive::Model::expected`] names, and `info` prints, hold all that the run counts.
+//!
+//! All examples, and variants of them drawn at random with a fixed seed: profiles, engines, steppers, tolerances, friction,
+//! damping, waveforms, loads, links.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and shows what it saw"
+)]
+
+use std::path::PathBuf;
+use stickslip_drive::{Limits, Method, Model, Plan, Stepper, Treatment, run};
+use stickslip_scenario::Scenario;
+
+const VARIANTS: usize = 200;
+/// Longest simulated time of a variant, in parts of its own.
+const PART: f64 = 0.3;
+
+fn scenarios() -> Vec<PathBuf> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|e| e == "json")).collect();
+    files.sort();
+    files
+}
+
+/// Marsaglia's xorshift64.
+struct Lottery(u64);
+
+impl Lottery {
+    fn draw(&mut self, among: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 % among as u64) as usize
+    }
+
+    fn one<'a>(&mut self, among: &[&'a str]) -> &'a str {
+        among[self.draw(among.len())]
+    }
+}
+
+const PROFILES: [&str; 5] = [
+    r#"{"cone":{"slope":0.01}}"#,
+    r#"{"sphere":{"radius":"1 mm"}}"#,
+    r#"{"power":{"coefficient":1e12,"exponent":4}}"#,
+    r#"{"flat":{"radius":"20 um"}}"#,
+    r#"{"paraboloid":{"radius":"2 mm"}}"#,
+];
+const WAVEFORMS: [&str; 4] = [
+    r#"{"sine":{"amplitude":"0.3 um","period":"1 ms"}}"#,
+    r#"{"triangle":{"stroke":"0.4 um","period":"1 ms"}}"#,
+    r#"{"cycloid":{"stroke":"0.4 um","period":"1 ms","flyback":"0.2 ms"}}"#,
+    r#"{"sawtooth":{"stroke":"0.4 um","period":"1 ms","flyback":"20 us"}}"#,
+];
+const STEPPERS: [&str; 6] = [
+    r#"{"event":{"tolerance":1e-4}}"#,
+    r#"{"event":{"tolerance":1e-6}}"#,
+    r#"{"event":{"tolerance":1e-9}}"#,
+    r#"{"verlet":{"step":"1 us"}}"#,
+    r#"{"rk4":{"step":"1 us"}}"#,
+    r#"{"dopri5":{"tolerance":1e-6}}"#,
+];
+const LINKS: [&str; 3] = [
+    r#""stiffness":1e3,"damping":0"#,
+    r#""stiffness":0,"damping":0.1"#,
+    r#""stiffness":1e4,"damping":1,"preload":"1 mN""#,
+];
+
+/// Overrides of one to three things of a scenario.
+fn drawn(base: &Scenario, lottery: &mut Lottery) -> Vec<(String, String)> {
+    let scene = &base.scene;
+    let mut set = Vec::new();
+    for _ in 0..=lottery.draw(3) {
+        let contact = scene.contacts.get(lottery.draw(scene.contacts.len().max(1)));
+        let Some(contact) = contact.map(|contact| format!("contacts.{}", contact.name)) else { continue };
+        let waveform = scene.waveforms.get(lottery.draw(scene.waveforms.len().max(1)));
+        let free = scene.bodies.iter().find(|body| body.part.is_free());
+        set.push(match lottery.draw(9) {
+            0 => (format!("{contact}.profile"), lottery.one(&PROFILES).to_owned()),
+            1 => (format!("{contact}.friction"), lottery.one(&["0", "0.05", "0.3", "1"]).to_owned()),
+            2 => (format!("{contact}.damping"), lottery.one(&["1e-6", "1e-5"]).to_owned()),
+            3 => (format!("{contact}.count"), lottery.one(&["1", "2", "5"]).to_owned()),
+            4 => (format!("{contact}.engine"), r#"{"springs":{"count":64}}"#.to_owned()),
+            5 => (format!("{contact}.normal"), r#"{"force":"0.4 N"}"#.to_owned()),
+            6 => ("run.stepper".to_owned(), lottery.one(&STEPPERS).to_owned()),
+            7 => match waveform {
+                Some(waveform) => {
+                    (format!("waveforms.{}", waveform.name), lottery.one(&WAVEFORMS).to_owned())
+                }
+                None => continue,
+            },
+            _ => match free {
+                Some(body) => {
+                    let link = lottery.one(&LINKS);
+                    let ends = format!(r#""between":["ground","{}"],"direction":"x""#, body.name);
+                    ("springs".to_owned(), format!(r#"{{"drawn":{{{ends},{link}}}}}"#))
+                }
+                None => continue,
+            },
+        });
+    }
+    set
+}
+
+/// Runs a scenario and compares; false where it makes no scene.
+fn compare(file: &std::path::Path, set: &[(String, String)], part: f64) -> bool {
+    let overrides: Vec<(&str, &str)> =
+        set.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
+    let Ok(scenario) = Scenario::load_with(file, &overrides) else { return false };
+    let Ok(model) = Model::new(&scenario.scene) else { return false };
+    let limits = Limits { steps: 200_000, events: 20_000, wall: Some(2.0) };
+    let plan = Plan { duration: part * scenario.plan.duration, limits, every: None, ..scenario.plan };
+    let Ok(mut state) = model.start(&plan) else { return false };
+    let expected = model.expected(&state, plan.stepper);
+    // Where a run stops itself, what it has done until then is as good.
+    let _ = run(&model, &plan, &mut state, &mut ());
+    let told = format!("{} {set:?}: {expected:?}, counted {:?}", file.display(), state.tally());
+    for method in Method::ALL {
+        assert!(state.tally().steps(method) == 0 || expected.takes(method), "{method:?} of {told}");
+    }
+    for c in 0..scenario.scene.contacts.len() {
+        for treatment in Treatment::ALL {
+            let counted = state.tally().intervals(c, treatment);
+            assert!(
+                counted == 0 || expected.treats(c, treatment).is_some(),
+                "{treatment:?} of {c} in {told}"
+            );
+        }
+    }
+    // What is named first does the work, unless all of it was gross slip.
+    let (first, _) = expected.methods[0];
+    let done = state.counts().steps == 0
+        || [first, Method::Parabola, Method::Graded].iter().any(|m| state.tally().steps(*m) > 0);
+    assert!(done, "{first:?} first of {told}");
+    true
+}
+
+#[test]
+fn examples_do_what_is_told_of_them() {
+    for file in scenarios() {
+        assert!(compare(&file, &[], 1.0), "{}", file.display());
+    }
+}
+
+#[test]
+fn drawn_variants_do_what_is_told_of_them() {
+    let files = scenarios();
+    let mut lottery = Lottery(0x5eed_0f11);
+    let (mut ran, mut refused) = (0, 0);
+    while ran < VARIANTS {
+        let file = &files[lottery.draw(files.len())];
+        let base = Scenario::load(file).unwrap();
+        let set = drawn(&base, &mut lottery);
+        if compare(file, &set, PART) {
+            ran += 1
+        } else {
+            refused += 1
+        }
+        assert!(refused < 3 * VARIANTS, "most variants make no scene");
+    }
+    println!("{ran} ran, {refused} made no scene");
+}
+
+/// What a reader of `info` once was told wrongly: a slider on a vibrating foot is dragged in closed form, too, and a second
+/// ball takes no parabola away.
+#[test]
+fn closed_forms_are_named_where_they_are_taken() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let expected = |name: &str, set: &[(&str, &str)]| {
+        let scenario = Scenario::load_with(&folder.join(name), set).unwrap();
+        let model = Model::new(&scenario.scene).unwrap();
+        model.expected(&model.start(&scenario.plan).unwrap(), Stepper::Event { tolerance: 1e-8 })
+    };
+    let vibrated = expected("vibrated_slider.json", &[]);
+    assert!((0..2).all(|c| vibrated.treats(c, Treatment::Closed).is_some()), "{vibrated:?}");
+    let second = r#"{"between":["foot","slider"],"materials":["ruby","steel"],"profile":{"paraboloid":{"radius":"0.5 mm"}},"friction":0.2,"normal":{"force":"0.3 N"}}"#;
+    let doubled = expected("quickstart.json", &[("contacts.second", second)]);
+    assert!(doubled.takes(Method::Parabola) && doubled.takes(Method::Swing), "{doubled:?}");
+}
