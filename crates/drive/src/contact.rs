@@ -19,7 +19,7 @@ pub(crate) struct Contact {
     pub(crate) name: String,
     /// u = x(first) - x(second) at the contact point, counted from the start.
     pub(crate) u: Measure,
-    pub(crate) law: Interface,
+    pub(crate) interface: Interface,
     pub(crate) engine: Engine,
     pub(crate) press: Press,
     /// Number of identical contacts.
@@ -86,12 +86,12 @@ impl Contact {
             Press::Constant { d, .. } => (d, 0.0),
             Press::Indentation(_) | Press::Coupled(_) => (sample.value, sample.rate),
             Press::Force(_) => {
-                let d = self.law.indentation(sample.value.max(0.0));
-                let stiffness = self.law.normal_stiffness(d);
+                let d = self.interface.indentation(sample.value.max(0.0));
+                let stiffness = self.interface.normal_stiffness(d);
                 (d, if stiffness > 0.0 { sample.rate / stiffness } else { 0.0 })
             }
             Press::Radius(_) => {
-                let (radius, profile) = (sample.value.max(0.0), self.law.profile());
+                let (radius, profile) = (sample.value.max(0.0), self.interface.profile());
                 (profile.depth(radius), sample.rate * profile.depth_slope(radius))
             }
         }

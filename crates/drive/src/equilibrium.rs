@@ -40,7 +40,7 @@ impl Model {
             self.settle(&mut state)?;
         }
         let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());
-        state.jumps = -varying.map(|c| c.count * c.law.normal_energy(self.indentation(c))).sum::<f64>()
+        state.jumps = -varying.map(|c| c.count * c.interface.normal_energy(self.indentation(c))).sum::<f64>()
             - self.lifted(|i| state.y[i]);
         let mut row = Vec::new();
         record::fill(&self.equations(&state), &state, 0.0, &|i| state.y[i], &mut row);
@@ -105,7 +105,7 @@ impl Model {
         let memories = self.contacts.iter().zip(&mut state.memories);
         for (i, ((contact, memory), to)) in memories.zip(apexes).enumerate() {
             memory
-                .commit(&contact.law, Segment::Straight(to))
+                .commit(&contact.interface, Segment::Straight(to))
                 .map_err(|error| SceneFault::Settling(error).of(Part::Contact(i), Field::Engine))?;
         }
         state.y.clone_from(&balance.y);

@@ -21,23 +21,23 @@ use stickslip_contact::{Profile, SteadyBranch};
 /// What evaluations between two events need. Scratch: made anew after each event.
 #[derive(Debug, Clone)]
 pub(crate) struct Interval<'a> {
-    pub(crate) steady: Vec<Steady<'a>>,
+    pub(crate) closed: Vec<Closed<'a>>,
     /// Contacts that go through the general equations.
     pub(crate) others: Vec<usize>,
     /// Contacts that are apart and may touch.
     pub(crate) apart: Vec<usize>,
-    /// By contact: its place among the steady ones.
+    /// By contact: its place among those of closed form.
     places: Vec<Option<usize>>,
     /// What decides the method: of the scene, and of the interval.
     pub(crate) scene: SceneTraits,
     pub(crate) traits: IntervalTraits,
-    /// That slider, where nothing but steady contacts acts on it.
+    /// That slider, where nothing but contacts of closed form acts on it.
     pub(crate) slider: Option<Slider>,
     /// What its contacts make of it.
     pub(crate) pulls: Vec<Pull<'a>>,
 }
 
-/// A single slider among steady contacts: its acceleration is a₀ + Σ a M(h_c) and the power put in P₀ + Σ P M(h_c), over
+/// A single slider among contacts of closed form: its acceleration is a₀ + Σ a M(h_c) and the power put in P₀ + Σ P M(h_c), over
 /// the contacts in partial slip.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Slider {
@@ -84,7 +84,7 @@ impl Pull<'_> {
 
 /// A contact at constant indentation on one branch.
 #[derive(Debug, Clone)]
-pub(crate) struct Steady<'a> {
+pub(crate) struct Closed<'a> {
     /// Its place among the contacts.
     pub(crate) index: usize,
     pub(crate) contact: &'a Contact,
@@ -98,7 +98,7 @@ pub(crate) struct Steady<'a> {
     branch: SteadyBranch,
 }
 
-impl Steady<'_> {
+impl Closed<'_> {
     /// The part of u that does not depend on the free coordinates, m, and its derivatives.
     #[inline(always)]
     pub(crate) fn followed(&self, t: f64) -> Sample {
@@ -113,7 +113,7 @@ impl Steady<'_> {
     /// Force along u on the coordinates, N: what the contacts exert, less than zero forward.
     #[inline(always)]
     pub(crate) fn force(&self, u: f64) -> f64 {
-        -self.contact.count * self.branch.force(self.contact.law.profile(), u)
+        -self.contact.count * self.branch.force(self.contact.interface.profile(), u)
     }
 
     /// u at time t, s; `x` reads positions of free coordinates.
@@ -185,7 +185,7 @@ impl<'a> Interval<'a> {
     pub(crate) fn of(model: &Model) -> Self {
         let count = model.contacts.len();
         Self {
-            steady: Vec::with_capacity(count),
+            closed: Vec::with_capacity(count),
             others: Vec::with_capacity(count),
             apart: Vec::with_capacity(count),
             places: Vec::with_capacity(count),
@@ -196,32 +196,32 @@ impl<'a> Interval<'a> {
         }
     }
 
-    /// Contact `c`, if it is steady.
+    /// Contact `c`, if its form is closed.
     #[inline]
-    pub(crate) fn steady(&self, c: usize) -> Option<&Steady<'a>> {
-        self.places.get(c).copied().flatten().map(|place| &self.steady[place])
+    pub(crate) fn closed_form(&self, c: usize) -> Option<&Closed<'a>> {
+        self.places.get(c).copied().flatten().map(|place| &self.closed[place])
     }
 
-    /// The contacts whose motion a steady contact's closed forms do not give.
+    /// The contacts whose motion a contact of closed form's closed forms do not give.
     #[inline(always)]
-    pub(crate) fn unsteady(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn open_form(&self) -> impl Iterator<Item = usize> + '_ {
         self.others.iter().chain(&self.apart).copied()
     }
 
     /// Whether there are none.
     #[inline(always)]
-    pub(crate) fn is_steady(&self) -> bool {
+    pub(crate) fn is_closed(&self) -> bool {
         self.others.is_empty() && self.apart.is_empty()
     }
 
     /// Works out what stays the same from a state on.
     pub(crate) fn begin(&mut self, model: &'a Model, state: &State) {
-        self.steady.clear();
+        self.closed.clear();
         self.others.clear();
         self.apart.clear();
         self.places.clear();
         for (c, (contact, mode)) in model.contacts.iter().zip(&state.modes).enumerate() {
-            let place = self.steady.len();
+            let place = self.closed.len();
             let mut followed = None;
             let of = || {
                 followed = Followed::of(&contact.u, model, state);
@@ -230,14 +230,14 @@ impl<'a> Interval<'a> {
             match treatment(contact, mode, of).0 {
                 Treatment::Spared => {}
                 Treatment::Apart => self.apart.push(c),
-                Treatment::Closed => self.steady.extend(steady(c, (contact, mode), followed)),
+                Treatment::Closed => self.closed.extend(closed_form(c, (contact, mode), followed)),
                 Treatment::General => self.others.push(c),
             }
-            self.places.push((place < self.steady.len()).then_some(place));
+            self.places.push((place < self.closed.len()).then_some(place));
         }
         self.traits = IntervalTraits {
             slides: state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open),
-            straight: self.steady.iter().all(|steady| steady.followed.line().is_some()),
+            straight: self.closed.iter().all(|closed| closed.followed.line().is_some()),
             general: !self.others.is_empty(),
             gap: self.apart.iter().any(|c| !model.contacts[*c].unguarded),
             asked: false,
@@ -259,7 +259,7 @@ impl<'a> Interval<'a> {
 
     /// Counts what is done about each contact.
     pub(crate) fn count(&self, tally: &mut Tally) {
-        self.steady.iter().for_each(|steady| tally.interval(steady.index, Treatment::Closed));
+        self.closed.iter().for_each(|closed| tally.interval(closed.index, Treatment::Closed));
         self.others.iter().for_each(|c| tally.interval(*c, Treatment::General));
         self.apart.iter().for_each(|c| tally.interval(*c, Treatment::Apart));
     }
@@ -270,20 +270,20 @@ impl<'a> Interval<'a> {
         self.traits.is_constant(&self.scene)
     }
 
-    /// The steady contacts as a single slider feels them; none where a follower moves at no constant rate.
+    /// The contacts of closed form as a single slider feels them; none where a follower moves at no constant rate.
     fn pull(&mut self, slider: &Free) -> Option<Slider> {
         let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
-        for steady in &self.steady {
-            let [constant, rate, start] = steady.followed.line()?;
-            let arm = steady.arm;
-            let ((front, lean), (force, gain)) = (steady.branch.front(), steady.branch.forces());
-            let count = steady.contact.count;
+        for closed in &self.closed {
+            let [constant, rate, start] = closed.followed.line()?;
+            let arm = closed.arm;
+            let ((front, lean), (force, gain)) = (closed.branch.front(), closed.branch.forces());
+            let count = closed.contact.count;
             let (bend, work) = (-slider.mobility * arm * count, count * rate);
             sum.acceleration += bend * force;
             sum.power += work * force;
             if gain != 0.0 {
                 self.pulls.push(Pull {
-                    profile: steady.contact.law.profile(),
+                    profile: closed.contact.interface.profile(),
                     front: front + lean * constant,
                     advance: lean * rate,
                     start,
@@ -298,15 +298,15 @@ impl<'a> Interval<'a> {
 }
 
 /// A contact whose followers make a closed form of u.
-fn steady<'a>(
+fn closed_form<'a>(
     c: usize,
     (contact, mode): (&'a Contact, &Mode),
     followed: Option<Followed<'a>>,
-) -> Option<Steady<'a>> {
+) -> Option<Closed<'a>> {
     let (Mode::Slip(branch), Press::Constant { d, reduced_force }) = (mode, &contact.press) else {
         return None;
     };
-    Some(Steady {
+    Some(Closed {
         index: c,
         contact,
         guards: Guard::of(contact, mode),

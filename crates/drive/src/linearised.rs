@@ -84,12 +84,16 @@ impl Model {
         for (c, contact) in self.contacts.iter().enumerate() {
             let d = self.indentations(state, c).map_or(0.0, |d| depth(&d));
             if !contact.inert {
-                let stiffness = contact.count * contact.law.stick_stiffness(d);
+                let stiffness = contact.count * contact.interface.stick_stiffness(d);
                 add(&mut linearised.stiffness, &linearised.contacts[c], stiffness);
-                add(&mut linearised.damping, &linearised.contacts[c], contact.law.viscosity(stiffness));
+                add(&mut linearised.damping, &linearised.contacts[c], contact.interface.viscosity(stiffness));
             }
             if let Some(normal) = contact.coupling() {
-                add(&mut linearised.stiffness, &normal.free, contact.count * contact.law.normal_stiffness(d));
+                add(
+                    &mut linearised.stiffness,
+                    &normal.free,
+                    contact.count * contact.interface.normal_stiffness(d),
+                );
             }
         }
         linearised
@@ -101,7 +105,8 @@ impl Model {
     pub fn contact_resonance(&self, index: usize, d: f64) -> Option<f64> {
         let contact = self.contacts.get(index)?;
         let mobility = contact.u.mobility(|i| self.free[i].mobility);
-        let stiffness = if contact.inert { 0.0 } else { contact.count * contact.law.stick_stiffness(d) };
+        let stiffness =
+            if contact.inert { 0.0 } else { contact.count * contact.interface.stick_stiffness(d) };
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
     }
 

@@ -89,7 +89,7 @@ impl SceneTraits {
 /// Why a model's forces, or the rates of what is integrated beside its motion, depend on velocities.
 fn velocities(model: &Model) -> Option<Why> {
     let damped = model.links.iter().any(|link| link.damping > 0.0);
-    let stuck = model.contacts.iter().any(|contact| contact.law.damping() > 0.0);
+    let stuck = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
     match () {
         () if damped => Some(Why::Damper),
         () if stuck => Some(Why::ContactDamping),
@@ -145,7 +145,7 @@ pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() 
     match (mode, &contact.press) {
         _ if contact.is_never_pressed() => (Treatment::Spared, Why::NeverPressed),
         (Mode::Open, _) => (Treatment::Apart, Why::OnlyTheGap),
-        (Mode::Slip(_), Press::Constant { .. }) if contact.law.damping() == 0.0 => {
+        (Mode::Slip(_), Press::Constant { .. }) if contact.interface.damping() == 0.0 => {
             if followed() {
                 (Treatment::Closed, Why::OneEdge)
             } else {

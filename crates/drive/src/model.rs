@@ -124,20 +124,20 @@ impl Model {
 
     /// Names and laws of the contacts, in the scene's order.
     pub fn contacts(&self) -> impl Iterator<Item = (&str, &Interface)> {
-        self.contacts.iter().map(|c| (c.name.as_str(), &c.law))
+        self.contacts.iter().map(|c| (c.name.as_str(), &c.interface))
     }
 
     /// Gross-slip displacement u_c (m) and normal force of one contact (N) of contact `index` at t = 0.
     pub fn contact_scale(&self, index: usize) -> Option<(f64, f64)> {
         let contact = self.contacts.get(index)?;
         let d = self.indentation(contact);
-        Some((contact.law.gross_slip_displacement(d), contact.law.normal_force(d)))
+        Some((contact.interface.gross_slip_displacement(d), contact.interface.normal_force(d)))
     }
 
     /// Largest width 2a of contact `index`, m; 0 for one that is never pressed.
     pub fn contact_width(&self, index: usize) -> Option<f64> {
         let deepest = self.indentations(&self.rest(), index)?.most;
-        self.contacts.get(index).map(|contact| 2.0 * contact.law.profile().radius(deepest))
+        self.contacts.get(index).map(|contact| 2.0 * contact.interface.profile().radius(deepest))
     }
 
     /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.

@@ -232,22 +232,22 @@ fn contact_columns(
             force: y(layout.force(slot)),
             elastic: y(layout.elastic(slot)),
             friction: 0.0,
-            stick_radius: contact.law.profile().radius(motion.d),
+            stick_radius: contact.interface.profile().radius(motion.d),
             state: ContactState::Stick,
         },
-        _ => state.memories[c].preview(&contact.law, motion.apex()),
+        _ => state.memories[c].preview(&contact.interface, motion.apex()),
     };
     if let Some(slot) = slot {
         outcome.friction = y(layout.friction(slot));
     }
     let count = contact.count;
     let friction = state.friction[c] + count * outcome.friction;
-    let normal = count * contact.law.normal_energy(motion.d);
+    let normal = count * contact.interface.normal_energy(motion.d);
     // What sets the indentation does the work of pressing; a coupled contact's bodies do it among themselves.
     if !contact.is_constant() && contact.coupling().is_none() {
         books.input += normal;
     }
-    let damping = match contact.law.damping() {
+    let damping = match contact.interface.damping() {
         0.0 => 0.0,
         _ => contact.viscosity(equations.law(c), &motion) * motion.du,
     };
@@ -257,7 +257,7 @@ fn contact_columns(
         motion.u + state.shift(contact),
         motion.d,
         count * (outcome.force + damping),
-        count * contact.law.normal_force(motion.d),
+        count * contact.interface.normal_force(motion.d),
         outcome.stick_radius,
         state_code(outcome.state),
         count * outcome.elastic,

@@ -153,10 +153,10 @@ impl Model {
     /// The memory a contact starts with: untouched, or loaded monotonically to its starting displacement.
     fn touched(&self, contact: &Contact) -> Memory {
         let d = self.indentation(contact);
-        let mut memory = contact.engine.memory(&contact.law, Apex { d, u: 0.0 });
+        let mut memory = contact.engine.memory(&contact.interface, Apex { d, u: 0.0 });
         let to = Apex { d, u: contact.start };
         // Finite by the scene's checks, so the commit cannot fail.
-        let _ = memory.commit(&contact.law, stickslip_contact::Segment::Straight(to));
+        let _ = memory.commit(&contact.interface, stickslip_contact::Segment::Straight(to));
         memory
     }
 }
@@ -254,6 +254,6 @@ impl State {
     /// Tangential force of one contact, N, as the contacts stand.
     pub fn tangential_force(&self, model: &Model, index: usize) -> Option<f64> {
         let (contact, memory) = (model.contacts.get(index)?, self.memories.get(index)?);
-        Some(memory.trial(&contact.law, Move::Chord(memory.apex())).force)
+        Some(memory.trial(&contact.interface, Move::Chord(memory.apex())).force)
     }
 }

@@ -44,13 +44,13 @@ impl Component for Contact {
     }
 
     fn commit(&self, memory: &mut Memory, segment: &Segment) -> Result<f64, ContactError> {
-        memory.commit(&self.law, *segment)
+        memory.commit(&self.interface, *segment)
     }
 
     /// Normal and tangential, of one contact.
     fn energy(&self, standing: Standing<'_, Mode, Memory>, at: &Moment<'_, Motion>) -> f64 {
-        let normal = self.law.normal_energy(at.inputs.d);
-        normal + standing.memory.preview(&self.law, at.inputs.apex()).elastic
+        let normal = self.interface.normal_energy(at.inputs.d);
+        normal + standing.memory.preview(&self.interface, at.inputs.apex()).elastic
     }
 
     fn columns(&self) -> Vec<&'static str> {

@@ -30,9 +30,9 @@ impl Contact {
             Mode::Slip(branch) => {
                 let reduced_force = match &self.press {
                     Press::Constant { reduced_force, .. } => *reduced_force,
-                    _ => self.law.profile().reduced_force(motion.d),
+                    _ => self.interface.profile().reduced_force(motion.d),
                 };
-                branch.force(&self.law, motion.d, motion.u, reduced_force)
+                branch.force(&self.interface, motion.d, motion.u, reduced_force)
             }
             Mode::Whole { .. } if self.inert => 0.0,
             Mode::Whole { .. } => self.whole(memory, motion),
@@ -44,14 +44,14 @@ impl Contact {
     /// Force by the whole law on the committed memory.
     #[inline(never)]
     fn whole(&self, memory: &Memory, motion: &Motion) -> f64 {
-        memory.force(&self.law, motion.apex())
+        memory.force(&self.interface, motion.apex())
     }
 
     /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
     #[inline(never)]
     fn dragged(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> Dragged {
         let branching = memory.branching();
-        branching.map(|it| it.dragged(&self.law, branch.sense(), motion.apex())).unwrap_or_default()
+        branching.map(|it| it.dragged(&self.interface, branch.sense(), motion.apex())).unwrap_or_default()
     }
 
     /// Height of the slip front, m.
@@ -67,14 +67,14 @@ impl Contact {
     pub(crate) fn viscosity(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
         let stuck = match mode {
             Mode::Open => 0.0,
-            Mode::Grow => self.law.stick_stiffness(motion.d),
+            Mode::Grow => self.interface.stick_stiffness(motion.d),
             Mode::Slip(branch) if branch.is_gross() => 0.0,
-            Mode::Slip(branch) => {
-                self.law.stick_stiffness(self.front(memory, branch, motion).clamp(0.0, motion.d.max(0.0)))
-            }
-            Mode::Whole { .. } => memory.trial(&self.law, Move::Chord(motion.apex())).stiffness,
+            Mode::Slip(branch) => self
+                .interface
+                .stick_stiffness(self.front(memory, branch, motion).clamp(0.0, motion.d.max(0.0))),
+            Mode::Whole { .. } => memory.trial(&self.interface, Move::Chord(motion.apex())).stiffness,
         };
-        self.law.viscosity(stuck)
+        self.interface.viscosity(stuck)
     }
 
     /// Slopes of what a growing contact carries beside its motion.
@@ -87,13 +87,13 @@ impl Contact {
     ) -> GrowthRates {
         match mode {
             Mode::Grow => GrowthRates {
-                force: self.law.stick_stiffness(motion.d) * motion.du,
+                force: self.interface.stick_stiffness(motion.d) * motion.du,
                 elastic: force * motion.du,
                 friction: 0.0,
             },
             Mode::Slip(branch) => {
                 let front = self.front(memory, branch, motion);
-                let friction = branch.friction_power(&self.law, front, motion);
+                let friction = branch.friction_power(&self.interface, front, motion);
                 GrowthRates { friction, ..GrowthRates::default() }
             }
             Mode::Open | Mode::Whole { .. } => GrowthRates::default(),

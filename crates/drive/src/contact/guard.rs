@@ -56,7 +56,7 @@ impl Guard {
     /// Its value.
     #[inline]
     pub(crate) fn value(self, contact: &Contact, (memory, mode): (&Memory, &Mode), at: &Motion) -> f64 {
-        let slope = contact.law.stick_slope();
+        let slope = contact.interface.stick_slope();
         match (self, mode) {
             // A row needs its reversals only: its springs know by themselves when they stick.
             (Self::Drag, Mode::Whole { sense }) if *sense == 0.0 => f64::INFINITY,
@@ -77,7 +77,7 @@ impl Guard {
 
     /// Its rate, from the motion and its second derivatives (d̈, ü), where the bodies alone move the contact.
     pub(crate) fn rate(self, contact: &Contact, mode: &Mode, at: &Motion, (bend, pull): (f64, f64)) -> f64 {
-        let slope = contact.law.stick_slope();
+        let slope = contact.interface.stick_slope();
         match (self, mode) {
             (Self::Drag, Mode::Whole { sense }) => sense * pull,
             (Self::Drag, _) => mode.sense() * pull - slope * bend,
@@ -110,7 +110,7 @@ impl Guard {
 
     /// What it means that this guard fell: the event and the course after it.
     pub(crate) fn fired(self, contact: &Contact, mode: &Mode, at: &Motion) -> (EventKind, Course) {
-        let slope = contact.law.stick_slope();
+        let slope = contact.interface.stick_slope();
         let turned = if mode.sense() > 0.0 { Course::Backward } else { Course::Forward };
         let same = if mode.sense() > 0.0 { Course::Forward } else { Course::Backward };
         match self {

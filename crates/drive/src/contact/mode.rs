@@ -49,7 +49,7 @@ impl Mode {
             (None, course) => Self::Whole { sense: course.sense() },
             (Some(_), Course::Grow) => Self::Grow,
             (Some(branching), Course::Forward | Course::Backward) => {
-                Self::Slip(branching.branch(&contact.law, course.sense(), slack))
+                Self::Slip(branching.branch(&contact.interface, course.sense(), slack))
             }
         }
     }

@@ -13,7 +13,7 @@ impl Equations<'_> {
             (0..self.model.contacts.len()).for_each(|c| self.contact(c, at, sum, extra));
             return;
         };
-        for steady in &interval.steady {
+        for steady in &interval.closed {
             let followed = steady.followed(at.time());
             let force = steady.force(steady.own(|i| at.component(i)) + followed.value);
             sum.apply(&steady.contact.u.free, followed.rate, force);
@@ -31,23 +31,23 @@ impl Equations<'_> {
         let (d, dd, reduced_force) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
-                let reduced_force = contact.law.profile().reduced_force(d.value);
+                let reduced_force = contact.interface.profile().reduced_force(d.value);
                 // Apart by its law, it is so beyond the touch that will end the step.
                 if self.modes[c] != Mode::Open {
-                    let press = contact.count * (contact.law.normal_modulus() * reduced_force);
+                    let press = contact.count * (contact.interface.normal_modulus() * reduced_force);
                     sum.apply(&measure.free, d.driven, -press);
                 }
                 (d.value, d.rate, reduced_force)
             }
             _ => {
                 let (d, dd) = self.pressed(contact, at.time());
-                (d, dd, contact.law.profile().reduced_force(d))
+                (d, dd, contact.interface.profile().reduced_force(d))
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
         let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
-                let [force, friction] = branch.drag(&contact.law, &motion, reduced_force);
+                let [force, friction] = branch.drag(&contact.interface, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }
@@ -60,7 +60,7 @@ impl Equations<'_> {
                 force
             }
         };
-        if contact.law.damping() > 0.0 {
+        if contact.interface.damping() > 0.0 {
             let damping = contact.viscosity(self.law(c), &motion);
             sum.damping += contact.count * damping * motion.du * motion.du;
             force += damping * motion.du;

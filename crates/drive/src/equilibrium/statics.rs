@@ -49,13 +49,13 @@ impl Model {
         let mut statics = Statics { net: loads, acting, noise, stiffness: DMatrix::zeros(n, n) };
         for ((contact, memory), to) in self.contacts.iter().zip(&state.memories).zip(self.apexes(state, y)) {
             let (count, tangents) = (contact.count, tangents(contact, memory, to));
-            let limit = contact.law.friction().min(1.0) * contact.law.normal_force(to.d);
+            let limit = contact.interface.friction().min(1.0) * contact.interface.normal_force(to.d);
             statics.push(&contact.u, -count * tangents.force, count * tangents.force.abs().max(limit));
             statics.stiffen(&contact.u, &contact.u, count * tangents.along, y);
             if let Some(normal) = contact.coupling() {
-                let force = count * contact.law.normal_force(to.d);
+                let force = count * contact.interface.normal_force(to.d);
                 statics.push(normal, -force, force);
-                statics.stiffen(normal, normal, count * contact.law.normal_stiffness(to.d), y);
+                statics.stiffen(normal, normal, count * contact.interface.normal_stiffness(to.d), y);
                 statics.stiffen(&contact.u, normal, count * tangents.across, y);
             }
         }
@@ -98,7 +98,7 @@ fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     if contact.inert {
         return Tangents::default();
     }
-    let (law, from) = (&contact.law, memory.apex());
+    let (law, from) = (&contact.interface, memory.apex());
     let response = memory.trial(law, Move::Chord(to));
     let (rise, shift) = (to.d - from.d, to.u - from.u);
     let (mut along, mut across) = (response.stiffness, response.coupling);

@@ -1,6 +1,6 @@
 //! The swing of a single slider between two events, in closed form but for one smooth quadrature.
 //!
-//! Where nothing but steady contacts acts on a single slider and all of them slide over the same straight follower, the
+//! Where nothing but contacts of closed form acts on a single slider and all of them slide over the same straight follower, the
 //! displacement q between the two counts alone: q̈ = b(q), falling as slip spreads. Its first integral is known,
 //! q̇² = ν² = ν₀² + 2∫b dq, concave in q, with one zero before and one after the motion: the turning points q₁ < q₂ of an
 //! oscillation of which the interval is an arc. With
@@ -106,7 +106,7 @@ impl Swing {
     /// Takes up what an interval has become; false where it has no such form.
     pub(crate) fn begin(&mut self, interval: &Interval<'_>, slider: &Free, start: Place) -> bool {
         let Some(pull) = &interval.slider else { return false };
-        let Some(first) = interval.steady.first() else { return false };
+        let Some(first) = interval.closed.first() else { return false };
         if first.arm == 0.0 {
             return false;
         }
@@ -117,7 +117,7 @@ impl Swing {
         (self.mobility, self.load) = (slider.mobility, slider.force);
         self.push = self.sense * pull.acceleration;
         self.reach = f64::INFINITY;
-        for steady in &interval.steady {
+        for steady in &interval.closed {
             if steady.sense() * steady.arm * self.sense <= 0.0
                 || steady.constant_rate() != Some(self.drift * steady.arm)
             {

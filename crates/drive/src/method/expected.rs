@@ -149,9 +149,9 @@ impl Model {
         let (d, way) = (contact.natural.depth, by * contact.natural.displacement);
         let equations = Equations::on(self, state, self.layout(), false);
         let u = equations.motion(contact, state.t, |i| state.y[i]).u;
-        let mut memory = contact.engine.memory(&contact.law, Apex { d, u: u - way });
+        let mut memory = contact.engine.memory(&contact.interface, Apex { d, u: u - way });
         // Where that is not to be had the contact stays as it was made.
-        let _ = memory.commit(&contact.law, Segment::Straight(Apex { d, u }));
+        let _ = memory.commit(&contact.interface, Segment::Straight(Apex { d, u }));
         memory
     }
 }
@@ -170,6 +170,9 @@ fn piece(waveform: &Waveform, straight: bool) -> crate::Piece {
     for _ in 0..PIECES {
         if piece.line().is_some() == straight {
             return piece;
+        }
+        if piece.end == f64::INFINITY {
+            break;
         }
         piece = waveform.after(&piece);
     }

@@ -52,7 +52,7 @@ pub(super) fn build(
     let contact = Contact {
         name: name.clone(),
         u,
-        law: law.clone(),
+        interface: law.clone(),
         engine,
         press,
         count: f64::from(part.count.max(1)),

@@ -31,7 +31,7 @@ pub(super) fn check(
             return refused(part, w);
         }
     }
-    for (i, contact) in contacts.iter().enumerate().filter(|(_, contact)| contact.law.damping() > 0.0) {
+    for (i, contact) in contacts.iter().enumerate().filter(|(_, contact)| contact.interface.damping() > 0.0) {
         if let Some(w) = driven(&contact.u) {
             return refused(Part::Contact(i), w);
         }

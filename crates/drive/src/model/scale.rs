@@ -40,8 +40,8 @@ pub(super) fn assign(
         let fastest = moved.map(|(i, _)| frequency[*i]).fold(0.0, f64::max);
         c.natural = Natural {
             depth: d.max(0.0),
-            displacement: c.law.gross_slip_displacement(d),
-            force: c.law.friction() * c.law.normal_force(d.max(0.0)),
+            displacement: c.interface.gross_slip_displacement(d),
+            force: c.interface.friction() * c.interface.normal_force(d.max(0.0)),
             frequency: if fastest > 0.0 { fastest } else { slow },
         };
     }
@@ -57,10 +57,10 @@ fn springs(contacts: &[Contact], free: usize, links: &[Link], deepest: &[f64]) -
     };
     for (c, &d) in contacts.iter().zip(deepest) {
         for term in &c.u.free {
-            add(*term, c.count * c.law.stick_stiffness(d), c.law.gross_slip_displacement(d));
+            add(*term, c.count * c.interface.stick_stiffness(d), c.interface.gross_slip_displacement(d));
         }
         for term in c.coupling().iter().flat_map(|measure| &measure.free) {
-            add(*term, c.count * c.law.normal_stiffness(d), d);
+            add(*term, c.count * c.interface.normal_stiffness(d), d);
         }
     }
     for link in links {

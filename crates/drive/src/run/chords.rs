@@ -146,7 +146,7 @@ impl<'a> Chords<'a> {
             let memories = self.model.contacts.iter().zip(&self.state.memories).map(|(contact, memory)| {
                 let apex = eq.motion(contact, due, |i| step.value(i, due)).apex();
                 let mut memory = memory.clone();
-                memory.commit(&contact.law, Segment::Straight(apex)).map(|_| memory)
+                memory.commit(&contact.interface, Segment::Straight(apex)).map(|_| memory)
             });
             let memories: Result<Vec<_>, _> = memories.collect();
             self.output.looks.show(memories.as_deref().ok(), self.record);
@@ -177,7 +177,7 @@ impl<'a> Chords<'a> {
         for (c, motion) in self.motions.iter().enumerate() {
             let contact = &self.model.contacts[c];
             let memory = &self.state.memories[c];
-            let now = memory.preview(&contact.law, memory.apex()).state;
+            let now = memory.preview(&contact.interface, memory.apex()).state;
             let sense = if motion.du == 0.0 { self.standings[c].0 } else { motion.du.signum() };
             let (before, was) = std::mem::replace(&mut self.standings[c], (sense, now));
             let kind = match (was, now) {

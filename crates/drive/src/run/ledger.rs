@@ -19,7 +19,7 @@ pub(super) struct Ledger {
     committed: f64,
 }
 
-/// Where the memories of steady contacts are.
+/// Where the memories of contacts of closed form are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Books {
     /// Where the state is.
@@ -74,7 +74,7 @@ impl Ledger {
         for &(c, segment) in &self.segments {
             let contact = &model.contacts[c];
             let friction = state.memories[c]
-                .commit(&contact.law, segment)
+                .commit(&contact.interface, segment)
                 .map_err(|source| RunError::Contact { t, contact: contact.name.clone(), source })?;
             // Where the friction of a growing contact is an integral it is no work of its commits.
             if contact.slot.is_none() || layout.growing == 0 {

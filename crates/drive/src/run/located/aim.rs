@@ -4,7 +4,7 @@ use super::Located;
 use super::watch::Watch;
 use crate::contact::{Contact, Guard, Mode};
 use crate::equations::Equations;
-use crate::interval::Steady;
+use crate::interval::Closed;
 use crate::model::Measure;
 use crate::quadrature;
 use crate::state::State;
@@ -103,9 +103,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// About when the first piece of memory will be used up: a step much longer would only be thrown away.
     fn piece_end(&self, state: &State) -> Option<Expected> {
         let (eq, n) = (self.setting.equations(state, &self.interval), self.setting.layout.free);
-        let of_steady = |steady: &Steady<'_>| Watch::expected_of_steady(steady, n, &self.motion.solver);
-        let steady = self.interval.steady.iter().map(|steady| (steady.index, of_steady(steady)));
-        let all = steady.chain(self.interval.unsteady().map(|c| (c, self.watch.expected_of(&eq, c))));
+        let of_steady = |steady: &Closed<'_>| Watch::expected_of_closed(steady, n, &self.motion.solver);
+        let steady = self.interval.closed.iter().map(|steady| (steady.index, of_steady(steady)));
+        let all = steady.chain(self.interval.open_form().map(|c| (c, self.watch.expected_of(&eq, c))));
         let (contact, left) = all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, left)| left.is_finite())?;
         Some(Expected { left, contact, guard: Guard::Piece })
     }
@@ -133,10 +133,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return None;
         }
         let gain = contact.count * measure.mobility(|i| self.setting.model.free[i].mobility);
-        let rest = bend + gain * contact.law.normal_force(d);
-        let energy = contact.law.normal_energy(d);
-        let square =
-            |x: f64| v * v - 2.0 * rest * (d - x) + 2.0 * gain * (energy - contact.law.normal_energy(x));
+        let rest = bend + gain * contact.interface.normal_force(d);
+        let energy = contact.interface.normal_energy(d);
+        let square = |x: f64| {
+            v * v - 2.0 * rest * (d - x) + 2.0 * gain * (energy - contact.interface.normal_energy(x))
+        };
         let end = square(0.0);
         if !(end > 0.0 && d < within * end.sqrt()) {
             return None;

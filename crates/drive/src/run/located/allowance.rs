@@ -27,7 +27,7 @@ impl Allowance {
     /// Of growing contacts' forces; the rest is known step by step. The integrals of work steer the steps as well: energy
     /// books close at the tolerance.
     pub(super) fn new(model: &Model, tolerance: f64) -> Self {
-        let kinks = model.contacts.iter().any(|contact| contact.law.profile().has_kinks());
+        let kinks = model.contacts.iter().any(|contact| contact.interface.profile().has_kinks());
         let strict = if kinks { (KINKS * tolerance).max(f64::min(tolerance, FINEST)) } else { tolerance };
         let layout = model.layout();
         let mut scale = vec![0.0; layout.total()];

@@ -113,10 +113,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
         let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
-        if motion.du.abs() <= near && contact.law.stick_slope() * motion.dd.abs() <= near {
+        if motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near {
             (motion.dd, motion.du) = self.push(state, c, &motion);
         }
-        let course = state.memories[c].course(&contact.law, motion.d, motion.dd, motion.du);
+        let course = state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du);
         let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
         // A branch that goes on in its sense is still anchored where it was.
         if !same || !matches!(state.modes[c], Mode::Slip(_)) {
@@ -137,7 +137,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         };
         let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
         let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;
-        if pull.abs().max(contact.law.stick_slope() * bend.abs()) > noise {
+        if pull.abs().max(contact.interface.stick_slope() * bend.abs()) > noise {
             (bend, pull)
         } else if motion.du != 0.0 {
             (motion.dd, motion.du)
@@ -163,7 +163,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             _ => {}
         }
         if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
-            let now = state.memories[c].preview(&contact.law, state.memories[c].apex());
+            let now = state.memories[c].preview(&contact.interface, state.memories[c].apex());
             state.y[self.setting.layout.force(slot)] = now.force;
             state.y[self.setting.layout.elastic(slot)] = now.elastic;
         }

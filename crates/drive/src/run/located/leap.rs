@@ -5,7 +5,7 @@ use super::watch::Fallen;
 use crate::RunError;
 use crate::contact::Guard;
 use crate::equations::Equations;
-use crate::interval::{Place, Steady};
+use crate::interval::{Closed, Place};
 use crate::method::Method;
 use crate::record::Record;
 use crate::run::ledger::Books;
@@ -103,19 +103,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.counts.steps += 1;
         state.tally.step(if self.swing.is_free() { Method::Parabola } else { Method::Swing });
         self.ledger.books = Books::Current;
-        self.trace_steady(state);
+        self.trace_closed(state);
         self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }
 
     /// The guards that end the motion: all edges turn at once; of pieces those that are used up, or as good as.
     fn collect_reached(&mut self, state: &State) {
-        let steady = self.interval.steady.iter();
+        let steady = self.interval.closed.iter();
         if self.swing.turns {
             self.watch.fired.extend(steady.map(|steady| Fallen::Contact(steady.index, Guard::Drag)));
             return;
         }
         let pieces = steady.filter(|steady| steady.guards.contains(&Guard::Piece));
-        let left = |steady: &Steady<'_>| steady.guard(Guard::Piece, state.t, |_| state.y[0], |_| state.y[1]);
+        let left = |steady: &Closed<'_>| steady.guard(Guard::Piece, state.t, |_| state.y[0], |_| state.y[1]);
         let least = pieces.clone().map(left).fold(f64::INFINITY, f64::min);
         let reached = pieces.filter(|steady| {
             let u = steady.displacement(state.t, |_| state.y[0]);

@@ -197,6 +197,6 @@ fn longest(model: &Model, plan: &Plan) -> f64 {
 /// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2 of
 /// the time counts with the power 5/2, of the damping of the stuck springs with the power 3/2.
 fn closeness(model: &Model, tolerance: f64) -> f64 {
-    let damped = model.contacts.iter().any(|contact| contact.law.damping() > 0.0);
+    let damped = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
     0.1 * tolerance.powf(if damped { 2.0 / 3.0 } else { 0.4 })
 }

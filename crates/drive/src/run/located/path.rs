@@ -19,17 +19,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The segments of all contacts that lead to the end of the step: chords, and for a contact that
     /// grew in full stick its path in as many pieces as its bend asks for.
     ///
-    /// A steady contact drags one edge over one piece of its memory: one chord to the next event is the same as many, and
+    /// A contact of closed form drags one edge over one piece of its memory: one chord to the next event is the same as many, and
     /// a step that `goes_on` leaves its memory where it is.
     pub(super) fn trace_step(&mut self, state: &State, t: f64, goes_on: bool) {
         let ledger = &mut self.ledger;
         ledger.clear();
-        if goes_on && self.interval.is_steady() {
+        if goes_on && self.interval.is_closed() {
             return;
         }
         let eq = self.setting.equations(state, &self.interval);
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
-            if contact.is_never_pressed() || (goes_on && self.interval.steady(c).is_some()) {
+            if contact.is_never_pressed() || (goes_on && self.interval.closed_form(c).is_some()) {
                 continue;
             }
             let span = self.motion.solver.span();
@@ -45,19 +45,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Moves the memories of steady contacts to where a run stops short of an event.
+    /// Moves the memories of contacts of closed form to where a run stops short of an event.
     pub(super) fn settle(&mut self, state: &mut State) {
-        self.trace_steady(state);
+        self.trace_closed(state);
         // What is not finite has been refused before.
         let _ = self.ledger.commit((self.setting.model, self.setting.layout), state.t, state);
     }
 
-    /// The segments of steady contacts, and of those that only are there, that lead to the state.
-    pub(super) fn trace_steady(&mut self, state: &State) {
+    /// The segments of contacts of closed form, and of those that only are there, that lead to the state.
+    pub(super) fn trace_closed(&mut self, state: &State) {
         let (ledger, t) = (&mut self.ledger, state.t);
         ledger.clear();
         let x = |i: usize| state.y[i];
-        for steady in &self.interval.steady {
+        for steady in &self.interval.closed {
             ledger.push(steady.index, t, Segment::Straight(steady.motion(t, x, x).apex()));
         }
         for &c in &self.interval.apart {

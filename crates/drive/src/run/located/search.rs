@@ -3,14 +3,14 @@
 use super::watch::{Fallen, Moving, Watch};
 use crate::contact::{Contact, Guard, Motion, NEARNESS, bands};
 use crate::equations::Equations;
-use crate::interval::Steady;
+use crate::interval::Closed;
 use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, End, Point, root, root_near};
 
-/// A guard that is watched: of a steady contact a straight function of the state, of any other one a function of its motion,
+/// A guard that is watched: of a contact of closed form a straight function of the state, of any other one a function of its motion,
 /// of a block whatever that says.
 #[derive(Clone, Copy)]
 pub(super) enum Watched<'e> {
-    Steady(&'e Steady<'e>, Guard),
+    Closed(&'e Closed<'e>, Guard),
     Contact(usize, &'e Contact, Guard),
     Block(usize, usize),
 }
@@ -39,10 +39,10 @@ impl<'e> Watched<'e> {
     #[inline(always)]
     fn each(eq: &Equations<'e>, mut act: impl FnMut(Self)) {
         let Some(interval) = eq.interval else { return };
-        for steady in &interval.steady {
-            steady.guards.iter().for_each(|guard| act(Self::Steady(steady, *guard)));
+        for steady in &interval.closed {
+            steady.guards.iter().for_each(|guard| act(Self::Closed(steady, *guard)));
         }
-        for index in interval.unsteady() {
+        for index in interval.open_form() {
             let contact = &eq.model.contacts[index];
             for &guard in Guard::of(contact, &eq.modes[index]) {
                 act(Self::Contact(index, contact, guard));
@@ -58,7 +58,7 @@ impl<'e> Watched<'e> {
     /// What falls with it.
     fn fallen(self) -> Fallen {
         match self {
-            Self::Steady(steady, guard) => Fallen::Contact(steady.index, guard),
+            Self::Closed(steady, guard) => Fallen::Contact(steady.index, guard),
             Self::Contact(index, _, guard) => Fallen::Contact(index, guard),
             Self::Block(k, guard) => Fallen::Block(k, guard),
         }
@@ -67,7 +67,7 @@ impl<'e> Watched<'e> {
     /// Whether its course inside a step is no polynomial of low degree that its rates at both ends would tell.
     fn is_sampled(self) -> bool {
         match self {
-            Self::Steady(..) => false,
+            Self::Closed(..) => false,
             Self::Contact(_, contact, _) => contact.press.waveform().is_some(),
             Self::Block(..) => true,
         }
@@ -159,9 +159,9 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
         match watched {
             // It rises again only after the edge has turned, and then that comes first.
-            Watched::Steady(_, Guard::Piece) | Watched::Contact(_, _, Guard::Piece) => return None,
+            Watched::Closed(_, Guard::Piece) | Watched::Contact(_, _, Guard::Piece) => return None,
             Watched::Contact(index, contact, Guard::Side) => {
-                let slope = contact.law.stick_slope();
+                let slope = contact.interface.stick_slope();
                 let closes = |at: &Motion| at.dd < 0.0 && at.du.abs() < -slope * at.dd;
                 let (from, to) = (&self.from[index].motion, &self.to[index].motion);
                 return if closes(from) || closes(to) { self.looks(watched) } else { None };
@@ -251,11 +251,11 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         self.value(watched, (self.solver.span().end_time, self.solver.span().end), self.to)
     }
 
-    /// Its value at one end of the step: time and state there, and the contacts that are not steady.
+    /// Its value at one end of the step: time and state there, and the contacts whose form is not closed.
     #[inline(always)]
     fn value(&self, watched: Watched<'_>, (t, y): (f64, &[f64]), contacts: &[Moving]) -> f64 {
         match watched {
-            Watched::Steady(steady, guard) => {
+            Watched::Closed(steady, guard) => {
                 steady.guard(guard, t, |i| y[i], |i| y[self.eq.layout.velocity(i)])
             }
             Watched::Contact(index, contact, guard) => {
@@ -270,7 +270,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     fn rates(&self, watched: Watched<'_>) -> [f64; 2] {
         let (span, n) = (self.solver.span(), self.eq.layout.free);
         match watched {
-            Watched::Steady(steady, guard) => {
+            Watched::Closed(steady, guard) => {
                 let rate = |t: f64, y: &[f64], end: End| {
                     steady.guard_rate(guard, t, |i| y[n + i], |i| self.solver.slope(n + i, end))
                 };
@@ -287,7 +287,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     fn inside(&self, watched: Watched<'_>, t: f64) -> f64 {
         let value = |i: usize| self.solver.value(i, t);
         match watched {
-            Watched::Steady(steady, guard) => {
+            Watched::Closed(steady, guard) => {
                 steady.guard(guard, t, value, |i| value(self.eq.layout.velocity(i)))
             }
             Watched::Contact(index, contact, guard) => {
@@ -300,7 +300,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// Its deadband and how near to zero it is as good as there.
     fn bands(&self, watched: Watched<'_>) -> (f64, f64) {
         let (contact, guard, u) = match watched {
-            Watched::Steady(steady, guard) => {
+            Watched::Closed(steady, guard) => {
                 let span = self.solver.span();
                 (steady.contact, guard, steady.displacement(span.time, |i| span.begin[i]))
             }

@@ -71,12 +71,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
             // A jump is as finite as its waveform.
             let from = state.memories[c].apex();
-            let work =
-                contact.count * state.memories[c].commit(&contact.law, Segment::Jump(to)).unwrap_or(0.0);
+            let work = contact.count
+                * state.memories[c].commit(&contact.interface, Segment::Jump(to)).unwrap_or(0.0);
             state.friction[c] += work;
             friction += work;
             if let (Some(branching), true) = (state.memories[c].branching(), to != from) {
-                let course = branching.course(&contact.law, to.d - from.d, to.u - from.u);
+                let course = branching.course(&contact.interface, to.d - from.d, to.u - from.u);
                 self.set_law(state, c, course, 0.0);
             }
         }
@@ -88,8 +88,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let (model, eq) = (self.setting.model, self.setting.plain(state));
         let energy = |(contact, memory): (&Contact, &Memory)| {
             let apex = memory.apex();
-            let normal = contact.coupling().map_or(0.0, |_| contact.law.normal_energy(apex.d));
-            contact.count * (normal + memory.preview(&contact.law, apex).elastic)
+            let normal = contact.coupling().map_or(0.0, |_| contact.interface.normal_energy(apex.d));
+            contact.count * (normal + memory.preview(&contact.interface, apex).elastic)
         };
         let contacts = model.contacts.iter().zip(&state.memories).map(energy);
         let links = model.links.iter().map(|l| record::link_energy(&eq, l, state.t, &|i| state.y[i]));

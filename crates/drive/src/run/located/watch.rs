@@ -2,11 +2,11 @@
 
 use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::{Components, Equations};
-use crate::interval::{Interval, Steady};
+use crate::interval::{Closed, Interval};
 use crate::model::{Measure, Model};
 use stickslip_stepper::{End, Step};
 
-/// A contact at one end of a step. Steady contacts have none: their motion is read off the state where it is asked for.
+/// A contact at one end of a step. Closed contacts have none: their motion is read off the state where it is asked for.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Moving {
     pub(super) motion: Motion,
@@ -58,7 +58,7 @@ impl Watch {
 
     /// The contacts at the start of the next step, after anything that makes slopes jump.
     pub(super) fn set_out(&mut self, eq: &Equations<'_>, solver: &impl Step) {
-        if eq.interval.is_some_and(Interval::is_steady) {
+        if eq.interval.is_some_and(Interval::is_closed) {
             return;
         }
         let span = solver.span();
@@ -67,7 +67,7 @@ impl Watch {
 
     /// The contacts at the end of the step.
     pub(super) fn arrive(&mut self, eq: &Equations<'_>, solver: &impl Step) {
-        if eq.interval.is_some_and(Interval::is_steady) {
+        if eq.interval.is_some_and(Interval::is_closed) {
             return;
         }
         let span = solver.span();
@@ -92,7 +92,7 @@ impl Watch {
 }
 
 fn motion(interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64]), contacts: &[Moving]) -> Motion {
-    match interval.steady(c) {
+    match interval.closed_form(c) {
         Some(steady) => {
             let n = interval.scene.free;
             steady.motion(t, |i| y[i], |i| y[n + i])
@@ -110,7 +110,7 @@ fn follow(
     slope: impl Fn(usize) -> f64 + Copy,
 ) {
     let Some(interval) = eq.interval else { return };
-    for c in interval.unsteady() {
+    for c in interval.open_form() {
         let contact = &eq.model.contacts[c];
         let motion = eq.motion(contact, t, |i| y[i]);
         contacts[c] = Moving { motion, second: second(eq, contact, (t, y), slope) };
@@ -130,9 +130,9 @@ fn second(
 }
 
 impl Watch {
-    /// When a steady contact will have used up its piece of memory, s from the start of the step.
+    /// When a contact of closed form will have used up its piece of memory, s from the start of the step.
     #[inline(always)]
-    pub(super) fn expected_of_steady(steady: &Steady<'_>, n: usize, solver: &impl Step) -> f64 {
+    pub(super) fn expected_of_closed(steady: &Closed<'_>, n: usize, solver: &impl Step) -> f64 {
         if !steady.guards.contains(&Guard::Piece) {
             return f64::INFINITY;
         }

@@ -50,7 +50,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 path.push(Segment::Straight(motion.apex()));
             }
             let mut memory = memory.clone();
-            path.drain(..).try_for_each(|piece| memory.commit(&contact.law, piece).map(drop))?;
+            path.drain(..).try_for_each(|piece| memory.commit(&contact.interface, piece).map(drop))?;
             memory.shift(state.shift(contact));
             Ok(memory)
         });
