@@ -39,6 +39,8 @@ pub(crate) enum Wanted {
     Inside,
     /// An object or a list that has a name of its own.
     Shape(String),
+    /// The name of something else in the file, or that thing itself.
+    Name(String),
     /// What a reader of the form calls it.
     Value(String),
 }

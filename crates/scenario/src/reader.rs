@@ -2,7 +2,8 @@
 //! stands for an object with its values in their order, which nobody who wrote a list meant.
 //!
 //! Where a value does not fit, the method by which it was asked for says what is wanted. Types of the form that take more
-//! than one sort of value ask by `deserialize_any` and name what they want themselves.
+//! than one sort of value ask by `deserialize_any`, those that name something else in the file by
+//! `deserialize_identifier`, and say themselves what they want.
 
 use crate::misfit::{Misfit, Wanted};
 use serde::de::value::BorrowedStrDeserializer;
@@ -91,6 +92,14 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         self.deserialize_str(visitor)
     }
 
+    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Misfit> {
+        match self.0 {
+            Value::String(text) => visitor.visit_borrowed_str(text),
+            Value::Object(entries) => object(entries, visitor),
+            _ => unfit(Wanted::Name(called(&visitor))),
+        }
+    }
+
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Misfit> {
         match self.0 {
             Value::Array(entries) => list(entries, visitor),
@@ -156,7 +165,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
     }
 
     serde::forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u32 u128 f32 char bytes byte_buf unit unit_struct tuple_struct identifier
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u128 f32 char bytes byte_buf unit unit_struct tuple_struct
     }
 }
 

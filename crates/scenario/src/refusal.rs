@@ -107,8 +107,8 @@ impl Refusal<'_> {
             Wanted::List => ("a list", Help::Shape),
             Wanted::Object => ("an object", Help::Shape),
             Wanted::Shape(called) => (called.as_str(), Help::Shape),
-            // The name of a waveform says all there is to say.
-            Wanted::Value(called) if self.is_under("follows") => (called.as_str(), Help::None),
+            // What it calls itself says all there is to say.
+            Wanted::Name(called) => (called.as_str(), Help::None),
             Wanted::Value(called) => (called.as_str(), Help::Meaning),
             Wanted::Kind => {
                 kinds = one_of(&self.guide.kinds(&self.path));
@@ -182,10 +182,6 @@ impl Refusal<'_> {
             Ok(number) if number.is_finite() => Some("write the number without quotes".to_owned()),
             _ => number_help(text).map(str::to_owned),
         }
-    }
-
-    fn is_under(&self, key: &str) -> bool {
-        matches!(self.path.0.last(), Some(Step::Key(last)) if last == key)
     }
 
     /// A key of a part where the part's name should stand.

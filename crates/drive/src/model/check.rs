@@ -98,7 +98,8 @@ impl Check<'_> {
                 self.body(i)?;
             }
         }
-        if sides[0] == sides[1] { Err(SceneFault::OneBody) } else { Ok(()) }
+        let [first, second] = sides;
+        Side::two(first, second).map(|_| ())
     }
 
     fn body(&self, i: usize) -> Result<(), SceneFault> {

@@ -122,7 +122,7 @@ impl<'de> Deserialize<'de> for WaveformRef {
                     .map(|waveform| WaveformRef::Inline(Box::new(waveform)))
             }
         }
-        deserializer.deserialize_any(RefVisitor)
+        deserializer.deserialize_identifier(RefVisitor)
     }
 }
 

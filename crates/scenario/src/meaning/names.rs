@@ -82,14 +82,16 @@ impl Builder<'_> {
     /// Both ends of a contact, spring or actuator.
     pub(super) fn between(&self, at: &At<'_>, names: &Two) -> Result<[Side; 2], Fault> {
         let at = at.key("between");
-        let mut sides = [Side::Ground; 2];
-        for (i, name) in names.0.iter().enumerate() {
-            if name != GROUND {
-                sides[i] =
-                    Side::Body(self.body(&at.index(i), name).map_err(|fault| self.or_ground(fault, name))?);
+        let side = |i: usize| match names.0[i].as_str() {
+            GROUND => Ok(Side::Ground),
+            name => {
+                self.body(&at.index(i), name).map(Side::Body).map_err(|fault| self.or_ground(fault, name))
             }
-        }
-        Ok(sides)
+        };
+        Side::two(side(0)?, side(1)?).map_err(|_| {
+            let message = format!("expected two different bodies, got \"{}\" twice", names.0[0]);
+            at.index(1).fault(message).help("name two bodies, or one and \"ground\"")
+        })
     }
 
     /// Here the ground would have been right, too.

@@ -1,12 +1,11 @@
 //! What a scene or a plan is refused for, in the words and at the place of the file.
 
-use super::names::GROUND;
 use super::range;
 use crate::address;
 use crate::fault::Fault;
 use crate::path::{KeyPath, Step};
 use stickslip_contact::FirstLoadingError;
-use stickslip_drive::scene::{Axis, Normal, Scene, Side, Varying};
+use stickslip_drive::scene::{Axis, Normal, Scene, Varying};
 use stickslip_drive::{Part, Plan, SceneError, SceneFault};
 
 /// The fault that a refusal is in the file.
@@ -21,7 +20,6 @@ pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
             None => plain(path, error),
         },
         SceneFault::NoInertia(axis) => no_inertia(path, *axis),
-        SceneFault::OneBody => one_body(scene, path, error.part),
         SceneFault::Loading(reason) => loading(scene, path, error, *reason),
         _ => plain(path, error),
     }
@@ -43,23 +41,6 @@ fn no_inertia(path: KeyPath, axis: Axis) -> Fault {
             Fault::missing(path, "inertia").help("pitch is free: a body that turns needs a moment of inertia")
         }
     }
-}
-
-/// The second of the two names is the one too many.
-fn one_body(scene: &Scene, mut path: KeyPath, part: Part) -> Fault {
-    let side = match part {
-        Part::Contact(i) => scene.contacts.get(i).map(|contact| contact.part.between[1]),
-        Part::Spring(i) => scene.springs.get(i).map(|spring| spring.part.between[1]),
-        Part::Actuator(i) => scene.actuators.get(i).map(|actuator| actuator.part.between[1]),
-        Part::Body(_) | Part::Load(_) | Part::Block(_) | Part::Gravity | Part::Run => None,
-    };
-    let name = match side {
-        Some(Side::Body(i)) => scene.bodies.get(i).map_or("", |body| &body.name),
-        Some(Side::Ground) | None => GROUND,
-    };
-    path.0.push(Step::Index(1));
-    Fault::new(path, format!("expected two different bodies, got \"{name}\" twice"))
-        .help("name two bodies, or one and \"ground\"")
 }
 
 /// A contact that cannot be pressed or pushed as the file says.
