@@ -1,6 +1,7 @@
 //! The largest normal pressure of a contact.
 
 use crate::Interface;
+use crate::profile::Peak;
 use crate::quadrature::GAUSS;
 use std::f64::consts::PI;
 
@@ -18,19 +19,16 @@ impl Interface {
     /// punch; none for a list of springs, which has no shape in three dimensions.
     pub fn peak_pressure(&self, d: f64) -> Option<f64> {
         let profile = self.profile();
-        if profile.as_foundation().is_some() {
-            return None;
-        }
+        let peak = profile.peak()?;
         let a = profile.radius(d);
         if a == 0.0 {
             return Some(0.0);
         }
         let mean_slope = self.normal_modulus() * d / (PI * a);
-        Some(match profile.exponent() {
-            Some(n) if n <= 1.0 => f64::INFINITY,
-            Some(n) if n <= 2.0 => mean_slope * n / (n - 1.0),
-            None if !profile.is_strictly_convex() => f64::INFINITY,
-            _ => self.normal_modulus() / PI * largest(|t| self.slope_integral(a, t)),
+        Some(match peak {
+            Peak::Unbounded => f64::INFINITY,
+            Peak::Middle(n) => mean_slope * n / (n - 1.0),
+            Peak::Between => self.normal_modulus() / PI * largest(|t| self.slope_integral(a, t)),
         })
     }
 

@@ -1,17 +1,20 @@
 //! Profiles of the gap, as what the foundation makes of them: three functions of one number.
 
 mod error;
+mod flat;
 mod foundation;
-mod gap;
 mod kappa;
+mod kind;
 mod power;
 mod sphere;
 
 pub use error::ProfileError;
 pub(crate) use foundation::Foundation;
+pub(crate) use kind::Peak;
 
 use crate::quadrature::GAUSS;
-use error::positive;
+use flat::Flat;
+use kind::Kind;
 use power::Power;
 use sphere::Sphere;
 
@@ -26,70 +29,37 @@ pub struct Profile {
     shape: Shape,
 }
 
+/// The kinds of profiles, each in the file of its name with what makes one.
 #[derive(Debug, Clone, PartialEq)]
 enum Shape {
-    Flat { radius: f64 },
+    Flat(Flat),
     Power(Power),
     Sphere(Sphere),
     Foundation(Foundation),
 }
 
+/// What a kind of profile answers. A match and no table of functions behind a pointer: the compiler sees through it, and
+/// power laws, of which nearly all contacts are, cost no call.
+macro_rules! of_kind {
+    ($profile:expr, $kind:ident => $answer:expr) => {
+        match &$profile.shape {
+            Shape::Flat($kind) => $answer,
+            Shape::Power($kind) => $answer,
+            Shape::Sphere($kind) => $answer,
+            Shape::Foundation($kind) => $answer,
+        }
+    };
+}
+
 impl Profile {
-    /// A flat punch of radius b (m): g = 0 for |x| < b, so m = 2b at every h > 0.
-    pub fn flat(radius: f64) -> Result<Self, ProfileError> {
-        Ok(Self { shape: Shape::Flat { radius: positive(radius, ProfileError::Radius)? } })
-    }
-
-    /// A cone f = r tanθ, given its slope tanθ: g = (π/2) tanθ |x|.
-    pub fn cone(slope: f64) -> Result<Self, ProfileError> {
-        let slope = positive(slope, ProfileError::Slope)?;
-        Ok(Self { shape: Shape::Power(Power::new(std::f64::consts::FRAC_PI_2 * slope, 1.0)?) })
-    }
-
-    /// A paraboloid f = r²/2R of radius of curvature R (m), the Hertz contact: g = x²/R, M = (4/3)√R h^{3/2}.
-    pub fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
-        let radius = positive(radius, ProfileError::Radius)?;
-        Ok(Self { shape: Shape::Power(Power::paraboloid(radius)?) })
-    }
-
-    /// A sphere of radius R (m), exact: f = R-√(R²-r²), g = (x/2) ln((R+x)/(R-x)).
-    ///
-    /// Not the paraboloid: at equal depth the contact radius is smaller by (a/R)²/6, 1.7e-5 at a/R = 0.01.
-    pub fn sphere(radius: f64) -> Result<Self, ProfileError> {
-        Ok(Self { shape: Shape::Sphere(Sphere::new(positive(radius, ProfileError::Radius)?)) })
-    }
-
-    /// A power law f = A rⁿ, A in m^{1-n}, n > 0: g = `κ_n` A |x|ⁿ, `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2).
-    pub fn power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
-        positive(coefficient, ProfileError::Coefficient)?;
-        positive(exponent, ProfileError::Exponent)?;
-        let foundation = kappa::kappa(exponent) * coefficient;
-        Ok(Self { shape: Shape::Power(Power::new(foundation, exponent)?) })
-    }
-
-    /// A power law given by its foundation, g = B |x|ⁿ, B in m^{1-n}, n > 0.
-    pub fn foundation_power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
-        Ok(Self { shape: Shape::Power(Power::new(coefficient, exponent)?) })
-    }
-
-    /// A foundation given spring by spring: heights (m, at least 0, in any order) and the length of each (m).
-    ///
-    /// So enters a rough line g(x), monotone or not: the distribution of its heights alone matters.
-    pub fn foundation(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
-        Ok(Self { shape: Shape::Foundation(Foundation::new(heights, lengths)?) })
-    }
-
     /// m(h), m: the normal stiffness over E\*, which is the total length of the foundation with g < h; 2a(h) for a
     /// convex profile.
     #[inline]
     pub fn reduced_stiffness(&self, h: f64) -> f64 {
-        match &self.shape {
-            _ if h.is_nan() || h <= 0.0 => 0.0,
-            Shape::Flat { radius } => 2.0 * radius,
-            Shape::Power(shape) => shape.reduced_stiffness(h),
-            Shape::Sphere(shape) => shape.reduced_stiffness(h),
-            Shape::Foundation(shape) => shape.reduced_stiffness(h),
+        if h.is_nan() || h <= 0.0 {
+            return 0.0;
         }
+        of_kind!(self, kind => kind.reduced_stiffness(h))
     }
 
     /// M(h) = ∫₀ʰ m, m²: the normal force over E\* (4.26).
@@ -104,25 +74,19 @@ impl Profile {
     /// The profiles that are no power laws, kept out of the way of those that are.
     #[inline(never)]
     fn other_reduced_force(&self, h: f64) -> f64 {
-        match &self.shape {
-            _ if h.is_nan() || h <= 0.0 => 0.0,
-            Shape::Flat { radius } => 2.0 * radius * h,
-            Shape::Power(shape) => shape.reduced_force(h),
-            Shape::Sphere(shape) => shape.reduced_force(h),
-            Shape::Foundation(shape) => shape.reduced_force(h),
+        if h.is_nan() || h <= 0.0 {
+            return 0.0;
         }
+        of_kind!(self, kind => kind.reduced_force(h))
     }
 
     /// N(h) = ∫₀ʰ M, m³: the normal elastic energy over E\*.
     #[inline]
     pub fn reduced_energy(&self, h: f64) -> f64 {
-        match &self.shape {
-            _ if h.is_nan() || h <= 0.0 => 0.0,
-            Shape::Flat { radius } => radius * h * h,
-            Shape::Power(shape) => shape.reduced_energy(h),
-            Shape::Sphere(shape) => shape.reduced_energy(h),
-            Shape::Foundation(shape) => shape.reduced_energy(h),
+        if h.is_nan() || h <= 0.0 {
+            return 0.0;
         }
+        of_kind!(self, kind => kind.reduced_energy(h))
     }
 
     /// a(h) = m(h)/2, m: the contact radius; for a foundation given spring by spring half the length in contact.
@@ -137,30 +101,35 @@ impl Profile {
     /// A flat punch and a list of springs take one radius over a whole range of h: this is its lower end.
     #[inline]
     pub fn depth(&self, a: f64) -> f64 {
-        match &self.shape {
-            _ if a.is_nan() || a <= 0.0 => 0.0,
-            Shape::Flat { radius } => {
-                if a > *radius {
-                    f64::INFINITY
-                } else {
-                    0.0
-                }
-            }
-            Shape::Power(shape) => shape.depth(a),
-            Shape::Sphere(shape) => shape.depth(a),
-            Shape::Foundation(shape) => shape.height_of_reduced_stiffness(2.0 * a),
+        if a.is_nan() || a <= 0.0 {
+            return 0.0;
         }
+        of_kind!(self, kind => kind.depth(a))
     }
 
     /// dg/da at a > 0: what the indentation gains per contact radius; 0 where that is not defined, see
     /// [`Self::is_strictly_convex`].
     pub fn depth_slope(&self, a: f64) -> f64 {
-        match &self.shape {
-            _ if a.is_nan() || a <= 0.0 => 0.0,
-            Shape::Power(shape) => shape.exponent() * shape.depth(a) / a,
-            Shape::Sphere(shape) => shape.depth_slope(a),
-            Shape::Flat { .. } | Shape::Foundation(_) => 0.0,
+        if a.is_nan() || a <= 0.0 {
+            return 0.0;
         }
+        of_kind!(self, kind => kind.depth_slope(a))
+    }
+
+    /// f(r), m: the gap at the distance r ≥ 0 (m) from the axis before anything is pressed; none beyond a flat punch or a
+    /// sphere, and for a foundation given spring by spring, which no axisymmetric gap need belong to.
+    ///
+    /// Of a power law f = g/`κ_n` (4.20): r²/2R for the paraboloid.
+    pub fn gap(&self, r: f64) -> Option<f64> {
+        if r.is_nan() || r < 0.0 {
+            return None;
+        }
+        of_kind!(self, kind => kind.gap(r))
+    }
+
+    /// Where the normal pressure is largest; none for a list of springs, which has no shape in three dimensions.
+    pub(crate) fn peak(&self) -> Option<Peak> {
+        of_kind!(self, kind => kind.peak())
     }
 
     /// Height at which the length m (m) is reached, m: g(m/2), with the conventions of [`Self::depth`].
@@ -170,21 +139,15 @@ impl Profile {
 
     /// Height at which M (m²) is reached, m: the inverse of [`Self::reduced_force`]; 0 for M ≤ 0.
     pub fn height_of_reduced_force(&self, force: f64) -> f64 {
-        match &self.shape {
-            _ if force.is_nan() || force <= 0.0 => 0.0,
-            Shape::Flat { radius } => force / (2.0 * radius),
-            Shape::Power(shape) => shape.height_of_reduced_force(force),
-            Shape::Sphere(shape) => shape.height_of_reduced_force(force),
-            Shape::Foundation(shape) => shape.height_of_reduced_force(force),
+        if force.is_nan() || force <= 0.0 {
+            return 0.0;
         }
+        of_kind!(self, kind => kind.height_of_reduced_force(force))
     }
 
     /// Exponent n of a power law; none for every other profile, the flat punch (its limit n → ∞) included.
     pub fn exponent(&self) -> Option<f64> {
-        match &self.shape {
-            Shape::Power(shape) => Some(shape.exponent()),
-            _ => None,
-        }
+        of_kind!(self, kind => kind.exponent())
     }
 
     /// Largest height for which the profile stands, m; none if there is no limit.
@@ -192,20 +155,17 @@ impl Profile {
     /// A sphere ends where a → R: its height is limited to g(0.999R) = 3.796R, beyond which its functions
     /// still return finite numbers.
     pub fn reach(&self) -> Option<f64> {
-        match &self.shape {
-            Shape::Sphere(shape) => Some(shape.reach()),
-            _ => None,
-        }
+        of_kind!(self, kind => kind.reach())
     }
 
     /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
     pub fn has_kinks(&self) -> bool {
-        matches!(self.shape, Shape::Foundation(_))
+        of_kind!(self, kind => kind.has_kinks())
     }
 
     /// Whether each contact radius belongs to one indentation only.
     pub fn is_strictly_convex(&self) -> bool {
-        matches!(self.shape, Shape::Power(_) | Shape::Sphere(_))
+        of_kind!(self, kind => kind.is_strictly_convex())
     }
 
     /// ∫ w m dh over a thin strip of heights (its width well below its height) with w straight between its values
@@ -215,8 +175,8 @@ impl Profile {
     /// 1e-18 of it.
     pub(crate) fn moment(&self, [from, to]: [f64; 2], [low, high]: [f64; 2]) -> f64 {
         let width = to - from;
-        if let Shape::Foundation(shape) = &self.shape {
-            return shape.moment([from, to], [low, (high - low) / width]);
+        if let Some(foundation) = self.as_foundation() {
+            return foundation.moment([from, to], [low, (high - low) / width]);
         }
         let (middle, mean, half) = (0.5 * (from + to), 0.5 * (low + high), 0.5 * (high - low));
         let node = |(x, weight): &(f64, f64)| {
@@ -227,9 +187,6 @@ impl Profile {
 
     /// The foundation, where it is given spring by spring.
     pub(crate) fn as_foundation(&self) -> Option<&Foundation> {
-        match &self.shape {
-            Shape::Foundation(shape) => Some(shape),
-            _ => None,
-        }
+        of_kind!(self, kind => kind.as_foundation())
     }
 }

@@ -5,27 +5,32 @@
 //! [`Waveform::after`] it. A value that jumps does so between two pieces.
 
 mod corners;
-mod law;
+mod course;
+mod error;
 mod shape;
-mod sines;
+mod straight;
+mod timing;
 
-pub use shape::{Harmonic, Shape, Timing, WaveformError};
+pub use error::WaveformError;
+pub use shape::{Harmonic, Shape};
+pub use timing::Timing;
 
 use corners::Corners;
-pub(crate) use law::Line;
-use law::{Law, Straight};
+use course::{Chain, Course};
+use shape::Law;
+pub(crate) use straight::Line;
+use straight::Straight;
 
 /// A prescribed function of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waveform {
     shape: Shape,
     timing: Timing,
-    corners: Option<Corners>,
+    course: Course,
     /// Values held before the start and after the stop.
     held: (f64, f64),
     /// When it starts and stops, s.
     window: (f64, f64),
-    range: (f64, f64),
 }
 
 /// A smooth piece of a waveform, on [start, end).
@@ -73,30 +78,30 @@ impl Waveform {
     ///
     /// [`WaveformError`] names the parameter, what was expected and what came.
     pub fn new(shape: Shape, timing: Timing) -> Result<Self, WaveformError> {
-        shape::check(&shape, &timing)?;
-        let corners = match &shape {
-            Shape::Table { points } => Corners::table(points, timing.delay),
-            _ => Corners::periodic(&shape, &timing),
+        let course = shape.course(&timing)?;
+        let window = match &course.chain {
+            Chain::Corners(corners) => corners.window(),
+            Chain::Sines(_) => (timing.delay, timing.stop()),
+            Chain::Step(time) => (*time, *time),
         };
-        let window = match (&corners, &shape) {
-            (Some(corners), _) => corners.window(),
-            (None, Shape::Table { points }) => [timing.delay + points[0].0; 2].into(),
-            (None, _) => {
-                let stop = timing.cycles.map_or(f64::INFINITY, |n| n * timing.period + timing.delay);
-                (timing.delay, stop)
-            }
-        };
-        let range = range(&shape);
-        let mut waveform = Self { shape, timing, corners, held: (0.0, 0.0), window, range };
-        waveform.held = waveform.ends();
+        let mut waveform = Self { shape, timing, course, held: (0.0, 0.0), window };
+        waveform.held = waveform.course.ends.unwrap_or_else(|| waveform.ends());
         Ok(waveform)
     }
 
     /// Zero for ever, without a corner.
     pub(crate) fn held() -> Self {
         let shape = Shape::Table { points: vec![(0.0, 0.0)] };
-        let (held, window, range) = ((0.0, 0.0), (0.0, 0.0), (0.0, 0.0));
-        Self { shape, timing: Timing::every(1.0), corners: None, held, window, range }
+        let held = (0.0, 0.0);
+        let course = Course {
+            chain: Chain::Step(0.0),
+            ends: Some(held),
+            period: None,
+            range: held,
+            wave: f64::INFINITY,
+            has_jumps: false,
+        };
+        Self { shape, timing: Timing::every(1.0), course, held, window: held }
     }
 
     /// The piece that holds at `t` (s).
@@ -106,7 +111,7 @@ impl Waveform {
         if t >= stop {
             self.last()
         } else if t >= start {
-            self.corners.as_ref().map_or_else(|| self.sines(), |corners| corners.piece_at(t))
+            self.corners().map_or_else(|| self.sines(), |corners| corners.piece_at(t))
         } else {
             let law = Law::Straight(Straight::held(start, self.held.0));
             Piece { start: f64::NEG_INFINITY, end: start, index: 0, law }
@@ -140,16 +145,15 @@ impl Waveform {
     /// The laws that are not straight, kept out of the way of those that are.
     #[inline(never)]
     fn curved(&self, piece: &Piece, t: f64) -> Sample {
-        match &piece.law {
-            Law::Straight(straight) => straight.at(t),
-            Law::Cycloid(cycloid) => cycloid.at(t),
-            Law::Sines => self.sines_at(t),
-        }
+        piece.law.at(t).unwrap_or_else(|| self.sines_at(t))
     }
 
-    /// Its sines at `t`, whatever piece it is on.
+    /// Its sines at `t`, whatever piece it is on; zeros where it has none.
     pub(crate) fn sines_at(&self, t: f64) -> Sample {
-        sines::at(&self.shape, &self.timing, t)
+        match &self.course.chain {
+            Chain::Sines(sines) => sines.at(&self.timing, t),
+            _ => Sample { value: 0.0, rate: 0.0, acceleration: 0.0 },
+        }
     }
 
     /// Value and slopes at t = 0.
@@ -170,49 +174,37 @@ impl Waveform {
     /// Whether all its pieces are straight lines.
     #[must_use]
     pub fn is_straight(&self) -> bool {
-        matches!(self.shape, Shape::Sawtooth { .. } | Shape::Triangle { .. } | Shape::Table { .. })
+        match &self.course.chain {
+            Chain::Corners(corners) => corners.are_straight(),
+            Chain::Sines(_) => false,
+            Chain::Step(_) => true,
+        }
     }
 
     /// Whether the value ever jumps by design.
     #[must_use]
     pub fn has_jumps(&self) -> bool {
-        match &self.shape {
-            Shape::Sawtooth { stroke, flyback } | Shape::Cycloid { stroke, flyback } => {
-                *stroke != 0.0 && self.timing.period - flyback >= self.timing.period
-            }
-            Shape::Table { points } => {
-                points.windows(2).any(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1)
-            }
-            Shape::Triangle { .. } | Shape::Sine { .. } | Shape::Harmonics { .. } => false,
-        }
+        self.course.has_jumps
     }
 
     /// Smallest and largest value over all time: exact but for sums of several sines, where it is a bound, safe and
     /// usually within a few millionths.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
-        self.range
+        self.course.range
     }
 
     /// Period, s; none for a table.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
-        (!matches!(self.shape, Shape::Table { .. })).then_some(self.timing.period)
+        self.course.period
     }
 
     /// Longest step, s, that cannot overlook a wave inside a smooth piece: a quarter of the shortest one; infinite where
     /// all pieces are straight.
     #[must_use]
     pub fn resolution(&self) -> f64 {
-        let period = self.timing.period;
-        let wave = match &self.shape {
-            Shape::Sine { .. } => period,
-            Shape::Harmonics { terms } => period / terms.iter().map(|term| term.order).fold(1.0, f64::max),
-            Shape::Cycloid { flyback, .. } if *flyback > 0.0 => flyback.min(period - flyback),
-            Shape::Cycloid { .. } => period,
-            Shape::Sawtooth { .. } | Shape::Triangle { .. } | Shape::Table { .. } => f64::INFINITY,
-        };
-        0.25 * wave
+        0.25 * self.course.wave
     }
 
     /// Its form, as given.
@@ -231,9 +223,16 @@ impl Waveform {
         if piece.end >= self.window.1 {
             return self.last();
         }
-        match &self.corners {
+        match self.corners() {
             Some(corners) => corners.piece(piece.index.saturating_add(1)),
             None => self.sines(),
+        }
+    }
+
+    fn corners(&self) -> Option<&Corners> {
+        match &self.course.chain {
+            Chain::Corners(corners) => Some(corners),
+            Chain::Sines(_) | Chain::Step(_) => None,
         }
     }
 
@@ -245,43 +244,26 @@ impl Waveform {
     /// What is held after the stop.
     fn last(&self) -> Piece {
         let stop = self.window.1;
-        let index = match (&self.corners, &self.shape) {
-            (Some(corners), _) => corners.after(),
-            (None, Shape::Table { .. }) => 1,
-            (None, _) => 2,
+        let index = match &self.course.chain {
+            Chain::Corners(corners) => corners.after(),
+            Chain::Sines(_) => 2,
+            Chain::Step(_) => 1,
         };
         let law = Law::Straight(Straight::held(stop, self.held.1));
         Piece { start: stop, end: f64::INFINITY, index, law }
     }
 
-    /// Values to hold before the start and after the stop.
+    /// Values where the chain starts and ends.
     fn ends(&self) -> (f64, f64) {
-        if let Shape::Table { points } = &self.shape {
-            let (first, last) = (points.first(), points.last());
-            return (first.map_or(0.0, |p| p.1), last.map_or(0.0, |p| p.1));
-        }
         let (start, stop) = self.window;
-        let first = self.corners.as_ref().map_or_else(|| self.sines(), |corners| corners.piece(1));
+        let first = self.corners().map_or_else(|| self.sines(), |corners| corners.piece(1));
         let before = self.sample(&first, start).value;
         if stop == f64::INFINITY {
             return (before, before);
         }
-        let last = self.corners.as_ref().map_or(first, |corners| corners.piece(corners.after() - 1));
-        let jumped = self.corners.as_ref().and_then(Corners::beyond);
+        let last = self.corners().map_or(first, |corners| corners.piece(corners.after() - 1));
+        let jumped = self.corners().and_then(Corners::beyond);
         (before, jumped.unwrap_or_else(|| self.sample(&last, stop).value))
-    }
-}
-
-fn range(shape: &Shape) -> (f64, f64) {
-    match shape {
-        Shape::Sawtooth { stroke, .. } | Shape::Cycloid { stroke, .. } | Shape::Triangle { stroke } => {
-            (stroke.min(0.0), stroke.max(0.0))
-        }
-        Shape::Sine { amplitude, offset, .. } => (offset - amplitude.abs(), offset + amplitude.abs()),
-        Shape::Harmonics { terms } => sines::range(terms),
-        Shape::Table { points } => points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |range, point| {
-            (range.0.min(point.1), range.1.max(point.1))
-        }),
     }
 }
 

@@ -1,22 +1,24 @@
-//! The pictures of results, drawn alike from a run that has just ended and from its folder.
+//! The pictures of results, drawn alike from a run that has just ended and from its folder: the table of their kinds, each
+//! in a file of its own.
+
+mod energy;
+mod events;
+mod hysteresis;
+mod layout;
+mod memory;
+mod phase;
+mod state;
+mod trajectory;
 
 use crate::look::{Look, Pen, Picture};
-use crate::{energy, events, hysteresis, layout, memory, phase, state, trajectory};
 use std::path::{Path, PathBuf};
 use stickslip_plot::PlotError;
-use stickslip_results::ENERGY;
 use stickslip_results::Job;
 use stickslip_results::Kept;
-use stickslip_results::curves;
-use stickslip_results::files::{MEMORY, SPRINGS};
 use stickslip_results::frame::FrameError;
 use stickslip_results::provenance::provenance;
-use stickslip_results::springs;
 use stickslip_scenario::PlotName;
 use thiserror::Error;
-
-/// Most memory curves in one picture.
-const MOST_CURVES: usize = 24;
 
 /// What pictures are drawn from.
 pub struct Sources<'a> {
@@ -77,47 +79,73 @@ pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, Figu
     plots.into_iter().map(|plot| picture(sources, plot, &pen)).collect()
 }
 
-fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<Picture>, FigureError> {
-    let (job, kept) = (sources.job, sources.kept);
-    let columns: Vec<String> = needs(job, plot).into_iter().filter(|name| !kept.series.has(name)).collect();
-    if !columns.is_empty() {
-        return Err(FigureError::Missing { plot: plot.name(), columns });
-    }
-    let table = |source| FigureError::Table { plot: plot.name(), source };
-    let pictures = match plot {
-        PlotName::Layout => layout::draw(job, pen),
-        PlotName::Loop => hysteresis::draw(job, kept, pen),
-        PlotName::Trajectory => trajectory::draw(job, kept, pen),
-        PlotName::Energy => energy::draw(job, kept, pen),
-        PlotName::Phase => phase::draw(job, kept, pen),
-        PlotName::Events => events::draw(job, kept, pen),
-        PlotName::State => {
-            check_written(plot, SPRINGS, &sources.springs)?;
-            state::draw(job, springs::read(&sources.springs).map_err(table)?, pen)
-        }
-        PlotName::Memory => {
-            check_written(plot, MEMORY, &sources.memory)?;
-            memory::draw(job, &curves::read(&sources.memory, MOST_CURVES).map_err(table)?, pen)
-        }
-    };
-    pictures.map_err(|source| FigureError::Plot { plot: plot.name(), source })
+/// What a kind of picture shows.
+pub(crate) fn shows(plot: PlotName) -> &'static str {
+    kind(plot).shows
 }
 
-fn check_written(plot: PlotName, file: &'static str, path: &Path) -> Result<(), FigureError> {
-    if path.exists() { Ok(()) } else { Err(FigureError::Absent { plot: plot.name(), file }) }
+/// A kind of picture.
+struct Kind {
+    /// What it shows, for the gallery.
+    shows: &'static str,
+    /// Columns that it is drawn from.
+    needs: fn(&Job) -> Vec<String>,
+    draw: fn(&Sources<'_>, &Pen<'_>) -> Result<Vec<Picture>, Undrawn>,
 }
 
-/// Columns that a picture is drawn from.
-fn needs(job: &Job, plot: PlotName) -> Vec<String> {
-    let contacts = |quantities: &[&str]| -> Vec<String> {
-        let names = job.model.contacts().map(|(name, _)| name);
-        names.flat_map(|name| quantities.iter().map(move |quantity| format!("{name}.{quantity}"))).collect()
-    };
+fn kind(plot: PlotName) -> &'static Kind {
     match plot {
-        PlotName::Loop => contacts(&["u_m", "d_m", "fx_N"]),
-        PlotName::Trajectory => [trajectory::needs(job), contacts(&["u_m"])].concat(),
-        PlotName::Energy => energy::COLUMNS.map(|quantity| format!("{ENERGY}.{quantity}")).to_vec(),
-        PlotName::Phase => phase::needs(job),
-        PlotName::Layout | PlotName::Events | PlotName::State | PlotName::Memory => Vec::new(),
+        PlotName::Layout => &layout::KIND,
+        PlotName::Loop => &hysteresis::KIND,
+        PlotName::Trajectory => &trajectory::KIND,
+        PlotName::Energy => &energy::KIND,
+        PlotName::Phase => &phase::KIND,
+        PlotName::Events => &events::KIND,
+        PlotName::State => &state::KIND,
+        PlotName::Memory => &memory::KIND,
     }
+}
+
+/// Why a kind of picture is not drawn, before it is said which.
+enum Undrawn {
+    Absent(&'static str),
+    Table(FrameError),
+    Plot(PlotError),
+}
+
+impl From<FrameError> for Undrawn {
+    fn from(source: FrameError) -> Self {
+        Self::Table(source)
+    }
+}
+
+impl From<PlotError> for Undrawn {
+    fn from(source: PlotError) -> Self {
+        Self::Plot(source)
+    }
+}
+
+fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<Picture>, FigureError> {
+    let (kind, series, plot) = (kind(plot), &sources.kept.series, plot.name());
+    let columns: Vec<String> =
+        (kind.needs)(sources.job).into_iter().filter(|name| !series.has(name)).collect();
+    if !columns.is_empty() {
+        return Err(FigureError::Missing { plot, columns });
+    }
+    (kind.draw)(sources, pen).map_err(|why| match why {
+        Undrawn::Absent(file) => FigureError::Absent { plot, file },
+        Undrawn::Table(source) => FigureError::Table { plot, source },
+        Undrawn::Plot(source) => FigureError::Plot { plot, source },
+    })
+}
+
+/// The place of a table that the run may have left out.
+fn written<'a>(path: &'a Path, file: &'static str) -> Result<&'a Path, Undrawn> {
+    if path.exists() { Ok(path) } else { Err(Undrawn::Absent(file)) }
+}
+
+/// Columns of these quantities of all contacts.
+fn of_contacts(job: &Job, quantities: &[&str]) -> Vec<String> {
+    let names = job.model.contacts().map(|(name, _)| name);
+    names.flat_map(|name| quantities.iter().map(move |quantity| format!("{name}.{quantity}"))).collect()
 }

@@ -3,7 +3,7 @@
 use crate::path::{KeyPath, Step};
 use crate::units::Kind;
 use stickslip_drive::scene::{Axis, Named};
-use stickslip_drive::{Field, Part, Plan, Scene, SceneError, Stepper};
+use stickslip_drive::{Accuracy, Field, Part, Plan, Scene, SceneError, Stepper};
 
 /// The key path of a field.
 pub(crate) fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPath {
@@ -20,7 +20,7 @@ pub(crate) fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPa
         Part::Run if field == Field::Interval => vec![key("output")],
         Part::Run => vec![key("run")],
     };
-    steps.extend(keys(field, plan.stepper).iter().map(|step| key(step)));
+    steps.extend(keys(field, plan.stepper).into_iter().map(key));
     KeyPath(steps)
 }
 
@@ -45,8 +45,8 @@ pub(crate) fn kind(error: &SceneError) -> Option<Kind> {
 }
 
 /// The keys from a part to its field.
-fn keys(field: Field, stepper: Stepper) -> &'static [&'static str] {
-    match field {
+fn keys(field: Field, stepper: Stepper) -> Vec<&'static str> {
+    let keys: &[&str] = match field {
         Field::Whole => &[],
         Field::Mass => &["mass"],
         Field::Inertia => &["inertia"],
@@ -84,11 +84,15 @@ fn keys(field: Field, stepper: Stepper) -> &'static [&'static str] {
         Field::Interval => &["every"],
         Field::SteadyChange => &["until_steady"],
         Field::Stepper => &["stepper"],
-        Field::Tolerance | Field::Step => match stepper {
-            Stepper::Event { .. } => &["stepper", "event", "tolerance"],
-            Stepper::Verlet { .. } => &["stepper", "verlet", "step"],
-            Stepper::Rk4 { .. } => &["stepper", "rk4", "step"],
-            Stepper::Dopri5 { .. } => &["stepper", "dopri5", "tolerance"],
-        },
+        Field::Tolerance | Field::Step => &["stepper", stepper.name(), accuracy(stepper)],
+    };
+    keys.to_vec()
+}
+
+/// The key of the number that says how exact a stepper is.
+fn accuracy(stepper: Stepper) -> &'static str {
+    match stepper.accuracy() {
+        Accuracy::Tolerance(_) => "tolerance",
+        Accuracy::Step(_) => "step",
     }
 }

@@ -1,6 +1,7 @@
 //! A foundation given spring by spring: piecewise straight, quadratic, cubic.
 
-use super::ProfileError;
+use super::kind::{Kind, Peak};
+use super::{Profile, ProfileError, Shape};
 
 /// Springs by ascending height, with the sums up to each.
 ///
@@ -43,8 +44,17 @@ impl Compensated {
     }
 }
 
+impl Profile {
+    /// A foundation given spring by spring: heights (m, at least 0, in any order) and the length of each (m).
+    ///
+    /// So enters a rough line g(x), monotone or not: the distribution of its heights alone matters.
+    pub fn foundation(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
+        Ok(Self { shape: Shape::Foundation(Foundation::new(heights, lengths)?) })
+    }
+}
+
 impl Foundation {
-    pub(super) fn new(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
+    fn new(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
         check(heights, lengths)?;
         let mut order: Vec<usize> = (0..heights.len()).collect();
         order.sort_by(|&i, &j| heights[i].total_cmp(&heights[j]));
@@ -78,20 +88,6 @@ impl Foundation {
         if count == 0 { (Sums::default(), 0.0) } else { (self.sums[count - 1], h - self.heights[count - 1]) }
     }
 
-    pub(super) fn reduced_stiffness(&self, h: f64) -> f64 {
-        self.below(h).0.reduced_stiffness
-    }
-
-    pub(super) fn reduced_force(&self, h: f64) -> f64 {
-        let (sums, rise) = self.below(h);
-        sums.reduced_force + sums.reduced_stiffness * rise
-    }
-
-    pub(super) fn reduced_energy(&self, h: f64) -> f64 {
-        let (sums, rise) = self.below(h);
-        sums.reduced_energy + (sums.reduced_force + 0.5 * sums.reduced_stiffness * rise) * rise
-    }
-
     /// ∫ w m dh between two heights, w straight from a value with a slope: one term per height in between.
     pub(super) fn moment(&self, [from, to]: [f64; 2], [value, slope]: [f64; 2]) -> f64 {
         let (mut at, mut length, mut sum) = (from, self.below(from).0.reduced_stiffness, 0.0);
@@ -106,17 +102,62 @@ impl Foundation {
     }
 
     /// Lowest height whose spring completes the length m > 0; infinite beyond all springs.
-    pub(super) fn height_of_reduced_stiffness(&self, length: f64) -> f64 {
+    fn height_of_reduced_stiffness(&self, length: f64) -> f64 {
         let index = self.sums.partition_point(|sums| sums.reduced_stiffness < length);
         self.heights.get(index).copied().unwrap_or(f64::INFINITY)
     }
+}
+
+impl Kind for Foundation {
+    fn reduced_stiffness(&self, h: f64) -> f64 {
+        self.below(h).0.reduced_stiffness
+    }
+
+    fn reduced_force(&self, h: f64) -> f64 {
+        let (sums, rise) = self.below(h);
+        sums.reduced_force + sums.reduced_stiffness * rise
+    }
+
+    fn reduced_energy(&self, h: f64) -> f64 {
+        let (sums, rise) = self.below(h);
+        sums.reduced_energy + (sums.reduced_force + 0.5 * sums.reduced_stiffness * rise) * rise
+    }
 
     /// Height at which M > 0 is reached.
-    pub(super) fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
+    fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
         // M is 0 at the lowest height, so at least one spring lies below.
         let index = self.sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
         let sums = self.sums[index];
         self.heights[index] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
+    }
+
+    fn depth(&self, a: f64) -> f64 {
+        self.height_of_reduced_stiffness(2.0 * a)
+    }
+
+    fn depth_slope(&self, _a: f64) -> f64 {
+        0.0
+    }
+
+    fn gap(&self, _r: f64) -> Option<f64> {
+        None
+    }
+
+    fn peak(&self) -> Option<Peak> {
+        None
+    }
+
+    fn is_strictly_convex(&self) -> bool {
+        false
+    }
+
+    /// At each of its springs.
+    fn has_kinks(&self) -> bool {
+        true
+    }
+
+    fn as_foundation(&self) -> Option<&Foundation> {
+        Some(self)
     }
 }
 

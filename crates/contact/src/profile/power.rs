@@ -1,7 +1,9 @@
 //! Power laws g = B|x|ⁿ: closed forms throughout.
 
-use super::ProfileError;
 use super::error::positive;
+use super::kappa::kappa;
+use super::kind::{Kind, Peak};
+use super::{Profile, ProfileError, Shape};
 
 /// g = |x|ⁿ/s, s = 1/B: a(h) = (sh)^{1/n}, m = 2a, M = mh n/(n+1), N = Mh n/(2n+1).
 #[derive(Debug, Clone, PartialEq)]
@@ -31,9 +33,36 @@ enum Root {
     },
 }
 
+impl Profile {
+    /// A cone f = r tanθ, given its slope tanθ: g = (π/2) tanθ |x|.
+    pub fn cone(slope: f64) -> Result<Self, ProfileError> {
+        let slope = positive(slope, ProfileError::Slope)?;
+        Ok(Self { shape: Shape::Power(Power::new(std::f64::consts::FRAC_PI_2 * slope, 1.0)?) })
+    }
+
+    /// A paraboloid f = r²/2R of radius of curvature R (m), the Hertz contact: g = x²/R, M = (4/3)√R h^{3/2}.
+    pub fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
+        let radius = positive(radius, ProfileError::Radius)?;
+        Ok(Self { shape: Shape::Power(Power::paraboloid(radius)?) })
+    }
+
+    /// A power law f = A rⁿ, A in m^{1-n}, n > 0: g = `κ_n` A |x|ⁿ, `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2).
+    pub fn power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
+        positive(coefficient, ProfileError::Coefficient)?;
+        positive(exponent, ProfileError::Exponent)?;
+        let foundation = kappa(exponent) * coefficient;
+        Ok(Self { shape: Shape::Power(Power::new(foundation, exponent)?) })
+    }
+
+    /// A power law given by its foundation, g = B |x|ⁿ, B in m^{1-n}, n > 0.
+    pub fn foundation_power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
+        Ok(Self { shape: Shape::Power(Power::new(coefficient, exponent)?) })
+    }
+}
+
 impl Power {
     /// g = B|x|ⁿ.
-    pub(super) fn new(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
+    fn new(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
         positive(coefficient, ProfileError::Coefficient)?;
         positive(exponent, ProfileError::Exponent)?;
         let scale = 1.0 / coefficient;
@@ -44,7 +73,7 @@ impl Power {
     }
 
     /// g = x²/R, R taken as it is and not by way of 1/R.
-    pub(super) fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
+    fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
         Ok(Self::of_scale(positive(radius, ProfileError::Radius)?, 2.0))
     }
 
@@ -66,10 +95,6 @@ impl Power {
             force_factor: 2.0 * n / (n + 1.0),
             energy_factor: n / (2.0 * n + 1.0),
         }
-    }
-
-    pub(super) fn exponent(&self) -> f64 {
-        self.exponent
     }
 
     /// a(h), h > 0.
@@ -95,24 +120,26 @@ impl Power {
             Root::Any { q, delta } => x.powf(q) * (1.0 + delta * x.ln()),
         }
     }
+}
 
+impl Kind for Power {
     #[inline]
-    pub(super) fn reduced_stiffness(&self, h: f64) -> f64 {
+    fn reduced_stiffness(&self, h: f64) -> f64 {
         2.0 * self.radius(h)
     }
 
     #[inline]
-    pub(super) fn reduced_force(&self, h: f64) -> f64 {
+    fn reduced_force(&self, h: f64) -> f64 {
         self.force_factor * h * self.radius(h)
     }
 
     #[inline]
-    pub(super) fn reduced_energy(&self, h: f64) -> f64 {
+    fn reduced_energy(&self, h: f64) -> f64 {
         self.energy_factor * h * self.reduced_force(h)
     }
 
     #[inline]
-    pub(super) fn depth(&self, a: f64) -> f64 {
+    fn depth(&self, a: f64) -> f64 {
         let power = match self.root {
             Root::First => a,
             Root::Second => a * a,
@@ -124,7 +151,7 @@ impl Power {
     }
 
     /// h^{n+1} = (M/k)ⁿ/s with k = 2n/(n+1).
-    pub(super) fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
+    fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
         let y = reduced_force / self.force_factor;
         match self.root {
             Root::First => (y / self.scale).sqrt(),
@@ -141,5 +168,30 @@ impl Power {
                 }
             }
         }
+    }
+
+    fn depth_slope(&self, a: f64) -> f64 {
+        self.exponent * self.depth(a) / a
+    }
+
+    fn gap(&self, r: f64) -> Option<f64> {
+        Some(self.depth(r) / kappa(self.exponent))
+    }
+
+    /// At the tip of a cone and of anything sharper; in the middle up to the paraboloid.
+    fn peak(&self) -> Option<Peak> {
+        Some(match self.exponent {
+            n if n <= 1.0 => Peak::Unbounded,
+            n if n <= 2.0 => Peak::Middle(n),
+            _ => Peak::Between,
+        })
+    }
+
+    fn is_strictly_convex(&self) -> bool {
+        true
+    }
+
+    fn exponent(&self) -> Option<f64> {
+        Some(self.exponent)
     }
 }

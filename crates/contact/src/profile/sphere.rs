@@ -7,6 +7,10 @@
 //! M is (4.26) for the sphere; N follows from N = ∫₀ᵃ(h-g)²dx by parts. Both cancel at small s, so there the
 //! inverse of η = s artanh s is used as a power series, whose integrals need no difference.
 
+use super::error::positive;
+use super::kind::{Kind, Peak};
+use super::{Profile, ProfileError, Shape};
+
 /// A sphere of radius R, m.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sphere {
@@ -104,46 +108,53 @@ fn dilogarithm(log1q: f64) -> f64 {
     u - 0.25 * w + u * w * tail
 }
 
+impl Profile {
+    /// A sphere of radius R (m), exact: f = R-√(R²-r²), g = (x/2) ln((R+x)/(R-x)).
+    ///
+    /// Not the paraboloid: at equal depth the contact radius is smaller by (a/R)²/6, 1.7e-5 at a/R = 0.01.
+    pub fn sphere(radius: f64) -> Result<Self, ProfileError> {
+        Ok(Self { shape: Shape::Sphere(Sphere { radius: positive(radius, ProfileError::Radius)? }) })
+    }
+}
+
 impl Sphere {
     /// Largest a/R to which the profile is held to stand; the functions are checked up to here.
     const LARGEST_RATIO: f64 = 0.999;
+}
 
-    pub(super) fn new(radius: f64) -> Self {
-        Self { radius }
-    }
-
+impl Kind for Sphere {
     /// R-√(R²-r²), without its cancellation; none beyond the sphere.
-    pub(super) fn gap(&self, r: f64) -> Option<f64> {
+    fn gap(&self, r: f64) -> Option<f64> {
         let rest = (self.radius - r) * (self.radius + r);
         (rest >= 0.0).then(|| r * r / (self.radius + rest.sqrt()))
     }
 
-    pub(super) fn reach(&self) -> f64 {
-        self.depth(Self::LARGEST_RATIO * self.radius)
+    fn reach(&self) -> Option<f64> {
+        Some(self.depth(Self::LARGEST_RATIO * self.radius))
     }
 
-    pub(super) fn depth(&self, a: f64) -> f64 {
+    fn depth(&self, a: f64) -> f64 {
         let s = a / self.radius;
         if s < 1.0 { a * s.atanh() } else { f64::INFINITY }
     }
 
     /// g'(a) = artanh s + s/(1-s²), s = a/R.
-    pub(super) fn depth_slope(&self, a: f64) -> f64 {
+    fn depth_slope(&self, a: f64) -> f64 {
         let s = a / self.radius;
         if s < 1.0 { s.atanh() + s / (1.0 - s * s) } else { f64::INFINITY }
     }
 
     #[inline]
-    pub(super) fn reduced_stiffness(&self, h: f64) -> f64 {
+    fn reduced_stiffness(&self, h: f64) -> f64 {
         2.0 * self.radius * ratio(h / self.radius)
     }
 
     #[inline]
-    pub(super) fn reduced_force(&self, h: f64) -> f64 {
+    fn reduced_force(&self, h: f64) -> f64 {
         self.radius * self.radius * reduced_force(h / self.radius)
     }
 
-    pub(super) fn reduced_energy(&self, h: f64) -> f64 {
+    fn reduced_energy(&self, h: f64) -> f64 {
         let eta = h / self.radius;
         let reduced_energy = if eta <= SERIES_END {
             eta * eta * eta.sqrt() * sum(&VOLUME, eta)
@@ -155,7 +166,7 @@ impl Sphere {
     }
 
     /// Newton's method on M, which is convex in h: after the first step it descends on the root monotonically.
-    pub(super) fn height_of_reduced_force(&self, force: f64) -> f64 {
+    fn height_of_reduced_force(&self, force: f64) -> f64 {
         const STEPS: usize = 60;
         let wanted = force / (self.radius * self.radius);
         let hertz = (0.5625 * wanted * wanted).cbrt();
@@ -171,6 +182,14 @@ impl Sphere {
             }
         }
         eta * self.radius
+    }
+
+    fn peak(&self) -> Option<Peak> {
+        Some(Peak::Between)
+    }
+
+    fn is_strictly_convex(&self) -> bool {
+        true
     }
 }
 

@@ -1,6 +1,6 @@
 //! How much a run to its end has of rows and steps.
 
-use crate::{Model, Plan, Stepper};
+use crate::{Accuracy, Model, Plan};
 
 /// A row or a step this near to the end of the run, in intervals, is the last one.
 const SAME: f64 = 1e-9;
@@ -12,8 +12,8 @@ pub fn rows(plan: &Plan) -> f64 {
 
 /// Steps of a stepper at fixed step; none of the others.
 pub fn fixed_steps(model: &Model, plan: &Plan) -> Option<f64> {
-    match model.effective(plan.stepper) {
-        Stepper::Verlet { step } | Stepper::Rk4 { step } => Some((plan.duration / step - SAME).ceil()),
-        Stepper::Event { .. } | Stepper::Dopri5 { .. } => None,
+    match model.effective(plan.stepper).accuracy() {
+        Accuracy::Step(step) => Some((plan.duration / step - SAME).ceil()),
+        Accuracy::Tolerance(_) => None,
     }
 }

@@ -1,7 +1,7 @@
 //! Where a waveform turns: times of its corners and the values there.
 
-use super::law::{Cycloid, Law, Straight};
-use super::{Piece, Shape, Timing};
+use super::shape::Way;
+use super::{Piece, Timing};
 use std::f64::consts::TAU;
 
 /// Segments between corners, numbered from 0 at the start of the period that the delay falls into.
@@ -17,7 +17,7 @@ pub(super) struct Corners {
     origins: Vec<f64>,
     /// Values at the start and at the end of each segment.
     values: Vec<(f64, f64)>,
-    cycloidal: bool,
+    way: Way,
     /// First and last segment that run, and when the first starts and the last stops.
     first: u64,
     last: u64,
@@ -25,57 +25,62 @@ pub(super) struct Corners {
     stop: f64,
 }
 
+/// One way between two corners.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Leg {
+    /// Its start, s: after that of the period, or of the whole where there is none.
+    pub(super) start: f64,
+    /// Values at its start and end.
+    pub(super) values: (f64, f64),
+}
+
 impl Corners {
-    /// Corners of a checked periodic shape; none if it has no corners.
-    pub(super) fn periodic(shape: &Shape, timing: &Timing) -> Option<Self> {
+    /// Corners of a period that these ways fill from its start to its end.
+    ///
+    /// A way that starts at the very end of the period is a jump: none is there.
+    pub(super) fn periodic(legs: &[Leg], way: Way, timing: &Timing) -> Self {
         let period = timing.period;
-        let (stroke, top, cycloidal) = match shape {
-            Shape::Sawtooth { stroke, flyback } => (*stroke, period - flyback, false),
-            Shape::Cycloid { stroke, flyback } => (*stroke, period - flyback, true),
-            Shape::Triangle { stroke } => (*stroke, 0.5 * period, false),
-            _ => return None,
-        };
-        // A top at the very end of the period is a jump: no segment leads back.
-        let knots = if top < period { vec![0.0, top] } else { vec![0.0] };
-        let values = [(0.0, stroke), (stroke, 0.0)][..knots.len()].to_vec();
+        let legs = || legs.iter().filter(|leg| leg.start < period);
+        let knots: Vec<f64> = legs().map(|leg| leg.start).collect();
         let shift = shift(&knots, timing);
-        let origins = knots.iter().map(|knot| timing.delay + (knot - shift)).collect();
         let mut corners = Self {
             period,
             per_period: knots.len() as u64,
-            origins,
-            values,
-            cycloidal,
+            origins: knots.iter().map(|knot| timing.delay + (knot - shift)).collect(),
+            values: legs().map(|leg| leg.values).collect(),
+            way,
             first: 0,
             last: u64::MAX,
             start: timing.delay,
             stop: f64::INFINITY,
         };
         corners.first = corners.segment_at(timing.delay);
-        if let Some(cycles) = timing.cycles {
-            corners.stop_at(cycles * period + timing.delay);
+        if timing.cycles.is_some() {
+            corners.stop_at(timing.stop());
         }
-        Some(corners)
+        corners
     }
 
-    /// Corners of a checked table; none if all its points share one time.
-    pub(super) fn table(points: &[(f64, f64)], delay: f64) -> Option<Self> {
-        let ways = || points.windows(2).filter(|pair| pair[0].0 < pair[1].0);
-        let (start, end) = (delay + points.first()?.0, delay + points.last()?.0);
-        let values: Vec<_> = ways().map(|pair| (pair[0].1, pair[1].1)).collect();
-        let last = (values.len() as u64).checked_sub(1)?;
-        let origins = ways().map(|pair| delay + pair[0].0).chain([end]).collect();
+    /// Corners that come once, after a delay (s), the last way ending at `end` (s); none without a way.
+    pub(super) fn once(legs: &[Leg], end: f64, way: Way, delay: f64) -> Option<Self> {
+        let (first, last) = (legs.first()?, (legs.len() as u64).checked_sub(1)?);
+        let end = delay + end;
         Some(Self {
             period: 0.0,
             per_period: u64::MAX,
-            origins,
-            values,
-            cycloidal: false,
+            origins: legs.iter().map(|leg| delay + leg.start).chain([end]).collect(),
+            values: legs.iter().map(|leg| leg.values).collect(),
+            way,
             first: 0,
             last,
-            start,
+            start: delay + first.start,
             stop: end,
         })
+    }
+
+    /// Whether the value moves in straight lines from corner to corner.
+    pub(super) fn are_straight(&self) -> bool {
+        self.way == Way::Straight
     }
 
     /// When the first segment starts and the last stops, s.
@@ -99,11 +104,7 @@ impl Corners {
         let (from, to) = (self.corner(n), self.corner(n.saturating_add(1)));
         let values = self.values.get(self.place(n)).copied().unwrap_or_default();
         let (from, to) = ((from, values.0), (to, values.1));
-        let law = if self.cycloidal {
-            Law::Cycloid(Cycloid::between(from, to))
-        } else {
-            Law::Straight(Straight::between(from, to))
-        };
+        let law = self.way.between(from, to);
         let start = if n == self.first { self.start } else { from.0 };
         Piece { start, end: to.0.min(self.stop), index, law }
     }

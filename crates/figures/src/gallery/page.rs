@@ -1,6 +1,7 @@
 //! The page of the gallery, in Markdown.
 
 use crate::look::{Colours, Format, Look};
+use crate::pictures::shows;
 use std::fmt::Write;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -81,26 +82,6 @@ fn picture(page: &mut String, exhibit: &Exhibit, plot: PlotName) {
          <img src=\"{light}\" width=\"720\" alt=\"{name}: {}\">\n</picture>\n",
         plain(&exhibit.title),
     );
-}
-
-/// What a kind of picture shows.
-fn shows(plot: PlotName) -> &'static str {
-    match plot {
-        PlotName::Layout => {
-            "what there is, to scale: bodies, contacts, springs and forces; blue is free, orange follows a waveform"
-        }
-        PlotName::Loop => "tangential force over displacement, in newtons and as shares of μF_N and u_c",
-        PlotName::Trajectory => "positions over time, displacements of the contacts below",
-        PlotName::Energy => {
-            "the work that went in and what became of it, what is stored, what the book misses"
-        }
-        PlotName::Phase => {
-            "velocity over displacement in every free coordinate; of a body that travels on, the last period"
-        }
-        PlotName::Events => "what happened when",
-        PlotName::State => "what every spring under a contact does over time",
-        PlotName::Memory => "the curve by which a contact remembers, in its wedge, at some moments",
-    }
 }
 
 fn look(theme: Colours) -> Look {

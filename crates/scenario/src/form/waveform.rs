@@ -42,6 +42,20 @@ pub(crate) enum WaveformForm {
     Step(Reserved),
 }
 
+impl WaveformForm {
+    /// The word of a periodic waveform and what all of them share; none of what has no period.
+    pub(crate) fn periodic(&self) -> Option<(&'static str, Periodic)> {
+        match self {
+            Self::Sawtooth(form) => Some(("sawtooth", form.periodic())),
+            Self::Triangle(form) => Some(("triangle", form.periodic())),
+            Self::Sine(form) => Some(("sine", form.periodic())),
+            Self::Harmonics(form) => Some(("harmonics", form.periodic())),
+            Self::Cycloid(form) => Some(("cycloid", form.periodic())),
+            Self::Table(_) | Self::Parabola(_) | Self::Trapezoid(_) | Self::Chirp(_) | Self::Step(_) => None,
+        }
+    }
+}
+
 /// What all periodic waveforms share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Periodic {

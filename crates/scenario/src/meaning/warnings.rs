@@ -2,7 +2,7 @@
 
 use super::{Meaning, motion};
 use crate::fault::Fault;
-use crate::form::{Form, FreedomForm, Parts, RunStartForm, WaveformForm};
+use crate::form::{Form, FreedomForm, Parts, RunStartForm};
 use crate::path::{At, KeyPath};
 use std::collections::HashSet;
 use std::f64::consts::TAU;
@@ -202,14 +202,7 @@ impl Oddities<'_> {
         let root = At::ROOT;
         let at = root.key("waveforms");
         for (name, waveform) in self.form.waveforms.iter() {
-            let (kind, periodic) = match waveform {
-                WaveformForm::Sawtooth(form) => ("sawtooth", form.periodic()),
-                WaveformForm::Triangle(form) => ("triangle", form.periodic()),
-                WaveformForm::Sine(form) => ("sine", form.periodic()),
-                WaveformForm::Harmonics(form) => ("harmonics", form.periodic()),
-                WaveformForm::Cycloid(form) => ("cycloid", form.periodic()),
-                _ => continue,
-            };
+            let Some((kind, periodic)) = waveform.periodic() else { continue };
             let (at, phase) = (at.key(name), periodic.phase.si);
             if phase.abs() > TURN {
                 let at = at.key(kind);

@@ -1,13 +1,20 @@
 //! Velocity over displacement.
 
+use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Axis, Freedom};
-use stickslip_plot::{Coordinate, PhasePath, PlotError, phase_figure};
+use stickslip_plot::{Coordinate, PhasePath, phase_figure};
 use stickslip_results::Job;
 use stickslip_results::Kept;
 use stickslip_results::Periods;
 use stickslip_results::Trail;
 use stickslip_scenario::PlotName;
+
+pub(super) const KIND: Kind = Kind {
+    shows: "velocity over displacement in every free coordinate; of a body that travels on, the last period",
+    needs: needs,
+    draw,
+};
 
 /// A body whose stroke is a smaller share of the largest one in a coordinate is at rest: what moves it is rounding.
 const REST: f64 = 1e-9;
@@ -21,7 +28,8 @@ struct Mover<'a> {
 /// The free coordinates, or else all that move. A body that comes back to its start in the last period is shown all the
 /// way; of one that travels on that period alone, in all its coordinates, x counted from its start, as in the picture
 /// of loops.
-pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
+    let (job, kept) = (sources.job, sources.kept);
     let trails: Vec<(Mover<'_>, Trail)> = movers(job)
         .into_iter()
         .map(|mover| {
@@ -57,7 +65,7 @@ pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>
         velocity: y,
     });
     let paths: Vec<PhasePath<'_>> = paths.collect();
-    pen.draw(PlotName::Phase, phase_figure(job.title(), &paths))
+    Ok(pen.draw(PlotName::Phase, phase_figure(job.title(), &paths))?)
 }
 
 fn trail(mover: &Mover<'_>, kept: &Kept) -> Trail {
@@ -66,7 +74,7 @@ fn trail(mover: &Mover<'_>, kept: &Kept) -> Trail {
 }
 
 /// Columns that it is drawn from.
-pub(crate) fn needs(job: &Job) -> Vec<String> {
+fn needs(job: &Job) -> Vec<String> {
     let columns =
         |mover: Mover<'_>| quantities(mover.axis).map(|quantity| format!("{}.{quantity}", mover.body));
     movers(job).into_iter().flat_map(columns).collect()

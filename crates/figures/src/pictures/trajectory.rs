@@ -1,15 +1,23 @@
 //! The motion of the bodies over time.
 
+use super::{Kind, Sources, Undrawn, of_contacts};
 use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Axis, Body, Freedom, Named, Side};
-use stickslip_plot::{Coordinate, Motion, PlotError, Track, Trajectory, trajectory_figure};
+use stickslip_plot::{Coordinate, Motion, Track, Trajectory, trajectory_figure};
 use stickslip_results::Job;
 use stickslip_results::Kept;
 use stickslip_results::Series;
 use stickslip_scenario::PlotName;
 
+pub(super) const KIND: Kind = Kind {
+    shows: "positions over time, displacements of the contacts below",
+    needs: |job| [needs(job), of_contacts(job, &["u_m"])].concat(),
+    draw,
+};
+
 /// Positions over time, heights and angles where there are any, displacements of the contacts below.
-pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
+    let (job, kept) = (sources.job, sources.kept);
     let series = &kept.series;
     let (feet, sliders) = tracks(job, series, Axis::X);
     let beside =
@@ -25,11 +33,11 @@ pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>
         relative: job.model.contacts().map(|(name, _)| track(series, name, "u_m")).collect(),
         gross_slip: gross_slip(job, kept),
     };
-    pen.draw(PlotName::Trajectory, trajectory_figure(job.title(), &trajectory))
+    Ok(pen.draw(PlotName::Trajectory, trajectory_figure(job.title(), &trajectory))?)
 }
 
 /// Columns that it is drawn from.
-pub(crate) fn needs(job: &Job) -> Vec<String> {
+fn needs(job: &Job) -> Vec<String> {
     let bodies = job.scenario.scene.bodies.iter();
     let of = |body: &Named<Body>| {
         let moving = body.part.coordinates().into_iter().filter(|(_, c)| c.freedom != Freedom::Fixed);

@@ -1,15 +1,17 @@
 //! Events over time.
 
+use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
 use std::collections::HashMap;
-use stickslip_plot::{EventTrack, PlotError, events_figure};
-use stickslip_results::Job;
-use stickslip_results::Kept;
+use stickslip_plot::{EventTrack, events_figure};
 use stickslip_results::Track;
 use stickslip_scenario::PlotName;
 
+pub(super) const KIND: Kind = Kind { shows: "what happened when", needs: |_| Vec::new(), draw };
+
 /// One line for each kind of event of each contact and waveform, contacts first.
-pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
+    let (job, kept) = (sources.job, sources.kept);
     let contacts = job.model.contacts().map(|(name, _)| name);
     let waveforms = job.scenario.scene.waveforms.iter().map(|waveform| waveform.name.as_str());
     let sources: HashMap<&str, usize> = contacts.chain(waveforms).zip(0..).collect();
@@ -22,5 +24,5 @@ pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>
     });
     let tracks: Vec<EventTrack<'_>> = tracks.collect();
     let start = kept.series.time().first().copied().unwrap_or(0.0);
-    pen.draw(PlotName::Events, events_figure(job.title(), (start, kept.end()), &tracks))
+    Ok(pen.draw(PlotName::Events, events_figure(job.title(), (start, kept.end()), &tracks))?)
 }

@@ -1,5 +1,6 @@
 //! The scene, to scale.
 
+use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
@@ -7,15 +8,21 @@ use stickslip_drive::scene::{
 };
 use stickslip_plot as plot;
 use stickslip_plot::{
-    Amount, Fixture, LinkKind, Mobility, PlotError, Press, SceneBody, SceneContact, SceneGravity, SceneLink,
-    SceneLoad, layout_figure,
+    Amount, Fixture, LinkKind, Mobility, Press, SceneBody, SceneContact, SceneGravity, SceneLink, SceneLoad,
+    layout_figure,
 };
-use stickslip_results::Job;
 use stickslip_scenario::PlotName;
 
+pub(super) const KIND: Kind = Kind {
+    shows: "what there is, to scale: bodies, contacts, springs and forces; blue is free, orange follows a waveform",
+    needs: |_| Vec::new(),
+    draw,
+};
+
 /// What there is, before anything moves.
-pub(crate) fn draw(job: &Job, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
-    pen.draw(PlotName::Layout, layout_figure(job.title(), &Sketch(&job.scenario.scene).scene()))
+fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
+    let job = sources.job;
+    Ok(pen.draw(PlotName::Layout, layout_figure(job.title(), &Sketch(&job.scenario.scene).scene()))?)
 }
 
 /// A scene on its way to the paper.

@@ -1,14 +1,20 @@
 //! What the springs of each contact did over time.
 
+use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
 use stickslip_contact::SpringState;
-use stickslip_plot::{PlotError, SpringCondition, SpringMap, state_figure};
-use stickslip_results::Job;
-use stickslip_results::springs::Springs;
+use stickslip_plot::{SpringCondition, SpringMap, state_figure};
+use stickslip_results::files::SPRINGS;
+use stickslip_results::springs::{self, Springs};
 use stickslip_scenario::PlotName;
 
+pub(super) const KIND: Kind =
+    Kind { shows: "what every spring under a contact does over time", needs: |_| Vec::new(), draw };
+
 /// One panel for each contact.
-pub(crate) fn draw(job: &Job, contacts: Vec<Springs>, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
+    let job = sources.job;
+    let contacts = springs::read(written(&sources.springs, SPRINGS)?)?;
     let contacts: Vec<(Springs, Vec<SpringCondition>)> = contacts
         .into_iter()
         .map(|mut springs| {
@@ -23,7 +29,7 @@ pub(crate) fn draw(job: &Job, contacts: Vec<Springs>, pen: &Pen<'_>) -> Result<V
         conditions,
     });
     let maps: Vec<SpringMap<'_>> = maps.collect();
-    pen.draw(PlotName::State, state_figure(job.title(), &maps))
+    Ok(pen.draw(PlotName::State, state_figure(job.title(), &maps))?)
 }
 
 /// A state as pictures name it.

@@ -1,13 +1,20 @@
 //! Hysteresis loops of the contacts.
 
+use super::{Kind, Sources, Undrawn, of_contacts};
 use crate::look::{Pen, Picture};
-use stickslip_plot::{HysteresisLoop, Ink, PlotError, loop_figure};
+use stickslip_plot::{HysteresisLoop, Ink, loop_figure};
 use stickslip_results::Job;
 use stickslip_results::Kept;
 use stickslip_results::Periods;
 use stickslip_results::Trail;
 use stickslip_results::contact_path;
 use stickslip_scenario::PlotName;
+
+pub(super) const KIND: Kind = Kind {
+    shows: "tangential force over displacement, in newtons and as shares of μF_N and u_c",
+    needs: |job| of_contacts(job, &["u_m", "d_m", "fx_N"]),
+    draw,
+};
 
 /// A curve in the figure of loops.
 struct Curve {
@@ -22,7 +29,8 @@ struct Curve {
 /// Force over displacement. A contact that comes back to its start in every cycle is shown all the way. One that
 /// travels on, as in a drive, would smear its loops over the picture: of it the last period is shown, and behind it,
 /// if it is the only contact, the first in grey; u counts from the start of the period.
-pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>, PlotError> {
+fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
+    let (job, kept) = (sources.job, sources.kept);
     let curves: Vec<Curve> = (0..job.model.contacts().count()).flat_map(|c| curves(job, kept, c)).collect();
     let loops: Vec<HysteresisLoop<'_>> = curves
         .iter()
@@ -41,7 +49,7 @@ pub(crate) fn draw(job: &Job, kept: &Kept, pen: &Pen<'_>) -> Result<Vec<Picture>
         let place = if let Some(Ink::Palette(curve)) = series.style.ink { curve } else { place };
         series.style.ink = inks.get(place).copied();
     }
-    pen.draw(PlotName::Loop, figure)
+    Ok(pen.draw(PlotName::Loop, figure)?)
 }
 
 /// Grey for what stands behind, the palette for the others.

@@ -1,18 +1,6 @@
-//! How a value moves along one smooth piece.
+//! Straight pieces.
 
 use super::Sample;
-use std::f64::consts::{PI, TAU};
-
-/// Law of one piece.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Law {
-    /// Straight, or held.
-    Straight(Straight),
-    /// Cycloidal.
-    Cycloid(Cycloid),
-    /// By the sines of the waveform itself.
-    Sines,
-}
 
 /// A straight way between two corners.
 ///
@@ -64,35 +52,5 @@ impl Straight {
     pub(super) fn at(&self, t: f64) -> Sample {
         let value = if t == self.other.0 { self.other.1 } else { self.line().at(t) };
         Sample { value, rate: self.rate, acceleration: 0.0 }
-    }
-}
-
-/// A way between two corners by the cycloidal law: value₀ + Δ(τ - sin(2πτ)/2π), τ = (t - t₀)/(t₁ - t₀).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cycloid {
-    from: (f64, f64),
-    to: (f64, f64),
-}
-
-impl Cycloid {
-    pub(super) fn between(from: (f64, f64), to: (f64, f64)) -> Self {
-        Self { from, to }
-    }
-
-    #[inline]
-    pub(super) fn at(&self, t: f64) -> Sample {
-        if t == self.to.0 {
-            return Sample { value: self.to.1, rate: 0.0, acceleration: 0.0 };
-        }
-        let (time, rise) = (self.to.0 - self.from.0, self.to.1 - self.from.1);
-        let part = (t - self.from.0) / time;
-        // Half angles: 1 - cos 2πτ = 2 sin² πτ loses nothing where the motion starts.
-        let (sin, cos) = (PI * part).sin_cos();
-        let mean = rise / time;
-        Sample {
-            value: self.from.1 + rise * (part - sin * cos / PI),
-            rate: mean * 2.0 * sin * sin,
-            acceleration: mean / time * 2.0 * TAU * sin * cos,
-        }
     }
 }

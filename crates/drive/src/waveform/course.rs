@@ -1,0 +1,31 @@
+//! What a kind of waveform makes of its parameters.
+
+use super::corners::Corners;
+use super::shape::Sines;
+
+/// All that a waveform asks of its kind: the chain of pieces, and what is known of it without following it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Course {
+    pub(super) chain: Chain,
+    /// Values held before the start and after the stop, where they are not where the chain starts and ends.
+    pub(super) ends: Option<(f64, f64)>,
+    /// Period, s, if it has one.
+    pub(super) period: Option<f64>,
+    /// Smallest and largest value over all time, or bounds of them.
+    pub(super) range: (f64, f64),
+    /// Period of the shortest wave in a smooth piece, s; infinite where all pieces are straight.
+    pub(super) wave: f64,
+    /// Whether the value ever jumps by design.
+    pub(super) has_jumps: bool,
+}
+
+/// Where the pieces between start and stop come from.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Chain {
+    /// Ways between corners.
+    Corners(Corners),
+    /// A single piece without a corner.
+    Sines(Sines),
+    /// No piece: one value up to this time (s), one from then on.
+    Step(f64),
+}

@@ -1,0 +1,80 @@
+//! Why a waveform makes no sense, and the checks that its kinds share.
+
+/// Why a waveform makes no sense.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum WaveformError {
+    /// A number out of its range.
+    #[error("{key}: expected {expected}, got {got}")]
+    Number {
+        /// Name of the parameter.
+        key: &'static str,
+        /// What would be allowed.
+        expected: &'static str,
+        /// What came.
+        got: f64,
+    },
+    /// A flyback that is negative or leaves no time for the way up.
+    #[error("flyback: expected a time of at least 0 and below the period of {period} s, got {got}")]
+    Flyback {
+        /// Period, s.
+        period: f64,
+        /// What came, s.
+        got: f64,
+    },
+    /// No points or no terms.
+    #[error("{key}: expected at least one, got none")]
+    Empty {
+        /// Name of the list.
+        key: &'static str,
+    },
+    /// Times of a table that do not rise.
+    #[error("points: expected times that rise, got {got} s after {before} s at point {place} (from 0)")]
+    Times {
+        /// Place of the point, from 0.
+        place: usize,
+        /// Time of the point before, s.
+        before: f64,
+        /// Its time, s.
+        got: f64,
+    },
+    /// Three points of a table at one time.
+    #[error(
+        "points: expected at most two points at one time (a jump), got a third at {time} s, point {place} (from 0)"
+    )]
+    Crowd {
+        /// Place of the third point, from 0.
+        place: usize,
+        /// The time, s.
+        time: f64,
+    },
+}
+
+impl WaveformError {
+    /// Name of the parameter that is wrong.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Number { key, .. } | Self::Empty { key } => key,
+            Self::Flyback { .. } => "flyback",
+            Self::Times { .. } | Self::Crowd { .. } => "points",
+        }
+    }
+}
+
+pub(super) fn finite(key: &'static str, got: f64) -> Result<(), WaveformError> {
+    within(key, got, "a finite number", true)
+}
+
+/// A value whose rate of change (or acceleration, or sum) is a number as well.
+pub(super) fn smooth(key: &'static str, got: f64, steepest: f64) -> Result<(), WaveformError> {
+    within(key, got, "a value that changes at a finite rate", steepest.is_finite())
+}
+
+pub(super) fn within(
+    key: &'static str,
+    got: f64,
+    expected: &'static str,
+    allowed: bool,
+) -> Result<(), WaveformError> {
+    if allowed && got.is_finite() { Ok(()) } else { Err(WaveformError::Number { key, expected, got }) }
+}

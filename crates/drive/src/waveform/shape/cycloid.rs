@@ -1,0 +1,45 @@
+//! Cycloid: like the sawtooth, at rest and without acceleration at both ends of each way.
+
+use super::Way;
+use super::flyback::Flyback;
+use crate::waveform::course::Course;
+use crate::waveform::error::smooth;
+use crate::waveform::{Sample, Timing, WaveformError};
+use std::f64::consts::{PI, TAU};
+
+/// Curved pieces, two in a period; one, and a jump, without a flyback.
+pub(super) fn course(stroke: f64, flyback: f64, timing: &Timing) -> Result<Course, WaveformError> {
+    let ways = Flyback::new(stroke, flyback, timing)?;
+    smooth("stroke", stroke, stroke / ways.shortest * (TAU / ways.shortest))?;
+    Ok(ways.course(Way::Cycloid, ways.shortest, timing))
+}
+
+/// A way between two corners by the cycloidal law: value₀ + Δ(τ - sin(2πτ)/2π), τ = (t - t₀)/(t₁ - t₀).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::waveform) struct Cycloid {
+    from: (f64, f64),
+    to: (f64, f64),
+}
+
+impl Cycloid {
+    pub(super) fn between(from: (f64, f64), to: (f64, f64)) -> Self {
+        Self { from, to }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, t: f64) -> Sample {
+        if t == self.to.0 {
+            return Sample { value: self.to.1, rate: 0.0, acceleration: 0.0 };
+        }
+        let (time, rise) = (self.to.0 - self.from.0, self.to.1 - self.from.1);
+        let part = (t - self.from.0) / time;
+        // Half angles: 1 - cos 2πτ = 2 sin² πτ loses nothing where the motion starts.
+        let (sin, cos) = (PI * part).sin_cos();
+        let mean = rise / time;
+        Sample {
+            value: self.from.1 + rise * (part - sin * cos / PI),
+            rate: mean * 2.0 * sin * sin,
+            acceleration: mean / time * 2.0 * TAU * sin * cos,
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Up to the stroke and back in the flyback that ends the period: what sawtooth and cycloid share.
+
+use super::Way;
+use crate::waveform::corners::{Corners, Leg};
+use crate::waveform::course::{Chain, Course};
+use crate::waveform::{Timing, WaveformError};
+
+/// Both ways of one period.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flyback {
+    /// Peak to peak, any sign.
+    stroke: f64,
+    /// Time of the way up, s.
+    rise: f64,
+    /// Duration of the shorter way, s.
+    pub(super) shortest: f64,
+}
+
+impl Flyback {
+    /// Refuses a flyback that is negative or leaves no time for the way up.
+    pub(super) fn new(stroke: f64, flyback: f64, timing: &Timing) -> Result<Self, WaveformError> {
+        timing.check_period()?;
+        let period = timing.period;
+        if !(flyback >= 0.0 && period - flyback > 0.0) {
+            return Err(WaveformError::Flyback { period, got: flyback });
+        }
+        let rise = period - flyback;
+        Ok(Self { stroke, rise, shortest: if flyback > 0.0 { flyback.min(rise) } else { rise } })
+    }
+
+    /// Its course with ways of this kind, the shortest wave lasting `wave` (s).
+    pub(super) fn course(&self, way: Way, wave: f64, timing: &Timing) -> Course {
+        let Self { stroke, rise, .. } = *self;
+        let legs = [Leg { start: 0.0, values: (0.0, stroke) }, Leg { start: rise, values: (stroke, 0.0) }];
+        Course {
+            chain: Chain::Corners(Corners::periodic(&legs, way, timing)),
+            ends: None,
+            period: Some(timing.period),
+            range: (stroke.min(0.0), stroke.max(0.0)),
+            wave,
+            has_jumps: stroke != 0.0 && rise >= timing.period,
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Harmonics: Σ amplitude sin(order ωt + phase).
+
+use super::Sines;
+use super::turn::Turn;
+use crate::waveform::course::{Chain, Course};
+use crate::waveform::error::{finite, smooth, within};
+use crate::waveform::{Sample, Timing, WaveformError};
+use std::f64::consts::TAU;
+
+/// One term of a sum of sines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Harmonic {
+    /// Half of peak to peak.
+    pub amplitude: f64,
+    /// Multiple of the fundamental frequency, a whole number of at least 1.
+    pub order: f64,
+    /// Phase, rad.
+    pub phase: f64,
+}
+
+/// Value and derivatives of the sum.
+#[inline]
+pub(super) fn at(terms: &[Harmonic], turn: Turn) -> Sample {
+    terms.iter().map(|harmonic| turn.term(*harmonic)).fold(
+        Sample { value: 0.0, rate: 0.0, acceleration: 0.0 },
+        |sum, term| Sample {
+            value: sum.value + term.value,
+            rate: sum.rate + term.rate,
+            acceleration: sum.acceleration + term.acceleration,
+        },
+    )
+}
+
+/// One smooth piece from start to stop.
+pub(super) fn course(terms: &[Harmonic], timing: &Timing) -> Result<Course, WaveformError> {
+    timing.check_period()?;
+    check(terms, timing.curvature())?;
+    let highest = terms.iter().map(|term| term.order).fold(1.0, f64::max);
+    Ok(Course {
+        chain: Chain::Sines(Sines::Sum(terms.to_vec())),
+        ends: None,
+        period: Some(timing.period),
+        range: range(terms),
+        wave: timing.period / highest,
+        has_jumps: false,
+    })
+}
+
+fn check(terms: &[Harmonic], curvature: f64) -> Result<(), WaveformError> {
+    if terms.is_empty() {
+        return Err(WaveformError::Empty { key: "terms" });
+    }
+    let mut sum = 0.0;
+    for term in terms {
+        sum += term.amplitude.abs() * (term.order * term.order * curvature).max(1.0);
+        smooth("amplitude", term.amplitude, sum)?;
+        finite("phase", term.phase)?;
+        let whole = term.order >= 1.0 && term.order.fract() == 0.0;
+        within("order", term.order, "a whole number of at least 1", whole)?;
+    }
+    Ok(())
+}
+
+/// Most points of the grid; from order 256 on the bound grows wider instead.
+const MOST_POINTS: f64 = 262_144.0;
+
+/// Bounds of a sum of sines: the extremes on a grid of spacing δ, widened by δ²/8 times the largest curvature
+/// Σ |amplitude| order², and no wider than Σ |amplitude|.
+fn range(terms: &[Harmonic]) -> (f64, f64) {
+    let sum: f64 = terms.iter().map(|term| term.amplitude.abs()).sum();
+    if let [_] = terms {
+        return (-sum, sum);
+    }
+    let order = terms.iter().map(|term| term.order).fold(1.0, f64::max);
+    let points = (1024.0 * order).min(MOST_POINTS) as u32;
+    let spacing = TAU / f64::from(points);
+    let curvature: f64 = terms.iter().map(|term| term.amplitude.abs() * term.order.powi(2)).sum();
+    let margin = 0.125 * spacing * spacing * curvature;
+    let (low, high) = (0..points).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), i| {
+        let angle = spacing * f64::from(i);
+        let value: f64 =
+            terms.iter().map(|term| term.amplitude * (term.order * angle + term.phase).sin()).sum();
+        (low.min(value), high.max(value))
+    });
+    ((low - margin).max(-sum), (high + margin).min(sum))
+}

@@ -1,0 +1,14 @@
+//! Sawtooth: straight up, straight back in the flyback.
+
+use super::Way;
+use super::flyback::Flyback;
+use crate::waveform::course::Course;
+use crate::waveform::error::smooth;
+use crate::waveform::{Timing, WaveformError};
+
+/// Straight pieces, two in a period; one, and a jump, without a flyback.
+pub(super) fn course(stroke: f64, flyback: f64, timing: &Timing) -> Result<Course, WaveformError> {
+    let ways = Flyback::new(stroke, flyback, timing)?;
+    smooth("stroke", stroke, stroke / ways.shortest)?;
+    Ok(ways.course(Way::Straight, f64::INFINITY, timing))
+}

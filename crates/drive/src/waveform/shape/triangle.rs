@@ -1,0 +1,23 @@
+//! Triangle: straight to the stroke in half a period, straight back.
+
+use super::Way;
+use crate::waveform::corners::{Corners, Leg};
+use crate::waveform::course::{Chain, Course};
+use crate::waveform::error::smooth;
+use crate::waveform::{Timing, WaveformError};
+
+/// Straight pieces, two in a period.
+pub(super) fn course(stroke: f64, timing: &Timing) -> Result<Course, WaveformError> {
+    timing.check_period()?;
+    smooth("stroke", stroke, 2.0 * stroke / timing.period)?;
+    let top = 0.5 * timing.period;
+    let legs = [Leg { start: 0.0, values: (0.0, stroke) }, Leg { start: top, values: (stroke, 0.0) }];
+    Ok(Course {
+        chain: Chain::Corners(Corners::periodic(&legs, Way::Straight, timing)),
+        ends: None,
+        period: Some(timing.period),
+        range: (stroke.min(0.0), stroke.max(0.0)),
+        wave: f64::INFINITY,
+        has_jumps: false,
+    })
+}

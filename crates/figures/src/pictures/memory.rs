@@ -1,0 +1,38 @@
+//! The memory curves of the contacts at some moments, each in its wedge.
+
+use super::{Kind, Sources, Undrawn, written};
+use crate::look::{Pen, Picture};
+use stickslip_plot::{MemoryMoment, memory_figure};
+use stickslip_results::curves::{self, MemoryCurve};
+use stickslip_results::files::MEMORY;
+use stickslip_scenario::PlotName;
+
+/// Most memory curves in one picture.
+const MOST_CURVES: usize = 24;
+
+pub(super) const KIND: Kind = Kind {
+    shows: "the curve by which a contact remembers, in its wedge, at some moments",
+    needs: |_| Vec::new(),
+    draw,
+};
+
+/// One panel for each curve.
+fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
+    let job = sources.job;
+    let curves = curves::read(written(&sources.memory, MEMORY)?, MOST_CURVES)?;
+    let slope = |name: &str| {
+        let law = job.model.contacts().find(|(contact, _)| *contact == name);
+        law.map_or(f64::NAN, |(_, law)| law.stick_slope())
+    };
+    let moments = curves.iter().map(|MemoryCurve { contact, time, apex, h, p }| MemoryMoment {
+        contact,
+        time: *time,
+        d: apex.0,
+        u: apex.1,
+        slope: slope(contact),
+        h,
+        p,
+    });
+    let moments: Vec<MemoryMoment<'_>> = moments.collect();
+    Ok(pen.draw(PlotName::Memory, memory_figure(job.title(), &moments))?)
+}
