@@ -8,7 +8,7 @@ use crate::contact::{Contact, Mode, Motion, Press};
 pub(crate) use sum::{Components, Reading, View};
 
 use crate::interval::{Interval, Pull};
-use crate::model::{BlockState, Measure, Place};
+use crate::model::{Binding, BlockState, Measure};
 use crate::state::{Layout, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::Memory;
@@ -70,11 +70,11 @@ impl<'a> Equations<'a> {
     }
 
     /// A coordinate and its rate.
-    pub(crate) fn place(&self, place: Place, t: f64, y: impl Fn(usize) -> f64) -> [f64; 2] {
+    pub(crate) fn place(&self, place: Binding, t: f64, y: impl Fn(usize) -> f64) -> [f64; 2] {
         match place {
-            Place::Held(x) => [x, 0.0],
-            Place::Free(i) => [y(i), y(self.layout.velocity(i))],
-            Place::Driven(w) => {
+            Binding::Held(x) => [x, 0.0],
+            Binding::Free(i) => [y(i), y(self.layout.velocity(i))],
+            Binding::Driven(w) => {
                 let sample = self.signal(w, &Components { t, y });
                 [sample.value, sample.rate]
             }

@@ -40,9 +40,9 @@ pub struct Model {
     pub(crate) fastest: f64,
 }
 
-/// Where a coordinate comes from.
+/// What a coordinate is bound to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Place {
+pub(crate) enum Binding {
     /// Stays here, m or rad.
     Held(f64),
     /// A free coordinate.
@@ -55,8 +55,8 @@ pub(crate) enum Place {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Body {
     pub(crate) name: String,
-    /// Its x, z and pitch.
-    pub(crate) places: [Place; 3],
+    /// What its x, z and pitch are bound to.
+    pub(crate) bindings: [Binding; 3],
 }
 
 /// A free coordinate.

@@ -5,7 +5,7 @@ use crate::component::Component;
 use crate::contact::{Contact, Mode};
 use crate::equations::{Components, Equations};
 use crate::event::{Event, Source};
-use crate::model::{Body, Link, Place};
+use crate::model::{Binding, Body, Link};
 use crate::scene::Axis;
 use crate::state::State;
 use stickslip_contact::{ContactState, Memory, Outcome};
@@ -146,14 +146,14 @@ impl Model {
     }
 
     /// Coordinates that are not fixed, under their bodies' names.
-    fn moving(&self) -> impl Iterator<Item = (&str, Axis, Place)> {
+    fn moving(&self) -> impl Iterator<Item = (&str, Axis, Binding)> {
         let axes = [Axis::X, Axis::Z, Axis::Pitch];
-        let of = move |body: &Body| axes.into_iter().zip(body.places);
+        let of = move |body: &Body| axes.into_iter().zip(body.bindings);
         let all = self
             .bodies
             .iter()
             .flat_map(move |body| of(body).map(|(axis, place)| (body.name.as_str(), axis, place)));
-        all.filter(|(_, _, place)| !matches!(place, Place::Held(_)))
+        all.filter(|(_, _, place)| !matches!(place, Binding::Held(_)))
     }
 
     /// Name of the source of an event.
@@ -195,7 +195,7 @@ pub(crate) fn fill(
     let mut books = Books { input, ..Books::default() };
     for (_, _, place) in model.moving() {
         let [position, rate] = equations.place(place, t, y);
-        row.extend([position + if let Place::Free(i) = place { state.shifts[i] } else { 0.0 }, rate]);
+        row.extend([position + if let Binding::Free(i) = place { state.shifts[i] } else { 0.0 }, rate]);
     }
     for (c, contact) in model.contacts.iter().enumerate() {
         contact_columns(equations, state, (c, contact), t, y, row, &mut books);

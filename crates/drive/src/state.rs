@@ -3,7 +3,7 @@
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::method::Tally;
-use crate::model::{BlockState, Place, Wired};
+use crate::model::{Binding, BlockState, Wired};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, Memory, Move};
@@ -236,11 +236,11 @@ impl State {
 
     /// A coordinate of body `index` of the scene and its rate; m and m/s, rad and rad/s.
     pub fn coordinate(&self, model: &Model, index: usize, axis: Axis) -> Option<(f64, f64)> {
-        let place = model.bodies.get(index)?.places[axis as usize];
+        let place = model.bodies.get(index)?.bindings[axis as usize];
         Some(match place {
-            Place::Held(x) => (x, 0.0),
-            Place::Free(i) => (self.shifts[i] + self.y[i], self.y[model.layout().velocity(i)]),
-            Place::Driven(_) => {
+            Binding::Held(x) => (x, 0.0),
+            Binding::Free(i) => (self.shifts[i] + self.y[i], self.y[model.layout().velocity(i)]),
+            Binding::Driven(_) => {
                 // Blocks' states lie elsewhere where no contact carries a state.
                 let growing = if self.y.len() == model.layout().total() { model.growing } else { 0 };
                 let layout = Layout { growing, ..model.layout() };

@@ -44,7 +44,7 @@ pub(crate) struct Swing {
     /// Speed of the followers along the coordinate, m/s: q̇ = ±(ẋ + drift).
     drift: f64,
     /// Where and when it begins.
-    start: Place,
+    start: PhasePoint,
     mobility: f64,
     /// Constant force on the slider, N.
     load: f64,
@@ -89,7 +89,7 @@ enum Clock {
 
 /// Time (s), position (m) and velocity (m/s).
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Place {
+pub(crate) struct PhasePoint {
     pub(crate) t: f64,
     pub(crate) x: f64,
     pub(crate) v: f64,
@@ -104,7 +104,7 @@ impl Swing {
     }
 
     /// Takes up what an interval has become; false where it has no such form.
-    pub(crate) fn begin(&mut self, interval: &Interval<'_>, slider: &Free, start: Place) -> bool {
+    pub(crate) fn begin(&mut self, interval: &Interval<'_>, slider: &Free, start: PhasePoint) -> bool {
         let Some(pull) = &interval.slider else { return false };
         let Some(first) = interval.closed.first() else { return false };
         if first.arm == 0.0 {
@@ -267,7 +267,7 @@ mod tests {
     fn swing(push: f64, speed: f64) -> Swing {
         Swing {
             sense: 1.0,
-            start: Place { t: 0.0, x: 0.0, v: speed },
+            start: PhasePoint { t: 0.0, x: 0.0, v: speed },
             mobility: 1.0,
             push,
             springs: vec![Spring::new(1.0, 1.0, 1.0)],

@@ -3,7 +3,7 @@
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
-use crate::interval::{Followed, Interval, Place, Swing};
+use crate::interval::{Followed, Interval, PhasePoint, Swing};
 use crate::model::Model;
 use crate::state::State;
 use crate::{Stepper, Waveform};
@@ -108,7 +108,7 @@ impl Model {
         if let [slider] = &self.free[..]
             && traits.leaps(scene)
         {
-            let start = Place { t: state.t, x: state.y[0], v: state.y[1] };
+            let start = PhasePoint { t: state.t, x: state.y[0], v: state.y[1] };
             traits = IntervalTraits { asked: !swing.begin(&interval, slider, start), ..traits };
         }
         expected.add(choice(scene, &traits));

@@ -2,7 +2,7 @@
 
 use super::contact::{self, Surroundings};
 use super::{
-    Body, Free, Link, Load, Measure, Model, Place, Signals, Spared, Stroke, block, check, dampers, held,
+    Binding, Body, Free, Link, Load, Measure, Model, Signals, Spared, Stroke, block, check, dampers, held,
     scale, used,
 };
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
@@ -77,11 +77,11 @@ fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
     let mut free = Vec::new();
     let (along, normal) = scene.gravity.incline.sin_cos();
     for (body, Named { name, part }) in scene.bodies.iter().enumerate() {
-        let mut places = [Place::Held(0.0); 3];
-        for (place, (axis, coordinate)) in places.iter_mut().zip(part.coordinates()) {
+        let mut bindings = [Binding::Held(0.0); 3];
+        for (place, (axis, coordinate)) in bindings.iter_mut().zip(part.coordinates()) {
             *place = match coordinate.freedom {
-                Freedom::Fixed => Place::Held(coordinate.position),
-                Freedom::Follows(waveform) => Place::Driven(waveform),
+                Freedom::Fixed => Binding::Held(coordinate.position),
+                Freedom::Follows(waveform) => Binding::Driven(waveform),
                 Freedom::Free => {
                     let mass = inertia(body, part, axis)?;
                     let weight = -mass * scene.gravity.acceleration;
@@ -91,11 +91,11 @@ fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
                         Axis::Pitch => 0.0,
                     };
                     free.push(free_coordinate(body, axis, mass, force, coordinate));
-                    Place::Free(free.len() - 1)
+                    Binding::Free(free.len() - 1)
                 }
             };
         }
-        bodies.push(Body { name: name.clone(), places });
+        bodies.push(Body { name: name.clone(), bindings });
     }
     Ok((bodies, free))
 }
@@ -143,7 +143,7 @@ fn links(scene: &Scene, bodies: &[Body]) -> Vec<Link> {
 fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
     let mut varying = Vec::new();
     for load in &scene.loads {
-        let [x, z, pitch] = bodies[load.on].places;
+        let [x, z, pitch] = bodies[load.on].bindings;
         let parts = [
             (x, 1.0, load.x),
             (z, 1.0, load.z),
@@ -153,8 +153,8 @@ fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
         ];
         for (place, arm, value) in parts {
             match (place, value) {
-                (Place::Free(i), Varying::Constant(force)) => free[i].force += arm * force,
-                (Place::Free(free), Varying::Follows(waveform)) if arm != 0.0 => {
+                (Binding::Free(i), Varying::Constant(force)) => free[i].force += arm * force,
+                (Binding::Free(free), Varying::Follows(waveform)) if arm != 0.0 => {
                     varying.push(Load { free, arm, waveform });
                 }
                 _ => {}
@@ -166,6 +166,7 @@ fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
 
 /// Loads on bodies that nothing lets move.
 fn spared_loads(scene: &Scene, bodies: &[Body]) -> Vec<usize> {
-    let is_held = |load: &scene::Load| !bodies[load.on].places.iter().any(|p| matches!(p, Place::Free(_)));
+    let is_held =
+        |load: &scene::Load| !bodies[load.on].bindings.iter().any(|p| matches!(p, Binding::Free(_)));
     scene.loads.iter().enumerate().filter(|(_, load)| is_held(load)).map(|(i, _)| i).collect()
 }

@@ -1,6 +1,6 @@
 //! Lengths measured between bodies: the constant Jacobians of the scene.
 
-use super::{Body, Place};
+use super::{Binding, Body};
 use crate::scene::{Direction, Point, Side};
 use arrayvec::ArrayVec;
 
@@ -27,7 +27,7 @@ impl Measure {
         let mut measure = Self::default();
         for ((side, point), sign) in ends.into_iter().zip([1.0, -1.0]) {
             let Side::Body(body) = side else { continue };
-            let [x, z, pitch] = bodies[body].places;
+            let [x, z, pitch] = bodies[body].bindings;
             let (along, arm) = match direction {
                 Direction::X => (x, -point.z),
                 Direction::Z => (z, point.x),
@@ -39,17 +39,17 @@ impl Measure {
     }
 
     /// Adds a multiple of a coordinate.
-    fn add(&mut self, place: Place, coefficient: f64) {
+    fn add(&mut self, place: Binding, coefficient: f64) {
         if coefficient == 0.0 {
             return;
         }
         let (terms, at) = match place {
-            Place::Held(position) => {
+            Binding::Held(position) => {
                 self.constant += coefficient * position;
                 return;
             }
-            Place::Free(i) => (&mut self.free, i),
-            Place::Driven(w) => (&mut self.driven, w),
+            Binding::Free(i) => (&mut self.free, i),
+            Binding::Driven(w) => (&mut self.driven, w),
         };
         match terms.iter_mut().find(|(known, _)| *known == at) {
             Some((_, sum)) => *sum += coefficient,
@@ -81,13 +81,13 @@ impl Measure {
 mod tests {
     use super::*;
 
-    fn body(places: [Place; 3]) -> Body {
-        Body { name: String::new(), places }
+    fn body(bindings: [Binding; 3]) -> Body {
+        Body { name: String::new(), bindings }
     }
 
     #[test]
     fn a_rolling_point_moves_with_the_pitch_and_a_held_one_counts_once() {
-        let ball = body([Place::Free(0), Place::Free(1), Place::Free(2)]);
+        let ball = body([Binding::Free(0), Binding::Free(1), Binding::Free(2)]);
         let below = Point { x: 0.0, z: -2.0 };
         let ends = [(Side::Ground, Point::default()), (Side::Body(0), below)];
         let u = Measure::between(ends, Direction::X, std::slice::from_ref(&ball));
@@ -98,14 +98,14 @@ mod tests {
         let d = Measure::between(
             ends,
             Direction::Z,
-            &[ball, body([Place::Held(1.0), Place::Held(0.5), Place::Held(0.0)])],
+            &[ball, body([Binding::Held(1.0), Binding::Held(0.5), Binding::Held(0.0)])],
         );
         assert_eq!((&d.free[..], d.constant), (&[(1, 1.0), (2, 3.0)][..], -0.5));
     }
 
     #[test]
     fn what_follows_one_waveform_on_both_sides_does_not_move() {
-        let foot = body([Place::Driven(0), Place::Held(0.0), Place::Held(0.0)]);
+        let foot = body([Binding::Driven(0), Binding::Held(0.0), Binding::Held(0.0)]);
         let ends = [(Side::Body(0), Point::default()), (Side::Body(1), Point::default())];
         assert!(Measure::between(ends, Direction::X, &[foot.clone(), foot]).is_constant());
     }

@@ -1,6 +1,6 @@
 //! Waveforms that nothing follows.
 
-use super::{Body, Link, Load, Place, Stroke, Wire, Wired};
+use super::{Binding, Body, Link, Load, Stroke, Wire, Wired};
 use crate::Waveform;
 use crate::contact::Contact;
 
@@ -13,9 +13,9 @@ pub(super) fn hold_the_others(
     loads: &[Load],
 ) -> Vec<usize> {
     let mut used = vec![false; waveforms.len()];
-    let places = bodies.iter().flat_map(|body| body.places).filter_map(|place| match place {
-        Place::Driven(w) => Some(w),
-        Place::Held(_) | Place::Free(_) => None,
+    let places = bodies.iter().flat_map(|body| body.bindings).filter_map(|place| match place {
+        Binding::Driven(w) => Some(w),
+        Binding::Held(_) | Binding::Free(_) => None,
     });
     let strokes = links.iter().filter_map(|link| match link.stroke {
         Stroke::Driven(w) => Some(w),

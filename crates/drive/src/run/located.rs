@@ -23,6 +23,7 @@ mod steady;
 mod step;
 mod turning;
 mod watch;
+mod watched;
 mod write;
 
 use super::bounds::Bounds;

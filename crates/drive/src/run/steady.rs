@@ -1,6 +1,6 @@
 //! Steps of a periodic drive, watched until they are constant.
 
-use crate::model::Place;
+use crate::model::Binding;
 use crate::scene::Axis;
 use crate::state::State;
 use crate::{Model, Plan, UntilSteady};
@@ -66,7 +66,9 @@ impl Steps {
 
     fn asked(model: &Model, UntilSteady { waveform, body, change }: UntilSteady) -> Option<Self> {
         let waveform = model.waveforms.get(waveform)?;
-        let Place::Free(coordinate) = model.bodies.get(body)?.places[Axis::X as usize] else { return None };
+        let Binding::Free(coordinate) = model.bodies.get(body)?.bindings[Axis::X as usize] else {
+            return None;
+        };
         let (period, timing) = (waveform.period()?, waveform.timing());
         Some(Self {
             coordinate,

@@ -1,13 +1,13 @@
 //! Where a swing is at a time.
 
-use super::{Place, Swing};
+use super::{PhasePoint, Swing};
 
 /// Steps to the place at a time: each squares the error.
 const NEWTON: usize = 8;
 
 impl Swing {
-    /// Place and velocity at the event.
-    pub(crate) fn end(&self) -> Place {
+    /// PhasePoint and velocity at the event.
+    pub(crate) fn end(&self) -> PhasePoint {
         let t = self.start.t + self.duration;
         if self.springs.is_empty() {
             return self.freely(t, self.duration);
@@ -17,8 +17,8 @@ impl Swing {
         self.place((t, self.duration), way, v)
     }
 
-    /// Place and velocity at a time before the event.
-    pub(crate) fn at(&mut self, t: f64) -> Place {
+    /// PhasePoint and velocity at a time before the event.
+    pub(crate) fn at(&mut self, t: f64) -> PhasePoint {
         let passed = t - self.start.t;
         if self.springs.is_empty() {
             return self.freely(t, passed);
@@ -65,21 +65,21 @@ impl Swing {
     }
 
     /// In gross slip: a parabola.
-    fn freely(&self, t: f64, passed: f64) -> Place {
-        let Place { x, v, .. } = self.start;
+    fn freely(&self, t: f64, passed: f64) -> PhasePoint {
+        let PhasePoint { x, v, .. } = self.start;
         let gain = self.sense * self.push * passed;
         let turned = self.turns && passed == self.duration;
-        Place { t, x: x + (v + 0.5 * gain) * passed, v: if turned { -self.drift } else { v + gain } }
+        PhasePoint { t, x: x + (v + 0.5 * gain) * passed, v: if turned { -self.drift } else { v + gain } }
     }
 
     /// `passed` is what `t` would be from the start on without its rounding: a fast follower's way depends on it.
-    fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> Place {
-        Place { t, x: self.start.x + (self.sense * way - self.drift * passed), v }
+    fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> PhasePoint {
+        PhasePoint { t, x: self.start.x + (self.sense * way - self.drift * passed), v }
     }
 
     /// Work that the followers have put in up to a place, J: their speed times what the slider's momentum lacks of the
     /// impulse of its load.
-    pub(crate) fn work(&self, to: &Place) -> f64 {
+    pub(crate) fn work(&self, to: &PhasePoint) -> f64 {
         self.drift * (self.load * (to.t - self.start.t) - (to.v - self.start.v) / self.mobility)
     }
 }

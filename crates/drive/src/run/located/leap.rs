@@ -5,7 +5,7 @@ use super::watch::Fallen;
 use crate::RunError;
 use crate::contact::Guard;
 use crate::equations::Equations;
-use crate::interval::{Closed, Place};
+use crate::interval::{Closed, PhasePoint};
 use crate::method::Method;
 use crate::record::Record;
 use crate::run::ledger::Books;
@@ -49,13 +49,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // What has no closed form now has none until the next event.
         self.interval.traits.asked = true;
         let [slider] = &self.setting.model.free[..] else { return false };
-        let start = Place { t: state.t, x: state.y[0], v: state.y[1] };
+        let start = PhasePoint { t: state.t, x: state.y[0], v: state.y[1] };
         let length = slider.scale.0;
         self.swing.begin(&self.interval, slider, start) && self.swing.aim(length)
     }
 
     /// The end of a period with which the steps of the drive are constant, if there is one on the way.
-    fn leap_over_steps(&mut self, state: &State, to: Place) -> Option<Place> {
+    fn leap_over_steps(&mut self, state: &State, to: PhasePoint) -> Option<PhasePoint> {
         while let Some(due) = self.horizon.steps.due(to.t) {
             let place = if due < to.t { self.swing.at(due) } else { to };
             if self.horizon.steps.take(state.shifts[self.horizon.steps.coordinate], place.x) {
@@ -69,7 +69,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Rows and looks that are due on the way.
     #[inline(never)]
-    fn write_on_the_way(&mut self, state: &State, to: Place, record: &mut dyn Record) {
+    fn write_on_the_way(&mut self, state: &State, to: PhasePoint, record: &mut dyn Record) {
         let eq = self.setting.plain(state);
         let mut y = std::mem::take(&mut self.output.components);
         while let Some(due) = self.output.grid.due(to.t) {
@@ -85,7 +85,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Components at a time on the way.
-    fn fill(&mut self, state: &State, due: f64, to: Place, y: &mut [f64]) {
+    fn fill(&mut self, state: &State, due: f64, to: PhasePoint, y: &mut [f64]) {
         let place = if due < to.t { self.swing.at(due) } else { to };
         y.copy_from_slice(&state.y);
         (y[0], y[1]) = (place.x, place.v);
@@ -93,7 +93,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Moves the state to a place, and the memories of all contacts with it.
-    fn land(&mut self, state: &mut State, to: Place) -> Result<(), RunError> {
+    fn land(&mut self, state: &mut State, to: PhasePoint) -> Result<(), RunError> {
         if let Some(i) = [to.x, to.v].iter().position(|y| !y.is_finite()) {
             return Err(self.setting.model.not_finite(to.t, i));
         }

@@ -1,19 +1,10 @@
 //! Finding the first guard that falls inside a step.
 
-use super::watch::{Fallen, Moving, Watch};
-use crate::contact::{Contact, Guard, Motion, NEARNESS, bands};
+use super::watch::{Moving, Watch};
+use super::watched::Watched;
+use crate::contact::{Guard, Motion, NEARNESS, bands};
 use crate::equations::Equations;
-use crate::interval::Closed;
 use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, End, Point, root, root_near};
-
-/// A guard that is watched: of a contact of closed form a straight function of the state, of any other one a function of its motion,
-/// of a block whatever that says.
-#[derive(Clone, Copy)]
-pub(super) enum Watched<'e> {
-    Closed(&'e Closed<'e>, Guard),
-    Contact(usize, &'e Contact, Guard),
-    Block(usize, usize),
-}
 
 /// A guard that falls inside the step just attempted.
 #[derive(Clone, Copy)]
@@ -33,46 +24,6 @@ struct Search<'r, 'e, A> {
 
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
-
-impl<'e> Watched<'e> {
-    /// Does something with the guards of all components that can end the interval.
-    #[inline(always)]
-    fn each(eq: &Equations<'e>, mut act: impl FnMut(Self)) {
-        let Some(interval) = eq.interval else { return };
-        for steady in &interval.closed {
-            steady.guards.iter().for_each(|guard| act(Self::Closed(steady, *guard)));
-        }
-        for index in interval.open_form() {
-            let contact = &eq.model.contacts[index];
-            for &guard in Guard::of(contact, &eq.modes[index]) {
-                act(Self::Contact(index, contact, guard));
-            }
-        }
-        for (k, wired) in eq.model.blocks.iter().enumerate() {
-            for &guard in wired.block().guards(&eq.blocks[k].law) {
-                act(Self::Block(k, guard));
-            }
-        }
-    }
-
-    /// What falls with it.
-    fn fallen(self) -> Fallen {
-        match self {
-            Self::Closed(steady, guard) => Fallen::Contact(steady.index, guard),
-            Self::Contact(index, _, guard) => Fallen::Contact(index, guard),
-            Self::Block(k, guard) => Fallen::Block(k, guard),
-        }
-    }
-
-    /// Whether its course inside a step is no polynomial of low degree that its rates at both ends would tell.
-    fn is_sampled(self) -> bool {
-        match self {
-            Self::Closed(..) => false,
-            Self::Contact(_, contact, _) => contact.press.waveform().is_some(),
-            Self::Block(..) => true,
-        }
-    }
-}
 
 impl Watch {
     /// The earliest fall in the step just attempted, on its dense output.

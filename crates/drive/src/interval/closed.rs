@@ -1,0 +1,124 @@
+//! Contacts whose force is a closed form of u until the next event.
+
+use super::Followed;
+use crate::Sample;
+use crate::contact::{Contact, Guard, Mode, Motion, Press};
+use stickslip_contact::SteadyBranch;
+
+/// A contact at constant indentation on one branch.
+#[derive(Debug, Clone)]
+pub(crate) struct Closed<'a> {
+    /// Its place among the contacts.
+    pub(crate) index: usize,
+    pub(crate) contact: &'a Contact,
+    /// Those that end the interval.
+    pub(crate) guards: &'static [Guard],
+    d: f64,
+    /// u = what followers make of it + Σ coefficient · coordinate.
+    pub(super) followed: Followed<'a>,
+    /// Sum of the coefficients: what a single coordinate counts in u.
+    pub(crate) arm: f64,
+    pub(super) branch: SteadyBranch,
+}
+
+impl Closed<'_> {
+    /// The part of u that does not depend on the free coordinates, m, and its derivatives.
+    #[inline(always)]
+    pub(crate) fn followed(&self, t: f64) -> Sample {
+        self.followed.at(t)
+    }
+
+    /// Its rate where it is the same at all times, m/s.
+    pub(crate) fn constant_rate(&self) -> Option<f64> {
+        self.followed.line().map(|[_, rate, _]| rate)
+    }
+
+    /// Force along u on the coordinates, N: what the contacts exert, less than zero forward.
+    #[inline(always)]
+    pub(crate) fn force(&self, u: f64) -> f64 {
+        -self.contact.count * self.branch.force(self.contact.interface.profile(), u)
+    }
+
+    /// u at time t, s; `x` reads positions of free coordinates.
+    #[inline(always)]
+    pub(crate) fn displacement(&self, t: f64, x: impl Fn(usize) -> f64) -> f64 {
+        // Two bodies far from their start may be close to each other: their difference first.
+        self.own(x) + self.followed(t).value
+    }
+
+    /// Motion at time t, s; `x` and `v` read positions and velocities of free coordinates.
+    #[inline(always)]
+    pub(crate) fn motion(&self, t: f64, x: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64) -> Motion {
+        let Sample { value, rate, .. } = self.followed(t);
+        Motion { d: self.d, u: self.own(x) + value, dd: 0.0, du: self.own(v) + rate }
+    }
+
+    /// Value of one of its guards at time t, s: the margin of its piece, or else the speed of its edge.
+    #[inline(always)]
+    pub(crate) fn guard(
+        &self,
+        guard: Guard,
+        t: f64,
+        x: impl Fn(usize) -> f64,
+        v: impl Fn(usize) -> f64,
+    ) -> f64 {
+        match guard {
+            Guard::Piece => self.branch.margin(self.displacement(t, x)),
+            _ => self.branch.sense() * (self.own(v) + self.followed(t).rate),
+        }
+    }
+
+    /// Its rate at time t, s; `v` and `a` read velocities and accelerations.
+    #[inline(always)]
+    pub(crate) fn guard_rate(
+        &self,
+        guard: Guard,
+        t: f64,
+        v: impl Fn(usize) -> f64,
+        a: impl Fn(usize) -> f64,
+    ) -> f64 {
+        let followed = self.followed(t);
+        match guard {
+            Guard::Piece => -self.branch.sense() * (self.own(v) + followed.rate),
+            _ => self.branch.sense() * (self.own(a) + followed.acceleration),
+        }
+    }
+
+    /// +1 forward, -1 backward.
+    pub(crate) fn sense(&self) -> f64 {
+        self.branch.sense()
+    }
+
+    /// How far a single coordinate at x (m) may still move before a piece of memory ends, m; ∞ in gross slip.
+    #[inline(always)]
+    pub(crate) fn reach(&self, t: f64, x: f64) -> f64 {
+        let u = self.arm * x + self.followed(t).value;
+        if self.branch.is_gross() { f64::INFINITY } else { self.branch.margin(u) / self.arm.abs() }
+    }
+
+    /// What the free coordinates make of u, or their derivatives of its own.
+    #[inline(always)]
+    pub(crate) fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
+        self.contact.u.free.iter().map(|(i, a)| a * of(*i)).sum()
+    }
+}
+
+/// A contact whose followers make a closed form of u.
+pub(super) fn closed_form<'a>(
+    c: usize,
+    (contact, mode): (&'a Contact, &Mode),
+    followed: Option<Followed<'a>>,
+) -> Option<Closed<'a>> {
+    let (Mode::Slip(branch), Press::Constant { d, reduced_force }) = (mode, &contact.press) else {
+        return None;
+    };
+    Some(Closed {
+        index: c,
+        contact,
+        guards: Guard::of(contact, mode),
+        d: *d,
+        followed: followed?,
+        arm: contact.u.free.iter().map(|(_, a)| a).sum(),
+        branch: branch.steady(*d, *reduced_force),
+    })
+}

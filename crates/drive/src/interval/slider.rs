@@ -1,0 +1,48 @@
+//! A single slider among contacts of closed form.
+
+use stickslip_contact::Profile;
+
+/// A single slider among contacts of closed form: its acceleration is a₀ + Σ a M(h_c) and the power put in P₀ + Σ P M(h_c), over
+/// the contacts in partial slip.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Slider {
+    /// a₀, m/s².
+    pub(crate) acceleration: f64,
+    /// P₀, W.
+    pub(crate) power: f64,
+}
+
+/// What a contact in partial slip adds to a single slider. Kept so that as little as can be waits for the position.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pull<'a> {
+    pub(super) profile: &'a Profile,
+    /// h_c = front + advance (t - start) + lean · x.
+    pub(super) front: f64,
+    pub(super) advance: f64,
+    pub(super) start: f64,
+    pub(super) lean: f64,
+    /// a, 1/(m s²).
+    pub(crate) acceleration: f64,
+    /// P, W/m².
+    pub(crate) power: f64,
+}
+
+impl Pull<'_> {
+    /// M at the slip front, m².
+    #[inline(always)]
+    pub(crate) fn reduced_force(&self, t: f64, x: f64) -> f64 {
+        self.profile.reduced_force(self.height(t, x))
+    }
+
+    /// Height of the slip front, m.
+    #[inline(always)]
+    fn height(&self, t: f64, x: f64) -> f64 {
+        (self.front + self.advance * (t - self.start)) + self.lean * x
+    }
+
+    /// N of one metre (m³), the height now (m) and how it leans on the coordinate, where M is a power 3/2 of the height.
+    pub(super) fn root_law(&self, t: f64, x: f64) -> Option<(f64, f64, f64)> {
+        let is_paraboloid = self.profile.exponent() == Some(2.0);
+        is_paraboloid.then(|| (self.profile.reduced_energy(1.0), self.height(t, x), self.lean))
+    }
+}
