@@ -167,11 +167,7 @@ impl<'a, const D: usize> Trip<'a, D> {
             None => (corner, end),
         };
         if let Some(samples) = &mut output.samples {
-            let interval = Samples::interval(self.outside.duration);
-            while samples.len() + 1 < Samples::complete() && samples.len() as f64 * interval <= t {
-                let at = dense.evaluate(samples.len() as f64 * interval).unwrap_or(self.y);
-                self.keep(samples, &at);
-            }
+            self.sample(samples, t, |at| dense.evaluate(at).unwrap_or(self.y));
         }
         (self.t, self.y) = (t, y);
         self.counts.steps += u64::from(stats.accepted_steps);
@@ -200,6 +196,14 @@ impl<'a, const D: usize> Trip<'a, D> {
             }
         }
         Ok(())
+    }
+
+    /// Keeps the samples due up to time t, s, of a stretch whose state `at` a time is known.
+    fn sample(&self, samples: &mut Samples, t: f64, at: impl FnMut(f64) -> SVector<f64, D>) {
+        let (mut at, interval) = (at, Samples::interval(self.outside.duration));
+        while samples.len() + 1 < Samples::complete() && samples.len() as f64 * interval <= t {
+            self.keep(samples, &at(samples.len() as f64 * interval));
+        }
     }
 
     fn keep(&self, samples: &mut Samples, y: &SVector<f64, D>) {

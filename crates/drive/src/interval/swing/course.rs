@@ -6,7 +6,7 @@ use super::{PhasePoint, Swing};
 const NEWTON: usize = 8;
 
 impl Swing {
-    /// PhasePoint and velocity at the event.
+    /// Place and velocity at the event.
     pub(crate) fn end(&self) -> PhasePoint {
         let t = self.start.t + self.duration;
         if self.springs.is_empty() {
@@ -17,7 +17,7 @@ impl Swing {
         self.place((t, self.duration), way, v)
     }
 
-    /// PhasePoint and velocity at a time before the event.
+    /// Place and velocity at a time before the event.
     pub(crate) fn at(&mut self, t: f64) -> PhasePoint {
         let passed = t - self.start.t;
         if self.springs.is_empty() {
