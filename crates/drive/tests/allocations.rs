@@ -10,10 +10,10 @@
 #[allow(dead_code, reason = "shared with the tests of drives")]
 mod parts;
 
-use parts::{FOOT_SLIDER, contact, event, foot_and_slider, p1, sine, wave};
+use parts::{FOOT_SLIDER, contact, event, foot_and_slider, p1, plan, sine, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Normal, Scene, Varying};
-use stickslip_drive::{Model, Plan, Shape, run};
+use stickslip_drive::{Model, Plan, Shape, Stepper, run};
 
 /// Allocations of a run of so many seconds, the workspace included.
 fn allocations(scene: &Scene, plan: &Plan) -> u64 {
@@ -39,6 +39,19 @@ fn stepping_allocates_nothing() {
             let [short, long] =
                 [20e-3, 200e-3].map(|duration| allocations(&scene, &event(tolerance, duration)));
             println!("{name}, tolerance {tolerance:e}: {short} allocations in 20 ms, {long} in 200 ms");
+            assert_eq!(short, long);
+        }
+    }
+}
+
+/// Nor do fixed steps, which commit every contact at every step.
+#[test]
+fn fixed_steps_allocate_nothing() {
+    let step = 2e-6;
+    for (name, scene) in [("P1", p1()), ("shaken", shaken())] {
+        for stepper in [Stepper::Verlet { step }, Stepper::Rk4 { step }] {
+            let [short, long] = [20e-3, 200e-3].map(|duration| allocations(&scene, &plan(stepper, duration)));
+            println!("{name}, {}: {short} allocations in 20 ms, {long} in 200 ms", stepper.name());
             assert_eq!(short, long);
         }
     }
