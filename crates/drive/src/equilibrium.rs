@@ -17,10 +17,13 @@ use nalgebra::DVector;
 use stickslip_contact::Segment;
 
 /// Parts in which the loads are put on where several coordinates share them.
+// Each part leaves a knot, whose loop closes later: with 640 a climber has 2 528 events in ten cycles instead of 1 370 and ends
+// 4e-6 u_c elsewhere; with a single one 2e-5 u_c.
 const PARTS: u32 = 64;
 /// Most free coordinates whose equilibrium is sought: the work grows with the cube of their number, seconds for these.
 const MOST: usize = 200;
 /// Share of the loads that sets the bodies down: what the contacts remember of the way through the air is as small.
+// With ten times or a tenth as much a climber ends less than 1e-6 u_c elsewhere.
 const LANDING: f64 = 1e-6;
 
 impl Model {

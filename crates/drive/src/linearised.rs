@@ -5,8 +5,10 @@ use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};
 use std::f64::consts::SQRT_2;
 
 /// Sweeps of an eigenvalue iteration per row before it counts as failed; a handful is usual.
+// With 10 all of the examples still converge; where one fails, as with 1, a longest step comes out 3e5 times too short.
 const SWEEPS: usize = 100;
 /// Halvings that find a longest step to the last bit.
+// 32 leave a longest step wrong by 3e-10.
 const HALVINGS: u32 = 64;
 
 /// Indentations of a contact, m; negative: open.

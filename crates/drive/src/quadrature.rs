@@ -3,12 +3,17 @@
 use std::sync::LazyLock;
 
 /// Nodes of the finest rule.
+// 64 change no run. With 16 drives at a tolerance of 1e-13 take up to a third more evaluations.
 const MOST: usize = 32;
 /// Errors below which a rule is not worth trying: so smooth are few functions.
+// Ten times as large they make a free decay at 1e-9 60 % dearer. A tenth saves some drives a quarter of their evaluations
+// there, for errors half as large again.
 const HOPELESS: [f64; 3] = [1e-3, 1e-8, 1e-16];
 /// How much more than c² is allowed for: of two functions with the same last coefficients one is the rougher.
+// 1 saves P1 16 % of its evaluations at 1e-6, for three times the error; 100 costs 51 %, for a sixtieth.
 const CAUTION: f64 = 10.0;
 /// Newton steps to a node: from Tricomi's guess three reach the last place.
+// Two leave P1 at 1e-9 an error of 3.5e-10 u_c instead of 3e-13.
 const NEWTON: usize = 4;
 
 /// Values that are asked for together: a function of so many numbers takes hardly longer than one of a single number.

@@ -25,9 +25,12 @@ pub(crate) enum Guard {
 
 /// Round-off deadbands, relative to the natural displacement and velocity: without them a body at rest rings in
 /// its last bit.
+// Not tuned finely: a tenth or ten times as much changes no error by more than any other path of steps does.
 const DEADBAND: f64 = 1e-13;
 /// How near to its zero a guard counts as there, in units of the tolerance: the law is continuous across events,
 /// so what is missed counts in second order only.
+// Ten times as much leaves a damped flat punch under a falling load books of 8e-3 instead of 1e-6 at a tolerance of 1e-6; with
+// a tenth its events accumulate and the run stops.
 pub(crate) const NEARNESS: f64 = 1e-3;
 
 /// How far below zero a guard of a natural scale must fall to count, and how near to zero it counts as there.

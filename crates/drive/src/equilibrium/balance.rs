@@ -6,14 +6,18 @@ use crate::state::State;
 use nalgebra::DVector;
 
 /// Most iterations.
+// Bounds the search where there is no equilibrium: no start differs with 40.
 const ITERATIONS: u32 = 400;
 /// Iterations without progress after which the rest is rounding.
+// Half of it gives the same bits; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
 const PATIENCE: u32 = 8;
 /// Most halvings of a step that goes too far.
 const HALVINGS: u32 = 40;
 /// Largest imbalance of an equilibrium, in units of what acts on a coordinate.
+// Decides only whether there is one: Newton's method goes on to rounding, and no start differs at 1e-8 or 1e-10.
 const BALANCED: f64 = 1e-9;
 /// A step this long finds nothing that holds a body any more, m or rad.
+// Bounds the search where there is no equilibrium: no start differs with 100 m.
 const LOST: f64 = 1e3;
 
 /// A place of the free coordinates, and what is left unbalanced there.

@@ -113,4 +113,5 @@ fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
 }
 
 /// Growth of a contact, in parts of its depth, that is too short to tell a chord from its end.
+// It need not be sharp: no start differs at 1e-5 or 1e-7.
 const SHORT: f64 = 1e-6;

@@ -30,8 +30,11 @@ use std::f64::consts::PI;
 use turning::{EXACT, ROUGH, softer};
 
 /// Part of its height at the start below which a slip front comes so near to the centre that its branch point is felt.
+// At 1 all time would be integrated in the root of the way left: 60 % more evaluations on P1 at 1e-6, for a tenth of an error
+// that is a thousandth of the tolerance. At 0.01 nothing changes but last places.
 const BRANCH: f64 = 0.1;
 /// Part of the way to the nearer turning point up to which motion is a passage: its time is as smooth as can be.
+// A tenth costs P1 8 % more evaluations at 1e-6 and the same error; ten times as much changes no run.
 const FAR: f64 = 0.25;
 /// Swings smaller than this share of the natural length are left to the stepper: it knows rest from rounding.
 const SMALLEST: f64 = 1e-9;

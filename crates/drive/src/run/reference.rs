@@ -8,6 +8,8 @@ use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, 
 
 /// Longest step, in quarters of the shortest wave. In gross slip nothing in the equations tells of a wave that goes by under
 /// a long step, nor of the short time in which it holds a body.
+// Ten times as much: a sine drive ends 1.6 u_c away at a tolerance of 1e-6, instead of 0.3. A tenth: 2e-3 u_c at 1e-9, for 2.5
+// times the work.
 const SEEN: f64 = 0.125;
 
 /// A run whose steps an outside solver chooses.

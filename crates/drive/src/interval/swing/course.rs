@@ -3,6 +3,7 @@
 use super::{PhasePoint, Swing};
 
 /// Steps to the place at a time: each squares the error.
+// Two give the same bits as eight; one leaves P1 at 1e-9 an error of 1.5e-6 u_c instead of 3e-13.
 const NEWTON: usize = 8;
 
 impl Swing {

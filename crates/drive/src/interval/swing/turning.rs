@@ -4,8 +4,11 @@ use super::Swing;
 use std::array;
 
 /// Steps of Halley's method to a turning point: two suffice, more are for slow starts.
+// What has not converged is stepped: with 2 the events of 32 contacts on one slider cost 5 % more evaluations at 1e-9.
 const HALLEY: usize = 30;
 /// Its last step, relative: one that leaves nothing, to the third power, and one that is always worth another.
+// Between both the step goes with the third root of the tolerance: they act below 1e-12 and above 8e-3 only. With a
+// tenth of the rough one P1 at 1e-2 takes 14 % more evaluations, and its books, 7e-7, close to rounding.
 pub(super) const EXACT: f64 = 1e-5;
 pub(super) const ROUGH: f64 = 0.02;
 

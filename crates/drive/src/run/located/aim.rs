@@ -33,10 +33,15 @@ struct Expected {
 }
 
 /// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
+// Without it two contacts that grow take 47 % more evaluations, with 1.005 10 %; with 1.5 an eighth less, but at 1e-9 an error
+// four times as large, and damped contacts 16 % more.
 const OVERSTEP: f64 = 1.05;
 /// Time goes by at most this much faster along a graded step than along an even one: so much less is its reach.
+// With 20 some profiles end nearer, but a sine drive at 1e-6 no longer finds its steady step; with 1 a profile of power 4 has
+// five times the error at 1e-9.
 const FASTEST: f64 = 2.0;
 /// A step is not tried again with less than this part of it, and the next one is no shorter.
+// Refused: 0.8, four times the error on a profile of power 3. With 0.02 no run differs.
 pub(super) const SHRINK: f64 = 0.2;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {

@@ -7,8 +7,12 @@ use crate::state::State;
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
 /// and the estimates of a method of high order see them late. Without it errors were 20 to 1000 times the tolerance.
+// With 0.01 a sine drive on 64 heights saves a quarter of its evaluations, for books of the size of the tolerance and twenty
+// times the error; 1e-4 costs a quarter more.
 const KINKS: f64 = 1e-3;
 /// Finest tolerance that rounding leaves room for.
+// On heights at a tolerance of 1e-12 books are 2e-11 with it, 1e-10 with 1e-12; with 1e-14 7 % more evaluations gain
+// half of that.
 const FINEST: f64 = 1e-13;
 
 /// Absolute errors allowed of a step.

@@ -10,12 +10,18 @@ use crate::{Plan, Waveform};
 use stickslip_stepper::{Attempt, End, Grade, Target};
 
 /// Velocities this small, relative to the natural ones, are rounding: some hundred of their last places.
+// With 1e-12 a growing power law ends elsewhere by a tenth of its error; with 1e-14 nothing differs.
 const REST: f64 = 1e-13;
 /// Largest product of step and rate at rest. Long steps multiply rounding by their many large coefficients.
+// With 0.1 P1 on a sine has five times the error at 1e-6; with 10 nothing is saved.
 const REST_REACH: f64 = 1.0;
 /// Steps of a row under a varying load in a period of the load, at least.
+// No estimate sees the error of a chord: 410 leave a row under a sine of load 4e-4 u_c away and books of 9e-6; 4096 about
+// 4e-5 u_c and 9e-8; 40 960 cost ten times as much.
 const CHORDS_PER_PERIOD: f64 = 4096.0;
 /// How often a step is tried again to end nearer to its singular moment.
+// Without any the books of a sine drive at 1e-9 are 25 times worse; more than two change only how a ball bounces that is set
+// down without damping.
 const CORRECTIONS: u32 = 2;
 
 /// The solver and what steers it.

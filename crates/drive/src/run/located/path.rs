@@ -9,10 +9,13 @@ use stickslip_contact::Segment;
 use stickslip_stepper::{Attempt, Completion};
 
 /// Most pieces into which a step's path of growth is cut.
+// Bounds memory. 25 make a rocking slider at 1e-9 two thirds dearer and its books 27 times worse.
 pub(super) const MOST_PIECES: f64 = 256.0;
 
 /// How far a piece of a path of growth may bend, in units of the tolerance. Forces at both its ends are those of the state:
 /// a bend counts only where an edge stops inside the piece, and then for less than a hundredth.
+// With 1000 a sine drive at 1e-6 ends four times as far off, and a rocking slider at 1e-9 takes 58 % more evaluations; with 10
+// it ends less than half as far off, for three times the pieces.
 const BEND: f64 = 100.0;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
