@@ -2,8 +2,9 @@
 
 use super::sum::{Sum, View};
 use super::{Components, Equations};
-use crate::component::Moment;
+use crate::component::{Block, Moment, Standing};
 use crate::model::{MOST_OF_A_BLOCK, Wire, Wired};
+use crate::state::State;
 use crate::{EventKind, Sample};
 use arrayvec::ArrayVec;
 
@@ -20,24 +21,20 @@ impl Equations<'_> {
     /// What a block makes.
     #[inline(never)]
     fn made(&self, signal: usize, at: &impl View) -> Sample {
-        let k = signal - self.pieces.len();
-        let states = self.block_states(k, at);
-        self.with_block(k, at, &states, |wired, moment| {
-            wired.block().signal(self.blocks[k].standing(), moment)
-        })
+        self.ask_block(signal - self.pieces.len(), at, |block, standing, at| block.signal(standing, at))
     }
 
-    /// Does something with a block at a moment.
-    fn with_block<R>(
+    /// Asks block `k` something about a moment.
+    pub(crate) fn ask_block<R>(
         &self,
         k: usize,
         at: &impl View,
-        states: &[f64],
-        act: impl FnOnce(&Wired, &Moment<'_, [Sample]>) -> R,
+        ask: impl FnOnce(&dyn Block, Standing<'_, usize, Vec<f64>>, &Moment<'_, [Sample]>) -> R,
     ) -> R {
         let wired = &self.model.blocks[k];
-        let inputs = self.block_inputs(wired, at);
-        act(wired, &Moment { t: at.time(), inputs: &inputs, states })
+        let (inputs, states) = (self.block_inputs(wired, at), self.block_states(k, at));
+        let moment = Moment { t: at.time(), inputs: &inputs[..], states: &states };
+        ask(wired.block(), self.blocks[k].standing(), &moment)
     }
 
     /// What a block reads at a moment; the scene's check has seen to it that there is room.
@@ -61,26 +58,13 @@ impl Equations<'_> {
 
     /// Value of a guard of block `k` at time t, s; `y` reads a component.
     pub(crate) fn block_guard(&self, k: usize, guard: usize, t: f64, y: impl Fn(usize) -> f64) -> f64 {
-        let at = Components { t, y };
-        let states = self.block_states(k, &at);
-        self.with_block(k, &at, &states, |wired, moment| {
-            wired.block().guard(guard, self.blocks[k].standing(), moment)
-        })
+        self.ask_block(k, &Components { t, y }, |block, standing, at| block.guard(guard, standing, at))
     }
 
-    /// What follows when a guard of block `k` has fallen.
-    pub(crate) fn block_next(
-        &self,
-        k: usize,
-        guard: usize,
-        t: f64,
-        y: impl Fn(usize) -> f64,
-    ) -> (EventKind, usize) {
-        let at = Components { t, y };
-        let states = self.block_states(k, &at);
-        self.with_block(k, &at, &states, |wired, moment| {
-            wired.block().next(guard, self.blocks[k].standing(), moment)
-        })
+    /// What follows when a guard of block `k` has fallen in a state.
+    pub(crate) fn block_next(&self, k: usize, guard: usize, state: &State) -> (EventKind, usize) {
+        let at = Components { t: state.t, y: |i: usize| state.y[i] };
+        self.ask_block(k, &at, |block, standing, at| block.next(guard, standing, at))
     }
 
     /// Energy that block `k` stores, J; its columns are added to the row.
@@ -91,12 +75,9 @@ impl Equations<'_> {
         y: impl Fn(usize) -> f64,
         row: &mut Vec<f64>,
     ) -> f64 {
-        let at = Components { t, y };
-        let states = self.block_states(k, &at);
-        self.with_block(k, &at, &states, |wired, moment| {
-            let standing = self.blocks[k].standing();
-            wired.block().fill(standing, moment, row);
-            wired.block().energy(standing, moment)
+        self.ask_block(k, &Components { t, y }, |block, standing, at| {
+            block.fill(standing, at, row);
+            block.energy(standing, at)
         })
     }
 
@@ -104,13 +85,11 @@ impl Equations<'_> {
     #[inline(never)]
     pub(super) fn blocks(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         for (k, wired) in self.model.blocks.iter().enumerate() {
-            let states = self.block_states(k, at);
             let from = self.layout.block(wired.first) - 2 * self.layout.free;
             let mut efforts = [0.0; MOST_OF_A_BLOCK];
             let slopes = &mut extra[from..from + wired.count()];
-            let powers = self.with_block(k, at, &states, |wired, moment| {
-                wired.block().slopes(self.blocks[k].standing(), moment, slopes, &mut efforts)
-            });
+            let powers =
+                self.ask_block(k, at, |block, standing, at| block.slopes(standing, at, slopes, &mut efforts));
             sum.input += powers.input;
             sum.damping += powers.loss;
             for (wire, effort) in wired.wires.iter().zip(efforts) {

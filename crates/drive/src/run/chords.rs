@@ -161,7 +161,7 @@ impl<'a> Chords<'a> {
             let guards = wired.block().guards(&self.state.blocks[k].law);
             let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| self.state.y[i]) < 0.0;
             let Some(&guard) = guards.iter().find(down) else { continue };
-            let (kind, law) = eq.block_next(k, guard, t, |i| self.state.y[i]);
+            let (kind, law) = eq.block_next(k, guard, self.state);
             self.state.blocks[k].law = law;
             if self.record.wants_events() {
                 let event = Event { t, source: Source::Block(k), kind };

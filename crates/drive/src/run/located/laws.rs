@@ -77,7 +77,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (k, guard): (usize, usize),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        let (kind, law) = self.setting.plain(state).block_next(k, guard, state.t, |i| state.y[i]);
+        let (kind, law) = self.setting.plain(state).block_next(k, guard, state);
         state.blocks[k].law = law;
         self.note(state, Source::Block(k), kind, record);
         self.bounds.event(self.setting.model, state, (Source::Block(k), kind))
