@@ -16,7 +16,7 @@ const G: f64 = 0.95e11;
 
 fn known(between: [Side; 2], profile: Profile, damping: f64) -> Contact {
     let pair = Pair::from_moduli(E, G).unwrap();
-    damped(of_pair(pair, &contact(between, profile, MU, FORCE)), damping)
+    damped(&of_pair(pair, &contact(between, profile, MU, FORCE)), damping)
 }
 
 /// A flat punch of radius b sticks whole, k = 2G\*b: under a step load F the slider is the oscillator

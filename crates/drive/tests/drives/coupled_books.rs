@@ -67,7 +67,7 @@ fn driven(shape: Shape, profile: &Profile) -> Scene {
 fn damped(mut scene: Scene, beta: f64, viscous: f64) -> Scene {
     let body = scene.bodies.len() - 1;
     for contact in &mut scene.contacts {
-        contact.part = crate::parts::damped(contact.part.clone(), beta);
+        contact.part = crate::parts::damped(&contact.part, beta);
     }
     let at = Point { x: 3e-3, z: 4e-3 };
     let press = Spring { damping: viscous, ..upright(body, at, 1e4, -0.5) };

@@ -72,8 +72,8 @@ pub(crate) fn of_friction(friction: f64, contact: &Contact) -> Contact {
 }
 
 /// The same contact with stuck springs of a time constant β, s.
-pub(crate) fn damped(contact: Contact, beta: f64) -> Contact {
-    Contact { interface: contact.interface.clone().with_damping(beta), ..contact }
+pub(crate) fn damped(contact: &Contact, beta: f64) -> Contact {
+    Contact { interface: contact.interface.clone().with_damping(beta), ..contact.clone() }
 }
 
 pub(crate) fn damper(between: [Side; 2], damping: f64) -> Spring {

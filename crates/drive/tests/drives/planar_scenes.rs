@@ -155,7 +155,7 @@ fn a_damped_contact_cannot_follow_a_jump() {
         s.waveforms.push(wave("drive", Shape::Sawtooth { stroke: 1e-7, flyback: 0.0 }, 1e-3));
         s.bodies.push(named("foot", Body { x: Coordinate::follows(0), ..Body::default() }));
         s.contacts[0].part.between[0] = Side::Body(1);
-        s.contacts[0].part = damped(s.contacts[0].part.clone(), 1e-6);
+        s.contacts[0].part = damped(&s.contacts[0].part, 1e-6);
     };
     refused(
         jumping,
@@ -163,7 +163,7 @@ fn a_damped_contact_cannot_follow_a_jump() {
         "a damper cannot follow the jumps of waveform `drive`",
     );
     let mut scene = changed(jumping);
-    scene.contacts[0].part = damped(scene.contacts[0].part.clone(), 0.0);
+    scene.contacts[0].part = damped(&scene.contacts[0].part, 0.0);
     start(&scene).unwrap();
 }
 

@@ -103,7 +103,7 @@ fn walking_drive() -> Case {
     let free = Coordinate::FREE;
     let feet = |foot| {
         let ball = ball([Side::Body(foot), Side::Body(2)], pair(370e9, 0.22), (2e-3, 0.25), (0.0, 0.0));
-        crate::parts::damped(Contact { count: 2, ..ball }, 2e-6)
+        crate::parts::damped(&Contact { count: 2, ..ball }, 2e-6)
     };
     let scene = Scene {
         waveforms: vec![

@@ -25,7 +25,7 @@ fn drive(stroke: f64, flyback: f64, load: f64, beta: f64) -> Scene {
     let ruby = Material::new(400e9, 0.27).unwrap();
     let pair = Pair::new(ruby, Material::new(210e9, 0.30).unwrap());
     let ball = of_pair(pair, &contact(FOOT_SLIDER, Profile::paraboloid(0.5e-3).unwrap(), 0.2, 0.3));
-    let balls = damped(Contact { count: 3, ..ball }, beta);
+    let balls = damped(&Contact { count: 3, ..ball }, beta);
     let sawtooth = wave("drive", Shape::Sawtooth { stroke, flyback }, PERIOD);
     let mut scene = foot_and_slider(sawtooth, 0.01, balls);
     scene.loads.push(push(1, -load * 0.2 * 0.9));
