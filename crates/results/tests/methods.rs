@@ -156,9 +156,9 @@ fn drawn_variants_do_what_is_told_of_them() {
         let base = Scenario::load(file).unwrap();
         let set = drawn(&base, &mut lottery);
         if compare(file, &set, PART) {
-            ran += 1
+            ran += 1;
         } else {
-            refused += 1
+            refused += 1;
         }
         assert!(refused < 3 * VARIANTS, "most variants make no scene");
     }
@@ -171,7 +171,7 @@ fn drawn_variants_do_what_is_told_of_them() {
 fn closed_forms_are_named_where_they_are_taken() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
     let expected = |name: &str, set: &[(&str, &str)]| {
-        let scenario = Scenario::load_with(&folder.join(name), set).unwrap();
+        let scenario = Scenario::load_with(folder.join(name), set).unwrap();
         let model = Model::new(&scenario.scene).unwrap();
         model.expected(&model.start(&scenario.plan).unwrap(), Stepper::Event { tolerance: 1e-8 })
     };
