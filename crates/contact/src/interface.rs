@@ -3,11 +3,14 @@
 use crate::{Pair, Profile};
 use thiserror::Error;
 
-/// The constants of one contact.
+/// The constants of one contact: with a memory of where it has been, all that its forces follow from. Functions that take
+/// it call it the contact's `law`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interface {
     pair: Pair,
+    /// μ.
     friction: f64,
+    /// κ = μE\*/G\*.
     slope: f64,
     profile: Profile,
     damping: f64,
@@ -20,6 +23,8 @@ pub struct FrictionError(pub f64);
 
 impl Interface {
     /// The largest coefficient of friction taken: beyond it lies full stick for every practical purpose.
+    // Gross slip would begin at a displacement of μE*/G* indentations, beyond what half-spaces allow long before. Infinity is
+    // not taken for full stick: κ is in every level and would make them infinite.
     pub const MAX_FRICTION: f64 = 1000.0;
 
     /// An interface of a pair, a profile and Coulomb's coefficient μ in [0, [`Self::MAX_FRICTION`]].

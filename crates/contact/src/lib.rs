@@ -10,6 +10,9 @@
 //! comes back; [`Curve`] with its [`Branch`]es; [`Row`]; [`Engine`]; [`FirstLoading`] for a designer's
 //! questions.
 //!
+//! Forces are those of half-spaces in contact over a small round area, without adhesion, under Coulomb's law at every point;
+//! between elastically similar bodies they are exact, between others as good as the similarity ([`Pair::dundurs_beta`]).
+//!
 //! Theory: Popov, Heß, Willert, *Handbook of Contact Mechanics* (2019), section 4.4 and chapter 11; equation
 //! numbers are the handbook's. SI units throughout.
 

@@ -5,7 +5,9 @@ use thiserror::Error;
 /// A linear elastic, isotropic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
+    /// E, Pa.
     youngs_modulus: f64,
+    /// ν.
     poisson_ratio: f64,
 }
 
@@ -56,8 +58,11 @@ impl Material {
 /// 1/E\* = Σ(1-ν²)/E, 1/G\* = Σ(2-ν)/(4G).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
+    /// E\*, Pa.
     normal: f64,
+    /// G\*, Pa.
     tangential: f64,
+    /// Dundurs' β.
     mismatch: f64,
 }
 

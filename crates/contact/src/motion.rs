@@ -38,6 +38,8 @@ pub enum Move {
     /// Straight in the (d, u) plane.
     Chord(Apex),
     /// Grown in full stick along a curved path: its end and the tangential force F_x integrated along it, N.
+    // As a chord it would cost every method its order: an oblique impact in 198 steps of Dopri5 comes out 2.4e-5 off, and 9e-10
+    // in 219 with F_x as a state beside the motion.
     Grown {
         /// End of the path.
         to: Apex,
@@ -146,7 +148,7 @@ pub enum ContactState {
     Slip,
 }
 
-/// State of one spring after the last move that was not zero.
+/// State of one spring after the last move that was not zero. Signs are those of its stretch, which the force has, too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum SpringState {
     /// Does not touch.

@@ -6,8 +6,11 @@ use crate::quadrature::GAUSS;
 use std::f64::consts::PI;
 
 /// Panels of the quadrature, drawn together towards the edge, where the steep profiles are steepest.
+// 4096 change nothing above 5e-13, up to exponents of 40 000 and spheres pressed to 0.9999 of their radius; 16 would do for all
+// but the steepest (5e-14 at n = 4000).
 const PANELS: u32 = 64;
 /// Sections of the search for the largest pressure: each leaves 0.618 of the range.
+// Half of them leave 2e-10 for n = 40 and 4e-4 for n = 40 000, whose hill is narrow; 80 change nothing above 1e-14.
 const SECTIONS: u32 = 48;
 
 impl Interface {

@@ -2,7 +2,10 @@
 //!
 //! A spring at height h touches while h < d and carries G\* times its length and stretch, with the stretch
 //! clamped to ±κ(d-h) (4.22). Kept per spring is its anchor p, where it would be unstretched: while it sticks
-//! nothing changes, so nothing drifts, however many steps there are.
+//! nothing changes, so nothing drifts, however many steps there are. The handbook keeps stretches and adds Δu to each of them
+//! in every step.
+//!
+//! The row shares no formula of forces with the [`Curve`](crate::Curve): each is the other's test.
 
 mod chord;
 mod lanes;
@@ -59,6 +62,8 @@ impl Row {
     }
 
     /// `F_x` at the end of a chord, N: the cheapest question.
+    // 19 ns by a row of 64 springs, 2.5e-4 of the limit force off on the way back from 0.7 u_c; 205 ns and 1e-6 by one of 1024,
+    // whose friction work is 1e-5 off. The exact curve takes 26.
     #[inline]
     pub fn force(&self, springs: &Springs, law: &Interface, to: Apex) -> f64 {
         let slope = law.stick_slope();
@@ -130,7 +135,7 @@ impl Row {
     }
 
     /// Accepts a segment and returns its friction work, J, at least 0. Every kind of segment is taken as the
-    /// chord to its end.
+    /// chord to its end: a row under a growing load wants steps that leave its path no bend.
     ///
     /// # Errors
     ///
@@ -148,6 +153,7 @@ impl Row {
         if to.d > springs.reach() {
             return Err(ContactError::Outgrown { d: to.d, reach: springs.reach() });
         }
+        // All that can fail has been asked: from here on the row moves, and moves whole.
         let chord = Chord::new(self.apex, to, law.stick_slope());
         let (before, after) = (self.touching, self.touching_at(springs, to.d));
         let mut work = chord.leaving_work(springs, &self.anchors, after, before);
@@ -164,6 +170,7 @@ impl Row {
             self.backward = to.u < self.apex.u;
         }
         (self.apex, self.touching) = (to, after);
+        // No term is below zero but for its rounding: work is never taken back.
         Ok((law.tangential_modulus() * work).max(0.0))
     }
 
@@ -196,10 +203,12 @@ impl Row {
         springs.ranks().iter().map(move |&rank| self.state(springs, law, rank))
     }
 
+    /// Limit κ(d-h) of the distinct spring of a rank, m.
     fn limit(&self, springs: &Springs, law: &Interface, rank: usize) -> f64 {
         law.stick_slope() * (self.apex.d - springs.heights()[rank])
     }
 
+    /// Its stretch, m.
     fn stretch(&self, springs: &Springs, law: &Interface, rank: usize) -> f64 {
         if rank >= self.touching {
             return 0.0;
@@ -207,6 +216,7 @@ impl Row {
         lanes::clamp(self.apex.u - self.anchors[rank], self.limit(springs, law, rank))
     }
 
+    /// Its state.
     fn state(&self, springs: &Springs, law: &Interface, rank: usize) -> SpringState {
         if rank >= self.touching {
             return SpringState::Open;
@@ -222,6 +232,7 @@ impl Row {
     }
 }
 
+/// State of a row from the number of springs that touch and that are at their limit.
 fn whole_state(touching: usize, slipping: usize) -> ContactState {
     match slipping {
         _ if touching == 0 => ContactState::Open,

@@ -3,6 +3,8 @@
 use crate::Grade;
 
 /// What a method is, whatever it is at.
+// Three small contracts instead of one, and only the last one knows the system: who asks for the ends of a step names no
+// system to do so.
 pub trait Method {
     /// Largest |hλ| at which a motion e^{λt} that swings or fades does not grow.
     fn stability_limit(&self) -> f64;
@@ -49,6 +51,8 @@ pub trait Attempt<S: ?Sized>: Method + Step {
 }
 
 /// Where a step is to end, and how its stages lie in it.
+///
+/// An end, not a length: t + (end - t) may miss a corner far ahead by a last place, and a waveform has its other side there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
     /// End, s; met to the last bit, as a waveform's corner wants it.

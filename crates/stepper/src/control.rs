@@ -8,7 +8,8 @@
 /// Source: Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.4 and Hairer, Wanner, *Solving ODEs II*,
 /// section IV.2 (PI control); Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533 (rejections in a row).
 ///
-/// All that it remembers is part of a run's state: cloneable and comparable.
+/// A proportional part alone (the plain control of that section II.4) overshoots where the error wanders; see
+/// [`StepControl::new`] for what was measured. All that it remembers is part of a run's state: cloneable and comparable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepControl {
     limits: StepLimits,
@@ -22,9 +23,9 @@ pub struct StepControl {
 pub struct StepLimits {
     /// Aimed-at part of the step that would just meet the tolerance; 0.5 to 1, default 0.9.
     pub safety: f64,
-    /// Strongest shortening at once; below 1, default 0.2.
+    /// Strongest shortening at once, a factor below 1, default 0.2.
     pub shrink: f64,
-    /// Strongest lengthening at once; above 1, default 6.
+    /// Strongest lengthening at once, a factor above 1, default 6.
     pub grow: f64,
     /// Longest step, s; default unbounded.
     pub longest: f64,
@@ -32,6 +33,9 @@ pub struct StepLimits {
 
 impl Default for StepLimits {
     fn default() -> Self {
+        // Those of Hairer's DOP853, but for 0.2 in place of 1/3. Tried on slopes with a root of the time in the middle of
+        // every unit of it (order 8, tolerance 1e-9, 15 944 evaluations): safety 0.8 takes 6 % more and 0.95 3 %, `grow` 2
+        // takes 7 % more and 10 6 %, `shrink` 0.5 2 %. On a smooth orbit the safety alone tells, by 2 to 15 % either way.
         Self { safety: 0.9, shrink: 0.2, grow: 6.0, longest: f64::INFINITY }
     }
 }
@@ -39,7 +43,8 @@ impl Default for StepLimits {
 /// What the control remembers of earlier steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepHistory {
-    /// Natural logarithm of the last accepted error, not below that of [`StepHistory::FLOOR`].
+    /// Natural logarithm of the last accepted error, in units of the tolerance; not below that of
+    /// [`StepHistory::FLOOR`].
     pub log_error: f64,
     /// The last attempt, if it was rejected. The next step does not grow then.
     pub rejected: Option<Rejection>,
@@ -56,6 +61,8 @@ pub struct Rejection {
 
 impl StepHistory {
     /// Errors below this count as this: a step that fell far below the tolerance says nothing about the next one.
+    // Hairer's value. 1e-8 takes 5 % more evaluations where a root of the time passes by, 1e-2 3 %; smooth motions do not
+    // feel it.
     pub const FLOOR: f64 = 1e-4;
     /// Nothing remembered: as after a step with the error [`StepHistory::FLOOR`], which makes the first factor cautious.
     pub const BLANK: Self = Self { log_error: -9.210_340_371_976_182, rejected: None };
@@ -75,6 +82,9 @@ impl StepControl {
     #[must_use]
     pub fn new(order: u32, limits: StepLimits) -> Self {
         let order = f64::from(order.max(1));
+        // Without the integral part van der Pol's oscillator (μ = 20, tolerance 1e-9) rejects 185 of 1 671 attempts instead
+        // of 100 of 1 700, for 2 % fewer evaluations; on slopes with roots of the time 524 instead of 450, for 4 % more.
+        // Twice as much of it rejects 48 and takes a third more evaluations: what is left of α answers too weakly.
         let beta = 0.2 / order;
         Self { limits, alpha: 1.0 / order - 0.75 * beta, beta, history: StepHistory::BLANK }
     }
@@ -84,6 +94,7 @@ impl StepControl {
     pub fn propose(&mut self, error: f64, h: f64) -> Verdict {
         let StepLimits { safety, shrink, grow, .. } = self.limits;
         if !error.is_finite() {
+            // Nothing is known but that it was too long: the strongest shortening, and no power is read off it later.
             self.history.rejected = Some(Rejection { step: h, log_error: f64::INFINITY });
             return Verdict { accepted: false, next: h * shrink };
         }
@@ -97,6 +108,8 @@ impl StepControl {
         // Below the smallest normal number the logarithm would leave the range of the exponential.
         let log_error = error.max(f64::MIN_POSITIVE).ln();
         let factor = safety * (self.beta * self.history.log_error - self.alpha * log_error).exp();
+        // A step that grew at once after a rejection would be rejected again: 619 times instead of 450 on slopes with
+        // roots of the time, an eighth more evaluations.
         let ceiling = if self.history.rejected.is_some() { 1.0 } else { grow };
         self.history = StepHistory { log_error: log_error.max(StepHistory::BLANK.log_error), rejected: None };
         Verdict { accepted: true, next: self.limit(h * factor.max(shrink).min(ceiling)) }
@@ -126,6 +139,8 @@ impl StepControl {
     /// The power of the error with which a rejected step is shortened. Two rejections in a row show the power of the step
     /// with which the error falls: where something is not smooth, less than the method's.
     fn decay(&self, now: Rejection) -> f64 {
+        // The method's own power throughout rejects 545 times instead of 450 there: an error that falls with h² is not met
+        // by a step that would quarter one of order 8. Powers that seem stronger than the method's are chance.
         let power = |before: Rejection| (before.log_error - now.log_error) / (before.step / now.step).ln();
         let shown = self.history.rejected.map(power).filter(|power| *power > 0.0);
         shown.map_or(self.alpha, |power| power.recip().clamp(self.alpha, 1.0))

@@ -1,7 +1,8 @@
 //! The Runge–Kutta–Nyström pair RKN8(6)9 for forces without velocities: order 8, error estimate of order 6.
 //!
 //! Where accelerations depend on time and positions alone, positions need no stages of their own for the velocities: a
-//! step costs 8 evaluations instead of the 12 of [`Dop853`](crate::Dop853), and each carries half the components.
+//! step costs 8 evaluations instead of the 12 of [`Dop853`](crate::Dop853), and each carries half the components. At equal
+//! evaluations, 72 per period, a swing is 3e-10 off after ten periods instead of 2e-8.
 //!
 //! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*,
 //! IMA Journal of Numerical Analysis 7 (1987) 423–430. The dense output is Hermite–Birkhoff: accelerations at seven
@@ -38,22 +39,45 @@ pub trait Conservative {
 }
 
 /// One step of RKN8(6)9 at a time, as [`Dop853`](crate::Dop853) does it.
+///
+/// ```text
+/// x₁ = x + h v + h² Σ b_j k_j     v₁ = v + h Σ b'_j k_j     q₁ = q + h Σ b'_j r_j
+/// ```
+///
+/// with k_j the accelerations and r_j the rates of the quadratures at stage j, which stands in
+/// x + c_j h v + h² Σ a_ji k_i. Nothing is allocated after construction.
 #[derive(Debug, Clone)]
 pub struct Nystrom<N: Storage = Many> {
+    /// Start of the step, s.
     time: f64,
+    /// End of the step, s, where it was cut if it was.
     end_time: f64,
+    /// Length of the step attempted, s.
     step: f64,
+    /// States at both ends: positions, velocities, quadratures.
     begin: N::State,
     end: N::State,
+    /// Positions of the stage under way.
     stage: N::Positions,
+    /// Accelerations and then rates of quadratures there.
     rates: N::Rates,
     /// Of each position and then each quadrature.
     tracks: N::Tracks,
+    /// Whether the system said at the start that they stay the same.
     constant: bool,
-    first_known: bool,
-    last_known: bool,
-    dense_known: bool,
+    known: Known,
     evaluations: u64,
+}
+
+/// What of all that belongs to the step as it stands.
+#[derive(Debug, Clone, Copy, Default)]
+struct Known {
+    /// What acts at its start.
+    first: bool,
+    /// What acts at its end.
+    last: bool,
+    /// Its dense output.
+    dense: bool,
 }
 
 impl Nystrom {
@@ -85,14 +109,12 @@ impl<N: Storage> Nystrom<N> {
             rates: Values::of(rates),
             tracks: Values::of(rates),
             constant: false,
-            first_known: false,
-            last_known: false,
-            dense_known: false,
+            known: Known::default(),
             evaluations: 0,
         }
     }
 
-    /// Number of positions.
+    /// Number of positions: a constant where the storage is of one size.
     #[inline(always)]
     fn positions(&self) -> usize {
         self.stage.as_ref().len()
@@ -111,10 +133,11 @@ impl<N: Storage> Nystrom<N> {
     }
 
     fn forget_step(&mut self) {
-        self.last_known = false;
-        self.dense_known = false;
+        self.known.last = false;
+        self.known.dense = false;
     }
 
+    /// Evaluates the slopes at the start of the step.
     fn restart_slopes<S: Conservative + ?Sized>(&mut self, system: &S) {
         self.forget_step();
         self.set_out();
@@ -122,15 +145,16 @@ impl<N: Storage> Nystrom<N> {
         self.stage.as_mut().copy_from_slice(&self.begin.as_ref()[..n]);
         self.evaluate(system, self.time, 0);
         self.constant = system.coasts();
-        self.first_known = true;
+        self.known.first = true;
     }
 
+    /// Evaluates the slopes at the end of the step tried: those of a step that was cut; the last stage has them of any other.
     fn end_slopes<S: Conservative + ?Sized>(&mut self, system: &S) {
-        if !self.last_known {
+        if !self.known.last {
             let n = self.positions();
             self.stage.as_mut().copy_from_slice(&self.end.as_ref()[..n]);
             self.evaluate(system, self.end_time, END);
-            self.last_known = true;
+            self.known.last = true;
         }
     }
 }
@@ -138,6 +162,7 @@ impl<N: Storage> Nystrom<N> {
 impl<N: Storage> Method for Nystrom<N> {
     /// Swings grow from 3.3 on; they fade fastest here.
     fn stability_limit(&self) -> f64 {
+        // A step's matrix has the spectral radius 0.9999 from 2.5 to 3.2 and 1.0002 at 3.4.
         3.0
     }
 
@@ -174,19 +199,20 @@ impl<N: Storage> Step for Nystrom<N> {
             self.end.as_mut()[i] = self.at(i, share);
         }
         self.end_time = t;
-        self.last_known = false;
+        self.known.last = false;
     }
 
     fn accept(&mut self) {
         std::mem::swap(&mut self.begin, &mut self.end);
         self.time = self.end_time;
         self.set_out();
-        let known = self.last_known;
+        let known = self.known.last;
+        // First the same as last: a step that nothing cut costs 8 evaluations, not 9.
         if known {
             self.tracks.as_mut().iter_mut().for_each(|track| track.k[0] = track.k[END]);
         }
         self.forget_step();
-        self.first_known = known;
+        self.known.first = known;
     }
 }
 

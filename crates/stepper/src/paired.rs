@@ -2,6 +2,8 @@
 //!
 //! Grading a step multiplies ẍ by the pace of time and adds a term with ẋ: what a Nyström method spares is lost there, and
 //! with it its order. Such steps are few, one before each start of gross slip; they go by [`Dop853`].
+//!
+//! Both carry one motion: whichever makes an attempt is first put where the other one has brought it.
 
 use crate::{
     Attempt, Completion, Conservative, Dop853, End, Grade, Many, Method, Nystrom, One, Span, Step, Storage,
@@ -11,7 +13,9 @@ use crate::{
 /// [`Nystrom`] for even steps, [`Dop853`] for graded ones, of one and the same motion.
 #[derive(Debug, Clone)]
 pub struct Paired<N: Storage = Many> {
+    /// For steps whose stages lie evenly: nearly all.
     even: Nystrom<N>,
+    /// For those that end at a singular moment.
     graded: Dop853,
     /// Which of both made the last attempt; it is where the motion is.
     last: By,
@@ -42,12 +46,15 @@ impl Paired<One> {
 }
 
 impl<N: Storage> Paired<N> {
+    /// Both where nothing has begun.
     fn of(even: Nystrom<N>, graded: Dop853) -> Self {
         Self { even, graded, last: By::Even, both: false }
     }
 
     /// Puts one of both where the motion is.
     fn take<S: System + Conservative + ?Sized>(&mut self, system: &S, by: By) {
+        // One evaluation where the method changes, and none where the other one is at the same start already, as after an
+        // attempt that was rejected. Starting both anew each time would cost that one in every step.
         if self.last != by && !self.both {
             match by {
                 By::Even => {
@@ -64,6 +71,7 @@ impl<N: Storage> Paired<N> {
         self.last = by;
     }
 
+    /// Apart from even attempts, which are to be inlined into the loop of a run.
     fn attempt_graded<S: System + Conservative + ?Sized>(
         &mut self,
         system: &S,

@@ -3,7 +3,7 @@
 //! One call covers one smooth stretch of a waveform. The crate is driven within what it does correctly (0.6.2):
 //! output `Sparse`, the only one that reports each accepted step with its own time and state; a new instance for each
 //! stretch, because it cannot restart; states of fixed size up to 16 components, because dynamic ones allocate dozens
-//! of times per step.
+//! of times per step: 708 ns instead of 203 for a step of three components.
 
 mod scaled;
 
@@ -24,11 +24,12 @@ pub trait Accepting: System {
 /// How [`integrate`] steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReferenceOptions {
-    /// First step, s; none: chosen at the price of two evaluations.
+    /// First step, s; none: chosen at the price of two evaluations. A stretch that goes on from another one knows better:
+    /// [`ReferenceRun::step`].
     pub first: Option<f64>,
-    /// Longest step, s; default unbounded.
+    /// Longest step, s, above 0; default unbounded. To be set where slopes are deaf to what a long step passes over.
     pub longest: f64,
-    /// Most steps tried; default a million.
+    /// Most steps tried, rejected ones included; default a million.
     pub steps: u32,
 }
 
@@ -138,6 +139,7 @@ pub fn integrate<S: Accepting>(
 ) -> Result<ReferenceRun, ReferenceError> {
     check(system, &span, y, scale, options)?;
     let job = Job { span, y, scale, options };
+    // A few sizes, filled up with zeros, not one for each number of components: each is a solver of its own in the program.
     match system.total() {
         0..=2 => job.run(system, Const::<2>),
         3..=4 => job.run(system, Const::<4>),
@@ -176,7 +178,7 @@ fn check<S: Accepting>(
     Ok(())
 }
 
-/// One stretch, checked.
+/// One stretch of smooth slopes, checked, in the words of [`integrate`].
 struct Job<'a> {
     span: Range<f64>,
     y: &'a [f64],
@@ -232,6 +234,8 @@ impl Job<'_> {
             steps: u64::from(stats.accepted_steps),
             rejected: u64::from(stats.rejected_steps),
             evaluations: u64::from(stats.num_eval),
+            // Not the last step alone, which the end of the stretch has cut: fifty stretches of a swing then take 1 564
+            // evaluations, and 2 250 where each chooses its first step anew.
             step: progress.steps[0].max(progress.steps[1]),
             y: progress.y,
         })

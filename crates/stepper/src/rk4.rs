@@ -4,11 +4,19 @@ use crate::{FixedStep, System};
 
 /// Classical Runge–Kutta method (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2): four evaluations
 /// per step, no error estimate.
+///
+/// ```text
+/// k₁ = f(t, y)   k₂ = f(t + h/2, y + h/2 k₁)   k₃ = f(t + h/2, y + h/2 k₂)   k₄ = f(t + h, y + h k₃)
+/// y₁ = y + h/6 (k₁ + 2k₂ + 2k₃ + k₄)
+/// ```
 #[derive(Debug, Clone)]
 pub struct Rk4 {
+    /// Coupled components.
     dimension: usize,
+    /// Coupled components of the stage under way, and all slopes there.
     stage: Vec<f64>,
     slope: Vec<f64>,
+    /// k₁ + 2k₂ + 2k₃ + k₄ as far as it is known.
     sum: Vec<f64>,
     evaluations: u64,
 }
@@ -27,6 +35,7 @@ impl Rk4 {
         }
     }
 
+    /// Evaluates at `t` in the state that the newest slopes lead to from `y` in `ahead` s.
     #[inline(always)]
     fn stage<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64], ahead: f64) {
         for ((to, y), k) in self.stage.iter_mut().zip(y).zip(&self.slope) {
@@ -35,6 +44,7 @@ impl Rk4 {
         system.slopes(t, &self.stage, &mut self.slope);
     }
 
+    /// Adds the newest slopes to the sum: four rows of slopes need not be kept.
     #[inline(always)]
     fn add(&mut self, weight: f64) {
         for (sum, k) in self.sum.iter_mut().zip(&self.slope) {

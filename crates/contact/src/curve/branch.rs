@@ -7,14 +7,20 @@
 //! with ℓ₁ the level of the knot below the piece. The force goes on smoothly beyond both ends of its piece, so a
 //! step that oversteps an event meets no kink; the event is found afterwards, where [`Branch::margin`] or the
 //! sense of sliding changes sign.
+//!
+//! Symbols: σ the sense, κ the slope of the stick limit, k and γ slope and gain of the piece, S₁ and M₁ the sums of the
+//! knot below it, h₁ its height, L the level of the edge.
 
 use super::{Curve, cut, knot::Knot};
 use crate::{Apex, Interface, Motion};
 
 /// A frozen branch: a sense and the piece of the curve that it cuts.
+// A force by it takes 4.4 ns where a trial takes 36, and has no knot to look for; 72 bytes, made once an event (10 ns).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
+    /// σ.
     pub(super) sense: f64,
+    /// κ.
     pub(super) slope: f64,
     /// G\*σ.
     pub(super) factor: f64,
@@ -25,6 +31,7 @@ pub struct Branch {
     entry: f64,
     /// 1/(κ-σk).
     pub(super) flow: f64,
+    /// h₁, m.
     pub(super) height: f64,
     /// S₁ - γM₁ in the frame of the sense.
     pub(super) offset: f64,
@@ -127,6 +134,7 @@ pub struct Dragged {
 impl Curve {
     /// The branch of a sense (+1 or -1) that starts at the committed apex. Knots within `slack` (m) of the
     /// edge count as reached: the caller has just located the end of the piece there.
+    // Without slack rounding of that place decides, and the same event is found again and again.
     pub fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
         let slope = law.stick_slope();
         let factor = law.tangential_modulus() * sense;
@@ -145,7 +153,8 @@ impl Curve {
         // A piece along the edge itself has no crossing: the edge takes it whole.
         let crosses = |w: &[Knot]| w[0].level(sense, slope) > level && !cut::runs_along(slope, sense, &w[1]);
         let Some(top) = self.knots.windows(2).rposition(crosses) else { return gross };
-        // The pieces of one path of growth are one: the branch ends where the path began.
+        // The pieces of one path of growth are one: the branch ends where the path began. Its knots were put there by steps and
+        // are no events: an impact would locate one for each step of its approach.
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
         let (base, end) = (&self.knots[foot], &self.knots[foot + 1]);
         let gain = sense * end.gain;

@@ -1,4 +1,7 @@
 //! Where a chord of the apex cuts the curve.
+//!
+//! In the frame of a sense σ each knot has a level σp - κh, and so has the apex. Levels fall from the centre to the edge; an
+//! edge takes along all that lies below its own, and leaves the old curve where both levels meet.
 
 use super::front::Front;
 use super::knot::Knot;
@@ -46,7 +49,8 @@ impl Drag {
         if rise > 0.0 && travel.abs() <= limit {
             return Self::Stick;
         }
-        // Both edges close in on a shrinking contact; the apex lies on one side of the old curve.
+        // Both edges close in on a shrinking contact; the apex lies on one side of the old curve. The sign of Δu would tell
+        // the wrong one wherever the contact shrinks along the line on which it grew.
         let forward = if travel.abs() >= -limit { travel > 0.0 } else { to.u > anchor(knots, to.d) };
         Self::Slip(Edge::find(law, knots, if forward { 1.0 } else { -1.0 }, to))
     }
@@ -54,12 +58,15 @@ impl Drag {
 
 /// Anchor at a height of a curve of at least one knot.
 pub(super) fn anchor(knots: &[Knot], h: f64) -> f64 {
+    // By halves, other than a drag: whoever asks for an anchor asks anywhere in the curve.
     let above = knots.partition_point(|k| k.h < h).max(1).min(knots.len() - 1);
     knots[above].p - knots[above].slope * (knots[above].h - h)
 }
 
 /// Whether the piece that ends in a knot runs along the edge of a sense itself.
 pub(super) fn runs_along(slope: f64, sense: f64, end: &Knot) -> bool {
+    // Far above rounding (ε is 2e-16) and far below what any growth leaves: a piece so near to the edge's own slope has been
+    // dragged by it. Taken for one that the edge crosses, the front would jump by the whole of it for a last place of u.
     slope - sense * end.slope <= 1e-9 * slope
 }
 
@@ -90,6 +97,8 @@ pub(super) fn onward(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> (
 impl Edge {
     /// Walks down the stack. In the frame of the sense, σp - κh falls along the curve, and all that lies below
     /// its value at the apex is dragged.
+    // From the top, though the levels are sorted and halves would do: a chord of a stepper ends within the top piece or the
+    // one below, and one that cuts a thousand gives them all up, so that no knot is passed more often than it was made.
     #[inline]
     pub(super) fn find(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> Self {
         let slope = law.stick_slope();
@@ -112,7 +121,7 @@ impl Edge {
         Self { sense, kept, height: height.max(base.h), splits: height > base.h }
     }
 
-    /// Whether the whole curve is dragged.
+    /// Whether the whole curve is dragged: no spring sticks.
     pub(super) fn is_gross(&self) -> bool {
         self.kept == 0
     }
@@ -122,7 +131,7 @@ impl Edge {
         Front { sense: self.sense, height: if self.is_gross() { f64::NEG_INFINITY } else { self.height } }
     }
 
-    /// The knot at which the edge begins.
+    /// The knot at which the edge begins: in gross slip the centre, with nothing below it.
     pub(super) fn foot(&self, law: &Interface, knots: &[Knot], to: Apex) -> Knot {
         if self.is_gross() {
             return Knot::touch(to.u - self.sense * law.stick_slope() * to.d);
@@ -161,6 +170,8 @@ impl Edge {
     pub(super) fn shear(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
         let edge = self.sense * law.stick_slope();
         let whole = match knots.last() {
+            // Under a constant load M(d) is at hand: 70 ns instead of 82 for a force of a power law with an exponent of 2.5,
+            // 36 instead of 39 for a sphere. A paraboloid, whose M takes 2.6 ns, does not feel it.
             Some(top) if top.h == to.d => top.reduced_force,
             _ => law.profile().reduced_force(to.d),
         };

@@ -1,4 +1,7 @@
 //! The slip front: where the springs at their limit begin.
+//!
+//! Springs stick up to the front and slip beyond it, out to the edge of the contact: limits fall with height, and the wedge
+//! has one edge that drags at a time.
 
 use crate::{ContactState, Interface};
 
@@ -12,9 +15,11 @@ pub(super) struct Front {
 }
 
 impl Front {
+    /// No spring at its limit.
     pub(super) const STICK: Self = Self { sense: 0.0, height: f64::INFINITY };
 
     /// State and stick radius (m) of a contact of indentation d.
+    // Lengths decide and not heights: between two springs of a list a front may lie anywhere, and all that touch still stick.
     pub(super) fn zone(&self, law: &Interface, d: f64) -> (ContactState, f64) {
         let profile = law.profile();
         if d <= 0.0 {

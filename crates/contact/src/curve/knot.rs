@@ -1,4 +1,7 @@
 //! A turning point of the memory curve, with the sums of everything below it.
+//!
+//! A drag gives up knots from the top only, so the sums below stay: forces and energies of a new apex follow from those of
+//! the knot on which it stands, whatever lies below.
 
 use crate::{Apex, Interface};
 
@@ -9,7 +12,9 @@ pub(super) struct Knot {
     pub(super) h: f64,
     /// Anchor p(h), m.
     pub(super) p: f64,
-    /// Slope dp/dh of the piece that ends here; kept, because p of a far-travelled contact has lost its digits.
+    /// Slope dp/dh of the piece that ends here.
+    // Kept, though two anchors would give it: of a contact that has travelled 10⁶ u_c their difference has lost six digits.
+    // What is left of forces then, 1e-9 of the limit, is lost in u itself; 1e-12 at 10³ u_c.
     pub(super) slope: f64,
     /// Force per ΔM of the piece that ends here: its slope, or the mean of a curved path of growth.
     pub(super) gain: f64,
@@ -99,6 +104,10 @@ impl Knot {
     }
 
     /// The end of a curved path of growth, with the sums integrated along it.
+    ///
+    /// Between its ends the path is not kept: anchors inside lie on the chord, and the force grows with M(h) in proportion,
+    /// so that a later cut meets the sum that was integrated and not the chord's.
+    // The chord's own sums would lose the order again that the integration has kept.
     pub(super) fn grow_by(&self, law: &Interface, to: Apex, shear: f64, square: f64) -> Self {
         let profile = law.profile();
         let (reduced_force, reduced_energy) = (profile.reduced_force(to.d), profile.reduced_energy(to.d));

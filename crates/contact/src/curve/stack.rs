@@ -1,4 +1,7 @@
 //! The stack of knots: how it grows, is cut, and stays bounded.
+//!
+//! A growing contact pushes knots, a dragging edge gives up those it passes and puts itself in their place, and where the
+//! stack is full the knot that matters least goes.
 
 use super::cut::Edge;
 use super::front::Front;
@@ -14,19 +17,28 @@ pub(super) struct SlopeRange {
     high: f64,
 }
 
+// Growth along a straight line in 100 000 steps leaves two knots; without merging the stack is full after a sixth of them.
+// Along a path that bends by 1e-9 of its length 866 are left, their force 6e-7 of what the bend adds beside it, and 28 080 at
+// a bend of 1e-6.
+
 impl SlopeRange {
+    /// Nothing merged yet: any slope will do.
     pub(super) const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    /// Nothing may be merged: the top piece is no growth, or a curved one.
     pub(super) const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 }
 
 /// Deviation of a merged knot, in units of the last place of the largest of |u| and κd.
+// 0 merges nothing but by chance (16 383 knots of the straight path, 89 506 of that with a bend of 1e-9); 16 leave 294 of the
+// latter and err by 2e-6 of what the bend adds, 256 leave 74 and err by 4e-5.
 const COLLINEAR_ULPS: f64 = 2.0;
 
 /// Knots that one move adds at most: the knot where it cuts, or touches, and the apex.
 pub(super) const KNOTS_PER_MOVE: usize = 2;
 
 impl Curve {
-    /// Growth in full stick along a curved path, its force and energy integrated elsewhere.
+    /// Growth in full stick along a curved path, its force and energy integrated elsewhere. `joins`: it goes on smoothly from
+    /// the growth before.
     pub(super) fn grow(&mut self, law: &Interface, to: Apex, (force, energy): (f64, f64), joins: bool) {
         if self.knots.is_empty() {
             let touch = self.touching(to);
@@ -90,6 +102,11 @@ impl Curve {
     }
 
     /// Gives up the knot whose loss changes the anchors least, and books the change.
+    ///
+    /// The change of the anchors is a triangle between the knot and the chord of its neighbours; the sums of all knots above
+    /// are made anew.
+    // Giving up the oldest instead books 0.32 of the limit force over a decay of 40 000 swings by a stack of 64, and this
+    // 1.2e-5: the first swings are the largest, and the centre remembers them longest.
     pub(super) fn merge_smallest(&mut self, law: &Interface) {
         let triangle = |w: &[Knot]| {
             let (a, b, c) = (&w[0], &w[1], &w[2]);

@@ -4,12 +4,17 @@ use super::Branch;
 use crate::Profile;
 
 /// A branch at constant indentation: F_x = F₀ + G\*σ(γ-κ) M(h_c), a function of u alone.
+// 3.6 ns for a force instead of 4.4 by the branch itself, and the same for its guards; more than the time counts that F is a
+// function of u alone, which a swing in closed form lives on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteadyBranch {
+    /// σ.
     sense: f64,
     /// Level of the knot below the piece, over that of the apex at u = 0, m.
     level: f64,
+    /// 1/(κ-σk); 0 in gross slip.
     flow: f64,
+    /// Height of that knot, m.
     height: f64,
     /// Force with the slip front in the centre, N.
     base: f64,

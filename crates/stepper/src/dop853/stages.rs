@@ -8,19 +8,20 @@ use super::{Dop853, Grade};
 use crate::{System, Target};
 
 impl Dop853 {
+    /// Tries a step: all stages, the end y + h Σ b_i k_i, the error.
     pub(super) fn attempt_span<S: System + ?Sized>(
         &mut self,
         system: &S,
         Target { end, grade }: Target,
         scale: &[f64],
     ) -> f64 {
-        if !self.first_known {
+        if !self.ends.first_known {
             self.restart_slopes(system);
         }
         self.forget_step();
-        let h = end - self.time;
-        (self.step, self.grade) = (h, if self.coasts { Grade::Even } else { grade });
-        (self.end_time, self.target) = (end, end);
+        let h = end - self.extent.time;
+        (self.extent.step, self.extent.grade) = (h, if self.coasts { Grade::Even } else { grade });
+        (self.extent.end_time, self.extent.target) = (end, end);
         if self.coasts {
             return self.coast(system);
         }
@@ -40,59 +41,70 @@ impl Dop853 {
         for ((to, y), k) in self.end.iter_mut().zip(&self.begin).zip(&self.k) {
             *to = y + h * Weights::dot(k);
         }
-        if self.grade != Grade::Even {
-            self.end.iter_mut().zip(&self.first).for_each(|(to, first)| *to += h * first);
+        if self.extent.grade != Grade::Even {
+            self.end.iter_mut().zip(&self.ends.first).for_each(|(to, first)| *to += h * first);
         }
         self.error(scale)
     }
 
-    /// One stage, at node `J`: keep the newest slope, combine all so far over the coupled components, evaluate the next.
+    /// One stage, y + h Σ a k at the time of node `J`: keep the newest slope, combine all so far over the coupled components, evaluate the next.
     ///
     /// Evaluations follow on one another, so what counts is the path from one slope to the next: a product and a sum.
     #[inline(always)]
     pub(super) fn stage<R: Row, const J: usize, S: System + ?Sized>(&mut self, system: &S) {
-        let h = self.step;
+        // The newest slope comes last into the sum, apart from all that is known before it: 157 ns instead of 170 for a step
+        // of one oscillator. Rounding differs from the order of the books by a last place.
+        let h = self.extent.step;
         let last = h * R::LAST;
-        for (((to, y), k), newest) in self.stage.iter_mut().zip(&self.begin).zip(&mut self.k).zip(&self.slope)
+        for (((to, y), k), newest) in
+            self.stage.iter_mut().zip(&self.begin).zip(&mut self.k).zip(&self.newest)
         {
             *to = (y + h * R::rest(k)) + last * newest;
             k[R::NEWEST] = *newest;
         }
-        let quadratures = self.k[self.dimension..].iter_mut().zip(&self.slope[self.dimension..]);
+        let quadratures = self.k[self.dimension..].iter_mut().zip(&self.newest[self.dimension..]);
         for (k, newest) in quadratures {
             k[R::NEWEST] = *newest;
         }
-        if self.grade != Grade::Even {
-            let past = h * self.grade.time(NODES[J]);
-            self.stage.iter_mut().zip(&self.first).for_each(|(to, first)| *to += past * first);
+        // Over σ the slopes begin with 0 at a singular start; the straight motion with the first slope is taken apart from
+        // them and added here exactly.
+        if self.extent.grade != Grade::Even {
+            let past = h * self.extent.grade.time(NODES[J]);
+            self.stage.iter_mut().zip(&self.ends.first).for_each(|(to, first)| *to += past * first);
         }
         // A node of 1 is the very end of the step, not t + h, which may differ in the last bit.
-        let t = if NODES[J] == 1.0 { self.target } else { self.time + self.grade.time(NODES[J]) * h };
-        system.slopes(t, &self.stage, &mut self.slope);
+        let t = if NODES[J] == 1.0 {
+            self.extent.target
+        } else {
+            self.extent.time + self.extent.grade.time(NODES[J]) * h
+        };
+        system.slopes(t, &self.stage, &mut self.newest);
         self.evaluations += 1;
-        self.pace(self.grade.pace(NODES[J]));
+        self.pace(self.extent.grade.pace(NODES[J]));
     }
 
-    /// From slopes over the part of the time to those over σ.
+    /// From slopes over the part of the time to those over σ, less the straight part: φ'(σ) (f - f₀).
     #[inline(always)]
     pub(super) fn pace(&mut self, pace: f64) {
-        if self.grade != Grade::Even {
-            self.slope
+        if self.extent.grade != Grade::Even {
+            self.newest
                 .iter_mut()
-                .zip(&self.first)
+                .zip(&self.ends.first)
                 .for_each(|(slope, first)| *slope = pace * (*slope - first));
         }
     }
 
+    /// Keeps the newest slopes as those of stage `J`.
     #[inline(always)]
     pub(super) fn keep<const J: usize>(&mut self) {
-        for (k, slope) in self.k.iter_mut().zip(&self.slope) {
+        for (k, slope) in self.k.iter_mut().zip(&self.newest) {
             k[J] = *slope;
         }
     }
 
+    /// The slopes at the start as the newest ones: what a rejected attempt left of them is another stage's.
     fn recall_first(&mut self) {
-        self.slope.copy_from_slice(&self.first);
-        self.pace(self.grade.pace(0.0));
+        self.newest.copy_from_slice(&self.ends.first);
+        self.pace(self.extent.grade.pace(0.0));
     }
 }

@@ -6,6 +6,10 @@
 //!
 //! A row is a sparse linear form of the slopes k₁ … k₁₆ (indices 0 … 15). Each becomes one straight sum without loop,
 //! zero or bounds check. The newest slope stands apart: everything else can be summed while its evaluation is under way.
+//!
+//! The state of stage i is y + h Σ a_ij k_j at the time t + c_i h, the end y + h Σ b_i k_i. Stages 1 to 12 make the step;
+//! k₁₃ is the slope at its end, stages 14 to 16 are for the dense output alone. Tests hold the rows against the conditions
+//! of order: Σ_j a_ij = c_i, Σ b_i c_i^{q-1} = 1/q, and those of the taller trees.
 
 /// The sixteen slopes of one component: twelve stages, the end point, three more for the dense output.
 pub(super) type Slopes = [f64; 16];
@@ -60,7 +64,10 @@ macro_rules! rows {
 /// Index of the slope at the end of the step (k₁₃).
 pub(super) const END: usize = 12;
 
-/// Nodes of all stages as fractions of the step.
+/// Nodes c of all stages as fractions of the step.
+// The crate `ode_solvers` 0.6.2 has 0 for the twelfth of them: its method has no order where slopes depend on the time. For
+// ẏ = y cos t up to t = 4 at a tolerance of 1e-6 it takes 6 530 evaluations and ends anywhere; this one takes 165 and is
+// 9e-8 off. So the coefficients stand here, and of that crate only `Dopri5` is used, as a reference.
 pub(super) const NODES: Slopes = [
     0.0,
     0.05260015195876773,

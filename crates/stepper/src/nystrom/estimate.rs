@@ -5,7 +5,8 @@ use super::track::dot;
 use super::{Nystrom, ORDER, Storage};
 
 impl<N: Storage> Nystrom<N> {
-    /// Largest difference of the two orders in units of `scale`.
+    /// Largest difference of the two orders in units of `scale`: of positions, velocities and, where `scale` has values for
+    /// them, quadratures. Why the largest, says the estimate of [`Dop853`](crate::Dop853).
     #[inline]
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
         let (h, n) = (self.step, self.positions());
@@ -27,9 +28,11 @@ impl<N: Storage> Nystrom<N> {
         if sum.is_finite() { largest } else { f64::INFINITY }
     }
 
-    /// A first step for a fresh start, without an evaluation.
+    /// A first step for a fresh start, without an evaluation: 0.01 (s/a)^{1/7} T^{6/7} with T the longest step and s/a the
+    /// shortest time (s) in which an acceleration at the start makes the tolerance of its velocity.
     pub(super) fn starting_step(&self, longest: f64, scale: &[f64]) -> f64 {
-        // A step in which what acts at its start moves a body by its natural scale, or a hundredth of the longest.
+        // A hundredth of the longest step where nothing acts. The rule that the other method takes costs an evaluation, and a
+        // first step is taken once a run.
         let n = self.positions();
         let bend = self.tracks.as_ref()[..n]
             .iter()

