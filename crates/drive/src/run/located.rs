@@ -144,6 +144,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         state.carry_over(self.setting.model, self.setting.layout);
         self.output.set_out(state.t, self.horizon.end);
         self.ledger.set_out(state.t);
+        // No step leaps over a smooth wave.
         let limits = StepLimits { longest: self.motion.pace.longest, ..StepLimits::default() };
         // A run in two halves is one run to the last bit: what control has learnt goes on with the state.
         let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(order, limits));
@@ -180,6 +181,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             return;
         }
         let contacts = self.setting.model.contacts.iter();
+        // A guess that begins above the fastest ringing would be thrown away.
         let natural = contacts.map(|c| std::f64::consts::TAU / c.natural.frequency);
         let longest = natural.fold(self.motion.pace.longest, f64::min);
         let longest = if longest.is_finite() { longest } else { self.horizon.end };

@@ -50,6 +50,7 @@ impl Allowance {
         }
         for wired in &model.blocks {
             let first = layout.block(wired.first);
+            // Blocks name their own natural scales: the run knows none of them by kind.
             let own = scale[first..].iter_mut().zip(&wired.states.scales);
             own.for_each(|(scale, natural)| *scale = strict * natural);
         }

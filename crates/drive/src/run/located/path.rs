@@ -49,7 +49,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let span = self.motion.solver.span();
             let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
-                // Only growth reads the inside of a step: the evaluations of the dense output are asked for
+                // Of what is committed only growth reads the inside of a step: the evaluations of the dense output are asked for
                 // here and not before.
                 self.motion.solver.complete(&eq, Completion::Dense);
                 let growth =

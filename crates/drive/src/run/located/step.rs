@@ -66,7 +66,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.take_steps(state);
         }
         let ending = self.ending(&aim, corner);
-        // Before accepting: the wish is compared with the step that the state held during the attempt.
         let wished = self.wished(state, ending, (h, verdict.next));
         state.tally.step(self.method(&aim));
         self.accept(state, record, ending == Ending::Smooth && self.watch.fired.is_empty())?;
@@ -80,7 +79,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.pass_event(state, ending == Ending::Corner, record)?;
         } else {
             self.watch.go_on();
-            // Only between events: at one the laws are chosen by what velocity is left.
             if self.motion.rest(self.setting.model, state) {
                 self.stop(state);
             }
@@ -106,7 +104,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn wished(&self, state: &State, ending: Ending, (h, next): (f64, f64)) -> f64 {
         match (ending == Ending::Event, h < state.step) {
             // The next law has not earned a longer step yet.
-            // An exact step of any length says nothing of those that follow.
             _ if self.motion.solver.coasts() => state.step,
             (true, false) => h.min(next),
             (true, true) => state.step,
