@@ -1,4 +1,11 @@
 //! Contacts as components of a drive: constants, what they are doing, their guards and forces.
+//!
+//! A contact is what has a law ([`Mode`]), guards ([`Guard`]), a memory and an energy; the runner knows it by
+//! that contract
+//! ([`component`](crate::component)). Its mechanics are those of the crate `stickslip_contact`; here is what
+//! joins them to bodies:
+//! the rows of u and d, what presses, how many there are, and the natural scales that tolerances are relative
+//! to.
 
 mod component;
 mod force;
@@ -16,11 +23,14 @@ use stickslip_contact::{Engine, Interface};
 /// A contact's constants.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Contact {
+    /// As the scene names it.
     pub(crate) name: String,
     /// u = x(first) - x(second) at the contact point, counted from the start.
     pub(crate) u: Measure,
     pub(crate) interface: Interface,
+    /// The exact memory curve, or a row of springs.
     pub(crate) engine: Engine,
+    /// What sets d.
     pub(crate) press: Press,
     /// Number of identical contacts.
     pub(crate) count: f64,
@@ -85,6 +95,7 @@ impl Contact {
         match self.press {
             Press::Constant { d, .. } => (d, 0.0),
             Press::Indentation(_) | Press::Coupled(_) => (sample.value, sample.rate),
+            // ḋ = Ḟ_N/(E*m(d)) is infinite where the contact is just touched: no rate is given there.
             Press::Force(_) => {
                 let d = self.interface.indentation(sample.value.max(0.0));
                 let stiffness = self.interface.normal_stiffness(d);

@@ -1,4 +1,15 @@
 //! The equations of motion, evaluated on borrowed memory.
+//!
+//! M q̈ = Σ forces of contacts, links, loads and blocks, beside it the integrals on which nothing depends
+//! (work put in,
+//! dissipation, elastic energy and friction of growing contacts). Steppers ask for slopes or, where no force
+//! depends on a
+//! velocity, for accelerations alone; records and guards read motions and signals of a moment by the same
+//! functions.
+//!
+//! Nothing here is written to but the slopes: a trial evaluation has no way to leave a trace. Nothing here
+//! chooses a law or
+//! knows an event: laws go on smoothly beyond the moment that will end them.
 
 mod blocks;
 mod forces;
@@ -23,8 +34,11 @@ const CORNER_SLACK: f64 = 1e-9;
 #[derive(Clone, Copy)]
 pub(crate) struct Equations<'a> {
     pub(crate) model: &'a Model,
+    /// The smooth piece of each waveform.
     pub(crate) pieces: &'a [Piece],
+    /// What the contacts remember, as committed last.
     pub(crate) memories: &'a [Memory],
+    /// The law of each contact.
     pub(crate) modes: &'a [Mode],
     pub(crate) blocks: &'a [BlockState],
     pub(crate) layout: Layout,
@@ -36,6 +50,8 @@ pub(crate) struct Equations<'a> {
 
 impl<'a> Equations<'a> {
     /// The equations on a state as it stands.
+    ///
+    /// `layout` may leave out the components of growing contacts, as runs by chords do.
     pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
         let State { pieces, memories, modes, blocks, .. } = state;
         Self { model, pieces, memories, modes, blocks, layout, crossing, interval: None }
@@ -59,6 +75,8 @@ impl<'a> Equations<'a> {
     }
 
     /// The same for a step that may cross corners.
+    ///
+    /// Beyond its piece by more than 1e-9 of the piece's length the right one is looked for.
     #[inline(never)]
     fn across(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
@@ -71,6 +89,7 @@ impl<'a> Equations<'a> {
     }
 
     /// A coordinate and its rate.
+    /// m and m/s, or rad and rad/s.
     pub(crate) fn place(&self, place: Binding, t: f64, y: impl Fn(usize) -> f64) -> [f64; 2] {
         match place {
             Binding::Held(x) => [x, 0.0],
@@ -83,11 +102,16 @@ impl<'a> Equations<'a> {
     }
 
     /// A measure at one moment.
+    ///
+    /// constant + Σ aq + Σ bw over free coordinates q and followed signals w, with the rates of both. Without
+    /// velocities the rate
+    /// is that of the followers alone.
     #[inline(always)]
     pub(crate) fn read<V: View>(&self, measure: &Measure, at: &V) -> Reading {
         let (mut own, mut rate) = (0.0, 0.0);
         for &(i, a) in &measure.free {
             own += a * at.component(i);
+            // Nyström's stages know no velocities: the branch is gone when compiled.
             if V::MOVES {
                 rate += a * at.component(self.layout.velocity(i));
             }
@@ -103,12 +127,17 @@ impl<'a> Equations<'a> {
     }
 
     /// Second derivative of a measure at a moment, m/s²; `free` gives that of a free coordinate.
+    ///
+    /// What the followers make of it is exact within a smooth piece.
     pub(crate) fn acceleration(&self, measure: &Measure, at: &impl View, free: impl Fn(usize) -> f64) -> f64 {
         let followed = measure.driven.iter().map(|(w, a)| a * self.signal(*w, at).acceleration);
         measure.free.iter().map(|(i, a)| a * free(*i)).sum::<f64>() + followed.sum::<f64>()
     }
 
     /// Motion of a contact; `y` reads a component.
+    ///
+    /// d, u (m) and their rates (m/s); u counted from its shifted origin, d below zero where the contact is
+    /// apart.
     #[inline]
     pub(crate) fn motion(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
         let at = Components { t, y };
@@ -137,6 +166,10 @@ impl<'a> Equations<'a> {
 
 impl Equations<'_> {
     /// Accelerations without any velocity, and the power put in, W.
+    ///
+    /// `out` is q̈ of the free coordinates and then the one integral. Only for models without dampers,
+    /// varying loads, growth and
+    /// blocks: their powers need velocities.
     #[inline(never)]
     fn accelerate(&self, at: &Positions<'_>, out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(self.layout.free);
@@ -145,6 +178,7 @@ impl Equations<'_> {
         if !self.model.links.is_empty() {
             self.links(at, &mut sum);
         }
+        // Nothing dissipates but contacts, which book for themselves.
         (input[0], _) = sum.accelerate(self.model);
     }
 }
@@ -167,6 +201,7 @@ impl System for Equations<'_> {
         let v = &y[layout.free..2 * layout.free];
         let (dx, rest) = dy.split_at_mut(layout.free);
         let (dv, extra) = rest.split_at_mut(layout.free);
+        // Positions first, then velocities: ẋ is part of the state itself.
         dx.copy_from_slice(v);
         // Contacts that are apart leave theirs alone.
         extra.fill(0.0);
@@ -207,6 +242,7 @@ impl Conservative for Equations<'_> {
                     *acceleration += pull.acceleration * reduced_force;
                     *input += pull.power * reduced_force;
                 };
+                // A single pull without a loop: the benchmark drive asks for nothing else.
                 match &pulls[..] {
                     [pull] => add(pull),
                     pulls => pulls.iter().for_each(add),

@@ -2,6 +2,12 @@
 //!
 //! The loads are put on in proportion, and the contacts remember the way: which of them slips depends on it. A body that
 //! is drawn above what will hold it is first set down by a millionth of its loads.
+//!
+//! A balance under all loads at once is not enough: with friction there are many, and the one that loads put
+//! on in proportion come
+//! to is taken. Nothing moves here and no time passes. The state at t = 0 also begins the books: what is
+//! stored then is
+//! where energies count from.
 
 mod balance;
 mod statics;
@@ -33,6 +39,7 @@ impl Model {
     /// plan's stepper cannot follow the model's waveforms, and where its fixed step is unstable.
     pub fn start(&self, plan: &Plan) -> Result<State, SceneError> {
         plan.check()?;
+        // A free mass does not follow a jump: only a step that ends there can tell its two sides apart.
         let jumps = !self.free.is_empty() && self.waveforms.iter().any(crate::Waveform::has_jumps);
         if jumps && !plan.stepper.locates_events() {
             return Err(SceneFault::UnlocatedJump.of(Part::Run, Field::Stepper));
@@ -42,6 +49,8 @@ impl Model {
         if self.equilibrium && !self.free.is_empty() {
             self.settle(&mut state)?;
         }
+        // What pressed and lifted before the start is no work of the run: it is read off the present state,
+        // and taken off here.
         let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());
         state.jumps = -varying.map(|c| c.count * c.interface.normal_energy(self.indentation(c))).sum::<f64>()
             - self.lifted(|i| state.y[i]);
@@ -72,19 +81,26 @@ impl Model {
         if n > MOST {
             return Err(SceneFault::TooManyFree { most: MOST, count: n }.of(Part::Run, Field::Start));
         }
+        // In equilibrium nothing moves; velocities that the scene names are of a start that is given.
         for i in 0..n {
             state.y[self.layout().velocity(i)] = 0.0;
         }
         let initial = self.statics(state, &state.y).net;
+        // One coordinate and no contact pressed by it: the way under a growing load is one chord, whatever
+        // its parts.
         let alone = n == 1 && self.contacts.iter().all(|c| c.coupling().is_none());
         let parts = if alone { 1 } else { PARTS };
         let landing = (!alone).then_some(LANDING);
         let mut reached = false;
         for share in landing.into_iter().chain((1..=parts).map(|k| f64::from(k) / f64::from(parts))) {
+            // In proportion: the forces still missing are a share of the imbalance at the start, friction and
+            // springs included.
             let missing = &initial * (1.0 - share);
             let balance = self.balance(state, &missing, &state.y, &vec![false; n]);
             if balance.holds {
                 self.stand(state, &balance)?;
+            // Under the whole load nothing more will come: now it is found coordinate by coordinate, or there
+            // is none.
             } else if share == 1.0 {
                 let balance = self.released(state)?;
                 self.stand(state, &balance)?;

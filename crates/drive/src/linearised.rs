@@ -114,8 +114,11 @@ impl Model {
 
     /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
     pub(super) fn largest_rate(&self) -> f64 {
+        // As deep as they get: stiffness grows with the indentation, and a bound must hold throughout the
+        // run.
         let stiffest = self.linearised(&self.rest(), |d| d.most);
         let frequency = stiffest.highest_frequency();
+        // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
         if stiffest.damping.amax() == 0.0 {
             return frequency;
         }
@@ -166,6 +169,8 @@ impl Linearised {
             return Vec::new();
         }
         let Some(eigen) = symmetric(self.by_mass(&self.stiffness)) else { return Vec::new() };
+        // What nothing holds has the eigenvalue 0 but for rounding, of either sign: its root would be a
+        // frequency or none at all.
         let rounding = self.mass.len() as f64 * f64::EPSILON * eigen.eigenvalues.amax();
         let mode = |(k, value): (usize, &f64)| {
             let frequency = if *value > rounding { value.sqrt() } else { 0.0 };
@@ -185,6 +190,7 @@ impl Linearised {
         let moved = |row: &Row| row.iter().map(|(i, share)| share * shape[*i]).sum();
         NormalMode {
             frequency,
+            // A free motion has no critical damping to be a share of.
             damping_ratio: if frequency > 0.0 { 0.5 * damped / frequency } else { 0.0 },
             contacts: self.contacts.iter().map(moved).collect(),
             shape,
@@ -197,6 +203,7 @@ impl Linearised {
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
     }
 
+    /// ω of the fastest mode, rad/s; 0 without any.
     fn highest_frequency(&self) -> f64 {
         self.modes().last().map_or(0.0, |mode| mode.frequency)
     }
@@ -232,6 +239,8 @@ impl Linearised {
     fn rates(&self, frequency: f64) -> Vec<Complex<f64>> {
         let n = self.mass.len();
         let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+        // v is counted in units of x times this frequency: entries of like sizes, which an eigenvalue
+        // iteration needs for its digits.
         matrix.view_mut((0, n), (n, n)).fill_diagonal(frequency);
         matrix.view_mut((n, 0), (n, n)).copy_from(&(self.by_mass(&self.stiffness) / -frequency));
         matrix.view_mut((n, n), (n, n)).copy_from(&-self.by_mass(&self.damping));
@@ -247,6 +256,8 @@ fn rk4_reach(rate: &Complex<f64>) -> f64 {
         let z = rate * h;
         (((z / 4.0 + 1.0) * z / 3.0 + 1.0) * z / 2.0 + 1.0) * z + 1.0
     };
+    // The half disc is asked first: near 0 growth differs from 1 by rounding only, and rounding may fall on
+    // the wrong side.
     longest(3.0 / rate.norm(), |h| h * rate.norm() < 2.6 || growth(h).norm() <= 1.0)
 }
 
@@ -269,6 +280,8 @@ fn finite(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
     matrix.iter().all(|entry| entry.is_finite()).then_some(matrix)
 }
 
+/// Eigenvalues and vectors of a symmetric matrix; none where an entry is not finite or the iteration does not
+/// end.
 fn symmetric(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
     let sweeps = matrix.nrows() * SWEEPS;
     SymmetricEigen::try_new(finite(matrix)?, f64::EPSILON, sweeps.max(1))

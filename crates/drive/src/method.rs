@@ -95,6 +95,7 @@ fn velocities(model: &Model) -> Option<Why> {
         () if stuck => Some(Why::ContactDamping),
         // The power of a load that varies is a force times a velocity.
         () if !model.loads.is_empty() => Some(Why::VaryingLoad),
+        // Ḟ = G*m(d)u̇ is a rate, and Nyström's stages have no velocities.
         () if model.growing > 0 => Some(Why::Growth),
         () if !model.blocks.is_empty() => Some(Why::Block),
         () => None,
@@ -121,6 +122,7 @@ impl IntervalTraits {
 
 /// The method of an interval, and why.
 pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method, Why) {
+    // Before the swing: a parabola is exact for any number of free coordinates.
     if scene.free > 0 && interval.is_constant(scene) {
         (Method::Parabola, Why::ConstantForces)
     } else if interval.leaps(scene) {
@@ -133,6 +135,7 @@ pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method,
 /// The method of intervals without a closed form.
 pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     match scene.velocities {
+        // Only time goes on: steps then go from event to event of the contacts.
         _ if scene.free == 0 => (Method::Walk, Why::NothingFree),
         None => (Method::Nystrom, Why::NoVelocities),
         Some(why) => (Method::DormandPrince, why),
@@ -145,6 +148,7 @@ pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() 
     match (mode, &contact.press) {
         _ if contact.is_never_pressed() => (Treatment::Spared, Why::NeverPressed),
         (Mode::Open, _) => (Treatment::Apart, Why::OnlyTheGap),
+        // Damping is a force of u̇ and of the slip front, which no form of u alone has.
         (Mode::Slip(_), Press::Constant { .. }) if contact.interface.damping() == 0.0 => {
             if followed() {
                 (Treatment::Closed, Why::OneEdge)

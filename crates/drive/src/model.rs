@@ -1,4 +1,12 @@
 //! The constants of a drive, checked and assembled.
+//!
+//! [`Model::new`] is the only way from a scene to a model: whatever can be wrong with a scene is refused
+//! there, with the part and the
+//! field, so that a run has nothing left to refuse but motion itself. A model never changes; runs borrow it,
+//! and any number of
+//! them may at once. Lengths between bodies are linear forms of the coordinates ([`Measure`]) with constant
+//! coefficients:
+//! rotations are small.
 
 mod block;
 mod build;
@@ -24,15 +32,21 @@ use stickslip_contact::Interface;
 /// A checked scene as constants: what evaluation needs and nothing else.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
+    /// In the scene's order; those that nothing follows are held still.
     pub(crate) waveforms: Vec<Waveform>,
     pub(crate) bodies: Vec<Body>,
+    /// Free coordinates, body by body, x, z and pitch.
     pub(crate) free: Vec<Free>,
+    /// In the scene's order.
     pub(crate) contacts: Vec<Contact>,
     pub(crate) blocks: Vec<Wired>,
+    /// Springs, then actuators, of those that act.
     pub(crate) links: Vec<Link>,
+    /// Those that vary; constant ones are in the force of their coordinate.
     pub(crate) loads: Vec<Load>,
     /// Number of contacts whose force is a state while they grow.
     pub(crate) growing: usize,
+    /// Whether a run starts in static equilibrium.
     pub(crate) equilibrium: bool,
     /// What of the scene no run will ever look at.
     pub(crate) spared: Spared,
@@ -93,10 +107,15 @@ pub struct NaturalScale {
 /// second body less that on the first.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Link {
+    /// e, m.
     pub(crate) elongation: Measure,
+    /// k, N/m.
     pub(crate) stiffness: f64,
+    /// c, N s/m.
     pub(crate) damping: f64,
+    /// N; pushes the ends apart where it is positive.
     pub(crate) preload: f64,
+    /// s, m.
     pub(crate) stroke: Stroke,
 }
 
@@ -155,6 +174,8 @@ impl Model {
     }
 
     /// Natural scale of work, J: μF_N u_c of the smallest contact.
+    ///
+    /// 1 J where no contact has friction.
     pub(crate) fn work_scale(&self) -> f64 {
         let work = |c: &Contact| c.friction_limit() * c.natural.displacement;
         let smallest = self.contacts.iter().map(work).filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);

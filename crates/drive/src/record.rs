@@ -135,6 +135,7 @@ impl Model {
             names.extend(quantities.map(|q| format!("{name}.{q}")));
         }
         for contact in &self.contacts {
+            // Components name their own columns: a new kind of them adds none here.
             names.extend(columns(&contact.name, contact));
         }
         for wired in &self.blocks {
@@ -191,10 +192,13 @@ pub(crate) fn fill(
     row.clear();
     row.push(t);
     let (model, layout) = (equations.model, equations.layout);
+    // Constant forces do their work along the way whatever the time: read off the place it has no error of
+    // integration.
     let input = y(layout.input()) + model.lifted(|i| state.shifts[i] + y(i)) + state.jumps;
     let mut books = Books { input, ..Books::default() };
     for (_, _, place) in model.moving() {
         let [position, rate] = equations.place(place, t, y);
+        // From where the bodies started, as it is told: the run counts from near by.
         row.extend([position + if let Binding::Free(i) = place { state.shifts[i] } else { 0.0 }, rate]);
     }
     for (c, contact) in model.contacts.iter().enumerate() {
@@ -210,6 +214,8 @@ pub(crate) fn fill(
         books.kinetic += 0.5 * free.mass * y(layout.velocity(i)).powi(2);
     }
     let damping = y(layout.damping()) + state.lost;
+    // Friction is booked from what was swept and not as this remainder, which would make every balance look
+    // closed.
     let error = books.input - (books.kinetic + books.elastic - state.origin) - books.friction - damping;
     row.extend([books.input, books.kinetic, books.elastic, books.friction, damping, error]);
 }
@@ -227,6 +233,8 @@ fn contact_columns(
     let layout = equations.layout;
     let motion = equations.motion(contact, t, y);
     let slot = contact.slot.filter(|_| layout.growing > 0);
+    // In full stick the memory stands at the step's start: force and energy are the states, and every spring
+    // sticks.
     let mut outcome = match (state.modes[c], slot) {
         (Mode::Grow, Some(slot)) => Outcome {
             force: y(layout.force(slot)),
@@ -244,9 +252,12 @@ fn contact_columns(
     let friction = state.friction[c] + count * outcome.friction;
     let normal = count * contact.interface.normal_energy(motion.d);
     // What sets the indentation does the work of pressing; a coupled contact's bodies do it among themselves.
+    // A constant load presses before the start and does no work in the run.
     if !contact.is_constant() && contact.coupling().is_none() {
         books.input += normal;
     }
+    // The force is that on the bodies, springs and damping together; energy and friction are of the springs
+    // alone.
     let damping = match contact.interface.damping() {
         0.0 => 0.0,
         _ => contact.viscosity(equations.law(c), &motion) * motion.du,

@@ -70,9 +70,11 @@ impl Schedule {
     #[inline]
     fn time(&self) -> f64 {
         let t = match &self.moments {
+            // A product: a sum of intervals would drift from the multiples that it is told as.
             Moments::Every(interval) => interval * self.next,
             Moments::At(times) => times.get(self.next as usize).copied().unwrap_or(f64::INFINITY),
         };
+        // A multiple that misses the end by rounding is the end itself, once, and no row before it.
         if t < self.end - self.near {
             t
         } else if t <= self.end + self.near {

@@ -18,7 +18,9 @@ pub struct State {
     pub(crate) y: Vec<f64>,
     /// By how much the origin of each free coordinate has moved, m: what travels far is counted from near by.
     pub(crate) shifts: Vec<f64>,
+    /// What each contact remembers; displacements counted from the shifted origins.
     pub(crate) memories: Vec<Memory>,
+    /// The law of each contact, set at its last event.
     pub(crate) modes: Vec<Mode>,
     /// Whether the last segment of each contact was growth that may go on smoothly.
     pub(crate) grew: Vec<bool>,
@@ -39,8 +41,11 @@ pub struct State {
     pub(crate) step: f64,
     /// Step in use when a contact last went into gross slip, s: what comes after needs it again.
     pub(crate) stuck_step: f64,
+    /// What step control has learnt; none before the first run.
     pub(crate) control: Option<StepControl>,
+    /// Work done so far.
     pub(crate) counts: Counts,
+    /// Steps and intervals by method.
     pub(crate) tally: Tally,
 }
 
@@ -61,37 +66,48 @@ pub struct Counts {
 /// value nothing depends: input work, dissipation, and for each growing contact elastic energy and friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
+    /// Free coordinates.
     pub(crate) free: usize,
+    /// Contacts whose force is a state while they grow; 0 in runs by chords.
     pub(crate) growing: usize,
     /// States of blocks.
     pub(crate) own: usize,
 }
 
 impl Layout {
+    /// Number of components on which slopes depend.
     pub(crate) fn dimension(self) -> usize {
         2 * self.free + self.growing + self.own
     }
+    /// The same with the integrals.
     pub(crate) fn total(self) -> usize {
         self.dimension() + 2 + 2 * self.growing
     }
+    /// Place of the velocity of free coordinate `i`.
     pub(crate) fn velocity(self, i: usize) -> usize {
         self.free + i
     }
+    /// Place of F_x of a growing contact, N, of one of its identical members.
     pub(crate) fn force(self, slot: usize) -> usize {
         2 * self.free + slot
     }
+    /// Place of a state among those of all blocks.
     pub(crate) fn block(self, state: usize) -> usize {
         2 * self.free + self.growing + state
     }
+    /// Place of the work put in, J.
     pub(crate) fn input(self) -> usize {
         self.dimension()
     }
+    /// Place of what dampers have taken, J.
     pub(crate) fn damping(self) -> usize {
         self.dimension() + 1
     }
+    /// Place of the elastic energy of a growing contact, J, of one member.
     pub(crate) fn elastic(self, slot: usize) -> usize {
         self.dimension() + 2 + 2 * slot
     }
+    /// Place of the friction work of a growing contact, J, of one member.
     pub(crate) fn friction(self, slot: usize) -> usize {
         self.dimension() + 3 + 2 * slot
     }
@@ -108,6 +124,7 @@ impl Model {
 
     /// The error of component `i` that is no longer finite; forces and work are laid at the first body's door.
     pub(crate) fn not_finite(&self, t: f64, i: usize) -> RunError {
+        // A force or a work belongs to no coordinate.
         let free = if i < 2 * self.free.len() { i % self.free.len() } else { 0 };
         let body = self.free.get(free).map(|f| self.bodies[f.body].name.clone());
         RunError::NotFinite { t, body: body.unwrap_or_default() }
@@ -133,6 +150,7 @@ impl Model {
             t: 0.0,
             y,
             shifts: vec![0.0; layout.free],
+            // Not classified yet: a run chooses laws from velocities and accelerations when it begins.
             modes: memories.iter().map(|_| Mode::Whole { sense: 0.0 }).collect(),
             grew: vec![false; memories.len()],
             memories,
@@ -143,6 +161,7 @@ impl Model {
             lost: 0.0,
             origin: 0.0,
             step: 0.0,
+            // No gross slip has begun yet: its end takes nothing from the step.
             stuck_step: f64::INFINITY,
             control: None,
             counts: Counts::default(),
@@ -189,6 +208,7 @@ impl State {
 
     /// Takes over a state of another stepper's run, which carried other extra components.
     pub(crate) fn carry_over(&mut self, model: &Model, to: Layout) {
+        // The same components: a run that goes on keeps its state to the last bit.
         if self.y.len() == to.total() {
             return;
         }
@@ -196,6 +216,8 @@ impl State {
         let from = Layout { growing, ..to };
         for (contact, friction) in model.contacts.iter().zip(&mut self.friction) {
             if let Some(slot) = contact.slot.filter(|_| growing > 0) {
+                // What an integral had booked goes where commits book: no friction is lost when the stepper
+                // changes.
                 *friction += contact.count * self.y[from.friction(slot)];
             }
         }

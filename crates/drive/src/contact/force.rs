@@ -1,4 +1,10 @@
 //! What a contact exerts along the slide under its law.
+//!
+//! Elastic and friction force by the mode's law, viscous resistance of the springs that stick, and the rates
+//! of what a growing
+//! contact carries as states. All of one contact; whoever adds them up multiplies by the count. Nothing is
+//! remembered: the
+//! memory is read as committed last.
 
 use super::{Contact, Mode, Motion, Press};
 use stickslip_contact::{Branch, Dragged, Memory, Move};
@@ -16,6 +22,10 @@ pub(crate) struct GrowthRates {
 
 impl Contact {
     /// F_x of one contact, N, under its law; `grown` is what a contact that grows in full stick carries as a state.
+    ///
+    /// A branch is asked beyond the height that it covers only where it cuts through a path of growth; the
+    /// memory then answers, so
+    /// that the law goes on smoothly to the event that ends the step.
     #[inline(always)]
     pub(crate) fn force(
         &self,
@@ -28,12 +38,14 @@ impl Contact {
                 self.dragged(memory, branch, motion).force
             }
             Mode::Slip(branch) => {
+                // At a constant indentation M(d) is known since the model was built.
                 let reduced_force = match &self.press {
                     Press::Constant { reduced_force, .. } => *reduced_force,
                     _ => self.interface.profile().reduced_force(motion.d),
                 };
                 branch.force(&self.interface, motion.d, motion.u, reduced_force)
             }
+            // Without friction the memory need not be asked.
             Mode::Whole { .. } if self.inert => 0.0,
             Mode::Whole { .. } => self.whole(memory, motion),
             Mode::Grow => grown(),
@@ -55,6 +67,8 @@ impl Contact {
     }
 
     /// Height of the slip front, m.
+    ///
+    /// Springs of heights below it stick, those above slip.
     fn front(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> f64 {
         if branch.covers(motion.d, motion.u) {
             branch.front(motion.d, motion.u)
@@ -64,6 +78,10 @@ impl Contact {
     }
 
     /// What the springs that stick oppose to u̇, N s/m.
+    ///
+    /// β times the stiffness of the springs that stick: G\*m(d) in full stick, G\*m(h) below a slip front at
+    /// height h, nothing in
+    /// gross slip or apart. β is the contact's damping time, s.
     pub(crate) fn viscosity(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
         let stuck = match mode {
             Mode::Open => 0.0,
@@ -72,12 +90,17 @@ impl Contact {
             Mode::Slip(branch) => self
                 .interface
                 .stick_stiffness(self.front(memory, branch, motion).clamp(0.0, motion.d.max(0.0))),
+            // A row knows only from a trial which of its springs stick.
             Mode::Whole { .. } => memory.trial(&self.interface, Move::Chord(motion.apex())).stiffness,
         };
         self.interface.viscosity(stuck)
     }
 
     /// Slopes of what a growing contact carries beside its motion.
+    ///
+    /// In full stick G\*m(d)u̇ and F_x u̇, without friction; along a branch only the friction power, by the
+    /// position of its front;
+    /// nothing otherwise.
     #[inline(never)]
     pub(crate) fn growth_rates(
         &self,

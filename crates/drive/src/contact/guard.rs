@@ -1,4 +1,16 @@
 //! Guards: functions that are positive while a contact's mode holds.
+//!
+//! An event is the first moment inside a step at which a guard of the present mode falls below zero by more
+//! than its deadband; the
+//! start of a step never belongs to it. The guards are functions of the motion, the same in every mode that
+//! has them:
+//! s₊ = u̇ - κḋ, s₋ = -u̇ - κḋ, d, the margin of a piece, the distance from the old curve.
+//!
+//! | regime, by the signs of u̇ - κḋ and u̇ + κḋ | mode | guards |
+//! | --- | --- | --- |
+//! | +, + or -, - | slip spreads forward or backward | `Drag`, `Piece`, `Contact` |
+//! | +, - | the contact shrinks | the same and `Side` |
+//! | -, + | grows in full stick | `Lower`, `Upper`, `Contact` |
 
 use super::{Contact, Mode, Motion};
 use crate::EventKind;
@@ -40,6 +52,8 @@ pub(crate) fn bands(scale: f64, tolerance: f64) -> (f64, f64) {
 
 impl Guard {
     /// The guards of a contact in a mode.
+    ///
+    /// None for a contact of which nothing ends a step.
     pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {
         match (mode, contact.is_constant()) {
             _ if contact.unguarded => &[],
@@ -47,6 +61,7 @@ impl Guard {
             (Mode::Open, true) => &[],
             (Mode::Open, false) => &[Self::Gap],
             (Mode::Grow, _) => &[Self::Lower, Self::Upper, Self::Contact],
+            // In gross slip there is no piece left to cut and no old curve to cross.
             (Mode::Slip(branch), true) if branch.is_gross() => &[Self::Drag],
             (Mode::Slip(branch), false) if branch.is_gross() => &[Self::Drag, Self::Contact],
             (Mode::Slip(_), true) => &[Self::Drag, Self::Piece],
@@ -57,6 +72,8 @@ impl Guard {
     }
 
     /// Its value.
+    ///
+    /// Velocities in m/s, lengths in m; ∞ where the mode has no such guard.
     #[inline]
     pub(crate) fn value(self, contact: &Contact, (memory, mode): (&Memory, &Mode), at: &Motion) -> f64 {
         let slope = contact.interface.stick_slope();
@@ -79,6 +96,8 @@ impl Guard {
     }
 
     /// Its rate, from the motion and its second derivatives (d̈, ü), where the bodies alone move the contact.
+    ///
+    /// m/s² of velocities, m/s of lengths. Of [`Guard::Side`] it is that of [`Guard::Piece`].
     pub(crate) fn rate(self, contact: &Contact, mode: &Mode, at: &Motion, (bend, pull): (f64, f64)) -> f64 {
         let slope = contact.interface.stick_slope();
         match (self, mode) {
@@ -94,6 +113,10 @@ impl Guard {
 
     /// How far below zero a guard must fall to count, and how near to zero it counts as there. Both hold what rounding
     /// leaves of a difference of displacements that have travelled as far as `u` (m), and of the velocities that it makes.
+    ///
+    /// Of a natural scale s (u_cω, u_c or the depth): 1e-13 s + 4ε|u| and max(1e-3·tolerance, 2e-13)s +
+    /// 8ε|u|. Without the terms of u
+    /// loops that closed after a travel of many thousand u_c made events without end.
     pub(crate) fn bands(self, contact: &Contact, tolerance: f64, u: f64) -> (f64, f64) {
         let rounding = 4.0 * f64::EPSILON * u.abs();
         let (unit, rounding) = match self {
@@ -112,6 +135,9 @@ impl Guard {
     }
 
     /// What it means that this guard fell: the event and the course after it.
+    ///
+    /// A dragging edge of a contact that deepens gives way to full stick; of one that does not, to the edge
+    /// of the other sense.
     pub(crate) fn fired(self, contact: &Contact, mode: &Mode, at: &Motion) -> (EventKind, Course) {
         let slope = contact.interface.stick_slope();
         let turned = if mode.sense() > 0.0 { Course::Backward } else { Course::Forward };
@@ -126,6 +152,8 @@ impl Guard {
             Self::Lower => (EventKind::SlipBegins, Course::Forward),
             Self::Upper => (EventKind::SlipBegins, Course::Backward),
             Self::Contact => (EventKind::LiftOff, Course::Open),
+            // Touching at an angle below the cone of friction: all springs stick, and no friction work is
+            // done.
             Self::Gap if at.du.abs() <= slope * at.dd => (EventKind::Touch, Course::Grow),
             Self::Gap => (EventKind::Touch, if at.du > 0.0 { Course::Forward } else { Course::Backward }),
         }

@@ -1,4 +1,8 @@
 //! What a contact is doing.
+//!
+//! A mode is a law and not a state of slip: at constant indentation partial slip and gross slip are both a
+//! branch. It is set at
+//! events alone, from the committed memory, and stays smooth beyond the event that ends it.
 
 use super::Contact;
 use stickslip_contact::{Branch, Course, Memory};
@@ -30,6 +34,7 @@ impl Mode {
         }
     }
 
+    /// Whether all springs slip.
     pub(crate) fn is_gross(&self) -> bool {
         matches!(self, Self::Slip(branch) if branch.is_gross())
     }
@@ -40,12 +45,16 @@ impl Mode {
     }
 
     /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
+    ///
+    /// `slack`, m: a piece of memory of which no more is left counts as used up.
     pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
         match (memory.branching(), course) {
+            // Nothing to press and nothing to hold: it is as good as apart for ever.
             _ if contact.inert && contact.coupling().is_none() => Self::Open,
             (_, Course::Open) => Self::Open,
             // Without friction there is nothing to remember, but the bodies still press on each other.
             _ if contact.inert => Self::Whole { sense: 0.0 },
+            // A row of springs has no branches.
             (None, course) => Self::Whole { sense: course.sense() },
             (Some(_), Course::Grow) => Self::Grow,
             (Some(branching), Course::Forward | Course::Backward) => {

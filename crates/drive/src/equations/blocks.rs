@@ -1,4 +1,10 @@
 //! What blocks read and make.
+//!
+//! A block reads waveforms, lengths and other blocks' signals, has states in y, and makes one signal that
+//! bodies and strokes may
+//! follow, and efforts along the lengths it reads. All of it is worked out anew whenever it is asked for: an
+//! evaluation keeps
+//! nothing, and inputs and states of a block lie on the stack, at most [`MOST_OF_A_BLOCK`] of each.
 
 use super::sum::{Sum, View};
 use super::{Components, Equations};
@@ -19,6 +25,8 @@ impl Equations<'_> {
     }
 
     /// What a block makes.
+    ///
+    /// Blocks read only signals before their own, as the scene's check has seen to: the recursion ends.
     #[inline(never)]
     fn made(&self, signal: usize, at: &impl View) -> Sample {
         self.ask_block(signal - self.pieces.len(), at, |block, standing, at| block.signal(standing, at))
@@ -43,6 +51,7 @@ impl Equations<'_> {
             Wire::Signal(signal) => self.signal(*signal, at),
             Wire::Length(measure) => {
                 let reading = self.read(measure, at);
+                // The acceleration of a length is what is being worked out: a block does not get it.
                 Sample { value: reading.value, rate: reading.rate, acceleration: 0.0 }
             }
         };
@@ -82,6 +91,9 @@ impl Equations<'_> {
     }
 
     /// Slopes of the states of all blocks, and what they exert. `extra` begins after the velocities.
+    ///
+    /// Powers (W) go into the sum: what the block takes in, and what it loses. Efforts (N) act along lengths
+    /// only.
     #[inline(never)]
     pub(super) fn blocks(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         for (k, wired) in self.model.blocks.iter().enumerate() {

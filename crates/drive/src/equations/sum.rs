@@ -1,4 +1,10 @@
 //! What an evaluation reads and what it adds up.
+//!
+//! A [`View`] is how an evaluation reads a moment, with velocities or without; compiled for each, so that
+//! Nyström's method pays for
+//! no rate. A [`Sum`] is where forces meet: by the row of a measure's Jacobian, so that forces along u, d or
+//! an elongation
+//! need no cases.
 
 use crate::Model;
 use crate::model::Terms;
@@ -15,7 +21,9 @@ pub(crate) trait View {
 
 /// All components of the state.
 pub(crate) struct Components<Y> {
+    /// s.
     pub(crate) t: f64,
+    /// Reads a component by its place.
     pub(crate) y: Y,
 }
 
@@ -62,12 +70,16 @@ pub(crate) struct Reading {
 
 /// Forces on the free coordinates, and powers, as they add up.
 pub(super) struct Sum<'a> {
+    /// On each free coordinate, N or N m; in the end its acceleration.
     pub(super) dv: &'a mut [f64],
+    /// Power that followers and loads put in, W.
     pub(super) input: f64,
+    /// Power that dampers take, W.
     pub(super) damping: f64,
 }
 
 impl<'a> Sum<'a> {
+    /// Begins with gravity and constant loads, whose work is read off the positions and is no power here.
     #[inline(always)]
     pub(super) fn new(model: &Model, dv: &'a mut [f64]) -> Self {
         for (dv, free) in dv.iter_mut().zip(&model.free) {
@@ -77,6 +89,8 @@ impl<'a> Sum<'a> {
     }
 
     /// From forces to accelerations; gives the powers.
+    ///
+    /// Input and damping, W.
     #[inline(always)]
     pub(super) fn accelerate(self, model: &Model) -> (f64, f64) {
         for (dv, free) in self.dv.iter_mut().zip(&model.free) {
@@ -86,6 +100,8 @@ impl<'a> Sum<'a> {
     }
 
     /// Adds a force along a measure. What drives its followers supplies the opposite force: its power is input.
+    ///
+    /// `driven` is the part of the measure's rate that followers make, m/s: the input is -force·driven.
     #[inline(always)]
     pub(super) fn apply(&mut self, free: &Terms, driven: f64, force: f64) {
         for &(i, a) in free {

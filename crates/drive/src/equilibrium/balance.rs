@@ -55,12 +55,16 @@ impl Search<'_> {
         let mut now = self.at(y.to_vec());
         let (mut best, mut tau, mut idle) = (now.clone(), 1.0, 0);
         for _ in 0..ITERATIONS {
+            // A balance that holds is still bettered until only rounding is left: it is where a run starts
+            // from.
             if best.size == 0.0 || best.holds && idle > PATIENCE {
                 break;
             }
             let Some(step) = self.step(&now, tau).filter(|step| step.amax() < LOST) else { break };
             idle += 1;
             let (whole, push) = (self.along(&now, &step, 1.0), now.residual.dot(&step));
+            // Less imbalance, or still pushed on along the step: a body that falls towards what will hold it
+            // is no nearer to balance yet.
             let good = whole.size < now.size || push > 0.0 && !overshoots(&now, &whole, &step);
             tau = (tau * if good { 3.0 } else { 0.3 }).clamp(1e-6, 1e18);
             if good {
@@ -79,8 +83,11 @@ impl Search<'_> {
     fn step(self, now: &Balance, tau: f64) -> Option<DVector<f64>> {
         let (mut matrix, mut residual) = (now.statics.stiffness.clone(), now.residual.clone());
         for (i, free) in self.model.free.iter().enumerate() {
+            // mω² is the natural stiffness: for large τ the step is Newton's, for small τ it follows the
+            // force.
             matrix[(i, i)] += free.mass * (free.scale.1 / free.scale.0).powi(2) / tau;
             if self.held[i] {
+                // A held coordinate keeps its row of the identity: its step is 0 whatever the others do.
                 matrix.row_mut(i).fill(0.0);
                 (matrix[(i, i)], residual[i]) = (1.0, 0.0);
             }
@@ -121,6 +128,8 @@ impl Search<'_> {
         for i in (0..residual.len()).filter(|i| !self.held[*i] && residual[*i] != 0.0) {
             let (left, acting) = (residual[i].abs(), statics.acting[i] + self.missing[i].abs());
             size = size.max(left / acting);
+            // Rounding of a place far away is a force of a stiff contact: it is allowed beside the share of
+            // what acts.
             holds &= left <= BALANCED * acting + statics.noise[i];
         }
         Balance { y, residual, holds, size, statics }
@@ -128,6 +137,8 @@ impl Search<'_> {
 }
 
 /// Whether what is left after a step pushes back along it, half as hard as it pushed before.
+///
+/// Half as hard: Newton's step on a force that bends overshoots a little and is a good one all the same.
 fn overshoots(from: &Balance, to: &Balance, step: &DVector<f64>) -> bool {
     to.residual.dot(step) < -0.5 * from.residual.dot(step)
 }

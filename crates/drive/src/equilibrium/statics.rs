@@ -49,6 +49,9 @@ impl Model {
         let mut statics = Statics { net: loads, acting, noise, stiffness: DMatrix::zeros(n, n) };
         for ((contact, memory), to) in self.contacts.iter().zip(&state.memories).zip(self.apexes(state, y)) {
             let (count, tangents) = (contact.count, tangents(contact, memory, to));
+            // What could act counts, not what does: near F_x = 0 a contact would else ask for a balance to
+            // more digits than there are. A
+            // coefficient above 1 makes no force that its load does not.
             let limit = contact.interface.friction().min(1.0) * contact.interface.normal_force(to.d);
             statics.push(&contact.u, -count * tangents.force, count * tangents.force.abs().max(limit));
             statics.stiffen(&contact.u, &contact.u, count * tangents.along, y);
@@ -56,6 +59,8 @@ impl Model {
                 let force = count * contact.interface.normal_force(to.d);
                 statics.push(normal, -force, force);
                 statics.stiffen(normal, normal, count * contact.interface.normal_stiffness(to.d), y);
+                // Deeper contacts hold harder: F_x depends on d, but F_N not on u, and the matrix is not
+                // symmetric.
                 statics.stiffen(&contact.u, normal, count * tangents.across, y);
             }
         }
@@ -63,6 +68,7 @@ impl Model {
             let elongation = eq.read(&link.elongation, &Components { t: 0.0, y: |i: usize| y[i] }).value;
             let stroke = eq.stroke(link, &Components { t: 0.0, y: |i: usize| y[i] }).value;
             let stretch = stroke - elongation;
+            // Without its dampers: nothing moves.
             let force = link.stiffness * stretch;
             statics.push(&link.elongation, force + link.preload, force.abs() + link.preload.abs());
             statics.stiffen(&link.elongation, &link.elongation, link.stiffness, y);

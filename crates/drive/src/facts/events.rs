@@ -51,6 +51,7 @@ impl ExpectedEvents {
     pub fn of(setup: Setup<'_>, plan: &Plan) -> Self {
         let Setup { scene, model, start } = setup;
         let linear = model.linearised(start, |d| d.most);
+        // As deep as it gets: the stiffest ringing has the most events.
         let modes = linear.modes();
         let of = |c| of_contact(setup, c, plan.duration, (&linear, &modes));
         let contacts = (0..scene.contacts.len()).map(of).sum();
@@ -121,6 +122,7 @@ fn closing(scene: &Scene, contact: &Contact) -> f64 {
 /// Landings until `duration` (s) of a contact that starts apart by `height` (m) and closes at a `speed` (m/s): with nothing
 /// lost it bounces as high as it falls, and without gravity it lands but once.
 fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
+    // Only what pulls along the normal brings it back.
     let fall = scene.gravity.acceleration * scene.gravity.incline.cos();
     match (height > 0.0, fall > 0.0) {
         (true, true) => duration * fall / (2.0 * (speed * speed + 2.0 * height * fall).sqrt()),
@@ -138,14 +140,17 @@ fn of_contact(
 ) -> f64 {
     let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
     let Some(d) = model.indentations(start, c) else { return 0.0 };
+    // Never pressed, or nothing to remember: no event is its own.
     if d.most <= 0.0 || contact.interface.friction() == 0.0 {
         return 0.0;
     }
     let (per_ringing, per_turns) = (PER_RINGING.of(contact.normal), PER_TURNS.of(contact.normal));
+    // The fastest mode that moves it: slower ones turn it less often.
     let ringing = modes.iter().rfind(|mode| rings_at(linear, mode, c));
     // Events of a ringing that corners keep up for at most `time`, s.
     let rings = |time: f64, corners: f64| {
         ringing.map_or(0.0, |mode| {
+            // Without damping it is infinite, and the ringing lasts as long as the run.
             let decay = DECAY / (mode.damping_ratio * mode.frequency);
             per_ringing * mode.frequency / TAU * time.min(corners * decay)
         })
@@ -156,6 +161,7 @@ fn of_contact(
             Some(period) => {
                 let (cycles, corners) =
                     (cycles(waveform, period, duration), corners_per_period(waveform, period));
+                // Corners make a free body ring; a smooth waveform, or a walk, makes turns only.
                 let kicked = ringing.is_some() && corners > 0.0;
                 let turns = if kicked { PER_FLYBACK } else { per_turns };
                 (cycles * turns, if kicked { cycles * rings(period, corners) } else { 0.0 })
@@ -187,6 +193,7 @@ fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
     };
     let mut reached: Vec<Side> = contact.part.between.into_iter().filter(is_free).collect();
     let mut next = 0;
+    // Bodies are joined by whatever acts between them; the ground joins nothing.
     while let Some(side) = reached.get(next).copied() {
         next += 1;
         for other in edges().filter(|edge| edge.contains(&side)).flatten().filter(is_free) {

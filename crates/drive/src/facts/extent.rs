@@ -7,6 +7,7 @@ const SAME: f64 = 1e-9;
 
 /// Rows of the trace: the grid strictly inside the run, and both its ends.
 pub fn rows(plan: &Plan) -> f64 {
+    // The first and the last row are written whatever the interval.
     plan.every.map_or(2.0, |every| (plan.duration / every - SAME).ceil().max(1.0) + 1.0)
 }
 

@@ -16,6 +16,7 @@ pub struct Follower {
 /// Everything that follows a waveform.
 pub fn followers(scene: &Scene) -> Vec<Follower> {
     let mut followers = Vec::new();
+    // In the order of the scenario file: bodies, contacts, actuators, loads.
     let mut add = |waveform, what: String, is_force| followers.push(Follower { waveform, what, is_force });
     for body in &scene.bodies {
         for (axis, coordinate) in body.part.coordinates() {

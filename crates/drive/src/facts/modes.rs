@@ -22,9 +22,11 @@ pub struct Mode {
 pub fn modes(setup: Setup<'_>) -> Vec<Mode> {
     let Setup { scene, model, start } = setup;
     let linearised = model.linearised(start, |d| d.start);
+    // Under constant loads all three are one: told once.
     let varies = scene.contacts.iter().any(|contact| !has_constant_load(&contact.part));
     let frequencies =
         |modes: Vec<NormalMode>| -> Vec<f64> { modes.iter().map(|mode| mode.frequency / TAU).collect() };
+    // By place and not by shape: modes that change places with the load are told in order of their frequency.
     let least = frequencies(model.linearised(start, |d| d.least).modes());
     let most = frequencies(model.linearised(start, |d| d.most).modes());
     let names = linearised.coordinates();

@@ -61,6 +61,7 @@ impl Pressed {
                 Loaded { force, share, zero_step_stroke: zero_step_stroke(law, d, share) }
             }),
             limit_force: limit,
+            // Without friction nothing sticks, however deep.
             tangential_stiffness: if law.friction() > 0.0 { count * law.stick_stiffness(d) } else { 0.0 },
             normal_stiffness: count * law.normal_stiffness(d),
             resonance: setup.model.contact_resonance(c, d).map(|omega| omega / TAU),
@@ -86,6 +87,7 @@ pub fn zero_step_stroke(law: &Interface, d: f64, share: f64) -> Option<f64> {
     if !(0.0..1.0).contains(&share) {
         return None;
     }
+    // Masing: from -μF_N to λμF_N is twice a first loading to half of the difference.
     let force = 0.5 * (1.0 + share) * law.friction() * law.normal_force(d);
     let loading =
         FirstLoading::solve(law, NormalGiven::Indentation(d), TangentialGiven::Force(force)).ok()?;
@@ -105,6 +107,7 @@ fn steady_load(scene: &Scene, c: usize) -> Option<f64> {
             && !scene.actuators.iter().any(|actuator| holds(actuator.part.between))
     };
     let mut bodies = free.filter(|body| alone(*body));
+    // Two free bodies share a load by their masses: no one of them is the slider.
     let (Some(body), None) = (bodies.next(), bodies.next()) else { return None };
     let on_it = scene.loads.iter().filter(|load| load.on == body).map(|load| load.x);
     let constant = on_it.map(|force| match force {

@@ -27,6 +27,7 @@ impl<'a> Followed<'a> {
         for &(w, a) in &measure.driven {
             // What a block makes is neither.
             let line = state.pieces.get(w)?.line()?;
+            // All lines from one time on: a value far from its own start would round.
             let from = *start.get_or_insert(line.time);
             constant += a * line.at(from);
             rate += a * line.rate;

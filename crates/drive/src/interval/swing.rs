@@ -110,6 +110,7 @@ impl Swing {
     pub(crate) fn begin(&mut self, interval: &Interval<'_>, slider: &Free, start: PhasePoint) -> bool {
         let Some(pull) = &interval.slider else { return false };
         let Some(first) = interval.closed.first() else { return false };
+        // The slider does not move this contact: the followers alone end its pieces.
         if first.arm == 0.0 {
             return false;
         }
@@ -126,6 +127,7 @@ impl Swing {
             {
                 return false;
             }
+            // The first piece to end, of any contact, ends the interval.
             self.reach = self.reach.min(steady.reach(start.t, start.x));
         }
         self.springs.clear();
@@ -155,6 +157,7 @@ impl Swing {
     pub(crate) fn aim(&mut self, length: f64) -> bool {
         self.evaluations = 0;
         let speed = self.speed();
+        // Where the slide has turned, or its piece is used up, no arc begins: the stepper takes over.
         if speed.is_nan() || speed < 0.0 || self.reach <= 0.0 {
             return false;
         }
@@ -162,13 +165,17 @@ impl Swing {
             return self.aim_free(speed, length);
         }
         let [pull, bend, softening] = self.force_at_start();
+        // At rest and not pushed on, or not held back by what it drags: no arc begins here.
         if speed == 0.0 && pull <= 0.0 || bend >= 0.0 {
             return false;
         }
         // Where a spring of the stiffness at the start would turn.
         let swing = (pull * pull - bend * speed * speed).sqrt();
+        // The two roots of a parabola, the nearer one by a quotient: as a difference it would lose its digits
+        // for slow starts.
         let (short, long) = (speed * speed / (swing + pull.abs()), (swing + pull.abs()) / -bend);
         let (before, after) = if pull > 0.0 { (-short, long) } else { (-long, short) };
+        // Far from both turning points 1/ν is smooth itself, and the search for them is spared.
         if self.reach < FAR * short && !self.nears_centre(self.reach) {
             self.pass();
         } else {
@@ -189,12 +196,15 @@ impl Swing {
     /// The motion is an arc between two turning points near two guesses; false where it is none.
     fn swing_between(&mut self, speed: f64, guesses: [f64; 2], length: f64) -> bool {
         let Some([low, high]) = self.turning(speed, guesses) else { return false };
+        // Smaller swings may be rounding: the stepper knows rest from it.
         if !(high > 0.0 && low <= 0.0 && high - low > SMALLEST * length) {
             return false;
         }
         (self.low, self.high) = (low, high);
         self.springs.iter_mut().for_each(|spring| spring.swing_between(low, high));
+        // In the angle both ends of the arc are smooth, where 1/ν is infinite.
         (self.clock, self.turns) = (Clock::Angle, high <= self.reach);
+        // From rest it begins at the turning point itself, at the angle 0 to the last bit.
         self.from = if low < 0.0 { self.angle(0.0) } else { 0.0 };
         self.to = if self.turns { PI } else { self.angle(self.reach) };
         self.nears = self.nears_centre(self.reach.min(high));

@@ -61,6 +61,8 @@ pub(crate) struct Signals<'a> {
 
 impl Signals<'_> {
     /// A signal at t = 0. Lengths count from there and are 0.
+    ///
+    /// A block's by its own start; since each reads only what is before it, that ends.
     pub(crate) fn first(&self, signal: usize) -> Sample {
         let Some(block) = self.block(signal) else { return self.waveforms[signal].first() };
         let inputs = self.first_inputs(block);
@@ -79,6 +81,8 @@ impl Signals<'_> {
     }
 
     /// Smallest and largest value of a signal.
+    ///
+    /// A block's by its word for the ranges of what it reads; a length may be anything.
     pub(crate) fn range(&self, signal: usize) -> (f64, f64) {
         let Some(block) = self.block(signal) else { return self.waveforms[signal].range() };
         let of = |wire: &Wire| match wire {
@@ -106,6 +110,10 @@ impl Model {
 }
 
 /// Wires the blocks of a scene. A block may read waveforms and the blocks before it.
+///
+/// Fails where one reads what comes after it or does not exist, has more inputs or states than [`MOST`], or
+/// reads a length where
+/// bodies start in equilibrium.
 pub(super) fn wire(scene: &Scene, bodies: &[Body]) -> Result<Vec<Wired>, SceneError> {
     let mut wired: Vec<Wired> = Vec::with_capacity(scene.blocks.len());
     let mut first = 0;

@@ -72,6 +72,9 @@ impl Model {
 }
 
 /// The bodies and their free coordinates, with the weight that gravity gives each.
+///
+/// On an incline α gravity g pulls with -mg sin α along x and -mg cos α along z.
+/// Fails where a free coordinate has no mass or moment of inertia.
 fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
     let mut bodies = Vec::with_capacity(scene.bodies.len());
     let mut free = Vec::new();
@@ -100,6 +103,8 @@ fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
     Ok((bodies, free))
 }
 
+/// A coordinate along x travels until a link is found on it; scales are assigned when contacts and links are
+/// known.
 fn free_coordinate(body: usize, axis: Axis, mass: f64, force: f64, coordinate: Coordinate) -> Free {
     let start = (coordinate.position, coordinate.velocity);
     Free { body, axis, mass, mobility: 1.0 / mass, force, start, travels: axis == Axis::X, scale: (0.0, 0.0) }
@@ -114,6 +119,9 @@ fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneErr
     value.ok_or_else(|| SceneFault::NoInertia(axis).of(Part::Body(place), Field::Whole))
 }
 
+/// Springs, then actuators. Their elongation is the displacement of the second side less that of the first; a
+/// spring is an
+/// actuator of no stroke.
 fn links(scene: &Scene, bodies: &[Body]) -> Vec<Link> {
     let elongation = |sides: [Side; 2], at: [Point; 2], direction: Direction| {
         Measure::between([(sides[1], at[1]), (sides[0], at[0])], direction, bodies)
@@ -165,6 +173,7 @@ fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
 }
 
 /// Loads on bodies that nothing lets move.
+/// By their places in the scene: for `info`, since no run looks at them.
 fn spared_loads(scene: &Scene, bodies: &[Body]) -> Vec<usize> {
     let is_held =
         |load: &scene::Load| !bodies[load.on].bindings.iter().any(|p| matches!(p, Binding::Free(_)));

@@ -1,4 +1,8 @@
 //! From a scene's contact to its constants.
+//!
+//! What presses it, its first and its largest indentation, the engine, the displacement it starts with. Each
+//! number is checked where
+//! it is used first, once. Slots and natural scales follow when all contacts are known.
 
 use super::{Body, Free, Link, Load, Measure, Signals, reach};
 use crate::contact::{Contact, Natural, Press};
@@ -72,6 +76,9 @@ impl Surroundings<'_> {
     }
 }
 
+/// The curve, or a row over the asked span; without one over the width of the largest indentation. Fails
+/// where the row has no
+/// springs, or is too narrow for the start.
 fn engine(part: &scene::Contact, known: Pressed) -> Result<Engine, Refused> {
     let (law, deepest) = (&part.interface, known.deepest);
     match part.engine {
@@ -122,6 +129,10 @@ fn start(part: &scene::Contact, known: Pressed) -> Result<f64, Refused> {
 }
 
 /// What presses a contact.
+///
+/// Both ends of the range that a waveform has are checked: force and radius within the profile's reach. The
+/// indentation grows with
+/// each of the three, so that the highest value is the deepest.
 fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
     let law = &part.interface;
     let (field, value, given): (_, _, fn(f64) -> NormalGiven) = match part.normal {
@@ -157,11 +168,16 @@ fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pre
 }
 
 /// A contact pressed by the bodies' motion.
+///
+/// d = z(first) - z(second) - gap at the contact point. Fails where the bodies cannot move against each
+/// other, or are expected
+/// deeper than the profile reaches.
 fn coupled(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
     let law = &part.interface;
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
     let mut d = Measure::between(ends, Direction::Z, around.bodies);
     d.constant -= part.gap;
+    // Its indentation would be a number that the scene could have given.
     if d.is_constant() {
         return Err((Field::Normal, SceneFault::Unmoved));
     }

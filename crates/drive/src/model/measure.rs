@@ -39,6 +39,8 @@ impl Measure {
     }
 
     /// Adds a multiple of a coordinate.
+    ///
+    /// A held coordinate adds to the constant, and one that is there already to its coefficient.
     fn add(&mut self, place: Binding, coefficient: f64) {
         if coefficient == 0.0 {
             return;
@@ -65,6 +67,9 @@ impl Measure {
     }
 
     /// Its value for given coordinates and waveforms.
+    ///
+    /// constant + (Σ free + Σ driven): two bodies far from their start may be close to each other, and their
+    /// difference comes first.
     pub(crate) fn value(&self, free: impl Fn(usize) -> f64, driven: impl Fn(usize) -> f64) -> f64 {
         let own: f64 = self.free.iter().map(|(i, a)| a * free(*i)).sum();
         let followed: f64 = self.driven.iter().map(|(w, a)| a * driven(*w)).sum();

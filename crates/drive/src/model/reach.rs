@@ -21,6 +21,7 @@ const MARGIN: f64 = 1.2;
 /// what comes out is below zero. Bodies that start in equilibrium have neither motion nor a way to fall.
 pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
     let first = around.at_start(d);
+    // 0 where only followers move it: then nothing has a mass to be stopped.
     let mobility = d.mobility(|i| around.free[i].mobility);
     let rate: f64 = d.free.iter().map(|(i, a)| a * around.free[*i].start.1).sum::<f64>()
         + d.driven.iter().map(|(w, a)| a * around.signals.first(*w).rate).sum::<f64>();
@@ -36,6 +37,7 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
         .iter()
         .map(|(w, a)| (a * span(*w).0).max(a * span(*w).1) - a * around.signals.first(*w).value)
         .sum();
+    // How deep followers alone press: their range counted from where they start.
     let driven = if d.driven.is_empty() { first } else { first + driven };
     if d.free.is_empty() && driven < 0.0 {
         return driven;
@@ -44,6 +46,10 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
 }
 
 /// Largest force on a free coordinate, N or N m.
+///
+/// A bound, not a sum of what acts at once: magnitudes of gravity and constant loads, of the widest values of
+/// those that vary,
+/// of preloads, and of springs at their widest stroke.
 fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     let widest = |w: usize| {
         let (low, high) = around.signals.range(w);
@@ -64,6 +70,8 @@ fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
 }
 
 /// The smallest indentation, to a factor of 1.1, at which `reached` holds.
+///
+/// At most 1 m or a step beyond it, so that a scene in which nothing holds ends, too.
 fn bracket(from: f64, reached: impl Fn(f64) -> bool) -> f64 {
     let mut d = from;
     while !reached(d) && d < 1.0 {

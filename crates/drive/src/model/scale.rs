@@ -9,6 +9,12 @@ use crate::scene::Axis;
 /// make with the stuck stiffness.
 ///
 /// `deepest` is the largest indentation of each contact.
+///
+/// A free coordinate has a length l, the smallest u_c or d of its contacts by their arms, and the speed lω
+/// with ω² = k/m of all that
+/// is stuck to it; without contacts the smallest stroke, without stiffness the highest frequency of the
+/// waveforms. A contact's
+/// frequency is the highest of the coordinates that move it.
 pub(super) fn assign(
     contacts: &mut [Contact],
     free: &mut [Free],
@@ -24,6 +30,7 @@ pub(super) fn assign(
     let mut frequency = vec![slow; free.len()];
     for (i, f) in free.iter_mut().enumerate() {
         let (stiffness, length) = springs[i];
+        // Along x no motion wider than the widest waveform matters; a depth is its own measure.
         let length = match (length.is_finite(), f.axis) {
             (true, Axis::X) => length.min(reach),
             (true, _) => length,
@@ -49,6 +56,8 @@ pub(super) fn assign(
 
 /// Stiffness that each free coordinate feels with all contacts stuck, N/m or N m/rad, and the smallest displacement
 /// of it that matters to a contact, m or rad; infinite without any.
+///
+/// Σ arm²·k over contacts at their deepest and links; links set no length.
 fn springs(contacts: &[Contact], free: usize, links: &[Link], deepest: &[f64]) -> Vec<(f64, f64)> {
     let mut springs = vec![(0.0, f64::INFINITY); free];
     let mut add = |(i, arm): (usize, f64), stiffness: f64, length: f64| {

@@ -5,6 +5,8 @@ use crate::Waveform;
 use crate::contact::Contact;
 
 /// Holds all waveforms still that nothing follows: their corners would end steps for nothing. Gives their places.
+///
+/// Followed is what a body, a stroke, a contact's load, a load or a block reads.
 pub(super) fn hold_the_others(
     waveforms: &mut [Waveform],
     (bodies, blocks): (&[Body], &[Wired]),

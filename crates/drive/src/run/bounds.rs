@@ -1,4 +1,8 @@
 //! Guards against endless work.
+//!
+//! Asked by both kinds of runs after every attempt and every event of a component; it reads the state and
+//! stops a run with an
+//! error that says when, and of events whose. It changes nothing.
 
 use crate::record::Record;
 use crate::{EventKind, Limits, Model, RunError, Source, State};
@@ -17,13 +21,18 @@ const SPRINGS_PER_STEP: usize = 1000;
 
 /// Watches limits, the clock, and events that accumulate.
 pub(super) struct Bounds {
+    /// The user's.
     limits: Limits,
+    /// When the run began, by the clock on the wall.
     begun: Instant,
+    /// Attempts between two looks at the clock, a power of two.
     stride: u64,
+    /// For each contact, then each block: start of its window, s, and events in it.
     windows: Vec<(f64, u32)>,
 }
 
 impl Bounds {
+    /// A stride that makes looks at the clock about as frequent for rows of a million springs as for none.
     pub(super) fn new(model: &Model, limits: Limits) -> Self {
         let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();
@@ -32,6 +41,9 @@ impl Bounds {
     }
 
     /// Called after every attempt.
+    ///
+    /// Fails where steps accepted and rejected reach their limit, time on the wall is over, or the record
+    /// wants no more.
     pub(super) fn step(&self, state: &State, record: &mut dyn Record) -> Result<(), RunError> {
         let tried = state.counts.steps + state.counts.rejected;
         if tried >= self.limits.steps {
@@ -48,6 +60,9 @@ impl Bounds {
     }
 
     /// Called after every event of a component. Many loops may close at once: they do not count as accumulating.
+    ///
+    /// Fails at the limit of events, or where a component has more than 200 within 1e-4 of its natural
+    /// period.
     pub(super) fn event(
         &mut self,
         model: &Model,
@@ -57,6 +72,7 @@ impl Bounds {
         if state.counts.events >= self.limits.events {
             return Err(RunError::TooManyEvents { t: state.t, limit: self.limits.events });
         }
+        // Each closes once, and one flyback may sweep up dozens of them: that was taken for accumulation.
         if kind == EventKind::LoopClosed {
             return Ok(());
         }
@@ -69,6 +85,7 @@ impl Bounds {
             // Corners of waveforms are where their period puts them.
             Source::Waveform(_) => return Ok(()),
         };
+        // In parts of the component's own period: what is dense for one contact is a single event of another.
         let window = ZENO_WINDOW * std::f64::consts::TAU / frequency;
         let (start, count) = &mut self.windows[place];
         if state.t - *start > window {

@@ -1,4 +1,11 @@
 //! Steps without located events: every accepted step is one chord of every contact.
+//!
+//! For steppers without events: fixed steps and the plain reference. Contacts go by the whole law of their
+//! memory, kinks and all, and
+//! the path of a step is one chord in the plane of (d, u). Growth in full stick is second order at best by
+//! that, and so is
+//! every step across an event, whatever the method's name. Events are noticed after the fact, for the record
+//! alone.
 
 use super::bounds::Bounds;
 use super::horizon::Horizon;
@@ -32,14 +39,20 @@ pub(super) struct Chords<'a> {
 
 impl<'a> Chords<'a> {
     /// Chords do not carry the extra components of growing contacts.
+    ///
+    /// Prepares the state: energies and friction of growing contacts go into the books, shifted origins come
+    /// back, and every contact
+    /// is put on its whole law.
     pub(super) fn new(
         model: &'a Model,
         plan: &Plan,
         state: &'a mut State,
         record: &'a mut dyn Record,
     ) -> Self {
+        // A chord's force is the memory's own: nothing has to be carried beside it.
         let layout = Layout { growing: 0, ..model.layout() };
         state.carry_over(model, layout);
+        // Steps without events have no moment at which an origin could move.
         state.come_back(model);
         for mode in &mut state.modes {
             *mode = Mode::Whole { sense: 0.0 };
@@ -67,6 +80,8 @@ impl<'a> Chords<'a> {
 
     /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
     /// that ends at a corner sees one side of it only. Tells whether any changed.
+    ///
+    /// By the middle, since either end may lie on a corner and round to its other side.
     pub(super) fn enter(&mut self, end: f64) -> bool {
         let middle = 0.5 * (self.state.t + end);
         let mut changed = false;
@@ -86,6 +101,8 @@ impl<'a> Chords<'a> {
     }
 
     /// Accepts the step that ends at t in y, or earlier where the run does.
+    ///
+    /// Fails where y is not finite, a contact or block refuses its path, or a limit is reached.
     pub(super) fn accept(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
         if let Some(i) = y.iter().position(|y| !y.is_finite()) {
             return Err(self.model.not_finite(t, i));
@@ -112,6 +129,8 @@ impl<'a> Chords<'a> {
     }
 
     /// Commits all contacts at time t in y.
+    ///
+    /// All paths are worked out before any memory moves.
     fn commit(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
         let eq = Equations::on(self.model, self.state, self.layout, true);
         self.motions.clear();
@@ -136,6 +155,8 @@ impl<'a> Chords<'a> {
     }
 
     /// Rows and looks up to time t of the step that leads to `to`.
+    ///
+    /// Looks are shown copies of the memories, each led on one chord to its moment.
     fn write(&mut self, t: f64, to: (f64, &[f64])) {
         let eq = Equations::on(self.model, self.state, self.layout, true);
         let step = Step { from: (self.state.t, &self.state.y), to, free: self.layout.free };
@@ -154,6 +175,9 @@ impl<'a> Chords<'a> {
     }
 
     /// The laws of blocks whose guards are down after the step.
+    ///
+    /// One guard of each block in a step, the first that is down; the others have their turn after the next
+    /// step.
     fn pass_guards(&mut self) {
         for (k, wired) in self.model.blocks.iter().enumerate() {
             let eq = Equations::on(self.model, self.state, self.layout, true);
@@ -178,10 +202,12 @@ impl<'a> Chords<'a> {
             let contact = &self.model.contacts[c];
             let memory = &self.state.memories[c];
             let now = memory.preview(&contact.interface, memory.apex()).state;
+            // At rest a contact keeps the sense it had: stopping is no reversal.
             let sense = if motion.du == 0.0 { self.standings[c].0 } else { motion.du.signum() };
             let (before, was) = std::mem::replace(&mut self.standings[c], (sense, now));
             let kind = match (was, now) {
                 (ContactState::Open, ContactState::Open) => continue,
+                // What is in contact after the first step has been so from the start.
                 (ContactState::Open, _) if self.state.counts.steps > 1 => EventKind::Touch,
                 (_, ContactState::Open) => EventKind::LiftOff,
                 (ContactState::Slip, now) if now != ContactState::Slip => EventKind::GrossSlipEnds,
@@ -205,6 +231,8 @@ struct Step<'a> {
 
 impl Step<'_> {
     /// Component `i` at time t of the step: positions by the cubic through both ends, velocities and work in proportion.
+    ///
+    /// The cubic has the places and velocities of both ends.
     fn value(&self, i: usize, t: f64) -> f64 {
         let ((t0, from), (t1, to), n) = (self.from, self.to, self.free);
         if t >= t1 {

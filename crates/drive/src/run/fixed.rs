@@ -1,4 +1,8 @@
 //! Fixed steps, without events.
+//!
+//! A step is never cut and never chosen: an error that events make is the stepper's own, of second order at
+//! best. The work of a
+//! run is known beforehand.
 
 use super::chords::Chords;
 use crate::record::Record;
@@ -6,6 +10,10 @@ use crate::{Model, Plan, RunError, State};
 use stickslip_stepper::FixedStep;
 
 /// Runs in steps of `step`; the last one is shorter where the end asks for it.
+///
+/// Steps end at from + k·step (s), multiplied and not summed up. Fails at once where `step` is as long as the
+/// longest with
+/// which small motions do not grow, else as [`Chords::accept`] does.
 pub(super) fn run<F: FixedStep>(
     model: &Model,
     plan: &Plan,
@@ -14,6 +22,7 @@ pub(super) fn run<F: FixedStep>(
     record: &mut dyn Record,
 ) -> Result<(), RunError> {
     let limit = model.longest_step(plan.stepper).unwrap_or(f64::INFINITY);
+    // Beyond it the stiffest motion grows at every step: refused instead of exploding.
     if step >= limit {
         return Err(RunError::Unstable { step, limit });
     }

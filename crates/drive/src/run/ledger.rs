@@ -1,4 +1,10 @@
 //! What the contacts commit of an accepted step: the only place where memories move.
+//!
+//! A run clears the page, writes down one path for every contact that is to move, and commits all of it at
+//! once. Whatever is not
+//! finite or out of range is refused by a memory here, with the contact's name. How long a path took goes
+//! with it, from the time
+//! at which that contact's last one was written down: contacts of closed form move at events only.
 
 use crate::RunError;
 use crate::component::{Passage, Refused};
@@ -13,6 +19,7 @@ pub(super) struct Ledger {
     segments: Vec<(usize, Timed<Segment>)>,
     /// When each contact's path was last written down, s.
     last: Vec<f64>,
+    /// Whether contacts of closed form are where the state is.
     pub(super) books: Books,
     /// The blocks' paths, and when they last moved, s.
     passages: Vec<Passage>,
@@ -58,13 +65,21 @@ impl Ledger {
     }
 
     /// Writes down the path of contact `c` up to time t, s.
+    ///
+    /// A growing contact has several of them in a step, in order; each takes the time since the one before.
     #[inline]
     pub(super) fn push(&mut self, c: usize, t: f64, path: Segment) {
+        // Since its own last path and not since the last step: a contact of closed form writes one down at
+        // events only.
         let duration = t - std::mem::replace(&mut self.last[c], t);
         self.segments.push((c, Timed { path, duration }));
     }
 
     /// All contacts move their memory to where the step ended, at time t, s.
+    ///
+    /// Books friction (J) of all of a contact's identical members, unless it is an integral of the run. Fails
+    /// where a memory
+    /// refuses its path.
     pub(super) fn commit(
         &self,
         (model, layout): (&Model, Layout),
@@ -86,6 +101,9 @@ impl Ledger {
     }
 
     /// All blocks move theirs to where the state is.
+    ///
+    /// Every accepted step, other than contacts of closed form: what a block remembers may be anything. Books
+    /// what they lose, J.
     pub(super) fn commit_blocks(
         &mut self,
         (model, layout): (&Model, Layout),
@@ -93,6 +111,7 @@ impl Ledger {
     ) -> Result<(), RunError> {
         let t = state.t;
         for (k, (wired, passage)) in model.blocks.iter().zip(&mut self.passages).enumerate() {
+            // Made here and not kept: the inputs may depend on blocks committed before.
             let at = Components { t, y: |i: usize| state.y[i] };
             let equations = Equations::on(model, state, layout, true);
             passage.inputs.clear();

@@ -47,7 +47,9 @@ use watch::Watch;
 /// What stays the same throughout a run.
 #[derive(Clone, Copy)]
 struct Setting<'a> {
+    /// The scene's constants.
     model: &'a Model,
+    /// Places of the components.
     layout: Layout,
     tolerance: f64,
     /// The method of intervals without a closed form.
@@ -136,11 +138,16 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
     }
 
+    /// The run from the state's time to the plan's end. `order` is that of the solver, for step control. The
+    /// first and the last row
+    /// are written whatever the outcome; a run that fails leaves the state of its last accepted step.
     fn go(mut self, order: u32, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         state.carry_over(self.setting.model, self.setting.layout);
         self.output.set_out(state.t, self.horizon.end);
         self.ledger.set_out(state.t);
+        // No step leaps over a smooth wave.
         let limits = StepLimits { longest: self.motion.pace.longest, ..StepLimits::default() };
+        // A run in two halves is one run to the last bit: what control has learnt goes on with the state.
         let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(order, limits));
         self.begin(state);
         self.output.write_now(&self.setting.plain(state), state, record);
@@ -150,6 +157,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         while state.t < self.horizon.end && outcome.is_ok() {
             outcome = self.step(state, &mut control, record);
         }
+        // The last step had no event at its end, and its memories wait.
         if self.ledger.books == Books::Behind {
             self.settle(state);
         }
@@ -160,6 +168,8 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     }
 
     /// Sets the first laws and proposes a first step, unless the state goes on from an earlier run.
+    ///
+    /// The first step is at most one natural period of the fastest contact.
     fn begin(&mut self, state: &mut State) {
         let fresh = state.step <= 0.0;
         if fresh {
@@ -172,6 +182,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             return;
         }
         let contacts = self.setting.model.contacts.iter();
+        // A guess that begins above the fastest ringing would be thrown away.
         let natural = contacts.map(|c| std::f64::consts::TAU / c.natural.frequency);
         let longest = natural.fold(self.motion.pace.longest, f64::min);
         let longest = if longest.is_finite() { longest } else { self.horizon.end };
@@ -195,12 +206,16 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             self.turned(state);
         }
         self.handle_fallen(state, is_corner, record)?;
+        // Here and nowhere else: the solver starts anew at once and keeps no place counted from before.
         shift::shift(self.setting.model, state);
         self.restart(state);
         Ok(())
     }
 
     /// The laws, and perhaps the forces of growing contacts, have changed.
+    ///
+    /// The solver is caught up only where steps follow: a leap has no use for the slopes, and the next event
+    /// may bring another.
     fn restart(&mut self, state: &mut State) {
         self.begin_interval(state);
         self.motion.pace.restart();
@@ -211,6 +226,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     }
 
     /// Puts the solver where the state is.
+    ///
+    /// Everything that is read of its start follows: the watch, the allowances, whether all is at rest. One
+    /// evaluation.
     fn catch_up(&mut self, state: &State) {
         let eq = self.setting.equations(state, &self.interval);
         self.motion.start(&eq, state);
@@ -219,9 +237,11 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.motion.rest(self.setting.model, state);
     }
 
+    /// What is known until the next event: forms of contacts, the method, and whether anything holds.
     fn begin_interval(&mut self, state: &mut State) {
         self.interval.begin(self.setting.model, state);
         self.interval.count(&mut state.tally);
+        // Without contacts links alone hold, and their steps must damp all the same.
         let holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
         self.motion.pace.grip = if holds { Grip::Sticks } else { Grip::Slips };
     }

@@ -1,4 +1,8 @@
 //! What a run hands to its record: rows on a regular grid, events, looks into the contacts.
+//!
+//! When something is due is decided here, what it is is worked out by the run: inside a step from its dense
+//! output, inside a leap from
+//! its closed form. No step ends because of output, and evaluations that it costs are counted apart.
 
 use crate::equations::Equations;
 use crate::event::Event;
@@ -9,6 +13,7 @@ use stickslip_contact::Memory;
 
 /// What a run hands to its record.
 pub(super) struct Output {
+    /// Interval of the rows, s.
     every: Option<f64>,
     pub(super) grid: Grid,
     pub(super) looks: Looks,
@@ -37,6 +42,8 @@ impl Output {
     }
 
     /// Whether a row or a look is due at t or before it.
+    ///
+    /// Two comparisons: all that a step without output pays for it.
     #[inline(always)]
     pub(super) fn due(&self, t: f64) -> bool {
         self.grid.due(t).is_some() || self.looks.due(t).is_some()
@@ -119,6 +126,7 @@ impl Grid {
 /// The looks into the contacts that a record asks for.
 pub(super) struct Looks {
     /// The next moment, s; infinite where none is left.
+    /// The next moment, s; infinite where none is left.
     due: f64,
 }
 
@@ -147,6 +155,8 @@ impl Looks {
     }
 
     /// Shows the memories at the moment that is due and asks for the next one.
+    ///
+    /// Without memories, where a contact could not be followed to that moment, the look is left out.
     pub(super) fn show(&mut self, memories: Option<&[Memory]>, record: &mut dyn Record) {
         if let Some(memories) = memories {
             record.look(self.due, memories);

@@ -37,6 +37,7 @@ impl System for Driven<'_> {
 }
 
 impl Accepting for Driven<'_> {
+    /// What does not advance time is no step of the run's.
     fn accept(&mut self, t: f64, y: &[f64]) -> bool {
         if t > self.chords.state.t {
             self.outcome = self.chords.accept(t, y);
@@ -46,6 +47,12 @@ impl Accepting for Driven<'_> {
 }
 
 /// Runs from corner to corner.
+///
+/// Between two corners the outside solver chooses its steps by `tolerance`, relative to natural lengths,
+/// speeds and the scales of
+/// blocks' states; at each corner a new instance begins with the step the last one ended with. Fails as its
+/// solver does, with
+/// too many steps or one too small, or as [`Chords::accept`] does.
 pub(super) fn run(
     model: &Model,
     plan: &Plan,
@@ -60,6 +67,8 @@ pub(super) fn run(
     let mut driven = Driven { chords: Chords::new(model, plan, state, record), outcome: Ok(()) };
     driven.chords.write_now();
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
+    // In gross slip nothing in its equations says that a wave goes by: it leapt over several, at every
+    // tolerance.
     let longest = SEEN * waves;
     let mut options = ReferenceOptions { longest, ..ReferenceOptions::default() };
     while driven.chords.goes_on() && driven.outcome.is_ok() {
@@ -72,10 +81,13 @@ pub(super) fn run(
             .map_err(|error| failure(&error, plan, &driven.chords));
         match stretch {
             Ok(stretch) => {
+                // The step goes on across a corner: each stretch would otherwise begin with a guess of its
+                // own.
                 options.first = Some(stretch.step);
                 driven.chords.state.counts.rejected += stretch.rejected;
                 driven.chords.state.counts.evaluations += stretch.evaluations;
             }
+            // A step that was refused ends the stretch, too: its own reason counts, not the solver's.
             Err(error) if driven.outcome.is_ok() => driven.outcome = Err(error),
             Err(_) => {}
         }
@@ -86,6 +98,7 @@ pub(super) fn run(
 }
 
 impl Driven<'_> {
+    /// Puts every waveform whose piece is over on its next piece.
     fn turn_corners(&mut self, model: &Model) {
         let state = &mut *self.chords.state;
         for (piece, waveform) in state.pieces.iter_mut().zip(&model.waveforms) {
@@ -96,6 +109,7 @@ impl Driven<'_> {
     }
 }
 
+/// The outside solver's error in a run's words, at the time reached.
 fn failure(error: &ReferenceError, plan: &Plan, chords: &Chords<'_>) -> RunError {
     let t = chords.state.t;
     match error {

@@ -64,6 +64,7 @@ impl Steps {
         agreed: 0,
     };
 
+    /// None where the waveform has no period or the body's x is not free.
     fn asked(model: &Model, UntilSteady { waveform, body, change }: UntilSteady) -> Option<Self> {
         let waveform = model.waveforms.get(waveform)?;
         let Binding::Free(coordinate) = model.bodies.get(body)?.bindings[Axis::X as usize] else {
@@ -94,9 +95,15 @@ impl Steps {
 
     /// Takes the place at the end of a period, its origin and what is counted from there, m. Tells whether the steps have
     /// become constant.
+    ///
+    /// Constant are steps of which three running differ from the one before by no more than the asked share
+    /// of the step or, if that
+    /// is longer, of the body's natural length: steps of nothing agree, too.
     pub(super) fn take(&mut self, origin: f64, place: f64) -> bool {
         self.advance();
         let Some(before) = self.place.replace((origin, place)) else { return false };
+        // Differences of origins and of places apart: a sum of both would have lost the digits that shifting
+        // keeps.
         let step = (origin - before.0) + (place - before.1);
         let last = self.step.replace(step);
         let agrees =
@@ -105,6 +112,7 @@ impl Steps {
         self.agreed >= AGREEING
     }
 
+    /// The next end is a product, not a sum of periods: it does not drift.
     fn advance(&mut self) {
         self.next += 1.0;
         self.due =

@@ -14,6 +14,8 @@ impl Swing {
             return self.freely(t, self.duration);
         }
         let (way, v) =
+            // At a turning point the slide is at rest to the last bit, and not by a root of a small
+            // difference.
             if self.turns { (self.high, -self.drift) } else { (self.reach, self.velocity(self.reach)) };
         self.place((t, self.duration), way, v)
     }
@@ -52,6 +54,7 @@ impl Swing {
             self.slowness([self.from, self.to]).map(|slowness| self.duration / slowness - whole);
         let rest = 1.0 - share;
         let guess = self.from + whole * share + share * rest * (rest * first - share * last);
+        // A cubic may leave the way where the paces of its ends differ much: then in proportion.
         if guess > self.from && guess < self.to { guess } else { self.from + whole * share }
     }
 

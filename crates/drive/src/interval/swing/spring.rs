@@ -29,6 +29,7 @@ impl Spring {
     /// the ends, S = a+c, P = ac and y = √h, [Sy³ + S²y² + S(S²-P)y + P(S²-P)]/[(a+y)(y+c)S].
     pub(super) fn swing_between(&mut self, low: f64, high: f64) {
         let height = |q: f64| self.height - self.lean * q;
+        // A slide that would turn only beyond the centre has no root of a height there.
         self.beyond = height(high).min(0.0);
         self.ends = [height(low).max(0.0).sqrt(), height(high).max(0.0).sqrt()];
         let (sum, product) = (self.ends[0] + self.ends[1], self.ends[0] * self.ends[1]);
@@ -47,6 +48,7 @@ impl Spring {
     #[inline(always)]
     pub(super) fn stiffness<const N: usize>(&self, q: [f64; N]) -> [f64; N] {
         let heights = q.map(|q| above(self.height - self.lean * q));
+        // One branch for all nodes: the cubic of the usual case stays free of it.
         if self.beyond < 0.0 {
             return heights.map(|height| self.stiffness_beyond(height));
         }

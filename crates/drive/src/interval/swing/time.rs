@@ -47,6 +47,8 @@ impl Swing {
     /// q at an angle, m.
     #[inline(always)]
     fn swung(&self, angle: f64) -> f64 {
+        // (1 - cos θ)/2 as a square: near the first turning point a difference of 1 and a cosine has no
+        // digits left.
         let half = sine(0.5 * angle);
         self.low + (self.high - self.low) * half * half
     }
@@ -58,6 +60,7 @@ impl Swing {
             let ([mean, ..], speed) = (self.force(ways), self.speed());
             return array::from_fn(|i| (speed * speed + 2.0 * ways[i] * mean[i]).sqrt());
         }
+        // ν² as a product of both distances: it vanishes at the turning points to the last bit.
         let stiffness = self.stiffness(ways);
         let inside = |q: f64| (q - self.low).max(0.0) * (self.high - q).max(0.0);
         array::from_fn(|i| (2.0 * inside(ways[i]) * stiffness[i]).sqrt())

@@ -20,6 +20,8 @@ impl Swing {
         for _ in 0..HALLEY {
             self.evaluations += 2;
             let [mean, force, bend] = self.force(q);
+            // Both at once: what a leap waits for are roots and quotients one after another, not
+            // instructions.
             let step: [f64; 2] = array::from_fn(|i| {
                 let left = speed * speed + 2.0 * q[i] * mean[i];
                 2.0 * left * force[i] / (4.0 * force[i] * force[i] - left * bend[i])

@@ -1,4 +1,12 @@
 //! What error each component of a step may have.
+//!
+//! The error of a step is measured in units of these scales, and 1 is just allowed. Scales are the tolerance
+//! times
+//! natural lengths, so that one tolerance suits every scene, and never less than the rounding of what they
+//! are compared with:
+//! errors that no shorter step makes smaller would end a run in steps too small. They are set at events and
+//! at rejections,
+//! not at every step.
 
 use crate::Model;
 use crate::contact::Contact;
@@ -30,6 +38,8 @@ pub(super) struct Allowance {
 impl Allowance {
     /// Of growing contacts' forces; the rest is known step by step. The integrals of work steer the steps as well: energy
     /// books close at the tolerance.
+    ///
+    /// `tolerance` is relative to natural scales: u_c, u_cω, μF_N and μF_N u_c.
     pub(super) fn new(model: &Model, tolerance: f64) -> Self {
         let kinks = model.contacts.iter().any(|contact| contact.interface.profile().has_kinks());
         let strict = if kinks { (KINKS * tolerance).max(f64::min(tolerance, FINEST)) } else { tolerance };
@@ -38,11 +48,13 @@ impl Allowance {
         for contact in &model.contacts {
             if let Some(slot) = contact.slot {
                 let limit = contact.friction_limit();
+                // Without friction there is no limit to compare with, and no force either.
                 scale[layout.force(slot)] = strict * if limit > 0.0 { limit } else { 1.0 };
             }
         }
         for wired in &model.blocks {
             let first = layout.block(wired.first);
+            // Blocks name their own natural scales: the run knows none of them by kind.
             let own = scale[first..].iter_mut().zip(&wired.states.scales);
             own.for_each(|(scale, natural)| *scale = strict * natural);
         }
@@ -51,10 +63,16 @@ impl Allowance {
 
     /// The tolerance times the natural scale, and never below what rounding of a far-travelled coordinate makes of the force,
     /// or rounding of time of the work of a fast follower.
+    ///
+    /// With ε the spacing of doubles at 1: positions tolerance·length + 8ε|x|; velocities tolerance·speed +
+    /// 8ε|x|·speed/length +
+    /// 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers.
     pub(super) fn set(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
         for (i, free) in model.free.iter().enumerate() {
             let (length, speed) = free.scale;
+            // A displacement that has travelled far rounds the force of a stiff contact, and the force the
+            // velocity.
             let (x, v) = (
                 8.0 * f64::EPSILON * state.y[i].abs(),
                 8.0 * f64::EPSILON * state.y[layout.velocity(i)].abs(),
@@ -62,12 +80,18 @@ impl Allowance {
             self.scale[i] = self.strict * length + x;
             self.scale[layout.velocity(i)] = self.strict * speed + x * (speed / length) + v;
         }
+        // The time of a corner is rounded to εt, in which a follower at power P does the work Pεt. Without
+        // this term a flyback of
+        // a nanosecond or less ended in steps too small.
         let work = self.strict * self.work + 8.0 * f64::EPSILON * state.t * self.power;
         self.scale[layout.dimension()..].fill(work);
     }
 }
 
 /// Largest power that followers can put into the contacts now, W: μF_N times their speed.
+///
+/// An upper bound: no contact takes more than its limit of friction. Asked at corners only: on a straight
+/// piece the speed between two of them is one and the same.
 pub(super) fn follower_power(model: &Model, state: &State) -> f64 {
     let equations = Equations::on(model, state, model.layout(), false);
     let at = Components { t: state.t, y: |i: usize| state.y[i] };

@@ -1,4 +1,14 @@
 //! What happens at an event: contacts get their next law.
+//!
+//! Laws change here and, for a jump, in [`turning`](super::turning); nowhere else. Of a guard that fell the
+//! law after it follows
+//! from the guard and the motion; after a corner, where velocities jump, every contact that the corner moves
+//! is decided afresh
+//! from velocities and, where these vanish, accelerations. A contact whose guard fell at the very moment of a
+//! corner is decided
+//! once, by its guard. Without contact damping forces are continuous at every change of law: accelerations do
+//! not depend on
+//! it, and each contact is decided for itself.
 
 use super::Located;
 use super::watch::Fallen;
@@ -14,6 +24,10 @@ use stickslip_stepper::{Attempt, System};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets the next law of every contact whose guard fell; after a corner, of all contacts it moves.
+    ///
+    /// Components are handled in the order in which their guards were found. Fails where events accumulate or
+    /// their limit is
+    /// reached.
     pub(super) fn handle_fallen(
         &mut self,
         state: &mut State,
@@ -26,6 +40,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 Fallen::Contact(c, guard) => self.handle_contact(state, (c, guard), record)?,
                 Fallen::Block(k, guard) => {
                     self.handle_block(state, (k, guard), record)?;
+                    // Its signal may be what a body follows: velocities jump as at a corner.
                     turns = true;
                 }
             }
@@ -36,6 +51,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         if turns {
             for c in 0..self.setting.model.contacts.len() {
+                // Those that fell have their law already, with the slack of their guard; a second choice
+                // would lose it.
                 if !self.watch.fired.iter().any(|fallen| fallen.is_of_contact(c)) {
                     self.turn(state, c, record)?;
                 }
@@ -45,6 +62,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// The law of a contact after one of its guards fell.
+    ///
+    /// A piece that ends in the centre is the start of gross slip: it is written down as such and not as a
+    /// loop that closed.
     fn handle_contact(
         &mut self,
         state: &mut State,
@@ -62,6 +82,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         } else {
             0.0
         };
+        // The law first: whether the slip is gross is known of the branch that it gives.
         self.set_law(state, c, course, slack);
         if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
             kind = EventKind::GrossSlip;
@@ -84,6 +105,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Decides afresh what a contact does after a corner, where velocities jump.
+    ///
+    /// Notes an event only where the kind of law or the sense of sliding changes: a corner that leaves a
+    /// contact sliding on is no
+    /// event of that contact.
     fn turn(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         if contact.is_never_pressed() || !moved_by_waveform(contact) {
@@ -91,6 +116,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         // As it was before a jump, which sets laws for itself.
         let old = self.turning.before[c];
+        // The path bends at a corner: growth after it is a piece of its own and joins nothing.
         state.grew[c] = false;
         self.decide(state, c);
         let kind = match (old, state.modes[c]) {
@@ -108,6 +134,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Decides from velocities what a contact does, and from accelerations where it is at rest.
+    ///
+    /// At rest is a contact of which |u̇| and κ|ḋ| are both within the band of [`Guard::Drag`] for the
+    /// distance it has travelled.
     pub(super) fn decide(&mut self, state: &mut State, c: usize) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
@@ -126,9 +155,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Where a contact at rest sets out to, as a direction in (d, u): along its acceleration; within round-off of
     /// equilibrium along its remaining velocity, and on in its present sense if there is none.
+    ///
+    /// d̈ and ü count as rounding below 1e-12 of u_cω².
     fn push(&mut self, state: &State, c: usize, motion: &Motion) -> (f64, f64) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
+        // By the general equations: what is known of the interval is of the laws before.
         let slopes = &mut self.output.components;
         eq.slopes(state.t, &state.y, slopes);
         let of = |measure: &Measure| {
@@ -142,13 +174,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         } else if motion.du != 0.0 {
             (motion.dd, motion.du)
         } else {
+            // Nothing decides: the mode it had stays.
             (motion.dd, state.modes[c].sense())
         }
     }
 
     /// Sets the law of a contact, and the force and energy it starts to grow with.
+    ///
+    /// `slack` (m) is how much of a piece of memory may be left and still count as used up. The step in use
+    /// is kept from the start of
+    /// gross slip to its end: steps grow in between to lengths that the law after it refuses.
     pub(super) fn set_law(&self, state: &mut State, c: usize, course: Course, slack: f64) {
         let contact = &self.setting.model.contacts[c];
+        // A contact pressed by a constant load cannot open: without any motion it sets out forward.
         let course = if course == Course::Open && contact.is_constant() && state.memories[c].apex().d > 0.0 {
             Course::Forward
         } else {
@@ -163,6 +201,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             _ => {}
         }
         if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+            // Force and energy start as what the memory has at its apex: the slopes add to them.
             let now = state.memories[c].preview(&contact.interface, state.memories[c].apex());
             state.y[self.setting.layout.force(slot)] = now.force;
             state.y[self.setting.layout.elastic(slot)] = now.elastic;
@@ -170,6 +209,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Writes an event down.
+    ///
+    /// Counted whether or not somebody watches: counts are of the state, and output does not change it.
     pub(super) fn note(
         &mut self,
         state: &mut State,

@@ -1,4 +1,14 @@
 //! The paths of contacts through an accepted step.
+//!
+//! What a memory commits is a path in the plane of (d, u), not an end point. A chord is exact in every regime
+//! but one: while a
+//! contact grows in full stick (|u̇| ≤ κḋ) the force depends on the path, and a chord costs the method its
+//! order without its
+//! embedded estimate noticing. There the force is a state, Ḟ_x = G\*m(d)u̇, and the path goes into the memory
+//! in pieces, each with
+//! the force and the energy that the state has at its end. Measured on the oblique impact of a sphere: 195
+//! steps with chords
+//! are wrong by 2.4e-5, 219 with the state by 9e-10.
 
 use super::Located;
 use super::motion::Motion;
@@ -24,6 +34,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// A contact of closed form drags one edge over one piece of its memory: one chord to the next event is the same as many, and
     /// a step that `goes_on` leaves its memory where it is.
+    ///
+    /// The ledger is cleared first; nothing is committed here. The memories of 32 unlike contacts on one
+    /// slider, committed at every
+    /// step, took 47 % of the run.
     pub(super) fn trace_step(&mut self, state: &State, t: f64, goes_on: bool) {
         let ledger = &mut self.ledger;
         ledger.clear();
@@ -38,6 +52,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let span = self.motion.solver.span();
             let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+                // Of what is committed only growth reads the inside of a step: the evaluations of the dense output are asked for
+                // here and not before.
                 self.motion.solver.complete(&eq, Completion::Dense);
                 let growth =
                     Growth { motion: &self.motion, eq: &eq, state, tolerance: self.setting.tolerance };
@@ -49,6 +65,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Moves the memories of contacts of closed form to where a run stops short of an event.
+    ///
+    /// Due at the end of a run only: what reads the memories then finds them where the state is.
     pub(super) fn settle(&mut self, state: &mut State) {
         self.trace_closed(state);
         // What is not finite has been refused before.
@@ -73,7 +91,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 /// The step in which a contact grows.
 pub(super) struct Growth<'r, 'e, A> {
     pub(super) motion: &'r Motion<A>,
+    /// The equations with what is known of the interval.
     pub(super) eq: &'r Equations<'e>,
+    /// The state at its start.
     pub(super) state: &'r State,
     pub(super) tolerance: f64,
 }
@@ -81,6 +101,12 @@ pub(super) struct Growth<'r, 'e, A> {
 impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
     /// The path of a growing contact on the dense output up to a time and a motion inside the step, each piece bent by
     /// less than [`BEND`] allows.
+    ///
+    /// With δ the distance of its middle from the chord, a path is cut into √(δ/(100·tolerance·u_c)) pieces,
+    /// at most
+    /// [`MOST_PIECES`]: the bend of a piece falls with the square of their number. `joins` of the first says
+    /// whether the growth
+    /// before went on without a bend, so that collinear pieces can be merged.
     pub(super) fn trace(
         &self,
         (c, slot): (usize, usize),
@@ -94,12 +120,15 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
             self.eq.motion(contact, t, |i| self.motion.solver.value(i, t))
         };
         let (from, middle) = (self.state.memories[c].apex(), at(0.5));
+        // By d and not by time: what the memory interpolates along is the height.
         let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
         let bend = (middle.u - chord).abs() / (BEND * self.tolerance * contact.natural.displacement);
+        // A path that does not deepen has no slope in d; one piece says all of it.
         let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
         let mut joins = self.state.grew[c];
         for k in 1..=pieces as u32 {
             let share = f64::from(k) / pieces;
+            // The end is the motion that all else is told, to the last bit.
             let (to, t) = if share >= 1.0 { (*to, end) } else { (at(share), t0 + share * h) };
             let force = self.motion.component(self.eq.layout.force(slot), t);
             let energy = self.motion.component(self.eq.layout.elastic(slot), t);

@@ -1,4 +1,8 @@
 //! The early end of a run whose steps have become constant.
+//!
+//! Until the run ends it is the same run to the last bit as one that was not asked to end: ends of periods
+//! are looked up on
+//! the dense output and no step is shortened to meet them.
 
 use super::Located;
 use crate::equations::Equations;
@@ -22,6 +26,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.horizon.end = due;
             self.output.end_at(due);
             if due < t {
+                // An event beyond the end is no event of this run: what had fallen is forgotten.
                 self.motion.solver.cut(due);
                 self.watch.arrive(&eq, &self.motion.solver);
                 self.watch.fired.clear();

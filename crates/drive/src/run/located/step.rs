@@ -1,4 +1,10 @@
 //! One attempt, and what belongs to an accepted step.
+//!
+//! The order is the invariant: nothing of the state moves before a step is accepted, rows and looks are
+//! written of the step while
+//! its dense output is there, then the state moves to its end, then all memories together, then laws. A step
+//! that is refused
+//! leaves a shorter wish and one more count.
 
 use super::aim::Aim;
 use super::motion::{Pace, Whereabouts};
@@ -15,14 +21,21 @@ use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, Step
 /// How a step ends.
 #[derive(Clone, Copy, PartialEq)]
 enum Ending {
+    /// Where it was aimed at, and neither of the others.
     Smooth,
+    /// Where a guard fell or a period ended, before its target.
     Event,
+    /// Where a waveform turns, or the run ends.
     Corner,
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// A leap to the next event or, where that is not possible, one attempt and, if it succeeds, everything that belongs to
     /// an accepted step: attempt → locate → accept → commit → next law.
+    ///
+    /// Fails where the step would be too small, a value is not finite, a contact or block refuses its path,
+    /// or a limit is reached.
+    /// The state is then that of the last step accepted.
     pub(super) fn step(
         &mut self,
         state: &mut State,
@@ -37,6 +50,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let corner = self.horizon.next();
         let mut aim = self.aim(state, corner);
+        // Rounding of t has swallowed the step.
         if aim.target <= state.t {
             return Err(RunError::StepTooSmall { t: state.t, step: state.step });
         }
@@ -46,6 +60,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return self.reject(state, control, (&aim, verdict), record);
         }
         let h = aim.target - state.t;
+        // The length that was judged, even if an event cuts it: it is what the law bore.
         self.motion.pace.proven = self.motion.pace.proven.max(h);
         if self.horizon.steps.due(self.motion.solver.span().end_time).is_some() {
             self.take_steps(state);
@@ -55,6 +70,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.tally.step(self.method(&aim));
         self.accept(state, record, ending == Ending::Smooth && self.watch.fired.is_empty())?;
         state.step = match ending {
+            // Only what goes on smoothly knows how its error falls; after a corner or an event control begins
+            // with caution.
             Ending::Smooth => self.motion.pace.nearing(h, aim.singular) * wished,
             Ending::Event | Ending::Corner => control.after_event(wished),
         };
@@ -80,6 +97,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// The step that comes to be wished for after one of length `h`, its control having proposed another, s.
+    ///
+    /// A step that was shorter than control had wished for, because of an event or a corner ahead, takes
+    /// nothing from that
+    /// wish; one that an event cut adds nothing to it.
     fn wished(&self, state: &State, ending: Ending, (h, next): (f64, f64)) -> f64 {
         match (ending == Ending::Event, h < state.step) {
             // The next law has not earned a longer step yet.
@@ -92,6 +113,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// The method of the step just made.
+    /// For the tally alone: nothing is decided by it.
     fn method(&self, aim: &Aim) -> Method {
         match aim.grade {
             _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
@@ -100,6 +122,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
+    /// Takes back nothing, since nothing was done: shortens the wish, renews what rounding is allowed, and
+    /// fails where the wish
+    /// falls to a few last places of t.
     #[inline(never)]
     fn reject(
         &mut self,
@@ -126,6 +151,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Rows and looks inside the step, then the commit of all contacts, then time moves on. `goes_on` says that no event
     /// ends the step.
+    ///
+    /// Memories of contacts of closed form stay where they are in a step that goes on, and the ledger says
+    /// so. Fails where a
+    /// component is not finite, before anything of the state has moved, or where a commit is refused.
     fn accept(&mut self, state: &mut State, record: &mut dyn Record, goes_on: bool) -> Result<(), RunError> {
         let t = self.motion.solver.span().end_time;
         self.trace_step(state, t, goes_on);
@@ -134,9 +163,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.write(state, t, record);
         }
         let end = self.motion.solver.span().end;
+        // Checked on the whole of the end: a value that is not finite must not reach a memory.
         if let Some(i) = end.iter().position(|y| !y.is_finite()) {
             return Err(self.setting.model.not_finite(t, i));
         }
+        // Some solvers carry the work put in as their only integral; the rest of y is not theirs.
         state.y[..end.len()].copy_from_slice(end);
         state.t = t;
         state.counts.steps += 1;
@@ -147,6 +178,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Takes away what rounding has left of the velocities: it would add up over a long rest.
+    ///
+    /// A slider under 0.9 μF_N that starts in equilibrium stays within a few last places of u_c for ever;
+    /// without this its
+    /// velocities would ring on in their last bit.
     fn stop(&mut self, state: &mut State) {
         let free = self.setting.layout.free;
         if state.y[free..2 * free].iter().any(|v| *v != 0.0) {
@@ -157,6 +192,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 }
 
 /// Tries a step and, if its error allows, looks for the first event in it and ends it there.
+///
+/// The guards are looked at only where the error allows the step. All that fall together with the first are
+/// collected: one
+/// moment, one choice.
 #[inline(always)]
 fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     motion: &mut Motion<A>,
@@ -169,6 +208,8 @@ fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     let target = aim.target;
     let verdict = control.propose(Pace::judged(error, aim.grade), target - state.t);
     if verdict.accepted {
+        // Rates of guards at the end need its slopes; the dense output is asked for only where a guard may
+        // have fallen.
         motion.solver.complete(eq, Completion::EndSlopes);
         watch.arrive(eq, &motion.solver);
         watch.fired.clear();

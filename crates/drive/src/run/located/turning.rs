@@ -1,4 +1,9 @@
 //! What waveforms do at a corner.
+//!
+//! A corner ends a step exactly: the pieces on both of its sides are smooth, and no step sees both. Here
+//! pieces turn and jumps are
+//! booked; what contacts do after the corner is chosen in [`laws`](super::laws), from the velocities to its
+//! right.
 
 use super::Located;
 use crate::Waveform;
@@ -48,7 +53,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let turned = &mut self.turning.turned;
         turned.clear();
         for (w, waveform) in self.setting.model.waveforms.iter().enumerate() {
+            // Several pieces may end in the rounding of one moment.
             while state.pieces[w].end <= state.t {
+                // Of the piece that ends: the next one has a jump of its own.
                 let jump = waveform.jump_after(&state.pieces[w]) != 0.0;
                 state.pieces[w] = waveform.after(&state.pieces[w]);
                 turned.push((w, if jump { EventKind::Jump } else { EventKind::Corner }));
@@ -65,16 +72,23 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Bodies that follow a waveform jump: a straight path of every contact in no time. The work of the jump is what
     /// the elastic energy, `before` until now, gains and friction takes.
+    ///
+    /// Free coordinates stay where they are: in no time no finite force moves a mass. Links and contacts with
+    /// dampers are refused
+    /// by the model where something they join jumps.
     fn jump(&mut self, state: &mut State, before: f64) {
         let mut friction = 0.0;
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
             // A jump is as finite as its waveform.
             let from = state.memories[c].apex();
+            // Friction of the whole path, for contacts that integrate theirs too: no time passes to integrate
+            // over.
             let work = contact.count
                 * state.memories[c].commit(&contact.interface, Segment::Jump(to)).unwrap_or(0.0);
             state.friction[c] += work;
             friction += work;
+            // The law follows the way of the jump; a contact that the jump did not move keeps its own.
             if let (Some(branching), true) = (state.memories[c].branching(), to != from) {
                 let course = branching.course(&contact.interface, to.d - from.d, to.u - from.u);
                 self.set_law(state, c, course, 0.0);

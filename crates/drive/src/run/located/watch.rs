@@ -1,4 +1,10 @@
 //! The contacts at both ends of a step, and the guards that fell at its end.
+//!
+//! Watched is what has no closed form: motion and accelerations at both ends of a step, so that guards have
+//! values and rates there
+//! without another evaluation. [`search`](super::search) looks between the ends. A step's end becomes the
+//! next one's start by
+//! an exchange of both; whatever makes slopes jump sets the start anew.
 
 use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::{Components, Equations};
@@ -9,6 +15,7 @@ use stickslip_stepper::{End, Step};
 /// A contact at one end of a step. Closed contacts have none: their motion is read off the state where it is asked for.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Moving {
+    /// d, u and their rates; m, m/s.
     pub(super) motion: Motion,
     /// d̈ and ü, m/s²; what a waveform does to the indentation otherwise than by moving a body is left out.
     pub(super) second: (f64, f64),
@@ -46,6 +53,7 @@ pub(super) struct Watch {
     pub(super) to: Vec<Moving>,
     /// Guards that fell at the end of the step.
     pub(super) fired: Vec<Fallen>,
+    /// Of the plan; guards count as fallen or near in units of it.
     pub(super) tolerance: f64,
 }
 
@@ -57,6 +65,8 @@ impl Watch {
     }
 
     /// The contacts at the start of the next step, after anything that makes slopes jump.
+    ///
+    /// Nothing is done where all contacts have closed forms.
     pub(super) fn set_out(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         if eq.interval.is_some_and(Interval::is_closed) {
             return;
@@ -91,6 +101,8 @@ impl Watch {
     }
 }
 
+/// Motion of contact `c` at one end of a step: of closed form from time and components, else as it was
+/// watched.
 fn motion(interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64]), contacts: &[Moving]) -> Motion {
     match interval.closed_form(c) {
         Some(steady) => {
@@ -118,6 +130,8 @@ fn follow(
 }
 
 /// d̈ and ü of a contact from the slopes of the velocities.
+///
+/// From the slopes that the solver has at the ends of its step anyway.
 fn second(
     eq: &Equations<'_>,
     contact: &Contact,
@@ -144,6 +158,8 @@ impl Watch {
     }
 
     /// The same of any other contact.
+    ///
+    /// ∞ where it drags no edge, or its edge will not get there as it moves now.
     pub(super) fn expected_of(&self, eq: &Equations<'_>, c: usize) -> f64 {
         let (contact, mode) = (&eq.model.contacts[c], &eq.modes[c]);
         let Mode::Slip(branch) = mode else { return f64::INFINITY };
@@ -155,6 +171,9 @@ impl Watch {
 }
 
 /// When what is left (m) will be used up at a speed (m/s) and its rate (m/s²): left = speed t + pull t²/2.
+///
+/// The root 2·left/(speed + √(speed² + 2·pull·left)), which loses no digits where the pull is small or slows
+/// it down.
 #[inline(always)]
 fn reached(left: f64, speed: f64, pull: f64) -> f64 {
     // A slowing edge may never get there.

@@ -1,4 +1,8 @@
 //! What is written of a step: rows and looks on its dense output.
+//!
+//! Output never changes the trajectory: what is written is read off a step already accepted, memories are
+//! shown as copies, and the
+//! evaluations that the dense output costs are taken off the run's count.
 
 use super::Located;
 use super::path::Growth;
@@ -11,6 +15,9 @@ use stickslip_stepper::{Attempt, Completion};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Rows and looks that are due up to the end of the step. Kept out of the way of steps without any.
+    ///
+    /// `t` is the end of the step, s, which an event may have cut; a row that falls on an event is the state
+    /// at the event.
     #[inline(never)]
     pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
         let eq = self.setting.plain(state);
@@ -31,6 +38,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// The memories of all contacts at a time inside the step, as if it ended there; `y` reads the components. Kept out of the way of rows.
+    ///
+    /// Displacements in them are counted from where the bodies started. Fails where a contact cannot be
+    /// followed to that moment,
+    /// because it outgrows its row or is not finite; the look is then left out, and the run goes on until its
+    /// own commit fails.
     #[inline(never)]
     pub(super) fn memories_at(
         &self,
@@ -49,6 +61,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             } else {
                 path.push(Segment::Straight(motion.apex()));
             }
+            // A copy for every look: what is shown must not move what is.
             let mut memory = memory.clone();
             path.drain(..).try_for_each(|piece| memory.commit(&contact.interface, piece).map(drop))?;
             memory.shift(state.shift(contact));
