@@ -52,6 +52,7 @@ impl Model {
         state.jumps = -varying.map(|c| c.count * c.interface.normal_energy(self.indentation(c))).sum::<f64>()
             - self.lifted(|i| state.y[i]);
         let mut row = Vec::new();
+        // By the row itself: whatever it counts as stored, the books close on it at t = 0.
         record::fill(&self.equations(&state), &state, 0.0, &|i| state.y[i], &mut row);
         // The books' error at t = 0 is minus what is stored: that is where they start.
         state.origin = -row.last().copied().unwrap_or(0.0);

@@ -207,6 +207,8 @@ impl State {
     }
 
     /// Takes over a state of another stepper's run, which carried other extra components.
+    ///
+    /// Forces of growing contacts are dropped: the memories have been committed, and laws are chosen anew.
     pub(crate) fn carry_over(&mut self, model: &Model, to: Layout) {
         // The same components: a run that goes on keeps its state to the last bit.
         if self.y.len() == to.total() {

@@ -86,6 +86,7 @@ impl Contact {
         let stuck = match mode {
             Mode::Open => 0.0,
             Mode::Grow => self.interface.stick_stiffness(motion.d),
+            // All springs slip: none is left to resist.
             Mode::Slip(branch) if branch.is_gross() => 0.0,
             Mode::Slip(branch) => self
                 .interface

@@ -53,7 +53,9 @@ impl Guard {
     /// None for a contact of which nothing ends a step.
     pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {
         match (mode, contact.is_constant()) {
+            // Nothing that it does ends a step: nobody looks at it.
             _ if contact.unguarded => &[],
+            // Without friction it can but part.
             (Mode::Whole { .. }, false) if contact.inert => &[Self::Contact],
             (Mode::Open, true) => &[],
             (Mode::Open, false) => &[Self::Gap],
@@ -78,6 +80,8 @@ impl Guard {
             // A row needs its reversals only: its springs know by themselves when they stick.
             (Self::Drag, Mode::Whole { sense }) if *sense == 0.0 => f64::INFINITY,
             (Self::Drag, Mode::Whole { sense }) => sense * at.du,
+            // s₊ or s₋: at constant depth it is a reversal of sliding, at a growing one the start of full
+            // stick.
             (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
             (Self::Piece, Mode::Slip(branch)) => branch.margin(at.d, at.u),
             (Self::Side, Mode::Slip(branch)) => {
@@ -121,6 +125,7 @@ impl Guard {
                 (contact.natural_velocity(), rounding * contact.natural.frequency)
             }
             Self::Piece | Self::Side => (contact.natural.displacement, rounding),
+            // A depth is no difference of displacements along the slide: their travel does not round it.
             Self::Contact | Self::Gap => (contact.natural.depth, 0.0),
         };
         // The laws on the two sides of the old curve differ by the square of the distance δ from it only, by about

@@ -27,6 +27,7 @@ impl Equations<'_> {
         };
         for steady in &interval.closed {
             let followed = steady.followed(at.time());
+            // The slider's way and the followers' apart: the latter has a rate, which is the power put in.
             let force = steady.force(steady.own(|i| at.component(i)) + followed.value);
             sum.apply(&steady.contact.u.free, followed.rate, force);
         }
@@ -62,6 +63,7 @@ impl Equations<'_> {
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
+        // Runs by chords carry no extra components, whatever slots the model has.
         let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
             // Force and friction power of one slip front, found once; beyond what the branch covers the
             // memory is asked.

@@ -42,6 +42,10 @@ impl Statics {
 
 impl Model {
     /// The forces with the free coordinates at y, the contacts on straight paths from where they stand.
+    ///
+    /// Loads, contacts (normal and tangential), links and waveforms at t = 0; nothing is committed. The
+    /// stiffness has the sign of
+    /// springs: positive where a force falls with the way.
     pub(super) fn statics(&self, state: &State, y: &[f64]) -> Statics {
         let (n, eq) = (self.free.len(), self.equations(state));
         let loads = DVector::from_iterator(n, self.free.iter().map(|f| f.force));
@@ -106,6 +110,7 @@ fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     }
     let (law, from) = (&contact.interface, memory.apex());
     let response = memory.trial(law, Move::Chord(to));
+    // The way from where the memory stands; no way at all has the tangents of going on.
     let (rise, shift) = (to.d - from.d, to.u - from.u);
     let (mut along, mut across) = (response.stiffness, response.coupling);
     // A short chord is as good as its end, and differences would be rounding.

@@ -55,6 +55,7 @@ impl<'a> Chords<'a> {
         // Steps without events have no moment at which an origin could move.
         state.come_back(model);
         for mode in &mut state.modes {
+            // Without a sense: a chord may turn inside its step, and the memory sees it by itself.
             *mode = Mode::Whole { sense: 0.0 };
         }
         let mut horizon = Horizon::new(model, plan);

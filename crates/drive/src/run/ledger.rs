@@ -95,6 +95,7 @@ impl Ledger {
             if contact.slot.is_none() || layout.growing == 0 {
                 state.friction[c] += contact.count * friction;
             }
+            // Growth that goes on joins the piece before it; anything else ends that piece.
             state.grew[c] = matches!(segment.path, Segment::Grown { .. });
         }
         Ok(())

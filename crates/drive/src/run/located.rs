@@ -161,6 +161,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             self.settle(state);
         }
         state.control = Some(control);
+        // With and without output the same count.
         state.counts.evaluations += self.motion.solver.evaluations() - self.output.evaluations;
         self.output.write_now(&self.setting.plain(state), state, record);
         outcome

@@ -189,6 +189,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let gain = contact.count * measure.mobility(|i| self.setting.model.free[i].mobility);
         let rest = bend + gain * contact.interface.normal_force(d);
         let energy = contact.interface.normal_energy(d);
+        // Others' forces are taken as they are now: in the last part of a contact its own changes most.
         let square = |x: f64| {
             v * v - 2.0 * rest * (d - x) + 2.0 * gain * (energy - contact.interface.normal_energy(x))
         };

@@ -141,6 +141,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
+        // Within the band velocities have no sign to go by: the accelerations just after the moment decide.
         let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
         if motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near {
             (motion.dd, motion.du) = self.push(state, c, &motion);
@@ -168,6 +169,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             eq.acceleration(measure, &at, |i| slopes[self.setting.layout.velocity(i)])
         };
         let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
+        // Rounding of the forces, as an acceleration in the contact's own scale.
         let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;
         if pull.abs().max(contact.interface.stick_slope() * bend.abs()) > noise {
             (bend, pull)
@@ -192,6 +194,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         } else {
             course
         };
+        // Read before the law changes: only the passage from one to the other says something of the step.
         let was_gross = state.modes[c].is_gross();
         state.modes[c] = Mode::of(contact, &state.memories[c], course, slack);
         state.grew[c] = false;

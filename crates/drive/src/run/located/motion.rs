@@ -140,6 +140,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// the limit of
     /// stability over it; at rest, [`REST_REACH`] over it; in gross slip nothing binds but the waveforms.
     pub(super) fn longest_now(&self, fastest: f64) -> f64 {
+        // Undamped, a long step feeds a swing below the tolerance up to it; what is at rest stays so only
+        // within these.
         let reach = match self.pace.grip {
             Grip::Slips => return self.pace.longest,
             Grip::Sticks => self.solver.stability_limit(),
@@ -231,6 +233,7 @@ impl Pace {
 /// ∞ where neither a smooth waveform nor such a row is in the model.
 fn longest(model: &Model, plan: &Plan) -> f64 {
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
+    // A row has no state of growth: a chord per step is all that it follows of a bent load.
     let rows = model.contacts.iter().filter(|c| !c.engine.branches() && !c.is_constant());
     let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
     rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)

@@ -43,6 +43,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let eq = self.setting.equations(state, &self.interval);
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
+            // What is never pressed has nothing to remember, and a path that goes on is one chord to the next
+            // event.
             if contact.is_never_pressed() || (goes_on && self.interval.closed_form(c).is_some()) {
                 continue;
             }

@@ -48,6 +48,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves every waveform whose piece ends now to its next piece, and books jumps. Events are noted when all of it
     /// has happened: the state after them is whole.
     pub(super) fn turn_corners(&mut self, state: &mut State, record: &mut dyn Record) {
+        // The energy of all contacts costs a preview of each: corners are many, and most waveforms never
+        // jump.
         let before = if self.turning.jumps == Jumps::Possible { self.stored(state) } else { 0.0 };
         self.turning.before.clone_from(&state.modes);
         let turned = &mut self.turning.turned;
@@ -102,6 +104,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let (model, eq) = (self.setting.model, self.setting.plain(state));
         let energy = |(contact, memory): (&Contact, &Memory)| {
             let apex = memory.apex();
+            // What a prescribed load stores it has put in itself: it is read off the present depth, and no
+            // jump of the books.
             let normal = contact.coupling().map_or(0.0, |_| contact.interface.normal_energy(apex.d));
             contact.count * (normal + memory.preview(&contact.interface, apex).elastic)
         };

@@ -85,6 +85,7 @@ impl Watch {
     }
 
     /// The end of a step is the start of the next one.
+    /// Nothing is evaluated again: both ends are one moment of one law.
     pub(super) fn go_on(&mut self) {
         std::mem::swap(&mut self.from, &mut self.to);
     }

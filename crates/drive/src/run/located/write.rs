@@ -20,6 +20,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// at the event.
     #[inline(never)]
     pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
+        // By the general law: a row shows every contact, those of closed form, too.
         let eq = self.setting.plain(state);
         let asked = self.motion.solver.evaluations();
         self.motion.solver.complete(&self.setting.equations(state, &self.interval), Completion::Dense);
