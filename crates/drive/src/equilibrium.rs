@@ -4,10 +4,8 @@
 //! is drawn above what will hold it is first set down by a millionth of its loads.
 //!
 //! A balance under all loads at once is not enough: with friction there are many, and the one that loads put
-//! on in proportion come
-//! to is taken. Nothing moves here and no time passes. The state at t = 0 also begins the books: what is
-//! stored then is
-//! where energies count from.
+//! on in proportion come to is taken. Nothing moves here and no time passes. The state at t = 0 also begins
+//! the books: what is stored then is where energies count from.
 
 mod balance;
 mod statics;

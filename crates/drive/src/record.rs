@@ -189,8 +189,7 @@ struct Books {
 /// Fills `row` with the channels at time t; `y` reads a component.
 ///
 /// error = input - (kinetic + elastic - origin) - friction - damping, J: 0 but for the errors of integration,
-/// since each of the parts
-/// is booked for itself.
+/// since each of the parts is booked for itself.
 pub(crate) fn fill(
     equations: &Equations<'_>,
     state: &State,
@@ -232,8 +231,7 @@ pub(crate) fn fill(
 /// Columns of one contact: the sum over its identical members.
 ///
 /// Force and energies of all `count` members; displacement, depth and stick radius of one. In the books the
-/// energies of all
-/// contacts add up.
+/// energies of all contacts add up.
 fn contact_columns(
     equations: &Equations<'_>,
     state: &State,

@@ -229,6 +229,7 @@ impl State {
         self.y.resize(to.total(), 0.0);
         self.y[to.block(0)..to.block(to.own)].copy_from_slice(&own);
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
+        // The next run begins afresh: laws are chosen anew, and the first step with them.
         self.step = 0.0;
     }
 

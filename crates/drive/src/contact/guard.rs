@@ -1,10 +1,9 @@
 //! Guards: functions that are positive while a contact's mode holds.
 //!
 //! An event is the first moment inside a step at which a guard of the present mode falls below zero by more
-//! than its deadband; the
-//! start of a step never belongs to it. The guards are functions of the motion, the same in every mode that
-//! has them:
-//! s₊ = u̇ - κḋ, s₋ = -u̇ - κḋ, d, the margin of a piece, the distance from the old curve.
+//! than its deadband; the start of a step never belongs to it. The guards are functions of the motion, the
+//! same in every mode that has them: s₊ = u̇ - κḋ, s₋ = -u̇ - κḋ, d, the margin of a piece, the distance from
+//! the old curve.
 //!
 //! | regime, by the signs of u̇ - κḋ and u̇ + κḋ | mode | guards |
 //! | --- | --- | --- |
@@ -116,8 +115,8 @@ impl Guard {
     /// leaves of a difference of displacements that have travelled as far as `u` (m), and of the velocities that it makes.
     ///
     /// Of a natural scale s (u_cω, u_c or the depth): 1e-13 s + 4ε|u| and max(1e-3·tolerance, 2e-13)s +
-    /// 8ε|u|. Without the terms of u
-    /// loops that closed after a travel of many thousand u_c made events without end.
+    /// 8ε|u|. Without the terms of u loops that closed after a travel of many thousand u_c made events
+    /// without end.
     pub(crate) fn bands(self, contact: &Contact, tolerance: f64, u: f64) -> (f64, f64) {
         let rounding = 4.0 * f64::EPSILON * u.abs();
         let (unit, rounding) = match self {

@@ -1,8 +1,8 @@
 //! What a contact is doing.
 //!
 //! A mode is a law and not a state of slip: at constant indentation partial slip and gross slip are both a
-//! branch. It is set at
-//! events alone, from the committed memory, and stays smooth beyond the event that ends it.
+//! branch. It is set at events alone, from the committed memory, and stays smooth beyond the event that ends
+//! it.
 
 use super::Contact;
 use stickslip_contact::{Branch, Course, Memory};

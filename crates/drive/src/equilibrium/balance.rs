@@ -120,8 +120,7 @@ impl Search<'_> {
     }
 
     /// What is left at a place: the static forces less what is still missing. It holds where every free
-    /// coordinate's rest is at most
-    /// 1e-9 of what acts on it, beside rounding.
+    /// coordinate's rest is at most 1e-9 of what acts on it, beside rounding.
     fn at(self, y: Vec<f64>) -> Balance {
         let statics = self.model.statics(self.state, &y);
         let residual = &statics.net - self.missing;

@@ -134,8 +134,7 @@ fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
 /// Estimate for contact `c` over the whole run.
 ///
 /// Turns by every waveform that reaches it, ringing by the one that keeps it up longest, and landings. 0 for
-/// a contact without
-/// friction or never pressed.
+/// a contact without friction or never pressed.
 fn of_contact(
     Setup { scene, model, start }: Setup<'_>,
     c: usize,

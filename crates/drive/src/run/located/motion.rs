@@ -2,8 +2,7 @@
 //!
 //! [`Motion`] tries steps and knows how long they may be; whether one is accepted is not its choice
 //! ([`step`](super::step)), nor when the next event is ([`aim`](super::aim)). [`Pace`] is what one step
-//! leaves to the next;
-//! at an event it begins anew.
+//! leaves to the next; at an event it begins anew.
 
 use super::Setting;
 use super::aim::{Aim, SHRINK};
@@ -103,10 +102,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
     ///
     /// Gives the error in units of the allowance; 1 is just allowed. `aim` is moved to the end of the last
-    /// attempt, which is at
-    /// most `CORRECTIONS` after the first: each is a Newton step of the guard's own value and rate at the
-    /// end, and all stages are
-    /// evaluated again.
+    /// attempt, which is at most `CORRECTIONS` after the first: each is a Newton step of the guard's own
+    /// value and rate at the end, and all stages are evaluated again.
     #[inline(always)]
     pub(super) fn attempt(&mut self, eq: &Equations<'_>, t: f64, aim: &mut Aim, corner: f64) -> f64 {
         let target = Target { end: aim.target, grade: aim.grade };
@@ -137,8 +134,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// nursed up to it, and one of the size of rounding must not be fed by more of it.
     ///
     /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. Sticking, a step is at most
-    /// the limit of
-    /// stability over it; at rest, [`REST_REACH`] over it; in gross slip nothing binds but the waveforms.
+    /// the limit of stability over it; at rest, [`REST_REACH`] over it; in gross slip nothing binds but the
+    /// waveforms.
     pub(super) fn longest_now(&self, fastest: f64) -> f64 {
         // Undamped, a long step feeds a swing below the tolerance up to it; what is at rest stays so only
         // within these.
@@ -208,9 +205,8 @@ impl Pace {
     /// What a refused step tells.
     ///
     /// A graded one that was too long proves no length for the next; an even one on the way to a singular
-    /// moment says that such
-    /// steps must shorten. Before, a fifth of all attempts under a vibrating foot at a tolerance of 1e-9 was
-    /// thrown away.
+    /// moment says that such steps must shorten. Before, a fifth of all attempts under a vibrating foot at a
+    /// tolerance of 1e-9 was thrown away.
     pub(super) fn refuse(&mut self, aim: &Aim) {
         if aim.closes.is_some() {
             self.proven = 0.0;
@@ -221,8 +217,7 @@ impl Pace {
     /// The error by which a step is judged. From a singular moment it falls with the root of the length as that of an even
     /// step with the length.
     /// Without the square control took the error to fall faster than it does: at the touch of an impact three
-    /// attempts in a row
-    /// were thrown away.
+    /// attempts in a row were thrown away.
     pub(super) fn judged(error: f64, grade: Grade) -> f64 {
         if grade == Grade::Start && error > 1.0 { error * error } else { error }
     }

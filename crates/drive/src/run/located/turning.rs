@@ -1,9 +1,8 @@
 //! What waveforms do at a corner.
 //!
 //! A corner ends a step exactly: the pieces on both of its sides are smooth, and no step sees both. Here
-//! pieces turn and jumps are
-//! booked; what contacts do after the corner is chosen in [`laws`](super::laws), from the velocities to its
-//! right.
+//! pieces turn and jumps are booked; what contacts do after the corner is chosen in [`laws`](super::laws),
+//! from the velocities to its right.
 
 use super::Located;
 use crate::Waveform;
@@ -76,8 +75,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// the elastic energy, `before` until now, gains and friction takes.
     ///
     /// Free coordinates stay where they are: in no time no finite force moves a mass. Links and contacts with
-    /// dampers are refused
-    /// by the model where something they join jumps.
+    /// dampers are refused by the model where something they join jumps.
     fn jump(&mut self, state: &mut State, before: f64) {
         let mut friction = 0.0;
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
