@@ -1,11 +1,9 @@
 //! Contacts as components of a drive: constants, what they are doing, their guards and forces.
 //!
 //! A contact is what has a law ([`Mode`]), guards ([`Guard`]), a memory and an energy; the runner knows it by
-//! that contract
-//! ([`component`](crate::component)). Its mechanics are those of the crate `stickslip_contact`; here is what
-//! joins them to bodies:
-//! the rows of u and d, what presses, how many there are, and the natural scales that tolerances are relative
-//! to.
+//! that contract ([`component`](crate::component)). Its mechanics are those of the crate `stickslip_contact`;
+//! here is what joins them to bodies: the rows of u and d, what presses, how many there are, and the natural
+//! scales that tolerances are relative to.
 
 mod component;
 mod force;

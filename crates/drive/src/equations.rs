@@ -1,15 +1,12 @@
 //! The equations of motion, evaluated on borrowed memory.
 //!
 //! M q̈ = Σ forces of contacts, links, loads and blocks, beside it the integrals on which nothing depends
-//! (work put in,
-//! dissipation, elastic energy and friction of growing contacts). Steppers ask for slopes or, where no force
-//! depends on a
-//! velocity, for accelerations alone; records and guards read motions and signals of a moment by the same
-//! functions.
+//! (work put in, dissipation, elastic energy and friction of growing contacts). Steppers ask for slopes or,
+//! where no force depends on a velocity, for accelerations alone; records and guards read motions and signals
+//! of a moment by the same functions.
 //!
 //! Nothing here is written to but the slopes: a trial evaluation has no way to leave a trace. Nothing here
-//! chooses a law or
-//! knows an event: laws go on smoothly beyond the moment that will end them.
+//! chooses a law or knows an event: laws go on smoothly beyond the moment that will end them.
 
 mod blocks;
 mod forces;
@@ -104,8 +101,7 @@ impl<'a> Equations<'a> {
     /// A measure at one moment.
     ///
     /// constant + Σ aq + Σ bw over free coordinates q and followed signals w, with the rates of both. Without
-    /// velocities the rate
-    /// is that of the followers alone.
+    /// velocities the rate is that of the followers alone.
     #[inline(always)]
     pub(crate) fn read<V: View>(&self, measure: &Measure, at: &V) -> Reading {
         let (mut own, mut rate) = (0.0, 0.0);
@@ -168,8 +164,7 @@ impl Equations<'_> {
     /// Accelerations without any velocity, and the power put in, W.
     ///
     /// `out` is q̈ of the free coordinates and then the one integral. Only for models without dampers,
-    /// varying loads, growth and
-    /// blocks: their powers need velocities.
+    /// varying loads, growth and blocks: their powers need velocities.
     #[inline(never)]
     fn accelerate(&self, at: &Positions<'_>, out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(self.layout.free);

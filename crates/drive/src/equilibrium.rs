@@ -4,10 +4,8 @@
 //! is drawn above what will hold it is first set down by a millionth of its loads.
 //!
 //! A balance under all loads at once is not enough: with friction there are many, and the one that loads put
-//! on in proportion come
-//! to is taken. Nothing moves here and no time passes. The state at t = 0 also begins the books: what is
-//! stored then is
-//! where energies count from.
+//! on in proportion come to is taken. Nothing moves here and no time passes. The state at t = 0 also begins
+//! the books: what is stored then is where energies count from.
 
 mod balance;
 mod statics;
@@ -55,6 +53,7 @@ impl Model {
         state.jumps = -varying.map(|c| c.count * c.interface.normal_energy(self.indentation(c))).sum::<f64>()
             - self.lifted(|i| state.y[i]);
         let mut row = Vec::new();
+        // By the row itself: whatever it counts as stored, the books close on it at t = 0.
         record::fill(&self.equations(&state), &state, 0.0, &|i| state.y[i], &mut row);
         // The books' error at t = 0 is minus what is stored: that is where they start.
         state.origin = -row.last().copied().unwrap_or(0.0);

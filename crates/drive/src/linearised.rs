@@ -134,6 +134,8 @@ impl Model {
 }
 
 /// Adds what a spring or damper along a row does to the coordinates.
+///
+/// value·rᵀr with the row r: symmetric, and never negative.
 fn add(matrix: &mut DMatrix<f64>, row: &[(usize, f64)], value: f64) {
     for (i, a) in row {
         for (j, b) in row {

@@ -3,6 +3,16 @@
 //! A run asks [`choice`] at the beginning of every interval between two events and [`treatment`] of every contact in it;
 //! [`Model::expected`] asks the same two functions of the intervals that a scene can come to, so that what is told of a run
 //! beforehand is what it does.
+//!
+//! | method | free coordinates | forces |
+//! | --- | --- | --- |
+//! | [`Method::Walk`] | none | prescribed paths |
+//! | [`Method::Parabola`] | any | constant until the next event |
+//! | [`Method::Swing`] | one | closed forms of u under straight followers |
+//! | [`Method::Nystrom`] | any | without velocities |
+//! | [`Method::DormandPrince`] | any | all others |
+//!
+//! A graded step goes by Dormand and Prince's pair wherever it is taken: its stages ask for velocities.
 
 mod expected;
 mod tally;

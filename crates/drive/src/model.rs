@@ -1,12 +1,9 @@
 //! The constants of a drive, checked and assembled.
 //!
 //! [`Model::new`] is the only way from a scene to a model: whatever can be wrong with a scene is refused
-//! there, with the part and the
-//! field, so that a run has nothing left to refuse but motion itself. A model never changes; runs borrow it,
-//! and any number of
-//! them may at once. Lengths between bodies are linear forms of the coordinates ([`Measure`]) with constant
-//! coefficients:
-//! rotations are small.
+//! there, with the part and the field, so that a run has nothing left to refuse but motion itself. A model
+//! never changes; runs borrow it, and any number of them may at once. Lengths between bodies are linear forms
+//! of the coordinates ([`Measure`]) with constant coefficients: rotations are small.
 
 mod block;
 mod build;

@@ -56,6 +56,9 @@ impl Plan {
 }
 
 /// Time stepping. Tolerances are relative to natural scales (u_c, μF_N and the velocities they make).
+///
+/// Fixed steps and the reference follow chords: of second order at best where contacts slip, whatever the
+/// order of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stepper {
     /// Embedded pair of order 8 with located events.
@@ -137,6 +140,8 @@ impl Stepper {
     }
 
     /// Longest stable step, s, for motions about a state; none where it chooses its steps.
+    ///
+    /// `motions` is asked only where it is needed: eigenvalues of many coordinates take their time.
     pub(crate) fn longest_step(self, motions: impl FnOnce() -> Linearised) -> Option<f64> {
         self.facts().longest_step.map(|longest| longest(&motions()))
     }

@@ -1,10 +1,8 @@
 //! Gauss–Legendre quadrature that tells how far it can be trusted.
 //!
 //! Time of a swing and of a lift-off is a mean over [0, 1] of a smooth function. Rules of 4, 8, 16 and 32
-//! nodes are tried in turn from
-//! the first that may do; each tells its error from the last coefficients of the polynomial through its
-//! values, without a second
-//! rule. Nothing is allocated, and every rule is made once.
+//! nodes are tried in turn from the first that may do; each tells its error from the last coefficients of the
+//! polynomial through its values, without a second rule. Nothing is allocated, and every rule is made once.
 
 use std::sync::LazyLock;
 

@@ -11,6 +11,9 @@ use crate::state::State;
 use stickslip_contact::{ContactState, Memory, Outcome};
 
 /// Receiver of a run's output. Whatever it does, the trajectory stays the same.
+///
+/// Rows come in ascending time at the plan's interval, the first and the last of the run among them; events
+/// in between, in order.
 pub trait Record {
     /// A row of values, one for each of [`Model::channels`].
     fn row(&mut self, values: &[f64]);
@@ -168,6 +171,8 @@ impl Model {
 }
 
 /// Columns of a component under its name.
+///
+/// Each is the component's own word with its SI unit, such as `fx_N`.
 fn columns(name: &str, component: &(impl Component + ?Sized)) -> impl Iterator<Item = String> {
     component.columns().into_iter().map(move |column| format!("{name}.{column}"))
 }
@@ -182,6 +187,9 @@ struct Books {
 }
 
 /// Fills `row` with the channels at time t; `y` reads a component.
+///
+/// error = input - (kinetic + elastic - origin) - friction - damping, J: 0 but for the errors of integration,
+/// since each of the parts is booked for itself.
 pub(crate) fn fill(
     equations: &Equations<'_>,
     state: &State,
@@ -221,6 +229,9 @@ pub(crate) fn fill(
 }
 
 /// Columns of one contact: the sum over its identical members.
+///
+/// Force and energies of all `count` members; displacement, depth and stick radius of one. In the books the
+/// energies of all contacts add up.
 fn contact_columns(
     equations: &Equations<'_>,
     state: &State,

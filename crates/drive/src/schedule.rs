@@ -10,6 +10,9 @@ pub enum Moments {
 }
 
 /// A walk through the moments of a run, its beginning and its end included.
+///
+/// Moments are worked out one by one and none is kept: a schedule of a million rows is as small as one of
+/// two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     moments: Moments,

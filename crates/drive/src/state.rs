@@ -207,6 +207,8 @@ impl State {
     }
 
     /// Takes over a state of another stepper's run, which carried other extra components.
+    ///
+    /// Forces of growing contacts are dropped: the memories have been committed, and laws are chosen anew.
     pub(crate) fn carry_over(&mut self, model: &Model, to: Layout) {
         // The same components: a run that goes on keeps its state to the last bit.
         if self.y.len() == to.total() {
@@ -227,6 +229,7 @@ impl State {
         self.y.resize(to.total(), 0.0);
         self.y[to.block(0)..to.block(to.own)].copy_from_slice(&own);
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
+        // The next run begins afresh: laws are chosen anew, and the first step with them.
         self.step = 0.0;
     }
 

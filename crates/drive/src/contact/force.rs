@@ -1,10 +1,8 @@
 //! What a contact exerts along the slide under its law.
 //!
 //! Elastic and friction force by the mode's law, viscous resistance of the springs that stick, and the rates
-//! of what a growing
-//! contact carries as states. All of one contact; whoever adds them up multiplies by the count. Nothing is
-//! remembered: the
-//! memory is read as committed last.
+//! of what a growing contact carries as states. All of one contact; whoever adds them up multiplies by the
+//! count. Nothing is remembered: the memory is read as committed last.
 
 use super::{Contact, Mode, Motion, Press};
 use stickslip_contact::{Branch, Dragged, Memory, Move};
@@ -24,8 +22,7 @@ impl Contact {
     /// F_x of one contact, N, under its law; `grown` is what a contact that grows in full stick carries as a state.
     ///
     /// A branch is asked beyond the height that it covers only where it cuts through a path of growth; the
-    /// memory then answers, so
-    /// that the law goes on smoothly to the event that ends the step.
+    /// memory then answers, so that the law goes on smoothly to the event that ends the step.
     #[inline(always)]
     pub(crate) fn force(
         &self,
@@ -80,12 +77,12 @@ impl Contact {
     /// What the springs that stick oppose to u̇, N s/m.
     ///
     /// β times the stiffness of the springs that stick: G\*m(d) in full stick, G\*m(h) below a slip front at
-    /// height h, nothing in
-    /// gross slip or apart. β is the contact's damping time, s.
+    /// height h, nothing in gross slip or apart. β is the contact's damping time, s.
     pub(crate) fn viscosity(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
         let stuck = match mode {
             Mode::Open => 0.0,
             Mode::Grow => self.interface.stick_stiffness(motion.d),
+            // All springs slip: none is left to resist.
             Mode::Slip(branch) if branch.is_gross() => 0.0,
             Mode::Slip(branch) => self
                 .interface
@@ -99,8 +96,7 @@ impl Contact {
     /// Slopes of what a growing contact carries beside its motion.
     ///
     /// In full stick G\*m(d)u̇ and F_x u̇, without friction; along a branch only the friction power, by the
-    /// position of its front;
-    /// nothing otherwise.
+    /// position of its front; nothing otherwise.
     #[inline(never)]
     pub(crate) fn growth_rates(
         &self,

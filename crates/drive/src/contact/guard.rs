@@ -1,10 +1,9 @@
 //! Guards: functions that are positive while a contact's mode holds.
 //!
 //! An event is the first moment inside a step at which a guard of the present mode falls below zero by more
-//! than its deadband; the
-//! start of a step never belongs to it. The guards are functions of the motion, the same in every mode that
-//! has them:
-//! s₊ = u̇ - κḋ, s₋ = -u̇ - κḋ, d, the margin of a piece, the distance from the old curve.
+//! than its deadband; the start of a step never belongs to it. The guards are functions of the motion, the
+//! same in every mode that has them: s₊ = u̇ - κḋ, s₋ = -u̇ - κḋ, d, the margin of a piece, the distance from
+//! the old curve.
 //!
 //! | regime, by the signs of u̇ - κḋ and u̇ + κḋ | mode | guards |
 //! | --- | --- | --- |
@@ -56,7 +55,9 @@ impl Guard {
     /// None for a contact of which nothing ends a step.
     pub(crate) fn of(contact: &Contact, mode: &Mode) -> &'static [Self] {
         match (mode, contact.is_constant()) {
+            // Nothing that it does ends a step: nobody looks at it.
             _ if contact.unguarded => &[],
+            // Without friction it can but part.
             (Mode::Whole { .. }, false) if contact.inert => &[Self::Contact],
             (Mode::Open, true) => &[],
             (Mode::Open, false) => &[Self::Gap],
@@ -81,6 +82,8 @@ impl Guard {
             // A row needs its reversals only: its springs know by themselves when they stick.
             (Self::Drag, Mode::Whole { sense }) if *sense == 0.0 => f64::INFINITY,
             (Self::Drag, Mode::Whole { sense }) => sense * at.du,
+            // s₊ or s₋: at constant depth it is a reversal of sliding, at a growing one the start of full
+            // stick.
             (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
             (Self::Piece, Mode::Slip(branch)) => branch.margin(at.d, at.u),
             (Self::Side, Mode::Slip(branch)) => {
@@ -115,8 +118,8 @@ impl Guard {
     /// leaves of a difference of displacements that have travelled as far as `u` (m), and of the velocities that it makes.
     ///
     /// Of a natural scale s (u_cω, u_c or the depth): 1e-13 s + 4ε|u| and max(1e-3·tolerance, 2e-13)s +
-    /// 8ε|u|. Without the terms of u
-    /// loops that closed after a travel of many thousand u_c made events without end.
+    /// 8ε|u|. Without the terms of u loops that closed after a travel of many thousand u_c made events
+    /// without end.
     pub(crate) fn bands(self, contact: &Contact, tolerance: f64, u: f64) -> (f64, f64) {
         let rounding = 4.0 * f64::EPSILON * u.abs();
         let (unit, rounding) = match self {
@@ -124,6 +127,7 @@ impl Guard {
                 (contact.natural_velocity(), rounding * contact.natural.frequency)
             }
             Self::Piece | Self::Side => (contact.natural.displacement, rounding),
+            // A depth is no difference of displacements along the slide: their travel does not round it.
             Self::Contact | Self::Gap => (contact.natural.depth, 0.0),
         };
         // The laws on the two sides of the old curve differ by the square of the distance δ from it only, by about

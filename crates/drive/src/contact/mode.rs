@@ -1,8 +1,8 @@
 //! What a contact is doing.
 //!
 //! A mode is a law and not a state of slip: at constant indentation partial slip and gross slip are both a
-//! branch. It is set at
-//! events alone, from the committed memory, and stays smooth beyond the event that ends it.
+//! branch. It is set at events alone, from the committed memory, and stays smooth beyond the event that ends
+//! it.
 
 use super::Contact;
 use stickslip_contact::{Branch, Course, Memory};
@@ -51,6 +51,7 @@ impl Mode {
         match (memory.branching(), course) {
             // Nothing to press and nothing to hold: it is as good as apart for ever.
             _ if contact.inert && contact.coupling().is_none() => Self::Open,
+            // Whatever is remembered: apart, springs are unstretched.
             (_, Course::Open) => Self::Open,
             // Without friction there is nothing to remember, but the bodies still press on each other.
             _ if contact.inert => Self::Whole { sense: 0.0 },

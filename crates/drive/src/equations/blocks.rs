@@ -1,10 +1,9 @@
 //! What blocks read and make.
 //!
 //! A block reads waveforms, lengths and other blocks' signals, has states in y, and makes one signal that
-//! bodies and strokes may
-//! follow, and efforts along the lengths it reads. All of it is worked out anew whenever it is asked for: an
-//! evaluation keeps
-//! nothing, and inputs and states of a block lie on the stack, at most [`MOST_OF_A_BLOCK`] of each.
+//! bodies and strokes may follow, and efforts along the lengths it reads. All of it is worked out anew
+//! whenever it is asked for: an evaluation keeps nothing, and inputs and states of a block lie on the stack,
+//! at most [`MOST_OF_A_BLOCK`] of each.
 
 use super::sum::{Sum, View};
 use super::{Components, Equations};

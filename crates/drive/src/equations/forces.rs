@@ -1,12 +1,9 @@
 //! Forces of contacts and links.
 //!
 //! Contacts of closed form and all others go two ways: on nearly every evaluation of a drive a contact is a
-//! branch under constant
-//! load, and one closed form of u, F_x = F₀ + αM(h), spares it the rare cases. Kept apart, a run took a tenth
-//! fewer instructions.
-//! The forces of both are the same law, and so are their signs: F_x opposes u, and acts on the coordinates by
-//! -count·F_x along
-//! the row of u.
+//! branch under constant load, and one closed form of u, F_x = F₀ + αM(h), spares it the rare cases. Kept
+//! apart, a run took a tenth fewer instructions. The forces of both are the same law, and so are their signs:
+//! F_x opposes u, and acts on the coordinates by -count·F_x along the row of u.
 
 use super::sum::{Sum, View};
 use super::{Equations, Sample};
@@ -17,8 +14,7 @@ impl Equations<'_> {
     /// Forces of all contacts, and the slopes of their extra components.
     ///
     /// Without an interval every contact goes by the general law. Contacts that are apart, and those never
-    /// pressed, are in
-    /// neither list of an interval.
+    /// pressed, are in neither list of an interval.
     #[inline(always)]
     pub(super) fn contacts(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let Some(interval) = self.interval else {
@@ -27,6 +23,7 @@ impl Equations<'_> {
         };
         for steady in &interval.closed {
             let followed = steady.followed(at.time());
+            // The slider's way and the followers' apart: the latter has a rate, which is the power put in.
             let force = steady.force(steady.own(|i| at.component(i)) + followed.value);
             sum.apply(&steady.contact.u.free, followed.rate, force);
         }
@@ -38,8 +35,7 @@ impl Equations<'_> {
     /// Any contact in any mode: its forces, and the slopes of its extra components.
     ///
     /// Normal: -count·E\*M(d) along d, where the bodies press it. Tangential: -count·(F_x + βG\*m u̇) along
-    /// u, the second term of the
-    /// springs that stick.
+    /// u, the second term of the springs that stick.
     #[inline(never)]
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
@@ -62,6 +58,7 @@ impl Equations<'_> {
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
+        // Runs by chords carry no extra components, whatever slots the model has.
         let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
             // Force and friction power of one slip front, found once; beyond what the branch covers the
             // memory is asked.

@@ -1,10 +1,8 @@
 //! What an evaluation reads and what it adds up.
 //!
 //! A [`View`] is how an evaluation reads a moment, with velocities or without; compiled for each, so that
-//! Nyström's method pays for
-//! no rate. A [`Sum`] is where forces meet: by the row of a measure's Jacobian, so that forces along u, d or
-//! an elongation
-//! need no cases.
+//! Nyström's method pays for no rate. A [`Sum`] is where forces meet: by the row of a measure's Jacobian, so
+//! that forces along u, d or an elongation need no cases.
 
 use crate::Model;
 use crate::model::Terms;

@@ -103,6 +103,8 @@ impl Search<'_> {
         for _ in 0..HALVINGS {
             let middle = 0.5 * (near + far);
             place = self.along(now, step, middle);
+            // Between half of the push gone and half of it turned round a step is good enough: the next one
+            // is Newton's again.
             if overshoots(now, &place, step) {
                 far = middle;
             } else if place.residual.dot(step) > 0.5 * now.residual.dot(step) {
@@ -121,6 +123,8 @@ impl Search<'_> {
         self.at(y)
     }
 
+    /// What is left at a place: the static forces less what is still missing. It holds where every free
+    /// coordinate's rest is at most 1e-9 of what acts on it, beside rounding.
     fn at(self, y: Vec<f64>) -> Balance {
         let statics = self.model.statics(self.state, &y);
         let residual = &statics.net - self.missing;

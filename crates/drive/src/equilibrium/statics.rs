@@ -42,6 +42,9 @@ impl Statics {
 
 impl Model {
     /// The forces with the free coordinates at y, the contacts on straight paths from where they stand.
+    ///
+    /// Loads, contacts (normal and tangential), links and waveforms at t = 0; nothing is committed. The
+    /// stiffness has the sign of springs: positive where a force falls with the way.
     pub(super) fn statics(&self, state: &State, y: &[f64]) -> Statics {
         let (n, eq) = (self.free.len(), self.equations(state));
         let loads = DVector::from_iterator(n, self.free.iter().map(|f| f.force));
@@ -50,8 +53,7 @@ impl Model {
         for ((contact, memory), to) in self.contacts.iter().zip(&state.memories).zip(self.apexes(state, y)) {
             let (count, tangents) = (contact.count, tangents(contact, memory, to));
             // What could act counts, not what does: near F_x = 0 a contact would else ask for a balance to
-            // more digits than there are. A
-            // coefficient above 1 makes no force that its load does not.
+            // more digits than there are. A coefficient above 1 makes no force that its load does not.
             let limit = contact.interface.friction().min(1.0) * contact.interface.normal_force(to.d);
             statics.push(&contact.u, -count * tangents.force, count * tangents.force.abs().max(limit));
             statics.stiffen(&contact.u, &contact.u, count * tangents.along, y);
@@ -106,6 +108,7 @@ fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     }
     let (law, from) = (&contact.interface, memory.apex());
     let response = memory.trial(law, Move::Chord(to));
+    // The way from where the memory stands; no way at all has the tangents of going on.
     let (rise, shift) = (to.d - from.d, to.u - from.u);
     let (mut along, mut across) = (response.stiffness, response.coupling);
     // A short chord is as good as its end, and differences would be rounding.

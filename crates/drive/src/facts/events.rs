@@ -86,6 +86,7 @@ fn corners_until(waveform: &Waveform, start: f64, end: f64) -> f64 {
     corners
 }
 
+/// Corners of one whole period from the delay on, that at its end included.
 fn corners_per_period(waveform: &Waveform, period: f64) -> f64 {
     let start = waveform.timing().delay;
     corners_until(waveform, start, start + (1.0 + SAME) * period)
@@ -132,6 +133,9 @@ fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
 }
 
 /// Estimate for contact `c` over the whole run.
+///
+/// Turns by every waveform that reaches it, ringing by the one that keeps it up longest, and landings. 0 for
+/// a contact without friction or never pressed.
 fn of_contact(
     Setup { scene, model, start }: Setup<'_>,
     c: usize,

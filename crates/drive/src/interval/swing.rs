@@ -194,6 +194,9 @@ impl Swing {
     }
 
     /// The motion is an arc between two turning points near two guesses; false where it is none.
+    ///
+    /// Takes up both, and the angles at which the motion begins and ends: at π where it turns, before it
+    /// where a piece ends.
     fn swing_between(&mut self, speed: f64, guesses: [f64; 2], length: f64) -> bool {
         let Some([low, high]) = self.turning(speed, guesses) else { return false };
         // Smaller swings may be rounding: the stepper knows rest from it.
@@ -224,6 +227,8 @@ impl Swing {
             Clock::Angle => (0.5 * span * (self.high - self.low), span / (-bend).sqrt()),
             Clock::Way => (span, span / self.speed()),
         };
+        // Both: the slide's own way and what fast followers do in the time, of which a small error is a long
+        // way.
         self.allowed = allowed / way.max(self.drift.abs() * time);
         let (duration, is_good) = self.time_between(self.from, self.to, self.allowed, 1.0);
         self.duration = duration;

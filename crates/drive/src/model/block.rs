@@ -112,8 +112,7 @@ impl Model {
 /// Wires the blocks of a scene. A block may read waveforms and the blocks before it.
 ///
 /// Fails where one reads what comes after it or does not exist, has more inputs or states than [`MOST`], or
-/// reads a length where
-/// bodies start in equilibrium.
+/// reads a length where bodies start in equilibrium.
 pub(super) fn wire(scene: &Scene, bodies: &[Body]) -> Result<Vec<Wired>, SceneError> {
     let mut wired: Vec<Wired> = Vec::with_capacity(scene.blocks.len());
     let mut first = 0;

@@ -73,8 +73,8 @@ impl Model {
 
 /// The bodies and their free coordinates, with the weight that gravity gives each.
 ///
-/// On an incline α gravity g pulls with -mg sin α along x and -mg cos α along z.
-/// Fails where a free coordinate has no mass or moment of inertia.
+/// On an incline α gravity g pulls with -mg sin α along x and -mg cos α along z. Fails where a free
+/// coordinate has no mass or moment of inertia.
 fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
     let mut bodies = Vec::with_capacity(scene.bodies.len());
     let mut free = Vec::new();
@@ -120,8 +120,7 @@ fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneErr
 }
 
 /// Springs, then actuators. Their elongation is the displacement of the second side less that of the first; a
-/// spring is an
-/// actuator of no stroke.
+/// spring is an actuator of no stroke.
 fn links(scene: &Scene, bodies: &[Body]) -> Vec<Link> {
     let elongation = |sides: [Side; 2], at: [Point; 2], direction: Direction| {
         Measure::between([(sides[1], at[1]), (sides[0], at[0])], direction, bodies)

@@ -1,8 +1,8 @@
 //! From a scene's contact to its constants.
 //!
 //! What presses it, its first and its largest indentation, the engine, the displacement it starts with. Each
-//! number is checked where
-//! it is used first, once. Slots and natural scales follow when all contacts are known.
+//! number is checked where it is used first, once. Slots and natural scales follow when all contacts are
+//! known.
 
 use super::{Body, Free, Link, Load, Measure, Signals, reach};
 use crate::contact::{Contact, Natural, Press};
@@ -77,8 +77,7 @@ impl Surroundings<'_> {
 }
 
 /// The curve, or a row over the asked span; without one over the width of the largest indentation. Fails
-/// where the row has no
-/// springs, or is too narrow for the start.
+/// where the row has no springs, or is too narrow for the start.
 fn engine(part: &scene::Contact, known: Pressed) -> Result<Engine, Refused> {
     let (law, deepest) = (&part.interface, known.deepest);
     match part.engine {
@@ -131,8 +130,7 @@ fn start(part: &scene::Contact, known: Pressed) -> Result<f64, Refused> {
 /// What presses a contact.
 ///
 /// Both ends of the range that a waveform has are checked: force and radius within the profile's reach. The
-/// indentation grows with
-/// each of the three, so that the highest value is the deepest.
+/// indentation grows with each of the three, so that the highest value is the deepest.
 fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
     let law = &part.interface;
     let (field, value, given): (_, _, fn(f64) -> NormalGiven) = match part.normal {
@@ -170,8 +168,7 @@ fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pre
 /// A contact pressed by the bodies' motion.
 ///
 /// d = z(first) - z(second) - gap at the contact point. Fails where the bodies cannot move against each
-/// other, or are expected
-/// deeper than the profile reaches.
+/// other, or are expected deeper than the profile reaches.
 fn coupled(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
     let law = &part.interface;
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];

@@ -8,8 +8,7 @@ use crate::{Field, Part, SceneError, SceneFault};
 /// Refuses dampers of links and contacts whose length jumps.
 ///
 /// Fails with the first part, springs before actuators before contacts, and the name of the waveform. What a
-/// block makes of a jump
-/// does not jump.
+/// block makes of a jump does not jump.
 pub(super) fn check(
     scene: &Scene,
     links: &[Link],

@@ -9,8 +9,7 @@ use crate::{Field, Part, SceneError, SceneFault};
 /// which nobody means. One that slides freely along x is a scene in its own right.
 ///
 /// An inert contact holds nothing along u, but presses along d all the same; a spring without stiffness and
-/// damping holds
-/// nothing.
+/// damping holds nothing.
 pub(super) fn check(free: &[Free], contacts: &[Contact], links: &[Link]) -> Result<(), SceneError> {
     for (i, coordinate) in free.iter().enumerate().filter(|(_, coordinate)| coordinate.axis != Axis::X) {
         let moves = |measure: &Measure| measure.free.iter().any(|(free, _)| *free == i);

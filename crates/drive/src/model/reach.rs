@@ -48,8 +48,7 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
 /// Largest force on a free coordinate, N or N m.
 ///
 /// A bound, not a sum of what acts at once: magnitudes of gravity and constant loads, of the widest values of
-/// those that vary,
-/// of preloads, and of springs at their widest stroke.
+/// those that vary, of preloads, and of springs at their widest stroke.
 fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     let widest = |w: usize| {
         let (low, high) = around.signals.range(w);

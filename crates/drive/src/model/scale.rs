@@ -11,10 +11,8 @@ use crate::scene::Axis;
 /// `deepest` is the largest indentation of each contact.
 ///
 /// A free coordinate has a length l, the smallest u_c or d of its contacts by their arms, and the speed lω
-/// with ω² = k/m of all that
-/// is stuck to it; without contacts the smallest stroke, without stiffness the highest frequency of the
-/// waveforms. A contact's
-/// frequency is the highest of the coordinates that move it.
+/// with ω² = k/m of all that is stuck to it; without contacts the smallest stroke, without stiffness the
+/// highest frequency of the waveforms. A contact's frequency is the highest of the coordinates that move it.
 pub(super) fn assign(
     contacts: &mut [Contact],
     free: &mut [Free],

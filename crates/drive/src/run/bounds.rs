@@ -1,8 +1,7 @@
 //! Guards against endless work.
 //!
 //! Asked by both kinds of runs after every attempt and every event of a component; it reads the state and
-//! stops a run with an
-//! error that says when, and of events whose. It changes nothing.
+//! stops a run with an error that says when, and of events whose. It changes nothing.
 
 use crate::record::Record;
 use crate::{EventKind, Limits, Model, RunError, Source, State};

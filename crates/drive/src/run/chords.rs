@@ -1,11 +1,9 @@
 //! Steps without located events: every accepted step is one chord of every contact.
 //!
 //! For steppers without events: fixed steps and the plain reference. Contacts go by the whole law of their
-//! memory, kinks and all, and
-//! the path of a step is one chord in the plane of (d, u). Growth in full stick is second order at best by
-//! that, and so is
-//! every step across an event, whatever the method's name. Events are noticed after the fact, for the record
-//! alone.
+//! memory, kinks and all, and the path of a step is one chord in the plane of (d, u). Growth in full stick is
+//! second order at best by that, and so is every step across an event, whatever the method's name. Events are
+//! noticed after the fact, for the record alone.
 
 use super::bounds::Bounds;
 use super::horizon::Horizon;
@@ -41,8 +39,7 @@ impl<'a> Chords<'a> {
     /// Chords do not carry the extra components of growing contacts.
     ///
     /// Prepares the state: energies and friction of growing contacts go into the books, shifted origins come
-    /// back, and every contact
-    /// is put on its whole law.
+    /// back, and every contact is put on its whole law.
     pub(super) fn new(
         model: &'a Model,
         plan: &Plan,
@@ -55,6 +52,7 @@ impl<'a> Chords<'a> {
         // Steps without events have no moment at which an origin could move.
         state.come_back(model);
         for mode in &mut state.modes {
+            // Without a sense: a chord may turn inside its step, and the memory sees it by itself.
             *mode = Mode::Whole { sense: 0.0 };
         }
         let mut horizon = Horizon::new(model, plan);

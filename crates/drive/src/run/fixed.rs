@@ -1,8 +1,7 @@
 //! Fixed steps, without events.
 //!
 //! A step is never cut and never chosen: an error that events make is the stepper's own, of second order at
-//! best. The work of a
-//! run is known beforehand.
+//! best. The work of a run is known beforehand.
 
 use super::chords::Chords;
 use crate::record::Record;
@@ -12,8 +11,7 @@ use stickslip_stepper::FixedStep;
 /// Runs in steps of `step`; the last one is shorter where the end asks for it.
 ///
 /// Steps end at from + k·step (s), multiplied and not summed up. Fails at once where `step` is as long as the
-/// longest with
-/// which small motions do not grow, else as [`Chords::accept`] does.
+/// longest with which small motions do not grow, else as [`Chords::accept`] does.
 pub(super) fn run<F: FixedStep>(
     model: &Model,
     plan: &Plan,

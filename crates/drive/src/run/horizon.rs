@@ -1,8 +1,7 @@
 //! Where a run ends, and the next moment that a step may not cross.
 //!
 //! Owns the end, which an early end moves forward, and the next corner, which the run sets whenever waveforms
-//! turn. Events are
-//! not here: no step has to stop before one.
+//! turn. Events are not here: no step has to stop before one.
 
 use super::steady::Steps;
 use crate::{Model, Plan};

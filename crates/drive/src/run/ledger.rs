@@ -1,10 +1,9 @@
 //! What the contacts commit of an accepted step: the only place where memories move.
 //!
 //! A run clears the page, writes down one path for every contact that is to move, and commits all of it at
-//! once. Whatever is not
-//! finite or out of range is refused by a memory here, with the contact's name. How long a path took goes
-//! with it, from the time
-//! at which that contact's last one was written down: contacts of closed form move at events only.
+//! once. Whatever is not finite or out of range is refused by a memory here, with the contact's name. How
+//! long a path took goes with it, from the time at which that contact's last one was written down: contacts
+//! of closed form move at events only.
 
 use crate::RunError;
 use crate::component::{Passage, Refused};
@@ -78,8 +77,7 @@ impl Ledger {
     /// All contacts move their memory to where the step ended, at time t, s.
     ///
     /// Books friction (J) of all of a contact's identical members, unless it is an integral of the run. Fails
-    /// where a memory
-    /// refuses its path.
+    /// where a memory refuses its path.
     pub(super) fn commit(
         &self,
         (model, layout): (&Model, Layout),
@@ -95,6 +93,7 @@ impl Ledger {
             if contact.slot.is_none() || layout.growing == 0 {
                 state.friction[c] += contact.count * friction;
             }
+            // Growth that goes on joins the piece before it; anything else ends that piece.
             state.grew[c] = matches!(segment.path, Segment::Grown { .. });
         }
         Ok(())

@@ -139,8 +139,8 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     }
 
     /// The run from the state's time to the plan's end. `order` is that of the solver, for step control. The
-    /// first and the last row
-    /// are written whatever the outcome; a run that fails leaves the state of its last accepted step.
+    /// first and the last row are written whatever the outcome; a run that fails leaves the state of its last
+    /// accepted step.
     fn go(mut self, order: u32, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         state.carry_over(self.setting.model, self.setting.layout);
         self.output.set_out(state.t, self.horizon.end);
@@ -162,6 +162,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             self.settle(state);
         }
         state.control = Some(control);
+        // With and without output the same count.
         state.counts.evaluations += self.motion.solver.evaluations() - self.output.evaluations;
         self.output.write_now(&self.setting.plain(state), state, record);
         outcome

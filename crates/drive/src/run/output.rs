@@ -1,8 +1,8 @@
 //! What a run hands to its record: rows on a regular grid, events, looks into the contacts.
 //!
 //! When something is due is decided here, what it is is worked out by the run: inside a step from its dense
-//! output, inside a leap from
-//! its closed form. No step ends because of output, and evaluations that it costs are counted apart.
+//! output, inside a leap from its closed form. No step ends because of output, and evaluations that it costs
+//! are counted apart.
 
 use crate::equations::Equations;
 use crate::event::Event;

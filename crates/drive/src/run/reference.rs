@@ -49,10 +49,8 @@ impl Accepting for Driven<'_> {
 /// Runs from corner to corner.
 ///
 /// Between two corners the outside solver chooses its steps by `tolerance`, relative to natural lengths,
-/// speeds and the scales of
-/// blocks' states; at each corner a new instance begins with the step the last one ended with. Fails as its
-/// solver does, with
-/// too many steps or one too small, or as [`Chords::accept`] does.
+/// speeds and the scales of blocks' states; at each corner a new instance begins with the step the last one
+/// ended with. Fails as its solver does, with too many steps or one too small, or as [`Chords::accept`] does.
 pub(super) fn run(
     model: &Model,
     plan: &Plan,

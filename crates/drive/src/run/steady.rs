@@ -97,8 +97,7 @@ impl Steps {
     /// become constant.
     ///
     /// Constant are steps of which three running differ from the one before by no more than the asked share
-    /// of the step or, if that
-    /// is longer, of the body's natural length: steps of nothing agree, too.
+    /// of the step or, if that is longer, of the body's natural length: steps of nothing agree, too.
     pub(super) fn take(&mut self, origin: f64, place: f64) -> bool {
         self.advance();
         let Some(before) = self.place.replace((origin, place)) else { return false };

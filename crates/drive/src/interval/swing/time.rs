@@ -23,6 +23,7 @@ impl Swing {
             let slowness = |shares: Lanes| self.slowness(shares.map(|share| from + (to - from) * share));
             (to - from, quadrature::mean(allowed, part, slowness))
         };
+        // Nodes of this quadrature count as evaluations: each asks for the forces once.
         self.evaluations += mean.asked;
         (span * mean.value, mean.error <= allowed)
     }

@@ -1,4 +1,7 @@
 //! Where a swing turns.
+//!
+//! ν²(q) = ν₀² + 2q b̄(q) has one zero on each side of the motion, its derivative is 2b and its second one
+//! 2b': all three come of one evaluation, so that Halley's third order costs no more than Newton's second.
 
 use super::Swing;
 use std::array;

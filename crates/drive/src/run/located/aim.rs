@@ -1,16 +1,13 @@
 //! Where the next step ends, and how its stages lie in it.
 //!
 //! A step that an event cuts is lost beyond it, and one that stops well short of it costs another step. So
-//! the first event is
-//! predicted from the motion at the start of the step. A prediction that misses costs evaluations and no
-//! digits: the event
-//! itself is located on the dense output of whatever step was tried.
+//! the first event is predicted from the motion at the start of the step. A prediction that misses costs
+//! evaluations and no digits: the event itself is located on the dense output of whatever step was tried.
 //!
 //! Where a contact begins, ends or goes into gross slip its force is a power 3/2 of the time to that moment
-//! (Hertz, and
-//! F_x = μF_N[1 - (1 - u/u_c)^{3/2}]): even steps across such a moment are of order 1.5 to 2, whatever their
-//! method. A graded
-//! step ends or begins there with its stages crowded towards it, and keeps its order.
+//! (Hertz, and F_x = μF_N[1 - (1 - u/u_c)^{3/2}]): even steps across such a moment are of order 1.5 to 2,
+//! whatever their method. A graded step ends or begins there with its stages crowded towards it, and keeps
+//! its order.
 
 use super::Located;
 use super::watch::Watch;
@@ -63,10 +60,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The next step: as long as its control wishes, but not far beyond the first event that is expected.
     ///
     /// In order: the solver coasts, and only corners and the longest step bind; nothing is expected within
-    /// twice the step, or
-    /// nothing singular, and the step is even and ends at most 5 % of the way beyond the event; something
-    /// singular is
-    /// within reach, and one graded step goes to it; it is not, and an even step goes half of the way.
+    /// twice the step, or nothing singular, and the step is even and ends at most 5 % of the way beyond the
+    /// event; something singular is within reach, and one graded step goes to it; it is not, and an even step
+    /// goes half of the way.
     ///
     /// `corner` is the next moment that no step may cross, s. The target is never beyond it.
     pub(super) fn aim(&self, state: &State, corner: f64) -> Aim {
@@ -113,10 +109,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Whether a law ends with a force that goes with a power 3/2 of the time left, and enough of it to tell.
     ///
     /// What is left of the law is measured in the natural depth where the contact ends, in u_c where its slip
-    /// front reaches the
-    /// centre; below (tolerance)^{2/3} of it a power 3/2 is below the tolerance, and an even step does as
-    /// well. Under a vibrating
-    /// foot even steps of Nyström's method took ten steps and four rejections for each start of gross slip.
+    /// front reaches the centre; below (tolerance)^{2/3} of it a power 3/2 is below the tolerance, and an
+    /// even step does as well. Under a vibrating foot even steps of Nyström's method took ten steps and four
+    /// rejections for each start of gross slip.
     fn is_singular(&self, state: &State, end: Expected) -> bool {
         let (contact, motion) = (
             &self.setting.model.contacts[end.contact],
@@ -180,11 +175,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// and ∫dd/ḋ is left.
     ///
     /// With d̈ = r - gF_N(d), g the mobility along d times the number of contacts and r what else accelerates
-    /// them,
-    /// ν²(x) = ḋ² - 2r(d-x) + 2g[E(d) - E(x)] with the normal energy E = E\*N (J), and the time is ∫₀ᵈ dx/ν.
-    /// None where the contact
-    /// does not open, would turn before it is apart, or is not apart `within` that time (s) at the speed of
-    /// its end.
+    /// them, ν²(x) = ḋ² - 2r(d-x) + 2g[E(d) - E(x)] with the normal energy E = E\*N (J), and the time is ∫₀ᵈ
+    /// dx/ν. None where the contact does not open, would turn before it is apart, or is not apart `within`
+    /// that time (s) at the speed of its end.
     fn leaves(&self, c: usize, contact: &Contact, measure: &Measure, within: f64) -> Option<f64> {
         let (motion, (bend, _)) = (self.watch.from[c].motion, self.watch.from[c].second);
         let (d, v) = (motion.d, motion.dd);
@@ -194,6 +187,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let gain = contact.count * measure.mobility(|i| self.setting.model.free[i].mobility);
         let rest = bend + gain * contact.interface.normal_force(d);
         let energy = contact.interface.normal_energy(d);
+        // Others' forces are taken as they are now: in the last part of a contact its own changes most.
         let square = |x: f64| {
             v * v - 2.0 * rest * (d - x) + 2.0 * gain * (energy - contact.interface.normal_energy(x))
         };
@@ -214,8 +208,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 /// End of the next step: the corner exactly, or so that no sliver is left before it.
 ///
 /// A step that would leave less than its own length before the corner goes half of the way there, so that two
-/// like steps
-/// follow instead of a whole one and a remainder.
+/// like steps follow instead of a whole one and a remainder.
 fn end(t: f64, step: f64, corner: f64) -> f64 {
     let left = corner - t;
     // The corner to the last bit: a sum t + step would miss it by rounding.

@@ -1,12 +1,9 @@
 //! What error each component of a step may have.
 //!
 //! The error of a step is measured in units of these scales, and 1 is just allowed. Scales are the tolerance
-//! times
-//! natural lengths, so that one tolerance suits every scene, and never less than the rounding of what they
-//! are compared with:
-//! errors that no shorter step makes smaller would end a run in steps too small. They are set at events and
-//! at rejections,
-//! not at every step.
+//! times natural lengths, so that one tolerance suits every scene, and never less than the rounding of what
+//! they are compared with: errors that no shorter step makes smaller would end a run in steps too small. They
+//! are set at events and at rejections, not at every step.
 
 use crate::Model;
 use crate::contact::Contact;
@@ -65,8 +62,7 @@ impl Allowance {
     /// or rounding of time of the work of a fast follower.
     ///
     /// With ε the spacing of doubles at 1: positions tolerance·length + 8ε|x|; velocities tolerance·speed +
-    /// 8ε|x|·speed/length +
-    /// 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers.
+    /// 8ε|x|·speed/length + 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers.
     pub(super) fn set(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
         for (i, free) in model.free.iter().enumerate() {
@@ -81,8 +77,7 @@ impl Allowance {
             self.scale[layout.velocity(i)] = self.strict * speed + x * (speed / length) + v;
         }
         // The time of a corner is rounded to εt, in which a follower at power P does the work Pεt. Without
-        // this term a flyback of
-        // a nanosecond or less ended in steps too small.
+        // this term a flyback of a nanosecond or less ended in steps too small.
         let work = self.strict * self.work + 8.0 * f64::EPSILON * state.t * self.power;
         self.scale[layout.dimension()..].fill(work);
     }

@@ -1,14 +1,11 @@
 //! What happens at an event: contacts get their next law.
 //!
 //! Laws change here and, for a jump, in [`turning`](super::turning); nowhere else. Of a guard that fell the
-//! law after it follows
-//! from the guard and the motion; after a corner, where velocities jump, every contact that the corner moves
-//! is decided afresh
-//! from velocities and, where these vanish, accelerations. A contact whose guard fell at the very moment of a
-//! corner is decided
-//! once, by its guard. Without contact damping forces are continuous at every change of law: accelerations do
-//! not depend on
-//! it, and each contact is decided for itself.
+//! law after it follows from the guard and the motion; after a corner, where velocities jump, every contact
+//! that the corner moves is decided afresh from velocities and, where these vanish, accelerations. A contact
+//! whose guard fell at the very moment of a corner is decided once, by its guard. Without contact damping
+//! forces are continuous at every change of law: accelerations do not depend on it, and each contact is
+//! decided for itself.
 
 use super::Located;
 use super::watch::Fallen;
@@ -26,8 +23,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets the next law of every contact whose guard fell; after a corner, of all contacts it moves.
     ///
     /// Components are handled in the order in which their guards were found. Fails where events accumulate or
-    /// their limit is
-    /// reached.
+    /// their limit is reached.
     pub(super) fn handle_fallen(
         &mut self,
         state: &mut State,
@@ -107,8 +103,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Decides afresh what a contact does after a corner, where velocities jump.
     ///
     /// Notes an event only where the kind of law or the sense of sliding changes: a corner that leaves a
-    /// contact sliding on is no
-    /// event of that contact.
+    /// contact sliding on is no event of that contact.
     fn turn(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         if contact.is_never_pressed() || !moved_by_waveform(contact) {
@@ -141,6 +136,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
+        // Within the band velocities have no sign to go by: the accelerations just after the moment decide.
         let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
         if motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near {
             (motion.dd, motion.du) = self.push(state, c, &motion);
@@ -168,6 +164,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             eq.acceleration(measure, &at, |i| slopes[self.setting.layout.velocity(i)])
         };
         let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
+        // Rounding of the forces, as an acceleration in the contact's own scale.
         let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;
         if pull.abs().max(contact.interface.stick_slope() * bend.abs()) > noise {
             (bend, pull)
@@ -182,8 +179,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets the law of a contact, and the force and energy it starts to grow with.
     ///
     /// `slack` (m) is how much of a piece of memory may be left and still count as used up. The step in use
-    /// is kept from the start of
-    /// gross slip to its end: steps grow in between to lengths that the law after it refuses.
+    /// is kept from the start of gross slip to its end: steps grow in between to lengths that the law after
+    /// it refuses.
     pub(super) fn set_law(&self, state: &mut State, c: usize, course: Course, slack: f64) {
         let contact = &self.setting.model.contacts[c];
         // A contact pressed by a constant load cannot open: without any motion it sets out forward.
@@ -192,6 +189,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         } else {
             course
         };
+        // Read before the law changes: only the passage from one to the other says something of the step.
         let was_gross = state.modes[c].is_gross();
         state.modes[c] = Mode::of(contact, &state.memories[c], course, slack);
         state.grew[c] = false;

@@ -1,12 +1,10 @@
 //! Intervals that are taken in one go, without the stepper.
 //!
 //! Between two events of a single slider whose contacts all have closed forms, and which straight waveforms
-//! drag, the motion is
-//! known: parabolas in gross slip, else one quadrature of time ([`Swing`](crate::interval::Swing)). Rows,
-//! looks and the ends of
-//! periods on the way are read off it each for itself, from the start of the leap: they are the same whatever
-//! others are asked
-//! for. On the benchmark drive an error of 1e-9 costs less than half of what steps cost.
+//! drag, the motion is known: parabolas in gross slip, else one quadrature of time
+//! ([`Swing`](crate::interval::Swing)). Rows, looks and the ends of periods on the way are read off it each
+//! for itself, from the start of the leap: they are the same whatever others are asked for. On the benchmark
+//! drive an error of 1e-9 costs less than half of what steps cost.
 
 use super::Located;
 use super::watch::Fallen;
@@ -24,8 +22,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves to the next event, corner or end in one go; false, with nothing done, where the interval has no closed form.
     ///
     /// The state changes only if it is true. Ends at the first of the event of the motion, the next corner
-    /// and the end of the run.
-    /// Fails as a step does: values not finite, contacts out of range, limits.
+    /// and the end of the run. Fails as a step does: values not finite, contacts out of range, limits.
     pub(super) fn leap(&mut self, state: &mut State, record: &mut dyn Record) -> Result<bool, RunError> {
         if !self.interval.leaps() || !self.take_up(state) {
             return Ok(false);
@@ -62,8 +59,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Takes up the interval and finds its event.
     ///
     /// False where the scene has more than one free coordinate, the interval no closed form, or the search no
-    /// result; steps take
-    /// the interval then.
+    /// result; steps take the interval then.
     fn take_up(&mut self, state: &State) -> bool {
         // What has no closed form now has none until the next event.
         self.interval.traits.asked = true;
@@ -111,8 +107,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Components at a time on the way.
     ///
     /// Position (m), velocity (m/s) and the work put in (J); all other components are those of the state,
-    /// which nothing in such an
-    /// interval changes.
+    /// which nothing in such an interval changes.
     fn fill(&mut self, state: &State, due: f64, to: PhasePoint, y: &mut [f64]) {
         let place = if due < to.t { self.swing.at(due) } else { to };
         y.copy_from_slice(&state.y);

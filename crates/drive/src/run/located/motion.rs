@@ -2,8 +2,7 @@
 //!
 //! [`Motion`] tries steps and knows how long they may be; whether one is accepted is not its choice
 //! ([`step`](super::step)), nor when the next event is ([`aim`](super::aim)). [`Pace`] is what one step
-//! leaves to the next;
-//! at an event it begins anew.
+//! leaves to the next; at an event it begins anew.
 
 use super::Setting;
 use super::aim::{Aim, SHRINK};
@@ -109,10 +108,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
     ///
     /// Gives the error in units of the allowance; 1 is just allowed. `aim` is moved to the end of the last
-    /// attempt, which is at
-    /// most `CORRECTIONS` after the first: each is a Newton step of the guard's own value and rate at the
-    /// end, and all stages are
-    /// evaluated again.
+    /// attempt, which is at most `CORRECTIONS` after the first: each is a Newton step of the guard's own
+    /// value and rate at the end, and all stages are evaluated again.
     #[inline(always)]
     pub(super) fn attempt(&mut self, eq: &Equations<'_>, t: f64, aim: &mut Aim, corner: f64) -> f64 {
         let target = Target { end: aim.target, grade: aim.grade };
@@ -143,9 +140,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// nursed up to it, and one of the size of rounding must not be fed by more of it.
     ///
     /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. Sticking, a step is at most
-    /// the limit of
-    /// stability over it; at rest, [`REST_REACH`] over it; in gross slip nothing binds but the waveforms.
+    /// the limit of stability over it; at rest, [`REST_REACH`] over it; in gross slip nothing binds but the
+    /// waveforms.
     pub(super) fn longest_now(&self, fastest: f64) -> f64 {
+        // Undamped, a long step feeds a swing below the tolerance up to it; what is at rest stays so only
+        // within these.
         let reach = match self.pace.grip {
             Grip::Slips => return self.pace.longest,
             Grip::Sticks => self.solver.stability_limit(),
@@ -212,9 +211,8 @@ impl Pace {
     /// What a refused step tells.
     ///
     /// A graded one that was too long proves no length for the next; an even one on the way to a singular
-    /// moment says that such
-    /// steps must shorten. Before, a fifth of all attempts under a vibrating foot at a tolerance of 1e-9 was
-    /// thrown away.
+    /// moment says that such steps must shorten. Before, a fifth of all attempts under a vibrating foot at a
+    /// tolerance of 1e-9 was thrown away.
     pub(super) fn refuse(&mut self, aim: &Aim) {
         if aim.closes.is_some() {
             self.proven = 0.0;
@@ -225,8 +223,7 @@ impl Pace {
     /// The error by which a step is judged. From a singular moment it falls with the root of the length as that of an even
     /// step with the length.
     /// Without the square control took the error to fall faster than it does: at the touch of an impact three
-    /// attempts in a row
-    /// were thrown away.
+    /// attempts in a row were thrown away.
     pub(super) fn judged(error: f64, grade: Grade) -> f64 {
         if grade == Grade::Start && error > 1.0 { error * error } else { error }
     }
@@ -237,6 +234,7 @@ impl Pace {
 /// ∞ where neither a smooth waveform nor such a row is in the model.
 fn longest(model: &Model, plan: &Plan) -> f64 {
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
+    // A row has no state of growth: a chord per step is all that it follows of a bent load.
     let rows = model.contacts.iter().filter(|c| !c.engine.branches() && !c.is_constant());
     let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
     rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)

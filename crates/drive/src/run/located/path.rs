@@ -1,14 +1,11 @@
 //! The paths of contacts through an accepted step.
 //!
 //! What a memory commits is a path in the plane of (d, u), not an end point. A chord is exact in every regime
-//! but one: while a
-//! contact grows in full stick (|u̇| ≤ κḋ) the force depends on the path, and a chord costs the method its
-//! order without its
-//! embedded estimate noticing. There the force is a state, Ḟ_x = G\*m(d)u̇, and the path goes into the memory
-//! in pieces, each with
-//! the force and the energy that the state has at its end. Measured on the oblique impact of a sphere: 195
-//! steps with chords
-//! are wrong by 2.4e-5, 219 with the state by 9e-10.
+//! but one: while a contact grows in full stick (|u̇| ≤ κḋ) the force depends on the path, and a chord costs
+//! the method its order without its embedded estimate noticing. There the force is a state, Ḟ_x = G\*m(d)u̇,
+//! and the path goes into the memory in pieces, each with the force and the energy that the state has at its
+//! end. Measured on the oblique impact of a sphere: 195 steps with chords are wrong by 2.4e-5, 219 with the
+//! state by 9e-10.
 
 use super::Located;
 use super::motion::Motion;
@@ -36,8 +33,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// a step that `goes_on` leaves its memory where it is.
     ///
     /// The ledger is cleared first; nothing is committed here. The memories of 32 unlike contacts on one
-    /// slider, committed at every
-    /// step, took 47 % of the run.
+    /// slider, committed at every step, took 47 % of the run.
     pub(super) fn trace_step(&mut self, state: &State, t: f64, goes_on: bool) {
         let ledger = &mut self.ledger;
         ledger.clear();
@@ -46,14 +42,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let eq = self.setting.equations(state, &self.interval);
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
+            // What is never pressed has nothing to remember, and a path that goes on is one chord to the next
+            // event.
             if contact.is_never_pressed() || (goes_on && self.interval.closed_form(c).is_some()) {
                 continue;
             }
             let span = self.motion.solver.span();
             let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
             if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
-                // Of what is committed only growth reads the inside of a step: the evaluations of the dense output are asked for
-                // here and not before.
+                // Of what is committed only growth reads the inside of a step: the evaluations of the dense
+                // output are asked for here and not before.
                 self.motion.solver.complete(&eq, Completion::Dense);
                 let growth =
                     Growth { motion: &self.motion, eq: &eq, state, tolerance: self.setting.tolerance };
@@ -105,8 +103,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
     /// With δ the distance of its middle from the chord, a path is cut into √(δ/(100·tolerance·u_c)) pieces,
     /// at most
     /// [`MOST_PIECES`]: the bend of a piece falls with the square of their number. `joins` of the first says
-    /// whether the growth
-    /// before went on without a bend, so that collinear pieces can be merged.
+    /// whether the growth before went on without a bend, so that collinear pieces can be merged.
     pub(super) fn trace(
         &self,
         (c, slot): (usize, usize),

@@ -1,12 +1,10 @@
 //! Coordinates that travel: counted from near by, so that a million periods cost no digit.
 //!
 //! u of a contact is the difference of a place that travels without end and of a memory that travels with it;
-//! counted from the
-//! start it would lose a digit with every tenfold of the way. The origin moves along by powers of two, so
-//! that no sum is
-//! rounded, and memories and branches of the contacts on that coordinate with it. Steps of the benchmark
-//! drive stay constant to
-//! 2e-10 over a million periods, the last place of what is written.
+//! counted from the start it would lose a digit with every tenfold of the way. The origin moves along by
+//! powers of two, so that no sum is rounded, and memories and branches of the contacts on that coordinate
+//! with it. Steps of the benchmark drive stay constant to 2e-10 over a million periods, the last place of
+//! what is written.
 
 use crate::Model;
 use crate::contact::Mode;
@@ -21,8 +19,7 @@ const SIGN_AND_EXPONENT: u64 = 0xfff0_0000_0000_0000;
 /// Moves the origins of coordinates that have travelled far. Due before a restart.
 ///
 /// Far is 1 024 natural lengths of the coordinate; only one that counts against nothing but the other side of
-/// its contacts
-/// travels.
+/// its contacts travels.
 pub(super) fn shift(model: &Model, state: &mut State) {
     for (i, free) in model.free.iter().enumerate() {
         if free.travels && state.y[i].abs() > FAR * free.scale.0 {

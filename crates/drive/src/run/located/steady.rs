@@ -1,8 +1,7 @@
 //! The early end of a run whose steps have become constant.
 //!
 //! Until the run ends it is the same run to the last bit as one that was not asked to end: ends of periods
-//! are looked up on
-//! the dense output and no step is shortened to meet them.
+//! are looked up on the dense output and no step is shortened to meet them.
 
 use super::Located;
 use crate::equations::Equations;

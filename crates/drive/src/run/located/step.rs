@@ -1,10 +1,8 @@
 //! One attempt, and what belongs to an accepted step.
 //!
 //! The order is the invariant: nothing of the state moves before a step is accepted, rows and looks are
-//! written of the step while
-//! its dense output is there, then the state moves to its end, then all memories together, then laws. A step
-//! that is refused
-//! leaves a shorter wish and one more count.
+//! written of the step while its dense output is there, then the state moves to its end, then all memories
+//! together, then laws. A step that is refused leaves a shorter wish and one more count.
 
 use super::aim::Aim;
 use super::motion::{Pace, Whereabouts};
@@ -34,8 +32,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// an accepted step: attempt → locate → accept → commit → next law.
     ///
     /// Fails where the step would be too small, a value is not finite, a contact or block refuses its path,
-    /// or a limit is reached.
-    /// The state is then that of the last step accepted.
+    /// or a limit is reached. The state is then that of the last step accepted.
     pub(super) fn step(
         &mut self,
         state: &mut State,
@@ -99,8 +96,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The step that comes to be wished for after one of length `h`, its control having proposed another, s.
     ///
     /// A step that was shorter than control had wished for, because of an event or a corner ahead, takes
-    /// nothing from that
-    /// wish; one that an event cut adds nothing to it.
+    /// nothing from that wish; one that an event cut adds nothing to it.
     fn wished(&self, state: &State, ending: Ending, (h, next): (f64, f64)) -> f64 {
         match (ending == Ending::Event, h < state.step) {
             // The next law has not earned a longer step yet.
@@ -123,8 +119,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Takes back nothing, since nothing was done: shortens the wish, renews what rounding is allowed, and
-    /// fails where the wish
-    /// falls to a few last places of t.
+    /// fails where the wish falls to a few last places of t.
     #[inline(never)]
     fn reject(
         &mut self,
@@ -153,8 +148,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// ends the step.
     ///
     /// Memories of contacts of closed form stay where they are in a step that goes on, and the ledger says
-    /// so. Fails where a
-    /// component is not finite, before anything of the state has moved, or where a commit is refused.
+    /// so. Fails where a component is not finite, before anything of the state has moved, or where a commit
+    /// is refused.
     fn accept(&mut self, state: &mut State, record: &mut dyn Record, goes_on: bool) -> Result<(), RunError> {
         let t = self.motion.solver.span().end_time;
         self.trace_step(state, t, goes_on);
@@ -180,8 +175,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Takes away what rounding has left of the velocities: it would add up over a long rest.
     ///
     /// A slider under 0.9 μF_N that starts in equilibrium stays within a few last places of u_c for ever;
-    /// without this its
-    /// velocities would ring on in their last bit.
+    /// without this its velocities would ring on in their last bit.
     fn stop(&mut self, state: &mut State) {
         let free = self.setting.layout.free;
         if state.y[free..2 * free].iter().any(|v| *v != 0.0) {
@@ -194,8 +188,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 /// Tries a step and, if its error allows, looks for the first event in it and ends it there.
 ///
 /// The guards are looked at only where the error allows the step. All that fall together with the first are
-/// collected: one
-/// moment, one choice.
+/// collected: one moment, one choice.
 #[inline(always)]
 fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     motion: &mut Motion<A>,

@@ -1,9 +1,8 @@
 //! What waveforms do at a corner.
 //!
 //! A corner ends a step exactly: the pieces on both of its sides are smooth, and no step sees both. Here
-//! pieces turn and jumps are
-//! booked; what contacts do after the corner is chosen in [`laws`](super::laws), from the velocities to its
-//! right.
+//! pieces turn and jumps are booked; what contacts do after the corner is chosen in [`laws`](super::laws),
+//! from the velocities to its right.
 
 use super::Located;
 use crate::Waveform;
@@ -48,6 +47,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves every waveform whose piece ends now to its next piece, and books jumps. Events are noted when all of it
     /// has happened: the state after them is whole.
     pub(super) fn turn_corners(&mut self, state: &mut State, record: &mut dyn Record) {
+        // The energy of all contacts costs a preview of each: corners are many, and most waveforms never
+        // jump.
         let before = if self.turning.jumps == Jumps::Possible { self.stored(state) } else { 0.0 };
         self.turning.before.clone_from(&state.modes);
         let turned = &mut self.turning.turned;
@@ -74,8 +75,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// the elastic energy, `before` until now, gains and friction takes.
     ///
     /// Free coordinates stay where they are: in no time no finite force moves a mass. Links and contacts with
-    /// dampers are refused
-    /// by the model where something they join jumps.
+    /// dampers are refused by the model where something they join jumps.
     fn jump(&mut self, state: &mut State, before: f64) {
         let mut friction = 0.0;
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
@@ -102,6 +102,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let (model, eq) = (self.setting.model, self.setting.plain(state));
         let energy = |(contact, memory): (&Contact, &Memory)| {
             let apex = memory.apex();
+            // What a prescribed load stores it has put in itself: it is read off the present depth, and no
+            // jump of the books.
             let normal = contact.coupling().map_or(0.0, |_| contact.interface.normal_energy(apex.d));
             contact.count * (normal + memory.preview(&contact.interface, apex).elastic)
         };

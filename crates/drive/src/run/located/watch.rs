@@ -1,10 +1,9 @@
 //! The contacts at both ends of a step, and the guards that fell at its end.
 //!
 //! Watched is what has no closed form: motion and accelerations at both ends of a step, so that guards have
-//! values and rates there
-//! without another evaluation. [`search`](super::search) looks between the ends. A step's end becomes the
-//! next one's start by
-//! an exchange of both; whatever makes slopes jump sets the start anew.
+//! values and rates there without another evaluation. [`search`](super::search) looks between the ends. A
+//! step's end becomes the next one's start by an exchange of both; whatever makes slopes jump sets the start
+//! anew.
 
 use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::{Components, Equations};
@@ -85,6 +84,7 @@ impl Watch {
     }
 
     /// The end of a step is the start of the next one.
+    /// Nothing is evaluated again: both ends are one moment of one law.
     pub(super) fn go_on(&mut self) {
         std::mem::swap(&mut self.from, &mut self.to);
     }

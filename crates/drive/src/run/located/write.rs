@@ -1,8 +1,7 @@
 //! What is written of a step: rows and looks on its dense output.
 //!
 //! Output never changes the trajectory: what is written is read off a step already accepted, memories are
-//! shown as copies, and the
-//! evaluations that the dense output costs are taken off the run's count.
+//! shown as copies, and the evaluations that the dense output costs are taken off the run's count.
 
 use super::Located;
 use super::path::Growth;
@@ -20,6 +19,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// at the event.
     #[inline(never)]
     pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
+        // By the general law: a row shows every contact, those of closed form, too.
         let eq = self.setting.plain(state);
         let asked = self.motion.solver.evaluations();
         self.motion.solver.complete(&self.setting.equations(state, &self.interval), Completion::Dense);
@@ -40,9 +40,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The memories of all contacts at a time inside the step, as if it ended there; `y` reads the components. Kept out of the way of rows.
     ///
     /// Displacements in them are counted from where the bodies started. Fails where a contact cannot be
-    /// followed to that moment,
-    /// because it outgrows its row or is not finite; the look is then left out, and the run goes on until its
-    /// own commit fails.
+    /// followed to that moment, because it outgrows its row or is not finite; the look is then left out, and
+    /// the run goes on until its own commit fails.
     #[inline(never)]
     pub(super) fn memories_at(
         &self,
