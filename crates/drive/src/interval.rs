@@ -4,6 +4,10 @@
 //! at a constant indentation, cut one piece of their memory and are dragged by a sum of sines or by straight waveforms: for
 //! these u is linear in the coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
 //! not looked at until their gap closes. What is left goes through the general [`Equations`](crate::equations::Equations).
+//!
+//! An interval is made anew after each event, from the state alone, and read by everybody until the next: evaluations ask it
+//! for forces, the watch for guards, the leap for the swing of a single slider. What is done about each contact is decided by
+//! [`treatment`](crate::method::treatment), by which method the interval is taken by [`choice`](crate::method::choice).
 
 mod closed;
 mod followed;
@@ -24,6 +28,7 @@ use crate::state::State;
 /// What evaluations between two events need. Scratch: made anew after each event.
 #[derive(Debug, Clone)]
 pub(crate) struct Interval<'a> {
+    /// Contacts whose force is a closed form of u: pressed at a constant depth, dragged in one sense.
     pub(crate) closed: Vec<Closed<'a>>,
     /// Contacts that go through the general equations.
     pub(crate) others: Vec<usize>,

@@ -1,4 +1,8 @@
 //! Small motions: the equations of motion linearised with all contacts stuck, M ẍ + C ẋ + K x = 0.
+//!
+//! Rows of contacts and links are those of the model's Jacobian: a stiffness k along a row a adds k aᵢaⱼ to K. A stuck contact
+//! has 2G\*a along the slide and, where bodies press it, 2E\*a along the normal; one that slips only has less. So the
+//! fastest motion here bounds what a step must resolve, and its stability that of a fixed step.
 
 use crate::{Model, Sample, State, Stepper};
 use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};

@@ -126,7 +126,18 @@ pub fn state_name(code: f64) -> &'static str {
 }
 
 impl Model {
-    /// Channels of a row, in order.
+    /// Channels of a row, in order, each under the name of its part and with its SI unit.
+    ///
+    /// | channels | what |
+    /// | --- | --- |
+    /// | `time_s` | time |
+    /// | `BODY.x_m`, `.vx_m_s`, … | displacement from the position drawn and its rate, of every coordinate that is not fixed |
+    /// | `CONTACT.u_m`, `.d_m` | displacement of the first body against the second, indentation |
+    /// | `CONTACT.fx_N`, `.fn_N` | forces of all identical contacts together; that of damped stuck springs is in `fx_N` |
+    /// | `CONTACT.stick_m`, `.state` | radius inside which no spring is at its limit, and the word for it, [`state_name`] |
+    /// | `CONTACT.elastic_J`, `.friction_J` | tangential energy stored and lost, of all identical contacts together |
+    /// | `BLOCK.…` | whatever the block says of itself |
+    /// | `energy.…_J` | work put in since the start, kinetic and stored energy, lost to friction and to dampers, and what is left |
     pub fn channels(&self) -> Vec<Channel> {
         let mut names = vec!["time_s".to_owned()];
         for (name, axis, _) in self.moving() {
@@ -180,8 +191,10 @@ fn columns(name: &str, component: &(impl Component + ?Sized)) -> impl Iterator<I
 /// Energies of a moment, J.
 #[derive(Debug, Clone, Copy, Default)]
 struct Books {
+    /// Of followers, loads and gravity since the start.
     input: f64,
     kinetic: f64,
+    /// Stored in contacts, along both directions, links and blocks.
     elastic: f64,
     friction: f64,
 }

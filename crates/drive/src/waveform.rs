@@ -33,7 +33,8 @@ pub struct Waveform {
     window: (f64, f64),
 }
 
-/// A smooth piece of a waveform, on [start, end).
+/// A smooth piece of a waveform, on [start, end). A state keeps one for each waveform: where a step ends at a corner, both
+/// pieces hold there, and only who comes from where knows which velocity counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// Start, s; [`f64::NEG_INFINITY`] for the value held before a waveform starts.

@@ -1,5 +1,9 @@
 //! What blocks read and make.
 //!
+//! A signal is asked for where it is read: a waveform by its piece, a block by its inputs and states at that moment. Blocks
+//! have states, so their scenes are stepped by the method that knows states; a scene without blocks comes here for one
+//! comparison per signal.
+//!
 //! A block reads waveforms, lengths and other blocks' signals, has states in y, and makes one signal that
 //! bodies and strokes may follow, and efforts along the lengths it reads. All of it is worked out anew
 //! whenever it is asked for: an evaluation keeps nothing, and inputs and states of a block lie on the stack,

@@ -1,4 +1,8 @@
 //! How many events a run may be expected to have: corners are counted, what contacts do is estimated.
+//!
+//! A contact reverses with the ringing of the modes that move it, for as long as damping lets them ring after each corner, and
+//! with the turns of what drives it; bodies that fly land once per flight. Each kind brings a number of events of its own,
+//! counted once on the examples. Meant to a factor of two: for the size of a table and the length of a wait.
 
 use super::Setup;
 use crate::scene::{Contact, Freedom, Normal, Scene, Side, Varying};

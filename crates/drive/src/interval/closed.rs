@@ -1,4 +1,8 @@
 //! Contacts whose force is a closed form of u until the next event.
+//!
+//! At a constant depth one edge of the wedge drags over one piece of the memory: F_x = F₀ + gM(h_c) with the height h_c of
+//! the slip front a straight function of u. Then the guards are straight functions of the state, too, one evaluation costs
+//! one M, and the memory need not move before the next event: one chord there is the same as many.
 
 use super::Followed;
 use crate::Sample;

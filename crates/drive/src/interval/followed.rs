@@ -4,7 +4,8 @@ use crate::model::{Measure, Model};
 use crate::state::State;
 use crate::{Sample, Waveform};
 
-/// The part of a displacement that followers and constants make.
+/// The part of a displacement that followers and constants make, in a form that needs no look at a waveform's piece: it
+/// is made once in an interval and asked at every evaluation.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Followed<'a> {
     /// All followers move at constant rates: constant + rate (t - start).

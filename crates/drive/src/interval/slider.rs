@@ -1,4 +1,7 @@
 //! A single slider among contacts of closed form.
+//!
+//! With one coordinate every height of a slip front is a straight function of time and place, so that an acceleration is a
+//! constant and one M per contact in partial slip: no loop over coordinates, no measure, no memory is left.
 
 use stickslip_contact::Profile;
 

@@ -1,4 +1,8 @@
 //! What a run will do, known beforehand.
+//!
+//! No rule is written twice: states are made in which the contacts are in partial or in gross slip, grow or are apart, with
+//! waveforms on straight pieces or on curved ones, and the run's own functions are asked what they would do there. Kinds of
+//! intervals that a scene cannot come to, such as a flight of a contact that is always pressed, are left out.
 
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
 use crate::contact::{Contact, Mode};
@@ -72,7 +76,8 @@ impl Expected {
 }
 
 impl Model {
-    /// What a run from `start` by a stepper will do. Asked are the functions that the run asks, of one interval of each kind
+    /// What a run from `start` by a stepper will do: every method that it may take and every treatment that a contact may get,
+    /// the one that is asked for most first. Asked are the functions that the run asks, of one interval of each kind
     /// that the scene can come to: its contacts in partial and in gross slip, growing and apart, its waveforms on straight
     /// pieces and on curved ones.
     pub fn expected(&self, start: &State, stepper: Stepper) -> Expected {

@@ -1,4 +1,7 @@
 //! What a run did, counted.
+//!
+//! One count per accepted step or leap, and one per contact and interval. Counts are part of the state beside those of steps
+//! and events: a run that goes on goes on counting.
 
 use super::{Method, Treatment};
 

@@ -1,4 +1,8 @@
 //! Blocks of a scene, wired to what they read.
+//!
+//! Signals are numbered through: the waveforms of a scene, then its blocks. A block may read the blocks before it and no
+//! other, so that what they make can be asked for in any order without a circle. Inputs and states are few enough to be read
+//! without a heap.
 
 use super::{Body, Measure, Model};
 use crate::component::{Block, Input, Moment, SharedBlock, Standing, States};

@@ -1,4 +1,8 @@
 //! From a scene to a model: bodies, links and loads.
+//!
+//! In order: the scene is checked on its own; bodies get what their coordinates are bound to, free ones a place among the
+//! coordinates; links, blocks and contacts become measures, the constant rows of the Jacobian; what cannot act is left out and
+//! named; natural scales come last, for they ask for everything else.
 
 use super::contact::{self, Surroundings};
 use super::{
@@ -9,7 +13,11 @@ use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Sce
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
 
 impl Model {
-    /// Checks a scene and assembles its constants. Errors name the part and the field that is wrong.
+    /// Checks a scene and assembles its constants.
+    ///
+    /// # Errors
+    /// The first thing wrong, by part, field and fault: numbers out of their range, places that do not exist, coordinates that
+    /// nothing holds, dampers that would have to follow a jump. Where these stand in a file is the file reader's to say.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         check::check(scene)?;
         let mut waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();

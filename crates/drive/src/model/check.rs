@@ -1,4 +1,8 @@
 //! What can be wrong with a scene on its own: places that do not exist, numbers out of their range.
+//!
+//! Each check is made once. What is physics of one contact (μ, the sphere's equator, convexity) is refused by the contact
+//! crate where the value is made; what needs several parts of a scene, such as a coordinate that nothing holds, where the
+//! model is assembled.
 
 use crate::scene::{Axis, Contact, ContactStart, Freedom, Normal, Point, Scene, Side, Varying};
 use crate::{Field, Part, SceneError, SceneFault};

@@ -1,5 +1,8 @@
 //! From a scene's contact to its constants.
 //!
+//! What presses it is settled first: the largest indentation known beforehand decides whether the contact can ever carry a
+//! force, how wide a row of springs must be and what its natural scales are.
+//!
 //! What presses it, its first and its largest indentation, the engine, the displacement it starts with. Each
 //! number is checked where it is used first, once. Slots and natural scales follow when all contacts are
 //! known.

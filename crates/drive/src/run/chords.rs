@@ -1,5 +1,9 @@
 //! Steps without located events: every accepted step is one chord of every contact.
 //!
+//! Contacts obey their whole law, kinks and all; what happened in a step is noticed from the states at both its ends, for the
+//! record alone. Between steps positions are read by the cubic through both ends, velocities and work in proportion. The
+//! order of a method is that of its chords, two at best, wherever a contact turns or grows inside a step.
+//!
 //! For steppers without events: fixed steps and the plain reference. Contacts go by the whole law of their
 //! memory, kinks and all, and the path of a step is one chord in the plane of (d, u). Growth in full stick is
 //! second order at best by that, and so is every step across an event, whatever the method's name. Events are

@@ -44,7 +44,7 @@ use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Paired, St
 use turning::Turning;
 use watch::Watch;
 
-/// What stays the same throughout a run.
+/// What stays the same throughout a run. Small and copied: parts that own what they change borrow nothing from it.
 #[derive(Clone, Copy)]
 struct Setting<'a> {
     /// The scene's constants.

@@ -11,7 +11,8 @@ use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
 
-/// What a run hands to its record.
+/// What a run hands to its record. It reads states and dense outputs and changes neither: with it and without it a run has
+/// the same bits.
 pub(super) struct Output {
     /// Interval of the rows, s.
     every: Option<f64>,

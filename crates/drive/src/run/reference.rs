@@ -12,7 +12,8 @@ use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, 
 // times the work.
 const SEEN: f64 = 0.125;
 
-/// A run whose steps an outside solver chooses.
+/// A run whose steps an outside solver chooses: it asks for slopes on shared borrows and hands each accepted step to the
+/// chords, which commit it. An error of a commit waits here until the solver returns.
 struct Driven<'a> {
     chords: Chords<'a>,
     outcome: Result<(), RunError>,

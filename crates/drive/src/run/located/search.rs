@@ -1,4 +1,12 @@
 //! Finding the first guard that falls inside a step.
+//!
+//! An event is the first instant of the half-open interval (t₀, t₁] at which a guard falls through zero by more than its
+//! deadband; t₀ never belongs to the step that begins there, so that the event just handled does not fire again. A guard
+//! that is down at the end of the step has fallen; one that is up at both ends may have dipped: of a function that its values
+//! and rates at both ends tell, the lowest point of the cubic through them is looked at, of any other one three moments
+//! inside. The moment itself is a bracketed root on the dense output, which costs no evaluation once that is there.
+//!
+//! What falls at the same moment, or is as good as down there, is one event: all of it fires before any law is chosen.
 
 use super::watch::{Moving, Watch};
 use super::watched::Watched;
@@ -6,7 +14,7 @@ use crate::contact::{Guard, Motion, NEARNESS, bands};
 use crate::equations::Equations;
 use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, End, Point, root, root_near};
 
-/// A guard that falls inside the step just attempted.
+/// A guard that falls inside the step just attempted, and when, s.
 #[derive(Clone, Copy)]
 pub(super) struct Fall<'e> {
     pub(super) t: f64,
