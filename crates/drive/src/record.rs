@@ -1,5 +1,9 @@
 //! What is written down: rows on a regular grid, events, and their channels; looks into the contacts.
 
+mod trace;
+
+pub use trace::Trace;
+
 use crate::Model;
 use crate::component::Component;
 use crate::contact::{Contact, Mode};
@@ -61,48 +65,6 @@ pub struct Channel {
     pub name: String,
     /// Whether the values are codes of [`state_name`] instead of numbers.
     pub is_state: bool,
-}
-
-/// A record that keeps everything in memory.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Trace {
-    width: usize,
-    values: Vec<f64>,
-    events: Vec<Event>,
-    after: Vec<f64>,
-}
-
-impl Trace {
-    /// A trace of a model's channels.
-    pub fn new(model: &Model) -> Self {
-        Self { width: model.channels().len(), ..Self::default() }
-    }
-
-    /// Rows in order of time.
-    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
-        self.values.chunks_exact(self.width.max(1))
-    }
-
-    /// Events in order of time, each with the values after it.
-    pub fn events(&self) -> impl ExactSizeIterator<Item = (&Event, &[f64])> {
-        self.events.iter().zip(self.after.chunks_exact(self.width.max(1)))
-    }
-
-    /// One column.
-    pub fn column(&self, index: usize) -> impl Iterator<Item = f64> + '_ {
-        self.rows().filter_map(move |row| row.get(index).copied())
-    }
-}
-
-impl Record for Trace {
-    fn row(&mut self, values: &[f64]) {
-        self.values.extend_from_slice(values);
-    }
-
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.events.push(*event);
-        self.after.extend_from_slice(values);
-    }
 }
 
 /// Code of a contact's state in a row.

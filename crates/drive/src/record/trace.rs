@@ -1,0 +1,47 @@
+//! A run's output kept in memory.
+
+use super::Record;
+use crate::Model;
+use crate::event::Event;
+
+/// A record that keeps everything in memory.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trace {
+    width: usize,
+    values: Vec<f64>,
+    events: Vec<Event>,
+    after: Vec<f64>,
+}
+
+impl Trace {
+    /// A trace of a model's channels.
+    pub fn new(model: &Model) -> Self {
+        Self { width: model.channels().len(), ..Self::default() }
+    }
+
+    /// Rows in order of time.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        self.values.chunks_exact(self.width.max(1))
+    }
+
+    /// Events in order of time, each with the values after it.
+    pub fn events(&self) -> impl ExactSizeIterator<Item = (&Event, &[f64])> {
+        self.events.iter().zip(self.after.chunks_exact(self.width.max(1)))
+    }
+
+    /// One column.
+    pub fn column(&self, index: usize) -> impl Iterator<Item = f64> + '_ {
+        self.rows().filter_map(move |row| row.get(index).copied())
+    }
+}
+
+impl Record for Trace {
+    fn row(&mut self, values: &[f64]) {
+        self.values.extend_from_slice(values);
+    }
+
+    fn event(&mut self, event: &Event, values: &[f64]) {
+        self.events.push(*event);
+        self.after.extend_from_slice(values);
+    }
+}
