@@ -12,7 +12,7 @@ use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
     shows: "velocity over displacement in every free coordinate; of a body that travels on, the last period",
-    needs: needs,
+    needs,
     draw,
 };
 
