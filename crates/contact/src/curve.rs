@@ -21,16 +21,16 @@
 mod branch;
 mod course;
 mod cut;
+mod fixed_depth;
 mod front;
 mod knot;
 mod stack;
-mod steady;
 mod sweep;
 mod trial;
 
 pub use branch::{Branch, Dragged};
 pub use course::Course;
-pub use steady::SteadyBranch;
+pub use fixed_depth::FixedDepthBranch;
 
 use crate::{Apex, ContactError, ContactState, Interface, Segment, SpringState};
 use cut::Drag;

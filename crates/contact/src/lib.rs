@@ -27,7 +27,7 @@ mod profile;
 mod quadrature;
 mod row;
 
-pub use curve::{Branch, Course, Curve, Dragged, Merged, SteadyBranch};
+pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Merged};
 pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};

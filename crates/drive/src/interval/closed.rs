@@ -7,7 +7,7 @@
 use super::Followed;
 use crate::Sample;
 use crate::contact::{Contact, Guard, Mode, Motion, Press};
-use stickslip_contact::SteadyBranch;
+use stickslip_contact::FixedDepthBranch;
 
 /// A contact at constant indentation on one branch.
 #[derive(Debug, Clone)]
@@ -22,7 +22,7 @@ pub(crate) struct Closed<'a> {
     pub(super) followed: Followed<'a>,
     /// Sum of the coefficients: what a single coordinate counts in u.
     pub(crate) arm: f64,
-    pub(super) branch: SteadyBranch,
+    pub(super) branch: FixedDepthBranch,
 }
 
 impl Closed<'_> {
@@ -123,6 +123,6 @@ pub(super) fn closed_form<'a>(
         d: *d,
         followed: followed?,
         arm: contact.u.free.iter().map(|(_, a)| a).sum(),
-        branch: branch.steady(*d, *reduced_force),
+        branch: branch.at_depth(*d, *reduced_force),
     })
 }

@@ -7,7 +7,7 @@ use crate::Profile;
 // 3.6 ns for a force instead of 4.4 by the branch itself, and the same for its guards; more than the time counts that F is a
 // function of u alone, which a swing in closed form lives on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SteadyBranch {
+pub struct FixedDepthBranch {
     /// σ.
     sense: f64,
     /// Level of the knot below the piece, over that of the apex at u = 0, m.
@@ -22,7 +22,7 @@ pub struct SteadyBranch {
     gain: f64,
 }
 
-impl SteadyBranch {
+impl FixedDepthBranch {
     /// The slip front as a straight function of u, h_c = h₀ + su: (h₀ in m, s).
     pub fn front(&self) -> (f64, f64) {
         (self.height + self.level * self.flow, -self.sense * self.flow)
@@ -61,13 +61,20 @@ impl SteadyBranch {
 
 impl Branch {
     /// The branch at a constant indentation d (m), with M(d) at hand.
-    pub fn steady(&self, d: f64, reduced_force: f64) -> SteadyBranch {
+    pub fn at_depth(&self, d: f64, reduced_force: f64) -> FixedDepthBranch {
         let limit = self.slope * reduced_force;
         if self.is_gross() {
             let base = self.factor * limit;
-            return SteadyBranch { sense: self.sense, level: 0.0, flow: 0.0, height: 0.0, base, gain: 0.0 };
+            return FixedDepthBranch {
+                sense: self.sense,
+                level: 0.0,
+                flow: 0.0,
+                height: 0.0,
+                base,
+                gain: 0.0,
+            };
         }
-        SteadyBranch {
+        FixedDepthBranch {
             sense: self.sense,
             level: self.level + self.slope * d,
             flow: self.flow,
