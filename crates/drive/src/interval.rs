@@ -135,7 +135,7 @@ impl<'a> Interval<'a> {
         self.traits.is_constant(&self.scene)
     }
 
-    /// The contacts of closed form as a single slider feels them; none where a follower moves at no constant rate.
+    /// The contacts of closed form as they act on a single slider; none where a follower moves at no constant rate.
     fn pull(&mut self, slider: &Free) -> Option<Slider> {
         let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
         for closed in &self.closed {

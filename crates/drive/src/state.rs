@@ -233,7 +233,7 @@ impl State {
         self.step = 0.0;
     }
 
-    /// What a contact remembers and what is decreed for it.
+    /// What a contact remembers and the mode set for it.
     pub(crate) fn law(&self, c: usize) -> (&Memory, &Mode) {
         (&self.memories[c], &self.modes[c])
     }

@@ -18,14 +18,14 @@
 //! the difference of the potential is the discrete gradient of Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 
 mod course;
-mod spring;
+mod slip;
 mod time;
 mod turning;
 
 use super::Interval;
 use crate::Model;
 use crate::model::Free;
-use spring::Spring;
+use slip::PartialSlip;
 use std::f64::consts::PI;
 use turning::{EXACT, ROUGH, softer};
 
@@ -53,7 +53,7 @@ pub(crate) struct Swing {
     load: f64,
     /// b₀ along the slide, m/s².
     push: f64,
-    springs: Vec<Spring>,
+    slips: Vec<PartialSlip>,
     /// Where the first piece of memory ends, m; ∞ if none does.
     reach: f64,
     /// Turning points before and after, m, of an arc between them.
@@ -103,7 +103,7 @@ impl Swing {
     pub(crate) fn of(model: &Model, tolerance: f64) -> Self {
         let last = (0.1 * tolerance.cbrt()).clamp(EXACT, ROUGH);
         let near = (0.1 * tolerance.sqrt()).clamp(1e-7, 1e-3);
-        Self { tolerance, last, near, springs: Vec::with_capacity(model.contacts.len()), ..Self::default() }
+        Self { tolerance, last, near, slips: Vec::with_capacity(model.contacts.len()), ..Self::default() }
     }
 
     /// Takes up what an interval has become; false where it has no such form.
@@ -130,7 +130,7 @@ impl Swing {
             // The first piece to end, of any contact, ends the interval.
             self.reach = self.reach.min(steady.reach(start.t, start.x));
         }
-        self.springs.clear();
+        self.slips.clear();
         for pull in &interval.pulls {
             let Some((volume, height, lean)) = pull.root_law(start.t, start.x) else { return false };
             let (gain, lean) = (self.sense * pull.acceleration * volume, -self.sense * lean);
@@ -138,14 +138,14 @@ impl Swing {
             if !(gain > 0.0 && lean > 0.0 && height > 0.0) {
                 return false;
             }
-            self.springs.push(Spring::new(gain, lean, height));
+            self.slips.push(PartialSlip::new(gain, lean, height));
         }
         true
     }
 
     /// Whether no contact holds back: gross slip, a parabola.
     pub(crate) fn is_free(&self) -> bool {
-        self.springs.is_empty()
+        self.slips.is_empty()
     }
 
     /// Speed of the slide at the start, m/s.
@@ -161,7 +161,7 @@ impl Swing {
         if speed.is_nan() || speed < 0.0 || self.reach <= 0.0 {
             return false;
         }
-        if self.springs.is_empty() {
+        if self.slips.is_empty() {
             return self.aim_free(speed, length);
         }
         let [pull, bend, softening] = self.force_at_start();
@@ -204,7 +204,7 @@ impl Swing {
             return false;
         }
         (self.low, self.high) = (low, high);
-        self.springs.iter_mut().for_each(|spring| spring.swing_between(low, high));
+        self.slips.iter_mut().for_each(|slip| slip.swing_between(low, high));
         // In the angle both ends of the arc are smooth, where 1/ν is infinite.
         (self.clock, self.turns) = (Clock::Angle, high <= self.reach);
         // From rest it begins at the turning point itself, at the angle 0 to the last bit.
@@ -216,7 +216,7 @@ impl Swing {
 
     /// Whether a slip front comes near to the centre up to q.
     fn nears_centre(&self, q: f64) -> bool {
-        self.springs.iter().any(|spring| spring.height - spring.lean * q < BRANCH * spring.height)
+        self.slips.iter().any(|slip| slip.height - slip.lean * q < BRANCH * slip.height)
     }
 
     /// Finds the time of the event.
@@ -247,8 +247,8 @@ impl Swing {
     /// b at the start and its first two derivatives; m/s², 1/s², 1/(m s²).
     fn force_at_start(&self) -> [f64; 3] {
         let mut sum = [self.push, 0.0, 0.0];
-        for spring in &self.springs {
-            let start = spring.start();
+        for slip in &self.slips {
+            let start = slip.start();
             (0..3).for_each(|k| sum[k] += start[k]);
         }
         sum
@@ -258,8 +258,8 @@ impl Swing {
     #[inline(always)]
     fn force<const N: usize>(&self, q: [f64; N]) -> [[f64; N]; 3] {
         let mut sum = [[self.push; N], [self.push; N], [0.0; N]];
-        for spring in &self.springs {
-            let pull = spring.pull(q);
+        for slip in &self.slips {
+            let pull = slip.pull(q);
             (0..3).for_each(|k| (0..N).for_each(|i| sum[k][i] += pull[k][i]));
         }
         sum
@@ -269,8 +269,8 @@ impl Swing {
     #[inline(always)]
     fn stiffness<const N: usize>(&self, q: [f64; N]) -> [f64; N] {
         let mut sum = [0.0; N];
-        for spring in &self.springs {
-            let stiffness = spring.stiffness(q);
+        for slip in &self.slips {
+            let stiffness = slip.stiffness(q);
             (0..N).for_each(|i| sum[i] += stiffness[i]);
         }
         sum
@@ -288,7 +288,7 @@ mod tests {
             start: PhasePoint { t: 0.0, x: 0.0, v: speed },
             mobility: 1.0,
             push,
-            springs: vec![Spring::new(1.0, 1.0, 1.0)],
+            slips: vec![PartialSlip::new(1.0, 1.0, 1.0)],
             reach: 1.0,
             tolerance: 1e-12,
             last: EXACT,

@@ -52,7 +52,7 @@ pub(super) fn assign(
     }
 }
 
-/// Stiffness that each free coordinate feels with all contacts stuck, N/m or N m/rad, and the smallest displacement
+/// Stiffness that acts on each free coordinate with all contacts stuck, N/m or N m/rad, and the smallest displacement
 /// of it that matters to a contact, m or rad; infinite without any.
 ///
 /// Σ arm²·k over contacts at their deepest and links; links set no length.

@@ -5,7 +5,7 @@ use super::Sample;
 /// A straight way between two corners.
 ///
 /// It is anchored at the end with the smaller magnitude: where a value falls to 0 or rises from it, rounding cannot
-/// carry it to the other side. The other end is exact by decree.
+/// carry it to the other side. The other end is set exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Straight {
     anchor: (f64, f64),
@@ -43,7 +43,7 @@ impl Straight {
         Self { anchor: (time, value), other: (time, value), rate: 0.0 }
     }
 
-    /// Its line, without the decree for its other end.
+    /// Its line, whose other end is not set exactly.
     pub(super) fn line(&self) -> Line {
         Line { time: self.anchor.0, value: self.anchor.1, rate: self.rate }
     }

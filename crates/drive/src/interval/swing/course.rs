@@ -10,7 +10,7 @@ impl Swing {
     /// Place and velocity at the event.
     pub(crate) fn end(&self) -> PhasePoint {
         let t = self.start.t + self.duration;
-        if self.springs.is_empty() {
+        if self.slips.is_empty() {
             return self.freely(t, self.duration);
         }
         let (way, v) =
@@ -23,7 +23,7 @@ impl Swing {
     /// Place and velocity at a time before the event.
     pub(crate) fn at(&mut self, t: f64) -> PhasePoint {
         let passed = t - self.start.t;
-        if self.springs.is_empty() {
+        if self.slips.is_empty() {
             return self.freely(t, passed);
         }
         let whole = self.to - self.from;

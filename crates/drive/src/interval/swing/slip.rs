@@ -1,10 +1,10 @@
-//! A contact in partial slip as a single slider feels it.
+//! A contact in partial slip as it acts on a single slider.
 
 use std::array;
 
 /// A contact in partial slip, its heights counted by their roots.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Spring {
+pub(super) struct PartialSlip {
     /// αN(1 m) = 2αc/5.
     gain: f64,
     /// λ.
@@ -19,7 +19,7 @@ pub(super) struct Spring {
     cubic: [f64; 4],
 }
 
-impl Spring {
+impl PartialSlip {
     pub(super) fn new(gain: f64, lean: f64, height: f64) -> Self {
         let root = height.sqrt();
         Self { gain, lean, height, root, ends: [root; 2], beyond: 0.0, cubic: [0.0; 4] }
@@ -109,13 +109,13 @@ mod tests {
     fn stiffness_is_a_second_divided_difference() {
         // Turning points inside, at and beyond the centre, h = 0.8 - 0.5 q.
         for (low, high) in [(-0.4, 1.2), (0.0, 1.6), (-1.0, 3.0)] {
-            let mut spring = Spring::new(3.0, 0.5, 0.8);
-            spring.swing_between(low, high);
+            let mut slip = PartialSlip::new(3.0, 0.5, 0.8);
+            slip.swing_between(low, high);
             let height = |q: f64| 0.8 - 0.5 * q;
             for q in [-0.3, 0.1, 0.6, 1.1] {
                 let (a, h, c) = (height(low), height(q), height(high));
                 let exact = 3.0 * 0.5 * (divided(a, h) - divided(h, c)) / (a - c);
-                let [stiffness] = spring.stiffness([q]);
+                let [stiffness] = slip.stiffness([q]);
                 assert!((stiffness / exact - 1.0).abs() < 1e-14, "{low} {high} {q}");
             }
         }
@@ -124,21 +124,21 @@ mod tests {
     /// A swing of 1e-12 of the height: a difference of powers would have lost all but four digits.
     #[test]
     fn no_swing_is_too_small_for_its_digits() {
-        let mut spring = Spring::new(3.0, 0.5, 0.8);
-        spring.swing_between(-1e-12, 1e-12);
+        let mut slip = PartialSlip::new(3.0, 0.5, 0.8);
+        slip.swing_between(-1e-12, 1e-12);
         let curvature = 3.0 * 0.5 * 0.5 * 3.75 * 0.8_f64.sqrt();
-        let [stiffness] = spring.stiffness([3e-13]);
+        let [stiffness] = slip.stiffness([3e-13]);
         assert!((stiffness / curvature - 1.0).abs() < 1e-11);
     }
 
     #[test]
     fn pull_is_mean_value_and_slope_of_the_force() {
-        let spring = Spring::new(3.0, 0.5, 0.8);
+        let slip = PartialSlip::new(3.0, 0.5, 0.8);
         for q in [-0.7, 0.3, 1.5, 2.5] {
             let h = 0.8 - 0.5 * q;
             let root = f64::max(h, 0.0).sqrt();
             let exact = [3.0 * divided(0.8, h), 7.5 * root.powi(3), -3.0 * 0.5 * 3.75 * root];
-            for (found, exact) in spring.pull([q]).as_flattened().iter().zip(exact) {
+            for (found, exact) in slip.pull([q]).as_flattened().iter().zip(exact) {
                 assert!((found - exact).abs() < 1e-14 * (1.0 + exact.abs()), "{q}: {found} {exact}");
             }
         }
