@@ -27,6 +27,7 @@ mod knot;
 mod stack;
 mod sweep;
 mod trial;
+mod words;
 
 pub use branch::{Branch, Dragged};
 pub use course::Course;
@@ -69,6 +70,8 @@ impl Curve {
     // A decay of 40 000 swings, each a bit smaller than the one before, then has 1.4e-5 of the limit force in all its merges,
     // and 1.2e-5 by a stack of 64: what is given up first is small. Room, not exactness, is what it is chosen for: 1.2 MB.
     pub const DEFAULT_CAPACITY: usize = 16_384;
+    /// Fewest knots a stack is made for.
+    const LEAST_CAPACITY: usize = 8;
 
     /// The untouched contact: open or just touching (d ≤ 0) or pressed with unstretched springs (d > 0).
     pub fn new(law: &Interface, at: Apex) -> Self {
@@ -77,7 +80,7 @@ impl Curve {
 
     /// The same with a stack of another capacity (at least 8 knots).
     pub fn with_capacity(law: &Interface, at: Apex, capacity: usize) -> Self {
-        let capacity = capacity.max(8);
+        let capacity = capacity.max(Self::LEAST_CAPACITY);
         // Room for what most histories need, 18 kB; a thousand contacts should not take the full stack each.
         let mut knots = Vec::with_capacity(capacity.min(256));
         if at.d > 0.0 {

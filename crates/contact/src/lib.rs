@@ -8,7 +8,7 @@
 //!
 //! In reading order: [`Material`] and [`Pair`]; [`Profile`]; [`Interface`]; [`Move`], [`Segment`] and what
 //! comes back; [`Curve`] with its [`Branch`]es; [`Row`]; [`Engine`]; [`FirstLoading`] for a designer's
-//! questions.
+//! questions; [`Words`] of those who keep memories.
 //!
 //! Forces are those of half-spaces in contact over a small round area, without adhesion, under Coulomb's law at every point;
 //! between elastically similar bodies they are exact, between others as good as the similarity ([`Pair::dundurs_beta`]).
@@ -26,6 +26,7 @@ mod pressure;
 mod profile;
 mod quadrature;
 mod row;
+mod words;
 
 pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Merged};
 pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
@@ -37,3 +38,4 @@ pub use motion::{
 };
 pub use profile::{Profile, ProfileError};
 pub use row::{Row, Springs, SpringsError};
+pub use words::Words;

@@ -10,6 +10,7 @@
 mod chord;
 mod lanes;
 mod springs;
+mod words;
 
 pub use springs::{Springs, SpringsError};
 

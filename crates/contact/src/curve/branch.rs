@@ -12,6 +12,7 @@
 //! knot below it, h₁ its height, L the level of the edge.
 
 use super::{Curve, cut, knot::Knot};
+use crate::words::{Words, push};
 use crate::{Apex, Interface, Motion};
 
 /// A frozen branch: a sense and the piece of the curve that it cuts.
@@ -80,6 +81,42 @@ impl Branch {
         self.level - (self.sense * u - self.slope * d)
     }
 
+    /// Writes the state: what [`Self::read`] needs beside the interface.
+    pub fn write(&self, words: &mut Vec<u64>) {
+        words.push(u64::from(self.sense > 0.0));
+        push(words, [self.level, self.entry, self.flow, self.height, self.offset, self.excess]);
+    }
+
+    /// Reads what [`Self::write`] wrote of a branch of a contact with this interface; none for words that it did not write.
+    pub fn read(law: &Interface, words: &mut Words<'_>) -> Option<Self> {
+        let sense = if words.flag()? { 1.0 } else { -1.0 };
+        let [level, entry, flow, height, offset, excess] = [(); 6].map(|()| words.number());
+        Some(Self {
+            level: level?,
+            entry: entry?,
+            flow: flow?,
+            height: height?,
+            offset: offset?,
+            excess: excess?,
+            ..Self::gross(law, sense)
+        })
+    }
+
+    /// The branch of a sense in gross slip.
+    fn gross(law: &Interface, sense: f64) -> Self {
+        Self {
+            sense,
+            slope: law.stick_slope(),
+            factor: law.tangential_modulus() * sense,
+            level: f64::INFINITY,
+            entry: f64::NEG_INFINITY,
+            flow: 0.0,
+            height: 0.0,
+            offset: 0.0,
+            excess: 0.0,
+        }
+    }
+
     /// Counts displacements from another origin, `by` further back.
     pub fn shift(&mut self, by: f64) {
         self.level += self.sense * by;
@@ -137,19 +174,8 @@ impl Curve {
     // Without slack rounding of that place decides, and the same event is found again and again.
     pub fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
         let slope = law.stick_slope();
-        let factor = law.tangential_modulus() * sense;
         let level = sense * self.apex.u - slope * self.apex.d + slack;
-        let gross = Branch {
-            sense,
-            slope,
-            factor,
-            level: f64::INFINITY,
-            entry: f64::NEG_INFINITY,
-            flow: 0.0,
-            height: 0.0,
-            offset: 0.0,
-            excess: 0.0,
-        };
+        let gross = Branch::gross(law, sense);
         // A piece along the edge itself has no crossing: the edge takes it whole.
         let crosses = |w: &[Knot]| w[0].level(sense, slope) > level && !cut::runs_along(slope, sense, &w[1]);
         let Some(top) = self.knots.windows(2).rposition(crosses) else { return gross };

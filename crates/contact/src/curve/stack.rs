@@ -13,8 +13,8 @@ use crate::{Apex, Interface};
 /// bound a slightly curved growth in many tiny steps would be straightened without limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SlopeRange {
-    low: f64,
-    high: f64,
+    pub(super) low: f64,
+    pub(super) high: f64,
 }
 
 // Growth along a straight line in 100 000 steps leaves two knots; without merging the stack is full after a sixth of them.

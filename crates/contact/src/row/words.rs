@@ -1,0 +1,29 @@
+//! A row of springs as plain words.
+
+use super::{Row, Springs};
+use crate::words::{Words, push};
+
+impl Row {
+    /// Writes the state: of the anchors those of springs that touch, for the others have none.
+    pub(crate) fn write(&self, words: &mut Vec<u64>) {
+        words.reserve(4 + self.touching);
+        push(words, [self.apex.d, self.apex.u]);
+        words.push(u64::from(self.backward));
+        words.push(self.touching as u64);
+        words.extend(self.anchors[..self.touching].iter().map(|anchor| anchor.to_bits()));
+    }
+
+    /// Reads what [`Self::write`] wrote of a row of these springs.
+    pub(crate) fn read(springs: &Springs, words: &mut Words<'_>) -> Option<Self> {
+        let (apex, backward) = (words.apex()?, words.flag()?);
+        let touching = words.count(springs.heights().len())?;
+        if touching != springs.below(apex.d) {
+            return None;
+        }
+        let mut anchors = vec![0.0; springs.heights().len()];
+        for anchor in &mut anchors[..touching] {
+            *anchor = words.finite()?;
+        }
+        Some(Self { apex, anchors, touching, backward })
+    }
+}
