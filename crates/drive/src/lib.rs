@@ -44,4 +44,4 @@ pub use run::run;
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
 pub use state::{Counts, State};
-pub use waveform::{Harmonic, Piece, Sample, Shape, Timing, Waveform, WaveformError};
+pub use waveform::{Harmonic, Interpolation, Piece, Sample, Shape, Timing, Waveform, WaveformError};

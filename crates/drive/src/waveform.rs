@@ -7,19 +7,19 @@
 mod corners;
 mod course;
 mod error;
+mod piece;
 mod shape;
 mod straight;
 mod timing;
 
 pub use error::WaveformError;
-pub use shape::{Harmonic, Shape};
+pub use piece::Piece;
+pub use shape::{Harmonic, Interpolation, Shape};
 pub use timing::Timing;
 
 use corners::Corners;
 use course::{Chain, Course};
 use shape::Law;
-pub(crate) use straight::Line;
-use straight::Straight;
 
 /// A prescribed function of time.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,34 +31,6 @@ pub struct Waveform {
     held: (f64, f64),
     /// When it starts and stops, s.
     window: (f64, f64),
-}
-
-/// A smooth piece of a waveform, on [start, end). A state keeps one for each waveform: where a step ends at a corner, both
-/// pieces hold there, and only who comes from where knows which velocity counts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece {
-    /// Start, s; [`f64::NEG_INFINITY`] for the value held before a waveform starts.
-    pub start: f64,
-    /// End, s; [`f64::INFINITY`] if there is none.
-    pub end: f64,
-    /// Place in the chain, 0 for what is held before the start.
-    pub index: u64,
-    law: Law,
-}
-
-impl Piece {
-    /// The line that the value follows, where it moves at a constant rate.
-    pub(crate) fn line(&self) -> Option<Line> {
-        match &self.law {
-            Law::Straight(straight) => Some(straight.line()),
-            _ => None,
-        }
-    }
-
-    /// Whether the value follows the sines of its waveform.
-    pub(crate) fn is_sines(&self) -> bool {
-        self.law == Law::Sines
-    }
 }
 
 /// Value of a waveform and its derivatives at one time.
@@ -84,6 +56,7 @@ impl Waveform {
             Chain::Corners(corners) => corners.window(),
             Chain::Sines(_) => (timing.delay, timing.stop()),
             Chain::Step(time) => (*time, *time),
+            Chain::Supplied(_) => (0.0, 0.0),
         };
         let mut waveform = Self { shape, timing, course, held: (0.0, 0.0), window };
         waveform.held = waveform.course.ends.unwrap_or_else(|| waveform.ends());
@@ -109,17 +82,17 @@ impl Waveform {
     #[must_use]
     pub fn piece_at(&self, t: f64) -> Piece {
         let (start, stop) = self.window;
-        if t >= stop {
+        if t >= stop || matches!(self.course.chain, Chain::Supplied(_)) {
             self.last()
         } else if t >= start {
             self.corners().map_or_else(|| self.sines(), |corners| corners.piece_at(t))
         } else {
-            let law = Law::Straight(Straight::held(start, self.held.0));
-            Piece { start: f64::NEG_INFINITY, end: start, index: 0, law }
+            self.before()
         }
     }
 
-    /// The piece after this one; the last piece has no end and is followed by itself.
+    /// The piece after this one; the last piece has no end and is followed by itself. An input holds the value with which
+    /// a supplied piece ends.
     #[must_use]
     pub fn after(&self, piece: &Piece) -> Piece {
         let mut next = *piece;
@@ -168,8 +141,7 @@ impl Waveform {
         if piece.end == f64::INFINITY {
             return 0.0;
         }
-        let next = self.after(piece);
-        self.sample(&next, next.start).value - self.sample(piece, piece.end).value
+        self.jump_between(piece, &self.after(piece))
     }
 
     /// Whether all its pieces are straight lines.
@@ -178,7 +150,16 @@ impl Waveform {
         match &self.course.chain {
             Chain::Corners(corners) => corners.are_straight(),
             Chain::Sines(_) => false,
-            Chain::Step(_) => true,
+            Chain::Step(_) | Chain::Supplied(_) => true,
+        }
+    }
+
+    /// How an input goes from value to value; none for what needs no caller.
+    #[must_use]
+    pub fn interpolation(&self) -> Option<Interpolation> {
+        match self.course.chain {
+            Chain::Supplied(interpolation) => Some(interpolation),
+            Chain::Corners(_) | Chain::Sines(_) | Chain::Step(_) => None,
         }
     }
 
@@ -189,16 +170,25 @@ impl Waveform {
     }
 
     /// Smallest and largest value over all time: exact but for sums of several sines, where it is a bound, safe and
-    /// usually within a few millionths.
+    /// usually within a few millionths; of an input what a caller may give.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         self.course.range
     }
 
-    /// Period, s; none for a table.
+    /// Period, s; none for a table or an input.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.course.period
+    }
+
+    /// Time after which it has shown all that it does, s: its period, or from its start to its stop; infinite where it never
+    /// moves.
+    #[must_use]
+    pub(crate) fn extent(&self) -> f64 {
+        let (start, stop) = self.window;
+        let whole = stop - start;
+        self.period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
     }
 
     /// Longest step, s, that cannot overlook a wave inside a smooth piece: a quarter of the shortest one; infinite where
@@ -221,6 +211,9 @@ impl Waveform {
     }
 
     fn following(&self, piece: &Piece) -> Piece {
+        if let Chain::Supplied(_) = self.course.chain {
+            return self.kept(piece);
+        }
         if piece.end >= self.window.1 {
             return self.last();
         }
@@ -233,7 +226,7 @@ impl Waveform {
     fn corners(&self) -> Option<&Corners> {
         match &self.course.chain {
             Chain::Corners(corners) => Some(corners),
-            Chain::Sines(_) | Chain::Step(_) => None,
+            Chain::Sines(_) | Chain::Step(_) | Chain::Supplied(_) => None,
         }
     }
 
@@ -242,16 +235,23 @@ impl Waveform {
         Piece { start: self.window.0, end: self.window.1, index: 1, law: Law::Sines }
     }
 
-    /// What is held after the stop.
+    /// What is held before the start.
+    fn before(&self) -> Piece {
+        let start = self.window.0;
+        Piece { start: f64::NEG_INFINITY, end: start, ..Piece::held(start, self.held.0) }
+    }
+
+    /// What is held after the stop, or of an input from the start on.
     fn last(&self) -> Piece {
         let stop = self.window.1;
         let index = match &self.course.chain {
             Chain::Corners(corners) => corners.after(),
             Chain::Sines(_) => 2,
             Chain::Step(_) => 1,
+            // Nothing comes before it.
+            Chain::Supplied(_) => 0,
         };
-        let law = Law::Straight(Straight::held(stop, self.held.1));
-        Piece { start: stop, end: f64::INFINITY, index, law }
+        Piece { index, ..Piece::held(stop, self.held.1) }
     }
 
     /// Values where the chain starts and ends.

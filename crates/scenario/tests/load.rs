@@ -9,7 +9,7 @@ use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
     ContactStart, Coordinate, Direction, EngineChoice, Freedom, Normal, Point, Side, Start, Varying,
 };
-use stickslip_drive::{Model, Moments, Shape, Stepper, Timing, Waveform};
+use stickslip_drive::{Interpolation, Model, Moments, Shape, Stepper, Timing, Waveform};
 use stickslip_scenario::{PlotName, Scenario};
 
 const QUICKSTART: &str = "../../scenarios/quickstart.json";
@@ -76,8 +76,11 @@ fn every_part_of_the_form_arrives() {
     assert_eq!(scene.actuators[0].part.stiffness, 2e7);
     // Named waveforms come first, those written out in place after them under the path of their place.
     let names: Vec<_> = scene.waveforms.iter().map(|waveform| waveform.name.as_str()).collect();
-    assert_eq!(names[..7], ["saw", "tri", "sin", "har", "cyc", "tab", "csv"]);
-    assert_eq!(names[7..], ["contacts.flat.normal.force.follows", "loads[1].x.follows"]);
+    assert_eq!(names[..8], ["saw", "tri", "sin", "har", "cyc", "tab", "csv", "inp"]);
+    assert_eq!(
+        names[8..],
+        ["contacts.flat.normal.force.follows", "loads[1].x.follows", "loads[3].x.follows"]
+    );
     assert_eq!(scene.waveforms[5].part, scene.waveforms[6].part, "the file holds the same points");
     // Three cycles of 2 kHz after a delay of 1 ms.
     assert_eq!(scenario.plan.duration, 1e-3 + 3.0 * (1.0 / 2e3));
@@ -113,6 +116,36 @@ fn every_part_of_a_planar_body_arrives() {
     assert_eq!((load.z, load.pitch), (Varying::Constant(-1.0), Varying::Constant(5e-4)));
     assert_eq!((scene.loads[1].at, scene.loads[1].pitch), (Point::default(), Varying::Follows(3)));
     Model::new(scene).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn inputs_arrive_held_unless_they_say_otherwise() {
+    let scenario = full();
+    let named = |name: &str| &scenario.scene.waveforms.iter().find(|wave| wave.name == name).unwrap().part;
+    let input = |initial, range, interpolation| {
+        Waveform::new(Shape::Input { initial, range, interpolation }, Timing::every(1.0)).unwrap()
+    };
+    assert_eq!(*named("inp"), input(0.7e-3, (-2e-3, 0.1), Interpolation::Held));
+    assert_eq!(*named("loads[3].x.follows"), input(0.0, (-3.0, 0.3), Interpolation::Linear));
+    // Written out in full: in SI, with the default.
+    let resolved: serde_json::Value = serde_json::from_str(&scenario.resolved()).unwrap();
+    let written = serde_json::json!({ "initial": 0.7e-3, "range": [-2e-3, 0.1], "interpolation": "held" });
+    assert_eq!(resolved["waveforms"]["inp"]["input"], written);
+}
+
+/// The only waveform of a drive may have no period: it is no waveform of the figures unless it is named there.
+#[test]
+fn a_drive_by_an_input_loads_as_one_by_a_table_does() {
+    let load = |drive: &str| {
+        let set = [("waveforms.drive", drive)];
+        Scenario::load_with(QUICKSTART, &set).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let table = load(r#"{"table": {"points": [[0, 0], ["5 ms", "200 nm"]]}}"#);
+    let input = load(r#"{"input": {"initial": "20 nm", "range": [0, "200 nm"], "interpolation": "linear"}}"#);
+    assert_eq!(input.figures, table.figures);
+    assert_eq!((input.warnings.len(), input.plan), (table.warnings.len(), table.plan));
+    let model = Model::new(&input.scene).unwrap_or_else(|error| panic!("{error}"));
+    model.start(&input.plan).unwrap_or_else(|error| panic!("{error}"));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What a kind of waveform makes of its parameters.
 
 use super::corners::Corners;
-use super::shape::Sines;
+use super::shape::{Interpolation, Sines};
 
 /// All that a waveform asks of its kind: the chain of pieces, and what is known of it without following it.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,4 +28,6 @@ pub(super) enum Chain {
     Sines(Sines),
     /// No piece: one value up to this time (s), one from then on.
     Step(f64),
+    /// Pieces that a caller supplies while it runs; until then the value at the start.
+    Supplied(Interpolation),
 }

@@ -47,6 +47,24 @@ pub enum WaveformError {
         /// The time, s.
         time: f64,
     },
+    /// A range of an input whose bounds are the wrong way round.
+    #[error("range: expected the smallest value before the largest, got {low} and {high}")]
+    Range {
+        /// First bound.
+        low: f64,
+        /// Second bound.
+        high: f64,
+    },
+    /// An initial value of an input outside of its range.
+    #[error("initial: expected a value in the range from {low} to {high}, got {got}")]
+    Initial {
+        /// Smallest value of the range.
+        low: f64,
+        /// Largest value of the range.
+        high: f64,
+        /// What came.
+        got: f64,
+    },
 }
 
 impl WaveformError {
@@ -57,6 +75,8 @@ impl WaveformError {
             Self::Number { key, .. } | Self::Empty { key } => key,
             Self::Flyback { .. } => "flyback",
             Self::Times { .. } | Self::Crowd { .. } => "points",
+            Self::Range { .. } => "range",
+            Self::Initial { .. } => "initial",
         }
     }
 }

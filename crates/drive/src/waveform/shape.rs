@@ -3,6 +3,7 @@
 mod cycloid;
 mod flyback;
 mod harmonics;
+mod input;
 mod sawtooth;
 mod sine;
 mod table;
@@ -10,6 +11,7 @@ mod triangle;
 mod turn;
 
 pub use harmonics::Harmonic;
+pub use input::Interpolation;
 
 use super::course::Course;
 use super::straight::Straight;
@@ -60,6 +62,15 @@ pub enum Shape {
         /// Times rise; exactly two points at one time are a jump.
         points: Vec<(f64, f64)>,
     },
+    /// What a caller gives while it runs; until then, and in a run without a caller, the initial value.
+    Input {
+        /// Value from t = 0 on, in the range.
+        initial: f64,
+        /// Smallest and largest value that a caller may give. What is checked before a run holds for all of them.
+        range: (f64, f64),
+        /// How it goes from one value to the next.
+        interpolation: Interpolation,
+    },
 }
 
 impl Shape {
@@ -73,6 +84,9 @@ impl Shape {
             Self::Harmonics { ref terms } => harmonics::course(terms, timing),
             Self::Cycloid { stroke, flyback } => cycloid::course(stroke, flyback, timing),
             Self::Table { ref points } => table::course(points, timing),
+            Self::Input { initial, range, interpolation } => {
+                input::course(initial, range, interpolation, timing)
+            }
         }
     }
 }

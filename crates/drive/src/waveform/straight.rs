@@ -43,6 +43,16 @@ impl Straight {
         Self { anchor: (time, value), other: (time, value), rate: 0.0 }
     }
 
+    /// Both its ends as they are anchored, and its rate: the numbers it is made of.
+    pub(super) fn numbers(&self) -> [f64; 5] {
+        [self.anchor.0, self.anchor.1, self.other.0, self.other.1, self.rate]
+    }
+
+    /// Of these.
+    pub(super) fn of([time, value, other, there, rate]: [f64; 5]) -> Self {
+        Self { anchor: (time, value), other: (other, there), rate }
+    }
+
     /// Its line, whose other end is not set exactly.
     pub(super) fn line(&self) -> Line {
         Line { time: self.anchor.0, value: self.anchor.1, rate: self.rate }

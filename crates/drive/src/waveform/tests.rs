@@ -1,5 +1,7 @@
 //! Waveforms against direct formulas, and the properties a stepper relies on.
 
+mod pieces;
+
 use super::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -95,6 +97,7 @@ fn direct(wave: &Waveform, t: f64) -> f64 {
                 (None, _) => points[0].1,
             }
         }
+        Shape::Input { initial, .. } => *initial,
     }
 }
 

@@ -6,13 +6,13 @@ use std::f64::consts::TAU;
 /// When a waveform runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
-    /// Period, s, above 0; a table has none and ignores it.
+    /// Period, s, above 0; a table or an input has none and ignores it.
     pub period: f64,
-    /// Start, s; before it the first value is held. Default 0.
+    /// Start, s; before it the first value is held. Default 0, and 0 for an input.
     pub delay: f64,
-    /// Advances the waveform by phase/2π periods, rad; default 0, and 0 for a table.
+    /// Advances the waveform by phase/2π periods, rad; default 0, and 0 for a table or an input.
     pub phase: f64,
-    /// Periods after which the last value is held, above 0; none: for ever. None for a table. A jump that ends the last
+    /// Periods after which the last value is held, above 0; none: for ever. None for a table or an input. A jump that ends the last
     /// period still takes place: it is the limit of a short flyback.
     pub cycles: Option<f64>,
 }
@@ -46,11 +46,15 @@ impl Timing {
         self.cycles.map_or(Ok(()), |cycles| within("cycles", cycles, "a finite number above 0", cycles > 0.0))
     }
 
-    /// Of a table, which has no period.
+    /// Of a waveform without a period.
     pub(super) fn check_single(&self) -> Result<(), WaveformError> {
-        within("phase", self.phase, "0 with a table, which has no period", self.phase == 0.0)?;
-        self.cycles.map_or(Ok(()), |cycles| {
-            within("cycles", cycles, "none with a table, which has no period", false)
-        })
+        within("phase", self.phase, "0 where there is no period", self.phase == 0.0)?;
+        self.cycles.map_or(Ok(()), |cycles| within("cycles", cycles, "none where there is no period", false))
+    }
+
+    /// Of an input, whose caller alone says when.
+    pub(super) fn check_supplied(&self) -> Result<(), WaveformError> {
+        self.check_single()?;
+        within("delay", self.delay, "0 for an input, which starts with the run", self.delay == 0.0)
     }
 }

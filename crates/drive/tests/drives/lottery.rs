@@ -209,6 +209,7 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Harmonics { .. } => "harmonics",
         Shape::Cycloid { .. } => "cycloid",
         Shape::Table { .. } => "table",
+        Shape::Input { .. } => "input",
     }
 }
 

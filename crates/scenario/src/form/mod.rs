@@ -3,6 +3,7 @@
 mod body;
 mod contact;
 mod coupling;
+mod input;
 mod lengths;
 mod material;
 mod output;
@@ -17,6 +18,7 @@ pub(crate) use contact::{
     ContactForm, ContactStartForm, EngineForm, FoundationForm, NormalForm, ProfileForm,
 };
 pub(crate) use coupling::{ActuatorForm, DirectionForm, GravityForm, LoadForm, SpringForm};
+pub(crate) use input::{InputForm, InterpolationForm};
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
 pub(crate) use output::{MemoryOutputForm, OutputForm};

@@ -1,6 +1,6 @@
 //! Waveforms: prescribed courses in time.
 
-use super::Reserved;
+use super::{InputForm, Reserved};
 use crate::quantity::{Angle, AnyQuantity, Frequency, Time};
 use crate::schema::{above_zero, at_least_zero, period_or_frequency, points_or_file};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -32,6 +32,10 @@ pub(crate) enum WaveformForm {
     /// Straight between given points, held before the first and after the last.
     #[schemars(example = json!({ "table": { "points": [[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]] } }))]
     Table(TableForm),
+    /// Given by a caller while it runs, held or straight from value to value; `stickslip run` holds the initial value. It
+    /// has no period: no figures of steps per period are made of it.
+    #[schemars(example = json!({ "input": { "initial": 0, "range": ["-1 um", "1 um"] } }))]
+    Input(InputForm),
     /// Not yet in this version.
     Parabola(Reserved),
     /// Not yet in this version.
@@ -51,7 +55,12 @@ impl WaveformForm {
             Self::Sine(form) => Some(("sine", form.periodic())),
             Self::Harmonics(form) => Some(("harmonics", form.periodic())),
             Self::Cycloid(form) => Some(("cycloid", form.periodic())),
-            Self::Table(_) | Self::Parabola(_) | Self::Trapezoid(_) | Self::Chirp(_) | Self::Step(_) => None,
+            Self::Table(_)
+            | Self::Input(_)
+            | Self::Parabola(_)
+            | Self::Trapezoid(_)
+            | Self::Chirp(_)
+            | Self::Step(_) => None,
         }
     }
 }

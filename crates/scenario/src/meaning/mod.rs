@@ -3,6 +3,7 @@
 mod body;
 mod contact;
 mod coupling;
+mod input;
 mod motion;
 mod names;
 mod output;

@@ -21,8 +21,25 @@ pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
         },
         SceneFault::NoInertia(axis) => no_inertia(path, *axis),
         SceneFault::Loading(reason) => loading(scene, path, error, *reason),
+        SceneFault::DampedJump(name) if jumps_as_input(scene, |waveform| waveform == name) => {
+            Fault::new(path, error.fault.to_string()).help(LINEAR)
+        }
+        SceneFault::UnlocatedJump if jumps_as_input(scene, |_| true) => {
+            let help = format!("take the event stepper, or {LINEAR}");
+            Fault::new(path, error.fault.to_string()).help(help)
+        }
         _ => plain(path, error),
     }
+}
+
+/// What keeps an input from jumping.
+const LINEAR: &str = "make the input \"linear\": held, it jumps wherever it is given a value";
+
+/// Whether what jumps among the waveforms of these names are inputs, which have no flyback.
+fn jumps_as_input(scene: &Scene, named: impl Fn(&str) -> bool) -> bool {
+    let mut jumping =
+        scene.waveforms.iter().filter(|waveform| named(&waveform.name) && waveform.part.has_jumps());
+    jumping.all(|waveform| waveform.part.interpolation().is_some())
 }
 
 /// In the words of the scene.
@@ -68,17 +85,26 @@ fn loading(scene: &Scene, path: KeyPath, error: &SceneError, reason: FirstLoadin
 /// A contact that is pulled, always or at times.
 fn below_zero(scene: &Scene, mut path: KeyPath, error: &SceneError, low: f64) -> Fault {
     let Some(kind) = address::kind(error) else { return plain(path, error) };
-    if let Some((Varying::Constant(_), _)) = pressing(scene, error.part) {
-        return Fault::expected(path, range::at_least(kind));
-    }
+    let waveform = match pressing(scene, error.part) {
+        Some((Varying::Constant(_), _)) => return Fault::expected(path, range::at_least(kind)),
+        Some((Varying::Follows(w), _)) => scene.waveforms.get(w),
+        None => None,
+    };
+    let is_input = waveform.is_some_and(|waveform| waveform.part.interpolation().is_some());
     path.0.push(Step::Key("follows".to_owned()));
     let message = format!(
-        "expected {} at all times, but the waveform falls to {} {}",
+        "expected {} at all times, but the {} to {} {}",
         range::at_least(kind),
+        if is_input { "range of the input reaches down" } else { "waveform falls" },
         range::short(low),
         kind.si()
     );
-    Fault::new(path, message).help("add an offset, or take a smaller amplitude")
+    let help = if is_input {
+        format!("let its range begin at 0 {} or above", kind.si())
+    } else {
+        "add an offset, or take a smaller amplitude".to_owned()
+    };
+    Fault::new(path, message).help(help)
 }
 
 /// A sphere ends at its equator; how deep the bodies press a coupled one is a matter of the whole scene.

@@ -40,11 +40,13 @@ impl Builder<'_> {
             let fault = at.fault(format!("there is no waveform \"{}\"", crate::document::shown(name)));
             fault.maybe_help(suggest::help(name, waveforms.names()))
         })?;
-        if self.scene.waveforms[index].part.period().is_some() {
+        let waveform = &self.scene.waveforms[index].part;
+        if waveform.period().is_some() {
             return Ok(index);
         }
+        let which = if waveform.interpolation().is_some() { "an input" } else { "a table" };
         let fault = at.expected("a waveform with a period");
-        Err(fault.help("a table repeats nothing: there are no steps to count"))
+        Err(fault.help(format!("{which} repeats nothing: there are no steps to count")))
     }
 
     /// The only free body, or the only body.

@@ -1,6 +1,6 @@
 //! Waveforms: shapes, timing and the dimension of their values.
 
-use super::{Builder, Course, range};
+use super::{Builder, Course, input, range};
 use crate::fault::Fault;
 use crate::form::{HarmonicsForm, Moving, Periodic, Point, TableForm, WaveformForm, WaveformRef};
 use crate::guide::Help;
@@ -18,12 +18,12 @@ const MAX_TERMS: usize = 1000;
 
 /// Collects the dimension that the values of one waveform agree on.
 #[derive(Default)]
-struct Values {
-    kind: Option<Kind>,
+pub(super) struct Values {
+    pub(super) kind: Option<Kind>,
 }
 
 impl Values {
-    fn take(&mut self, at: &At<'_>, value: AnyQuantity) -> Result<f64, Fault> {
+    pub(super) fn take(&mut self, at: &At<'_>, value: AnyQuantity) -> Result<f64, Fault> {
         match (self.kind, value.kind) {
             (Some(known), Some(new)) if known != new => {
                 let message = format!("expected {} like the values before it", known.article());
@@ -131,6 +131,10 @@ fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values) -> Result<(Wa
             ("cycloid", Shape::Cycloid { stroke, flyback }, timing)
         }
         WaveformForm::Table(form) => table(&named("table"), form, values)?,
+        WaveformForm::Input(form) => {
+            let shape = input::shape(&named("input"), form, values)?;
+            ("input", shape, Timing::every(1.0))
+        }
         WaveformForm::Parabola(_) => return Err(named("parabola").not_yet()),
         WaveformForm::Trapezoid(_) => return Err(named("trapezoid").not_yet()),
         WaveformForm::Chirp(_) => return Err(named("chirp").not_yet()),

@@ -1,0 +1,84 @@
+//! Inputs: waveforms that a caller gives.
+
+use crate::quantity::AnyQuantity;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::json;
+use std::borrow::Cow;
+use std::fmt;
+
+/// Input: what a caller gives while it runs.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct InputForm {
+    /// Value from the start on until a caller gives another, in the unit of what follows; within the range. `stickslip run`,
+    /// where there is no caller, holds it.
+    #[schemars(example = &"0 nm")]
+    pub(crate) initial: AnyQuantity,
+    /// Smallest and largest value that a caller may give, in the unit of what follows. What is checked before a run is
+    /// checked for all of it, and a caller's value outside is refused.
+    #[schemars(example = json!(["-1 um", "1 um"]))]
+    pub(crate) range: Bounds,
+    /// How it goes from one value to the next: "held" stays until a caller gives another value, "linear" goes straight to
+    /// a value at a time that the caller gives. A held input jumps: contacts move along their path straight and in no time,
+    /// and the work of that is booked; a damper whose end would jump is refused, for it would need an infinite force.
+    #[serde(default)]
+    #[schemars(example = &"linear")]
+    pub(crate) interpolation: InterpolationForm,
+}
+
+/// How an input goes from one value to the next.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum InterpolationForm {
+    /// Stays until a caller gives another value, which is a jump.
+    #[default]
+    Held,
+    /// Straight from where it is to a value at a time that the caller gives; never a jump.
+    Linear,
+}
+
+/// Smallest and largest value.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Bounds(pub(crate) AnyQuantity, pub(crate) AnyQuantity);
+
+impl<'de> Deserialize<'de> for Bounds {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct BoundsVisitor;
+        impl<'de> Visitor<'de> for BoundsVisitor {
+            type Value = Bounds;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a pair [smallest, largest]")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Bounds, A::Error> {
+                let short = |length| de::Error::invalid_length(length, &self);
+                let low = seq.next_element()?.ok_or_else(|| short(0))?;
+                let high = seq.next_element()?.ok_or_else(|| short(1))?;
+                let mut got = 2;
+                while seq.next_element::<de::IgnoredAny>()?.is_some() {
+                    got += 1;
+                }
+                if got > 2 { Err(short(got)) } else { Ok(Bounds(low, high)) }
+            }
+        }
+        deserializer.deserialize_tuple(2, BoundsVisitor)
+    }
+}
+
+impl JsonSchema for Bounds {
+    fn schema_name() -> Cow<'static, str> {
+        "Bounds".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let value = generator.subschema_for::<AnyQuantity>();
+        json_schema!({ "type": "array", "prefixItems": [value, value], "minItems": 2, "maxItems": 2 })
+    }
+}
