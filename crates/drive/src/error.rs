@@ -92,6 +92,30 @@ pub enum RunError {
         /// The limit, s.
         limit: f64,
     },
+    /// A run was to be advanced to a time before the one it has reached.
+    #[error("cannot go from t = {t:e} s to t = {until:e} s: time runs forward")]
+    Backwards {
+        /// Time, s.
+        t: f64,
+        /// Where it was to go, s.
+        until: f64,
+    },
+    /// A stepper whose state cannot be held.
+    #[error("a run of the stepper `{stepper}` cannot be held")]
+    NotHeld {
+        /// Its name.
+        stepper: &'static str,
+    },
+    /// An input has no value for the time ahead.
+    #[error("input {input} has no value after t = {known:e} s, and the run is to go to t = {until:e} s")]
+    InputMissing {
+        /// Place of the waveform in the scene.
+        input: usize,
+        /// Until when it has one, s.
+        known: f64,
+        /// Where the run is to go, s.
+        until: f64,
+    },
     /// Whoever watches the run asked it to stop.
     #[error("interrupted at t = {t:e} s")]
     Interrupted {
@@ -121,6 +145,9 @@ impl RunError {
             Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
             Self::Block { .. } => "look at what the block says of itself",
             Self::OutOfTime { .. } => "raise run.limits.wall or shorten the run",
+            Self::Backwards { .. } => "advance to a time after the present one",
+            Self::NotHeld { .. } => "take the stepper event, verlet or rk4",
+            Self::InputMissing { .. } => "give the input its next piece before advancing",
             Self::Interrupted { .. } => "run again to the end",
         }
     }

@@ -1,8 +1,11 @@
 //! Runs: a model and a plan move a state, a record watches.
+//!
+//! A [`Run`] is one that its caller holds; [`run`] is the same to the end of its plan.
 
 mod bounds;
 mod chords;
 mod fixed;
+mod held;
 mod horizon;
 mod ledger;
 mod located;
@@ -10,9 +13,10 @@ mod output;
 mod reference;
 mod steady;
 
+pub use held::Run;
+
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper};
-use stickslip_stepper::{Rk4, Verlet};
 
 /// Moves `state` along `plan` to its end: its duration, or earlier where it asks for no more than steady steps. What was
 /// computed before an error is in `state` and `record`.
@@ -20,12 +24,10 @@ use stickslip_stepper::{Rk4, Verlet};
 /// Never inlined: profilers find here all that a run costs.
 #[inline(never)]
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
-    match model.effective(plan.stepper) {
-        Stepper::Event { tolerance } => located::run(model, plan, tolerance, state, record),
-        Stepper::Verlet { step } => fixed::run::<Verlet>(model, plan, step, state, record),
-        Stepper::Rk4 { step } => fixed::run::<Rk4>(model, plan, step, state, record),
-        Stepper::Dopri5 { tolerance } => reference::run(model, plan, tolerance, state, record),
+    if let Stepper::Dopri5 { tolerance } = model.effective(plan.stepper) {
+        return reference::run(model, plan, tolerance, state, record);
     }
+    held::to_the_end(model, plan, state, record)
 }
 
 impl Model {

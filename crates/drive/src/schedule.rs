@@ -50,13 +50,36 @@ impl Schedule {
         schedule
     }
 
+    /// The moments after one time, s, up to another, the second included: for a walk that goes on where an earlier one has
+    /// been.
+    pub(crate) fn after(moments: Moments, from: f64, end: f64) -> Self {
+        let mut schedule = Self::new(moments, from, end);
+        if let Moments::Every(interval) = schedule.moments {
+            // To the last bit: what lies within rounding after `from` has not been passed.
+            schedule.next = (from / interval).floor().max(0.0);
+            while interval * schedule.next <= from {
+                schedule.next += 1.0;
+            }
+            schedule.due = schedule.time();
+        }
+        while schedule.due <= from {
+            schedule.advance();
+        }
+        schedule
+    }
+
+    /// From when on a moment is the end, s.
+    pub(crate) fn nearly(&self) -> f64 {
+        self.end - self.near
+    }
+
     /// The next moment, s; infinite after the last one.
     #[inline]
     pub fn due(&self) -> f64 {
         self.due
     }
 
-    /// Ends the walk earlier.
+    /// Ends the walk at another time, s, not before the moment that was reached.
     pub(crate) fn end_at(&mut self, end: f64) {
         self.end = end;
         self.due = self.time();
@@ -109,6 +132,16 @@ mod tests {
         assert_eq!(all(Moments::Every(0.1), 0.1 * 3.0, 0.5), [0.1 * 3.0, 0.4, 0.5]);
         assert_eq!(all(Moments::Every(0.2), 0.3, 0.9), [0.4, 0.2 * 3.0, 0.8]);
         assert_eq!(all(Moments::Every(2.0), 0.0, 1.0), [0.0]);
+    }
+
+    #[test]
+    fn a_walk_goes_on_where_one_has_been() {
+        let on = |from: f64| Schedule::after(Moments::Every(0.1), from, f64::INFINITY).due();
+        assert_eq!([on(0.0), on(0.15), on(0.2), on(0.1 * 3.0)], [0.1, 0.2, 0.1 * 3.0, 0.4]);
+        // Within rounding before a multiple it has not been passed yet.
+        assert_eq!(on(0.2_f64.next_down()), 0.2);
+        let list = Moments::At(vec![0.0, 0.25, 0.5]);
+        assert_eq!(Schedule::after(list, 0.25, 1.0).due(), 0.5);
     }
 
     #[test]

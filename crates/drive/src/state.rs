@@ -1,5 +1,17 @@
 //! All that the future of a run depends on.
 
+mod bytes;
+mod inputs;
+mod underway;
+
+pub use bytes::BytesError;
+pub use inputs::InputError;
+
+pub(crate) use underway::{
+    Ahead, Allowed, Booked, Books, FixedWay, Gait, Grid, Grip, LocatedWay, Stepped, Takeoff, Underway,
+    Whereabouts, Window,
+};
+
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::method::Tally;
@@ -7,7 +19,7 @@ use crate::model::{Binding, BlockState, Wired};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, Memory, Move};
-use stickslip_stepper::StepControl;
+use stickslip_stepper::StepHistory;
 
 /// State of a drive: cloneable, comparable. A run started from a copy goes on to the same bits.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +54,11 @@ pub struct State {
     /// Step in use when a contact last went into gross slip, s: what comes after needs it again.
     pub(crate) stuck_step: f64,
     /// What step control has learnt; none before the first run.
-    pub(crate) control: Option<StepControl>,
+    pub(crate) control: Option<StepHistory>,
+    /// What else a run has learnt; none before the first run.
+    pub(crate) underway: Option<Underway>,
+    /// The piece that a caller has supplied of each waveform after the present one; empty where none is an input.
+    pub(crate) supplied: Vec<Option<Piece>>,
     /// Work done so far.
     pub(crate) counts: Counts,
     /// Steps and intervals by method.
@@ -146,6 +162,7 @@ impl Model {
         }
         let pieces = self.waveforms.iter().map(|w| w.piece_at(0.0)).collect();
         let memories: Vec<Memory> = self.contacts.iter().map(|c| self.touched(c)).collect();
+        let inputs = self.waveforms.iter().any(|w| w.interpolation().is_some());
         State {
             t: 0.0,
             y,
@@ -164,6 +181,8 @@ impl Model {
             // No gross slip has begun yet: its end takes nothing from the step.
             stuck_step: f64::INFINITY,
             control: None,
+            underway: None,
+            supplied: if inputs { vec![None; self.waveforms.len()] } else { Vec::new() },
             counts: Counts::default(),
             tally: Tally::of(self.contacts.len()),
         }
@@ -202,6 +221,9 @@ impl State {
 
     /// Counts all positions from where they started.
     pub(crate) fn come_back(&mut self, model: &Model) {
+        if self.shifts.iter().all(|shift| *shift == 0.0) {
+            return;
+        }
         self.memories = self.shifted_back(model);
         self.y.iter_mut().zip(&mut self.shifts).for_each(|(x, shift)| *x += std::mem::take(shift));
     }
@@ -231,6 +253,18 @@ impl State {
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
         // The next run begins afresh: laws are chosen anew, and the first step with them.
         self.step = 0.0;
+    }
+
+    /// When the first piece of a waveform ends, s.
+    pub(crate) fn next_corner(&self) -> f64 {
+        self.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The places of its components: without those of growing contacts after a run by chords.
+    pub(crate) fn layout(&self, model: &Model) -> Layout {
+        let layout = model.layout();
+        let growing = if self.y.len() == layout.total() { layout.growing } else { 0 };
+        Layout { growing, ..layout }
     }
 
     /// What a contact remembers and the mode set for it.

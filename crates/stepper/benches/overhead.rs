@@ -93,7 +93,8 @@ fn dop853(c: &mut Criterion, system: &Oscillators) {
 
 fn fixed<F: FixedStep>(c: &mut Criterion, system: &Oscillators, name: &str) {
     c.bench_function(&format!("{name} x100 steps, {} components", system.dimension()), |b| {
-        let (mut stepper, mut y) = (F::of(system), vec![1.0; system.total()]);
+        let (mut stepper, mut y) =
+            (F::sized(system.positions(), system.dimension(), system.total()), vec![1.0; system.total()]);
         b.iter(|| {
             for _ in 0..100 {
                 stepper.step(system, 0.0, &mut y, black_box(0.01));

@@ -12,6 +12,14 @@ pub trait Method {
     fn coasts(&self) -> bool;
     /// Evaluations of the slopes since construction.
     fn evaluations(&self) -> u64;
+    /// Where the motion stands among the methods of a pair.
+    fn hand(&self) -> Hand {
+        Hand::default()
+    }
+    /// Stands there again after an attempt that is to be made once more.
+    fn set_hand(&mut self, hand: Hand) {
+        let _ = hand;
+    }
 }
 
 /// The step tried: what is known of it, and what becomes of it.
@@ -40,6 +48,11 @@ pub trait Attempt<S: ?Sized>: Method + Step {
     /// Puts the stepper at time `t` and state `y`, of which it takes as many components as it has, and evaluates the
     /// slopes there: due at first, and after anything that makes them jump.
     fn start(&mut self, system: &S, t: f64, y: &[f64]);
+    /// Puts a new stepper where another one stood with its motion at time `t` and state `y`: both go on to the same bits.
+    fn take_up(&mut self, system: &S, t: f64, y: &[f64], hand: Hand) {
+        let _ = hand;
+        self.start(system, t, y);
+    }
     /// A first step for a fresh start, at most `longest`.
     fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64;
     /// Tries a step and returns its error in units of `scale`: 1 is just at the tolerance, [`f64::INFINITY`] not finite.
@@ -48,6 +61,15 @@ pub trait Attempt<S: ?Sized>: Method + Step {
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64;
     /// Makes more known of the step tried, at the first call only.
     fn complete(&mut self, system: &S, what: Completion);
+}
+
+/// Which of two methods carries a motion. It belongs to the state of a run: both evaluate one law, in another order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Hand {
+    /// Whether the last attempt was one with graded stages.
+    pub graded: bool,
+    /// Whether the other method is there, too.
+    pub both: bool,
 }
 
 /// Where a step is to end, and how its stages lie in it.

@@ -6,13 +6,21 @@ use crate::System;
 ///
 /// It evaluates through `&System` only; the owner moves the system's memory after a step.
 pub trait FixedStep {
-    /// Workspace for systems of this one's size.
-    fn of<S: System + ?Sized>(system: &S) -> Self;
+    /// Workspace for systems of `positions` positions among `dimension` coupled components among `total`.
+    fn sized(positions: usize, dimension: usize, total: usize) -> Self;
     /// Moves `y` (`total` components) from `t` to `t + h`.
     fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64);
     /// Forgets slopes of the last step, if it keeps any: due when they jump (a corner of a waveform, a state changed from
     /// outside).
     fn restart(&mut self);
+    /// Slopes kept from the last step, which belong to a run's state; none where the next step needs none.
+    fn kept(&self) -> Option<&[f64]> {
+        None
+    }
+    /// Goes on from slopes kept by another stepper of the same system.
+    fn keep(&mut self, slopes: &[f64]) {
+        let _ = slopes;
+    }
     /// Evaluations of the slopes since construction.
     fn evaluations(&self) -> u64;
 }

@@ -51,7 +51,7 @@
 mod system;
 pub use system::System;
 mod attempt;
-pub use attempt::{Attempt, Completion, End, Method, Span, Step, Target};
+pub use attempt::{Attempt, Completion, End, Hand, Method, Span, Step, Target};
 mod dop853;
 pub use dop853::{Dop853, Grade, ORDER as DOP853_ORDER};
 mod nystrom;

@@ -6,8 +6,8 @@
 //! Both carry one motion: whichever makes an attempt is first put where the other one has brought it.
 
 use crate::{
-    Attempt, Completion, Conservative, Dop853, End, Grade, Many, Method, Nystrom, One, Span, Step, Storage,
-    System, Target,
+    Attempt, Completion, Conservative, Dop853, End, Grade, Hand, Many, Method, Nystrom, One, Span, Step,
+    Storage, System, Target,
 };
 
 /// [`Nystrom`] for even steps, [`Dop853`] for graded ones, of one and the same motion.
@@ -105,6 +105,14 @@ impl<N: Storage> Method for Paired<N> {
     fn evaluations(&self) -> u64 {
         self.even.evaluations() + self.graded.evaluations()
     }
+
+    fn hand(&self) -> Hand {
+        Hand { graded: self.last == By::Graded, both: self.both }
+    }
+
+    fn set_hand(&mut self, hand: Hand) {
+        (self.last, self.both) = (if hand.graded { By::Graded } else { By::Even }, hand.both);
+    }
 }
 
 impl<N: Storage> Step for Paired<N> {
@@ -137,6 +145,14 @@ impl<S: System + Conservative + ?Sized, N: Storage> Attempt<S> for Paired<N> {
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.even.start(system, t, y);
         (self.last, self.both) = (By::Even, false);
+    }
+
+    fn take_up(&mut self, system: &S, t: f64, y: &[f64], hand: Hand) {
+        self.start(system, t, y);
+        if hand.graded || hand.both {
+            self.graded.start(system, t, y);
+        }
+        self.set_hand(hand);
     }
 
     fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {

@@ -54,8 +54,8 @@ impl Rk4 {
 }
 
 impl FixedStep for Rk4 {
-    fn of<S: System + ?Sized>(system: &S) -> Self {
-        Self::new(system.dimension(), system.total())
+    fn sized(_: usize, dimension: usize, total: usize) -> Self {
+        Self::new(dimension, total)
     }
 
     fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {

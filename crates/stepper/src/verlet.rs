@@ -44,26 +44,11 @@ impl Verlet {
             evaluations: 0,
         }
     }
-
-    /// Slopes at the end of the last step, `total` components; none before the first step and after a restart.
-    /// They belong to a run's state.
-    #[must_use]
-    pub fn slopes(&self) -> Option<&[f64]> {
-        self.known.then_some(self.first.as_slice())
-    }
-
-    /// Goes on from saved slopes of `total` components.
-    pub fn set_slopes(&mut self, slopes: &[f64]) {
-        for (to, from) in self.first.iter_mut().zip(slopes) {
-            *to = *from;
-        }
-        self.known = slopes.len() >= self.first.len();
-    }
 }
 
 impl FixedStep for Verlet {
-    fn of<S: System + ?Sized>(system: &S) -> Self {
-        Self::new(system.positions(), system.dimension(), system.total())
+    fn sized(positions: usize, dimension: usize, total: usize) -> Self {
+        Self::new(positions, dimension, total)
     }
 
     fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
@@ -99,6 +84,18 @@ impl FixedStep for Verlet {
     /// The next step evaluates its first slopes anew.
     fn restart(&mut self) {
         self.known = false;
+    }
+
+    fn kept(&self) -> Option<&[f64]> {
+        self.known.then_some(self.first.as_slice())
+    }
+
+    /// Slopes of another number than `total` are not taken.
+    fn keep(&mut self, slopes: &[f64]) {
+        self.known = slopes.len() == self.first.len();
+        if self.known {
+            self.first.copy_from_slice(slopes);
+        }
     }
 
     fn evaluations(&self) -> u64 {

@@ -6,7 +6,7 @@ use stickslip_stepper::{FixedStep, Rk4, System, Verlet};
 use systems::{Driven, Forced, Oscillator, order};
 
 fn rk4<S: System>(system: &S, mut y: Vec<f64>, t1: f64, steps: u32) -> Vec<f64> {
-    let mut stepper = Rk4::of(system);
+    let mut stepper = Rk4::sized(system.positions(), system.dimension(), system.total());
     let h = t1 / f64::from(steps);
     for i in 0..steps {
         stepper.step(system, f64::from(i) * h, &mut y, h);
@@ -16,7 +16,7 @@ fn rk4<S: System>(system: &S, mut y: Vec<f64>, t1: f64, steps: u32) -> Vec<f64> 
 }
 
 fn verlet<S: System>(system: &S, mut y: Vec<f64>, t1: f64, steps: u32) -> Vec<f64> {
-    let mut stepper = Verlet::of(system);
+    let mut stepper = Verlet::sized(system.positions(), system.dimension(), system.total());
     let h = t1 / f64::from(steps);
     for i in 0..steps {
         stepper.step(system, f64::from(i) * h, &mut y, h);
@@ -82,13 +82,13 @@ fn verlet_saved_slopes_go_on_bit_for_bit() {
     let mut y = vec![0.0; 4];
     one.step(&Driven, 0.0, &mut y, 0.01);
     let (mut two, mut z) = (Verlet::new(1, 3, 4), y.clone());
-    two.set_slopes(one.slopes().unwrap());
+    two.keep(one.kept().unwrap());
     one.step(&Driven, 0.01, &mut y, 0.01);
     two.step(&Driven, 0.01, &mut z, 0.01);
     assert_eq!(y, z);
     assert_eq!(one.evaluations(), 3);
     one.restart();
-    assert!(one.slopes().is_none());
+    assert!(one.kept().is_none());
     one.step(&Driven, 0.02, &mut y, 0.01);
     assert_eq!(one.evaluations(), 5);
 }

@@ -91,7 +91,7 @@ enum Clock {
 }
 
 /// Time (s), position (m) and velocity (m/s).
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct PhasePoint {
     pub(crate) t: f64,
     pub(crate) x: f64,

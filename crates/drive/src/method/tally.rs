@@ -4,6 +4,7 @@
 //! and events: a run that goes on goes on counting.
 
 use super::{Method, Treatment};
+use stickslip_contact::Words;
 
 /// How often each method was taken, and each treatment given.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -48,6 +49,22 @@ impl Tally {
     /// Nothing yet, of a number of contacts.
     pub(crate) fn of(contacts: usize) -> Self {
         Self { methods: Default::default(), treatments: vec![Default::default(); contacts] }
+    }
+
+    /// Writes all counts.
+    pub(crate) fn write(&self, words: &mut Vec<u64>) {
+        words.extend(self.methods);
+        self.treatments.iter().for_each(|counts| words.extend(counts));
+    }
+
+    /// Reads those of a number of contacts.
+    pub(crate) fn read(contacts: usize, words: &mut Words<'_>) -> Option<Self> {
+        let mut tally = Self::of(contacts);
+        let treatments = tally.treatments.iter_mut().flatten();
+        for count in tally.methods.iter_mut().chain(treatments) {
+            *count = words.tally()?;
+        }
+        Some(tally)
     }
 
     /// Steps, or leaps, taken by a method.

@@ -4,6 +4,7 @@
 //! stops a run with an error that says when, and of events whose. It changes nothing.
 
 use crate::record::Record;
+use crate::state::Window;
 use crate::{EventKind, Limits, Model, RunError, Source, State};
 use std::time::Instant;
 
@@ -26,8 +27,8 @@ pub(super) struct Bounds {
     begun: Instant,
     /// Attempts between two looks at the clock, a power of two.
     stride: u64,
-    /// For each contact, then each block: start of its window, s, and events in it.
-    windows: Vec<(f64, u32)>,
+    /// Of each contact, then each block.
+    pub(super) windows: Vec<Window>,
 }
 
 impl Bounds {
@@ -35,7 +36,8 @@ impl Bounds {
     pub(super) fn new(model: &Model, limits: Limits) -> Self {
         let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();
-        let windows = vec![(f64::NEG_INFINITY, 0); model.contacts.len() + model.blocks.len()];
+        let nothing = Window { start: f64::NEG_INFINITY, count: 0 };
+        let windows = vec![nothing; model.contacts.len() + model.blocks.len()];
         Self { limits, begun: Instant::now(), stride, windows }
     }
 
@@ -86,7 +88,7 @@ impl Bounds {
         };
         // In parts of the component's own period: what is dense for one contact is a single event of another.
         let window = ZENO_WINDOW * std::f64::consts::TAU / frequency;
-        let (start, count) = &mut self.windows[place];
+        let Window { start, count } = &mut self.windows[place];
         if state.t - *start > window {
             (*start, *count) = (state.t, 0);
         }

@@ -10,169 +10,247 @@
 //! noticed after the fact, for the record alone.
 
 use super::bounds::Bounds;
-use super::horizon::Horizon;
+use super::horizon::{Goal, Horizon};
 use super::ledger::Ledger;
-use super::output::Output;
+use super::output::{Opening, Output};
 use crate::contact::{Mode, Motion};
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Layout, State};
+use crate::state::{FixedWay, Layout, State, Underway};
 use crate::{Plan, RunError};
-use stickslip_contact::{ContactState, Segment};
+use stickslip_contact::{ContactState, Memory, Segment};
 
 /// A run by chords: accepts steps, writes what falls between them, notices events after the fact.
 pub(super) struct Chords<'a> {
     pub(super) model: &'a Model,
-    pub(super) state: &'a mut State,
     pub(super) layout: Layout,
-    horizon: Horizon,
+    pub(super) horizon: Horizon,
     output: Output,
     ledger: Ledger,
     bounds: Bounds,
-    record: &'a mut dyn Record,
-    /// Sense of sliding and state of each contact after the last step.
-    standings: Vec<(f64, ContactState)>,
+    /// Sense in which each contact slid last; 0 before it did.
+    senses: Vec<f64>,
+    /// State of each contact after the last step, where somebody watches.
+    standings: Vec<ContactState>,
     /// The contacts at the end of the step.
     motions: Vec<Motion>,
+    /// The components there, where a run ends inside the step.
+    last: Vec<f64>,
 }
 
 impl<'a> Chords<'a> {
     /// Chords do not carry the extra components of growing contacts.
-    ///
-    /// Prepares the state: energies and friction of growing contacts go into the books, shifted origins come
-    /// back, and every contact is put on its whole law.
-    pub(super) fn new(
-        model: &'a Model,
-        plan: &Plan,
-        state: &'a mut State,
-        record: &'a mut dyn Record,
-    ) -> Self {
+    pub(super) fn new(model: &'a Model, plan: &Plan) -> Self {
         // A chord's force is the memory's own: nothing has to be carried beside it.
         let layout = Layout { growing: 0, ..model.layout() };
-        state.carry_over(model, layout);
+        Self {
+            horizon: Horizon::new(model, plan),
+            output: Output::new(plan.every, layout),
+            ledger: Ledger::new(model, 0),
+            bounds: Bounds::new(model, plan.limits),
+            senses: vec![0.0; model.contacts.len()],
+            standings: vec![ContactState::Open; model.contacts.len()],
+            motions: Vec::with_capacity(model.contacts.len()),
+            last: Vec::with_capacity(layout.total()),
+            model,
+            layout,
+        }
+    }
+
+    /// Prepares a state: energies and friction of growing contacts go into the books, shifted origins come back, and every
+    /// contact is put on its whole law.
+    pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
+        let model = self.model;
+        state.carry_over(model, self.layout);
         // Steps without events have no moment at which an origin could move.
         state.come_back(model);
         for mode in &mut state.modes {
             // Without a sense: a chord may turn inside its step, and the memory sees it by itself.
             *mode = Mode::Whole { sense: 0.0 };
         }
-        let mut horizon = Horizon::new(model, plan);
-        horizon.steps.begin(state);
-        let mut output = Output::new(plan.every, layout);
-        output.set_out(state.t, horizon.end);
-        output.begin_looks(model, state, record);
-        let (mut ledger, bounds) = (Ledger::new(model, 0), Bounds::new(model, plan.limits));
-        ledger.set_out(state.t);
-        let standings = vec![(0.0, ContactState::Open); model.contacts.len()];
-        let motions = Vec::with_capacity(model.contacts.len());
-        Self { model, state, layout, horizon, output, ledger, bounds, record, standings, motions }
+        match &state.underway {
+            Some(Underway::Fixed(way)) => self.take_up(way, &state.memories),
+            _ => {
+                self.ledger.set_out(state.t);
+                self.horizon.steps.begin(state);
+            }
+        }
+        self.output.set_out(state.t);
+        if opening.has_row(&self.output, state.t) {
+            self.write_now(state, record);
+        }
+        self.output.begin_looks((model, state), opening, record);
     }
 
-    pub(super) fn equations(&self) -> Equations<'_> {
-        Equations::on(self.model, self.state, self.layout, true)
+    /// Goes on from what another run put down.
+    fn take_up(&mut self, way: &FixedWay, memories: &[Memory]) {
+        self.senses.clone_from(&way.senses);
+        for (c, memory) in memories.iter().enumerate() {
+            self.standings[c] = self.standing(c, memory);
+        }
+        self.ledger.booked.copy(&way.booked);
+        self.bounds.windows.clone_from(&way.windows);
+        if let Some(steps) = way.steps {
+            self.horizon.steps.take_up(steps);
+        }
+    }
+
+    /// Puts down what the next step depends on, but for what its method knows.
+    pub(super) fn put_down(&self, way: &mut FixedWay) {
+        way.senses.clone_from(&self.senses);
+        way.booked.copy(&self.ledger.booked);
+        way.windows.clone_from(&self.bounds.windows);
+        way.steps = self.horizon.steps.so_far();
+    }
+
+    pub(super) fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
+        Equations::on(self.model, state, self.layout, true)
+    }
+
+    /// Goes as far as a goal says.
+    pub(super) fn aim(&mut self, goal: Goal) {
+        self.horizon.aim(goal);
+        self.horizon.nearly = self.output.end_at(self.horizon.end);
     }
 
     /// Whether the run is not at its end yet.
-    pub(super) fn goes_on(&self) -> bool {
-        self.state.t < self.horizon.end
+    pub(super) fn goes_on(&self, state: &State) -> bool {
+        state.t < self.horizon.limit()
     }
 
     /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
     /// that ends at a corner sees one side of it only. Tells whether any changed.
     ///
     /// By the middle, since either end may lie on a corner and round to its other side.
-    pub(super) fn enter(&mut self, end: f64) -> bool {
-        let middle = 0.5 * (self.state.t + end);
+    pub(super) fn enter(&self, state: &mut State, end: f64) -> bool {
+        let middle = 0.5 * (state.t + end);
         let mut changed = false;
-        for (piece, waveform) in self.state.pieces.iter_mut().zip(&self.model.waveforms) {
-            if !(piece.start..piece.end).contains(&middle) {
-                *piece = waveform.piece_at(middle);
+        for (w, waveform) in self.model.waveforms.iter().enumerate() {
+            let piece = state.pieces[w];
+            if (piece.start..piece.end).contains(&middle) {
+                continue;
+            }
+            let next = match waveform.interpolation() {
+                None => Some(waveform.piece_at(middle)),
+                Some(_) if middle >= piece.end => state.supplied[w].take(),
+                Some(_) => None,
+            };
+            if let Some(next) = next {
+                state.pieces[w] = next;
                 changed = true;
             }
         }
         changed
     }
 
-    /// Writes the first or the last row.
-    pub(super) fn write_now(&mut self) {
-        let eq = Equations::on(self.model, self.state, self.layout, true);
-        self.output.write_now(&eq, self.state, self.record);
+    /// Writes the row of where the run stands.
+    pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
+        let eq = Equations::on(self.model, state, self.layout, true);
+        self.output.write_now(&eq, state, record);
     }
 
-    /// Accepts the step that ends at t in y, or earlier where the run does.
+    /// Whether the step that ends at t in y would end the run: because it goes that far, or because the steps of the drive are
+    /// constant with it.
+    pub(super) fn take_steps(&mut self, state: &State, t: f64, y: &[f64]) {
+        while let Some(due) = self.horizon.steps.due(t) {
+            let step = Step { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
+            if self.horizon.steps.take(0.0, step.value(self.horizon.steps.coordinate, due)) {
+                self.end_at(due);
+                return;
+            }
+        }
+    }
+
+    /// Ends the run, and its rows, at another time, s.
+    pub(super) fn end_at(&mut self, end: f64) {
+        self.horizon.end = end;
+        self.horizon.nearly = self.output.end_at(end);
+    }
+
+    /// Accepts the step that ends at t in y, or earlier where the run does; tells whether it was cut there.
     ///
     /// Fails where y is not finite, a contact or block refuses its path, or a limit is reached.
-    pub(super) fn accept(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
+    pub(super) fn accept(
+        &mut self,
+        state: &mut State,
+        (t, y): (f64, &[f64]),
+        record: &mut dyn Record,
+    ) -> Result<bool, RunError> {
         if let Some(i) = y.iter().position(|y| !y.is_finite()) {
             return Err(self.model.not_finite(t, i));
         }
-        let Some((end, last)) = self.take_steps(t, y) else {
-            self.write(t, (t, y));
-            return self.commit(t, y);
-        };
-        self.write(end, (t, y));
-        self.commit(end, &last)
-    }
-
-    /// Takes the steps of the drive that are over at t; where the run ends with one of them, its time and state.
-    fn take_steps(&mut self, t: f64, y: &[f64]) -> Option<(f64, Vec<f64>)> {
-        while let Some(due) = self.horizon.steps.due(t) {
-            let step = Step { from: (self.state.t, &self.state.y), to: (t, y), free: self.layout.free };
-            if self.horizon.steps.take(0.0, step.value(self.horizon.steps.coordinate, due)) {
-                self.horizon.end = due;
-                self.output.end_at(due);
-                return Some((due, (0..y.len()).map(|i| step.value(i, due)).collect()));
-            }
+        let end = self.horizon.end;
+        if t <= end {
+            self.write(state, t, (t, y), record);
+            return self.commit(state, (t, y), record).map(|()| false);
         }
-        None
+        self.write(state, end, (t, y), record);
+        let mut last = std::mem::take(&mut self.last);
+        let step = Step { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
+        last.clear();
+        last.extend((0..y.len()).map(|i| step.value(i, end)));
+        let outcome = self.commit(state, (end, &last), record);
+        self.last = last;
+        outcome.map(|()| true)
     }
 
     /// Commits all contacts at time t in y.
     ///
     /// All paths are worked out before any memory moves.
-    fn commit(&mut self, t: f64, y: &[f64]) -> Result<(), RunError> {
-        let eq = Equations::on(self.model, self.state, self.layout, true);
+    fn commit(
+        &mut self,
+        state: &mut State,
+        (t, y): (f64, &[f64]),
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let eq = Equations::on(self.model, state, self.layout, true);
         self.motions.clear();
         self.motions.extend(self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])));
         self.ledger.clear();
         for (c, motion) in self.motions.iter().enumerate() {
             self.ledger.push(c, t, Segment::Straight(motion.apex()));
         }
-        self.ledger.commit((self.model, self.layout), t, self.state)?;
-        self.state.y.copy_from_slice(y);
-        self.state.t = t;
+        self.ledger.commit((self.model, self.layout), t, state)?;
+        state.y.copy_from_slice(y);
+        state.t = t;
         if !self.model.blocks.is_empty() {
-            self.ledger.commit_blocks((self.model, self.layout), self.state)?;
-            self.pass_guards();
+            self.ledger.commit_blocks((self.model, self.layout), state)?;
+            self.pass_guards(state, record);
         }
-        self.state.counts.steps += 1;
-        self.state.tally.step(Method::AskedFor);
-        if self.record.wants_events() {
-            self.notice();
+        state.counts.steps += 1;
+        state.tally.step(Method::AskedFor);
+        if record.wants_events() {
+            self.notice(state, record);
         }
-        self.bounds.step(self.state, self.record)
+        for (sense, motion) in self.senses.iter_mut().zip(&self.motions) {
+            // At rest a contact keeps the sense it had: stopping is no reversal.
+            if motion.du != 0.0 {
+                *sense = motion.du.signum();
+            }
+        }
+        self.bounds.step(state, record)
     }
 
     /// Rows and looks up to time t of the step that leads to `to`.
     ///
     /// Looks are shown copies of the memories, each led on one chord to its moment.
-    fn write(&mut self, t: f64, to: (f64, &[f64])) {
-        let eq = Equations::on(self.model, self.state, self.layout, true);
-        let step = Step { from: (self.state.t, &self.state.y), to, free: self.layout.free };
+    fn write(&mut self, state: &State, t: f64, to: (f64, &[f64]), record: &mut dyn Record) {
+        let eq = Equations::on(self.model, state, self.layout, true);
+        let step = Step { from: (state.t, &state.y), to, free: self.layout.free };
         while let Some(due) = self.output.grid.due(t) {
-            self.output.grid.write(&eq, self.state, due, &|i| step.value(i, due), self.record);
+            self.output.grid.write(&eq, state, due, &|i| step.value(i, due), record);
         }
         while let Some(due) = self.output.looks.due(t) {
-            let memories = self.model.contacts.iter().zip(&self.state.memories).map(|(contact, memory)| {
+            let memories = self.model.contacts.iter().zip(&state.memories).map(|(contact, memory)| {
                 let apex = eq.motion(contact, due, |i| step.value(i, due)).apex();
                 let mut memory = memory.clone();
                 memory.commit(&contact.interface, Segment::Straight(apex)).map(|_| memory)
             });
             let memories: Result<Vec<_>, _> = memories.collect();
-            self.output.looks.show(memories.as_deref().ok(), self.record);
+            self.output.looks.show(memories.as_deref().ok(), record);
         }
     }
 
@@ -180,46 +258,48 @@ impl<'a> Chords<'a> {
     ///
     /// One guard of each block in a step, the first that is down; the others have their turn after the next
     /// step.
-    fn pass_guards(&mut self) {
+    fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {
         for (k, wired) in self.model.blocks.iter().enumerate() {
-            let eq = Equations::on(self.model, self.state, self.layout, true);
-            let t = self.state.t;
-            let guards = wired.block().guards(&self.state.blocks[k].law);
-            let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| self.state.y[i]) < 0.0;
+            let eq = Equations::on(self.model, state, self.layout, true);
+            let t = state.t;
+            let guards = wired.block().guards(&state.blocks[k].law);
+            let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
             let Some(&guard) = guards.iter().find(down) else { continue };
-            let (kind, law) = eq.block_next(k, guard, self.state);
-            self.state.blocks[k].law = law;
-            if self.record.wants_events() {
+            let (kind, law) = eq.block_next(k, guard, state);
+            state.blocks[k].law = law;
+            if record.wants_events() {
                 let event = Event { t, source: Source::Block(k), kind };
-                let eq = Equations::on(self.model, self.state, self.layout, true);
-                self.output.event(&eq, self.state, &event, self.record);
+                let eq = Equations::on(self.model, state, self.layout, true);
+                self.output.event(&eq, state, &event, record);
             }
         }
     }
 
+    /// State of contact `c` after the last step.
+    fn standing(&self, c: usize, memory: &Memory) -> ContactState {
+        memory.preview(&self.model.contacts[c].interface, memory.apex()).state
+    }
+
     /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
     /// whether somebody watched.
-    fn notice(&mut self) {
+    fn notice(&mut self, state: &State, record: &mut dyn Record) {
         for (c, motion) in self.motions.iter().enumerate() {
-            let contact = &self.model.contacts[c];
-            let memory = &self.state.memories[c];
-            let now = memory.preview(&contact.interface, memory.apex()).state;
-            // At rest a contact keeps the sense it had: stopping is no reversal.
-            let sense = if motion.du == 0.0 { self.standings[c].0 } else { motion.du.signum() };
-            let (before, was) = std::mem::replace(&mut self.standings[c], (sense, now));
+            let now = self.standing(c, &state.memories[c]);
+            let was = std::mem::replace(&mut self.standings[c], now);
+            let turns = self.senses[c] * motion.du < 0.0;
             let kind = match (was, now) {
                 (ContactState::Open, ContactState::Open) => continue,
                 // What is in contact after the first step has been so from the start.
-                (ContactState::Open, _) if self.state.counts.steps > 1 => EventKind::Touch,
+                (ContactState::Open, _) if state.counts.steps > 1 => EventKind::Touch,
                 (_, ContactState::Open) => EventKind::LiftOff,
                 (ContactState::Slip, now) if now != ContactState::Slip => EventKind::GrossSlipEnds,
                 (was, ContactState::Slip) if was != ContactState::Slip => EventKind::GrossSlip,
-                _ if before * sense < 0.0 => EventKind::Reversal,
+                _ if turns => EventKind::Reversal,
                 _ => continue,
             };
-            let event = Event { t: self.state.t, source: Source::Contact(c), kind };
-            let eq = Equations::on(self.model, self.state, self.layout, true);
-            self.output.event(&eq, self.state, &event, self.record);
+            let event = Event { t: state.t, source: Source::Contact(c), kind };
+            let eq = Equations::on(self.model, state, self.layout, true);
+            self.output.event(&eq, state, &event, record);
         }
     }
 }

@@ -1,15 +1,22 @@
 //! Where a run ends, and the next moment that a step may not cross.
 //!
-//! Owns the end, which an early end moves forward, and the next corner, which the run sets whenever waveforms
-//! turn. Events are not here: no step has to stop before one.
+//! A run to the end of its plan takes no notice of the end until a step reaches it: what lies before it is the same whatever
+//! the end, and a run that was ended goes on from its last whole step. An advance to a moment cuts its last step there. The
+//! next corner is set whenever waveforms turn. Events are not here: no step has to stop before one.
 
 use super::steady::Steps;
 use crate::{Model, Plan};
 
 /// Moments ahead.
 pub(super) struct Horizon {
-    /// End of the run, s.
+    /// What no step crosses, s: the moment to which a run is advanced.
+    pub(super) until: f64,
+    /// End of the run, s, which steps do not see.
     pub(super) end: f64,
+    /// From when on a moment is the end, s.
+    pub(super) nearly: f64,
+    /// Whether the step that reaches the end is taken; otherwise the run stops before it.
+    pub(super) takes_last: bool,
     /// Earliest corner of a waveform, s.
     pub(super) corner: f64,
     /// The steps of the drive, where they may end the run.
@@ -17,12 +24,56 @@ pub(super) struct Horizon {
 }
 
 impl Horizon {
+    /// Nothing ahead yet.
     pub(super) fn new(model: &Model, plan: &Plan) -> Self {
-        Self { end: plan.duration, corner: f64::INFINITY, steps: Steps::of(model, plan) }
+        let never = f64::INFINITY;
+        let steps = Steps::of(model, plan);
+        Self { until: never, end: never, nearly: never, takes_last: false, corner: never, steps }
+    }
+
+    /// Goes as far as a goal says.
+    pub(super) fn aim(&mut self, goal: Goal) {
+        (self.until, self.end, self.takes_last) = match goal {
+            Goal::Moment(until) => (until, f64::INFINITY, false),
+            Goal::BeforeEnd(end) => (f64::INFINITY, end, false),
+            Goal::End(end) => (f64::INFINITY, end, true),
+        };
+        self.nearly = self.end;
     }
 
     /// The first moment that a step may not cross, s.
     pub(super) fn next(&self) -> f64 {
-        self.corner.min(self.end)
+        self.corner.min(self.until)
     }
+
+    /// Where a run stops.
+    pub(super) fn limit(&self) -> f64 {
+        self.until.min(self.end)
+    }
+
+    /// Whether a step that ends at t is one too far.
+    #[inline(always)]
+    pub(super) fn is_beyond(&self, t: f64) -> bool {
+        t >= self.nearly && !self.takes_last
+    }
+}
+
+/// How far a run is to go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Goal {
+    /// To this moment, s, its last step cut there.
+    Moment(f64),
+    /// As far as whole steps go before this end, s.
+    BeforeEnd(f64),
+    /// To this end, s, with its last row.
+    End(f64),
+}
+
+/// How a step left the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Progress {
+    /// Further on, or with a shorter wish.
+    Made,
+    /// Where it was: the next step would reach the end.
+    Short,
 }

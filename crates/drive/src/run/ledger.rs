@@ -9,29 +9,17 @@ use crate::RunError;
 use crate::component::{Passage, Refused};
 use crate::equations::{Components, Equations};
 use crate::model::{Model, Wired};
-use crate::state::{Layout, State};
+use crate::state::{Booked, Books, Layout, State};
 use stickslip_contact::{Segment, Timed};
 
 /// What the contacts commit.
 pub(super) struct Ledger {
     /// Contacts, by their places, and the segments that lead them to the end of the step.
     segments: Vec<(usize, Timed<Segment>)>,
-    /// When each contact's path was last written down, s.
-    last: Vec<f64>,
-    /// Whether contacts of closed form are where the state is.
-    pub(super) books: Books,
-    /// The blocks' paths, and when they last moved, s.
+    /// Up to when that has been done.
+    pub(super) booked: Booked,
+    /// The blocks' paths.
     passages: Vec<Passage>,
-    committed: f64,
-}
-
-/// Where the memories of contacts of closed form are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Books {
-    /// Where the state is.
-    Current,
-    /// At the last event.
-    Behind,
 }
 
 impl Ledger {
@@ -45,17 +33,15 @@ impl Ledger {
         };
         Self {
             segments: Vec::with_capacity(model.contacts.len() + more),
-            last: vec![0.0; model.contacts.len()],
-            books: Books::Current,
+            booked: Booked { last: vec![0.0; model.contacts.len()], blocks: 0.0, books: Books::Current },
             passages: model.blocks.iter().map(passage).collect(),
-            committed: 0.0,
         }
     }
 
     /// Begins at a time, s.
     pub(super) fn set_out(&mut self, t: f64) {
-        self.last.fill(t);
-        self.committed = t;
+        self.booked.last.fill(t);
+        self.booked.blocks = t;
     }
 
     /// Begins a page.
@@ -70,7 +56,7 @@ impl Ledger {
     pub(super) fn push(&mut self, c: usize, t: f64, path: Segment) {
         // Since its own last path and not since the last step: a contact of closed form writes one down at
         // events only.
-        let duration = t - std::mem::replace(&mut self.last[c], t);
+        let duration = t - std::mem::replace(&mut self.booked.last[c], t);
         self.segments.push((c, Timed { path, duration }));
     }
 
@@ -117,12 +103,12 @@ impl Ledger {
             passage.inputs.extend(equations.block_inputs(wired, &at));
             passage.states.clear();
             passage.states.extend(equations.block_states(k, &at));
-            (passage.duration, passage.law) = (t - self.committed, state.blocks[k].law);
+            (passage.duration, passage.law) = (t - self.booked.blocks, state.blocks[k].law);
             let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
             let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;
             state.lost += lost;
         }
-        self.committed = t;
+        self.booked.blocks = t;
         Ok(())
     }
 }

@@ -13,6 +13,7 @@
 
 mod aim;
 mod allowance;
+mod ending;
 mod laws;
 mod leap;
 mod motion;
@@ -22,25 +23,26 @@ mod shift;
 mod steady;
 mod step;
 mod turning;
+mod underway;
 mod watch;
 mod watched;
 mod write;
 
 use super::bounds::Bounds;
-use super::horizon::Horizon;
-use super::ledger::{Books, Ledger};
-use super::output::Output;
+use super::horizon::{Goal, Horizon, Progress};
+use super::ledger::Ledger;
+use super::output::{Opening, Output};
 use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::interval::{Interval, Swing};
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Layout, State};
+use crate::state::{Books, Grip, Layout, State, Takeoff, Underway, Whereabouts};
 use crate::{Plan, RunError};
-use motion::{Grip, Motion, Whereabouts};
+use motion::Motion;
 use path::MOST_PIECES;
-use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, Paired, StepControl, StepLimits};
+use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, One, Paired, StepControl, StepLimits};
 use turning::Turning;
 use watch::Watch;
 
@@ -56,15 +58,18 @@ struct Setting<'a> {
     method: Method,
 }
 
-/// Scratch of one run; all that its future depends on is in the [`State`], or begins anew at every end that a plan may have.
-struct Located<'a, A> {
+/// Scratch of one run; all that its future depends on is in the [`State`] whenever a caller holds that.
+pub(super) struct Located<'a, A> {
     setting: Setting<'a>,
     horizon: Horizon,
     /// What stays the same until the next event.
     interval: Interval<'a>,
     /// The motion of a single slider until then, where the interval leaps.
     swing: Swing,
+    /// Where that began, while it is under way.
+    takeoff: Option<Takeoff>,
     motion: Motion<A>,
+    control: StepControl,
     watch: Watch,
     ledger: Ledger,
     turning: Turning,
@@ -72,30 +77,35 @@ struct Located<'a, A> {
     bounds: Bounds,
 }
 
-/// Runs by the method of the scene's intervals without a closed form: where no force depends on a velocity, one that
-/// spares a third of the evaluations.
-pub(super) fn run(
-    model: &Model,
-    plan: &Plan,
-    tolerance: f64,
-    state: &mut State,
-    record: &mut dyn Record,
-) -> Result<(), RunError> {
-    let layout = model.layout();
-    let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
-    match (setting.method, layout.free) {
-        // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
-        (Method::Nystrom, 1) => {
-            let solver = Paired::one(layout.total());
-            Located::new(setting, plan, solver).go(NYSTROM_ORDER, state, record)
-        }
-        (Method::Nystrom, free) => {
-            let solver = Paired::new(free, 1, layout.total());
-            Located::new(setting, plan, solver).go(NYSTROM_ORDER, state, record)
-        }
-        _ => {
-            let solver = Dop853::new(layout.dimension(), layout.total());
-            Located::new(setting, plan, solver).go(DOP853_ORDER, state, record)
+/// A run between located events, by the method of the scene's intervals without a closed form: where no force depends on a
+/// velocity, one that spares a third of the evaluations.
+pub(super) enum LocatedRun<'a> {
+    /// A single free coordinate.
+    One(Box<Located<'a, Paired<One>>>),
+    /// Several.
+    Many(Box<Located<'a, Paired>>),
+    /// With dampers, varying loads or growth.
+    General(Box<Located<'a, Dop853>>),
+}
+
+impl<'a> LocatedRun<'a> {
+    pub(super) fn new(model: &'a Model, plan: &Plan, tolerance: f64) -> Self {
+        let layout = model.layout();
+        let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
+        match (setting.method, layout.free) {
+            // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
+            (Method::Nystrom, 1) => {
+                let solver = Paired::one(layout.total());
+                Self::One(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
+            }
+            (Method::Nystrom, free) => {
+                let solver = Paired::new(free, 1, layout.total());
+                Self::Many(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
+            }
+            _ => {
+                let solver = Dop853::new(layout.dimension(), layout.total());
+                Self::General(Box::new(Located::new(setting, plan, solver, DOP853_ORDER)))
+            }
         }
     }
 }
@@ -121,14 +131,19 @@ impl<'a> Setting<'a> {
 }
 
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
-    fn new(setting: Setting<'a>, plan: &Plan, solver: A) -> Self {
+    /// `order` is that of the solver, for step control.
+    fn new(setting: Setting<'a>, plan: &Plan, solver: A, order: u32) -> Self {
         let model = setting.model;
-        let motion = Motion::new(&setting, plan, solver);
+        let motion = Motion::new(&setting, solver);
+        // No step leaps over a smooth wave.
+        let limits = StepLimits { longest: motion.pace.longest, ..StepLimits::default() };
         Self {
             horizon: Horizon::new(model, plan),
             interval: Interval::of(model),
             swing: Swing::of(model, motion.allowance.strict),
+            takeoff: None,
             motion,
+            control: StepControl::new(order, limits),
             watch: Watch::new(model, setting.tolerance),
             ledger: Ledger::new(model, MOST_PIECES as usize),
             turning: Turning::new(model),
@@ -138,40 +153,69 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
     }
 
-    /// The run from the state's time to the plan's end. `order` is that of the solver, for step control. The
-    /// first and the last row are written whatever the outcome; a run that fails leaves the state of its last
-    /// accepted step.
-    fn go(mut self, order: u32, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
+    /// Takes up a state: begins a run there, or goes on with one.
+    pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         state.carry_over(self.setting.model, self.setting.layout);
-        self.output.set_out(state.t, self.horizon.end);
-        self.ledger.set_out(state.t);
-        // No step leaps over a smooth wave.
-        let limits = StepLimits { longest: self.motion.pace.longest, ..StepLimits::default() };
-        // A run in two halves is one run to the last bit: what control has learnt goes on with the state.
-        let mut control = state.control.clone().unwrap_or_else(|| StepControl::new(order, limits));
-        self.begin(state);
-        self.output.write_now(&self.setting.plain(state), state, record);
-        self.horizon.steps.begin(state);
-        self.output.begin_looks(self.setting.model, state, record);
-        let mut outcome = Ok(());
-        while state.t < self.horizon.end && outcome.is_ok() {
-            outcome = self.step(state, &mut control, record);
+        self.output.set_out(state.t);
+        match state.underway.take() {
+            Some(Underway::Located(way)) if way.tolerance == self.setting.tolerance => {
+                self.take_up(state, &way);
+            }
+            _ => self.begin(state),
         }
-        // The last step had no event at its end, and its memories wait.
-        if self.ledger.books == Books::Behind {
-            self.settle(state);
+        if opening.has_row(&self.output, state.t) {
+            self.output.write_now(&self.setting.plain(state), state, record);
         }
-        state.control = Some(control);
-        // With and without output the same count.
-        state.counts.evaluations += self.motion.solver.evaluations() - self.output.evaluations;
-        self.output.write_now(&self.setting.plain(state), state, record);
+        self.output.begin_looks((self.setting.model, state), opening, record);
+    }
+
+    /// Goes as far as a goal says, and puts down in the state what its future depends on.
+    ///
+    /// A run that fails leaves the state of its last accepted step.
+    pub(super) fn go(
+        &mut self,
+        state: &mut State,
+        goal: Goal,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        self.horizon.aim(goal);
+        self.horizon.nearly = self.output.end_at(self.horizon.end);
+        let mut outcome = self.turn_due(state, record);
+        while state.t < self.horizon.limit() && outcome.is_ok() {
+            match self.step(state, record) {
+                Ok(Progress::Made) => {}
+                Ok(Progress::Short) => break,
+                Err(error) => outcome = Err(error),
+            }
+        }
+        self.put_down(state);
         outcome
+    }
+
+    /// Brings memories that wait for an event to where the state is. For who will read them, at the end of a run.
+    pub(super) fn settle_books(&mut self, state: &mut State) {
+        if self.ledger.booked.books == Books::Behind {
+            self.settle(state);
+            self.ledger.booked.books = Books::Current;
+        }
+        self.put_down(state);
+    }
+
+    /// Writes the row of where the run stopped.
+    pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
+        self.output.write_now(&self.setting.plain(state), state, record);
     }
 
     /// Sets the first laws and proposes a first step, unless the state goes on from an earlier run.
     ///
     /// The first step is at most one natural period of the fastest contact.
     fn begin(&mut self, state: &mut State) {
+        self.ledger.set_out(state.t);
+        self.horizon.steps.begin(state);
+        // What control has learnt goes on with the state.
+        if let Some(history) = state.control {
+            self.control.set_history(history);
+        }
         let fresh = state.step <= 0.0;
         if fresh {
             (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
@@ -185,13 +229,12 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         let contacts = self.setting.model.contacts.iter();
         // A guess that begins above the fastest ringing would be thrown away.
         let natural = contacts.map(|c| std::f64::consts::TAU / c.natural.frequency);
-        let longest = natural.fold(self.motion.pace.longest, f64::min);
-        let longest = if longest.is_finite() { longest } else { self.horizon.end };
+        let longest = natural.fold(self.motion.longest(state.t), f64::min);
         state.step = if self.setting.layout.dimension() == 0 {
             longest
         } else {
             let eq = self.setting.equations(state, &self.interval);
-            self.motion.solver.first_step(&eq, longest, &self.motion.allowance.scale)
+            self.motion.solver.first_step(&eq, longest, &self.motion.allowance.allowed.scale)
         };
     }
 
@@ -241,15 +284,16 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     /// What is known until the next event: forms of contacts, the method, and whether anything holds.
     fn begin_interval(&mut self, state: &mut State) {
         self.interval.begin(self.setting.model, state);
+        self.takeoff = None;
         self.interval.count(&mut state.tally);
         // Without contacts links alone hold, and their steps must damp all the same.
         let holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
-        self.motion.pace.grip = if holds { Grip::Sticks } else { Grip::Slips };
+        self.motion.pace.gait.grip = if holds { Grip::Sticks } else { Grip::Slips };
     }
 
     /// Waveforms are on new pieces.
     fn turned(&mut self, state: &State) {
-        self.horizon.corner = state.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min);
-        self.motion.allowance.power = allowance::follower_power(self.setting.model, state);
+        self.horizon.corner = state.next_corner();
+        self.motion.allowance.allowed.power = allowance::follower_power(self.setting.model, state);
     }
 }

@@ -21,25 +21,25 @@ pub(super) struct Output {
     row: Vec<f64>,
     /// Scratch: components of a moment, or their slopes.
     pub(super) components: Vec<f64>,
-    /// Evaluations made for rows and looks only.
+    /// Evaluations made for rows and looks, and others that are no part of the run.
     pub(super) evaluations: u64,
 }
 
 impl Output {
     pub(super) fn new(every: Option<f64>, layout: Layout) -> Self {
         let (row, components) = (Vec::new(), vec![0.0; layout.total()]);
-        let grid = Grid::new(None, 0.0, 0.0);
+        let grid = Grid::new(None, 0.0);
         Self { every, grid, looks: Looks::NONE, row, components, evaluations: 0 }
     }
 
-    /// Begins the rows of a run from one time to another, s.
-    pub(super) fn set_out(&mut self, from: f64, end: f64) {
-        self.grid = Grid::new(self.every, from, end);
+    /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
+    pub(super) fn set_out(&mut self, from: f64) {
+        self.grid = Grid::new(self.every, from);
     }
 
-    /// Takes the first look.
-    pub(super) fn begin_looks(&mut self, model: &Model, state: &State, record: &mut dyn Record) {
-        self.looks = Looks::begin(model, state, record);
+    /// Asks for the first look, and takes it if it is at hand.
+    pub(super) fn begin_looks(&mut self, at: (&Model, &State), opening: Opening, record: &mut dyn Record) {
+        self.looks = Looks::begin(at, opening, record);
     }
 
     /// Whether a row or a look is due at t or before it.
@@ -50,9 +50,9 @@ impl Output {
         self.grid.due(t).is_some() || self.looks.due(t).is_some()
     }
 
-    /// Ends the rows earlier.
-    pub(super) fn end_at(&mut self, end: f64) {
-        self.grid.end_at(end);
+    /// Ends the rows at a time, s; the last of them is there, on the grid or not. Gives from when on a moment is the end.
+    pub(super) fn end_at(&mut self, end: f64) -> f64 {
+        self.grid.end_at(end)
     }
 
     /// Writes a row off the grid: the first and the last one.
@@ -73,34 +73,58 @@ impl Output {
     }
 }
 
-/// Rows due at multiples of an interval. The first and the last row are written by the run itself.
+/// How the output of a run begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Opening {
+    /// With a row of where it begins.
+    Row,
+    /// With a row only if one is due there.
+    Grid,
+    /// After what an earlier run has written up to there.
+    Resumed,
+}
+
+impl Opening {
+    /// Whether a row is to be written where a run begins, at t.
+    pub(super) fn has_row(self, output: &Output, t: f64) -> bool {
+        match self {
+            Self::Row => true,
+            Self::Grid => {
+                output.every.is_some_and(|every| Schedule::new(Moments::Every(every), t, t).due() <= t)
+            }
+            Self::Resumed => false,
+        }
+    }
+}
+
+/// Rows due at multiples of an interval, and at the end of a run.
 pub(super) struct Grid {
     schedule: Schedule,
+    /// The next row, s; infinite after the last one.
+    next: f64,
     end: f64,
     row: Vec<f64>,
 }
 
 impl Grid {
-    pub(super) fn new(every: Option<f64>, from: f64, end: f64) -> Self {
+    pub(super) fn new(every: Option<f64>, from: f64) -> Self {
         let moments = every.map_or(Moments::At(Vec::new()), Moments::Every);
-        let mut schedule = Schedule::new(moments, from, end);
-        if schedule.due() <= from {
-            schedule.advance();
-        }
-        Self { schedule, end, row: Vec::new() }
+        let schedule = Schedule::after(moments, from, f64::INFINITY);
+        Self { next: schedule.due(), schedule, end: f64::INFINITY, row: Vec::new() }
     }
 
     /// The next row's time, if it lies at `t` or before it.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
-        let due = self.schedule.due();
-        (due <= t && due < self.end).then_some(due)
+        (self.next <= t && self.next < f64::INFINITY).then_some(self.next)
     }
 
-    /// Ends the rows earlier: the last one will be written there by the run itself.
-    pub(super) fn end_at(&mut self, end: f64) {
+    /// Ends the rows at another time, s.
+    pub(super) fn end_at(&mut self, end: f64) -> f64 {
         self.end = end;
         self.schedule.end_at(end);
+        self.next = self.schedule.due().min(end);
+        self.schedule.nearly()
     }
 
     /// Writes the row at time t and moves on to the next.
@@ -114,7 +138,10 @@ impl Grid {
     ) {
         record::fill(equations, state, t, y, &mut self.row);
         record.row(&self.row);
-        self.schedule.advance();
+        if self.schedule.due() <= t {
+            self.schedule.advance();
+        }
+        self.next = if t < self.end { self.schedule.due().min(self.end) } else { f64::INFINITY };
     }
 
     /// Writes a row off the grid: the first and the last one.
@@ -127,7 +154,6 @@ impl Grid {
 /// The looks into the contacts that a record asks for.
 pub(super) struct Looks {
     /// The next moment, s; infinite where none is left.
-    /// The next moment, s; infinite where none is left.
     due: f64,
 }
 
@@ -136,10 +162,11 @@ impl Looks {
     pub(super) const NONE: Self = Self { due: f64::INFINITY };
 
     /// Asks for the first moment after the run's beginning; a look at the beginning itself is taken at once.
-    pub(super) fn begin(model: &Model, state: &State, record: &mut dyn Record) -> Self {
+    fn begin((model, state): (&Model, &State), opening: Opening, record: &mut dyn Record) -> Self {
         let mut looks = Self { due: f64::NEG_INFINITY };
         looks.ask(record);
-        while looks.due < state.t {
+        let resumed = opening == Opening::Resumed;
+        while looks.due < state.t || resumed && looks.due == state.t {
             looks.ask(record);
         }
         if looks.due == state.t {

@@ -1,6 +1,8 @@
 //! The plain explicit reference: `Dopri5` of `ode_solvers`, one instance per smooth stretch, no events.
 
 use super::chords::Chords;
+use super::horizon::Goal;
+use super::output::Opening;
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Waveform};
 use stickslip_stepper::System;
@@ -16,6 +18,8 @@ const SEEN: f64 = 0.125;
 /// chords, which commit it. An error of a commit waits here until the solver returns.
 struct Driven<'a> {
     chords: Chords<'a>,
+    state: &'a mut State,
+    record: &'a mut dyn Record,
     outcome: Result<(), RunError>,
 }
 
@@ -33,17 +37,18 @@ impl System for Driven<'_> {
     }
 
     fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
-        self.chords.equations().slopes(t, y, dy);
+        self.chords.equations(self.state).slopes(t, y, dy);
     }
 }
 
 impl Accepting for Driven<'_> {
     /// What does not advance time is no step of the run's.
     fn accept(&mut self, t: f64, y: &[f64]) -> bool {
-        if t > self.chords.state.t {
-            self.outcome = self.chords.accept(t, y);
+        if t > self.state.t {
+            self.chords.take_steps(self.state, t, y);
+            self.outcome = self.chords.accept(self.state, (t, y), self.record).map(drop);
         }
-        self.outcome.is_ok() && self.chords.goes_on()
+        self.outcome.is_ok() && self.chords.goes_on(self.state)
     }
 }
 
@@ -63,28 +68,31 @@ pub(super) fn run(
     let speed = model.free.iter().map(|f| tolerance * f.scale.1);
     let own = model.blocks.iter().flat_map(|wired| &wired.states.scales).map(|natural| tolerance * natural);
     let scale: Vec<f64> = scale.into_iter().chain(speed).chain(own).collect();
-    let mut driven = Driven { chords: Chords::new(model, plan, state, record), outcome: Ok(()) };
-    driven.chords.write_now();
+    let mut chords = Chords::new(model, plan);
+    state.underway = None;
+    chords.set_out(state, Opening::Row, record);
+    chords.aim(Goal::End(plan.duration));
+    let mut driven = Driven { chords, state, record, outcome: Ok(()) };
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
     // In gross slip nothing in its equations says that a wave goes by: it leapt over several, at every
     // tolerance.
     let longest = SEEN * waves;
     let mut options = ReferenceOptions { longest, ..ReferenceOptions::default() };
-    while driven.chords.goes_on() && driven.outcome.is_ok() {
-        let t = driven.chords.state.t;
-        let corner = driven.chords.state.pieces.iter().map(|p| p.end).fold(plan.duration, f64::min);
-        let y = driven.chords.state.y.clone();
-        let limit = plan.limits.steps.saturating_sub(driven.chords.state.counts.steps);
+    while driven.chords.goes_on(driven.state) && driven.outcome.is_ok() {
+        let t = driven.state.t;
+        let corner = driven.state.pieces.iter().map(|p| p.end).fold(plan.duration, f64::min);
+        let y = driven.state.y.clone();
+        let limit = plan.limits.steps.saturating_sub(driven.state.counts.steps);
         options.steps = u32::try_from(limit).unwrap_or(u32::MAX);
         let stretch = integrate(&mut driven, t..corner, &y, &scale, &options)
-            .map_err(|error| failure(&error, plan, &driven.chords));
+            .map_err(|error| failure(&error, plan, driven.state.t));
         match stretch {
             Ok(stretch) => {
                 // The step goes on across a corner: each stretch would otherwise begin with a guess of its
                 // own.
                 options.first = Some(stretch.step);
-                driven.chords.state.counts.rejected += stretch.rejected;
-                driven.chords.state.counts.evaluations += stretch.evaluations;
+                driven.state.counts.rejected += stretch.rejected;
+                driven.state.counts.evaluations += stretch.evaluations;
             }
             // A step that was refused ends the stretch, too: its own reason counts, not the solver's.
             Err(error) if driven.outcome.is_ok() => driven.outcome = Err(error),
@@ -92,14 +100,16 @@ pub(super) fn run(
         }
         driven.turn_corners(model);
     }
-    driven.chords.write_now();
+    if driven.outcome.is_err() {
+        driven.chords.write_now(driven.state, driven.record);
+    }
     driven.outcome
 }
 
 impl Driven<'_> {
     /// Puts every waveform whose piece is over on its next piece.
     fn turn_corners(&mut self, model: &Model) {
-        let state = &mut *self.chords.state;
+        let state = &mut *self.state;
         for (piece, waveform) in state.pieces.iter_mut().zip(&model.waveforms) {
             while piece.end <= state.t {
                 *piece = waveform.after(piece);
@@ -109,8 +119,7 @@ impl Driven<'_> {
 }
 
 /// The outside solver's error in a run's words, at the time reached.
-fn failure(error: &ReferenceError, plan: &Plan, chords: &Chords<'_>) -> RunError {
-    let t = chords.state.t;
+fn failure(error: &ReferenceError, plan: &Plan, t: f64) -> RunError {
     match error {
         ReferenceError::TooManySteps { .. } => RunError::TooManySteps { t, limit: plan.limits.steps },
         _ => RunError::StepTooSmall { t, step: 0.0 },

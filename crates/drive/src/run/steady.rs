@@ -2,7 +2,7 @@
 
 use crate::model::Binding;
 use crate::scene::Axis;
-use crate::state::State;
+use crate::state::{State, Stepped};
 use crate::{Model, Plan, UntilSteady};
 
 /// How many times running a step must agree with the one before it.
@@ -11,6 +11,7 @@ const AGREEING: u32 = 3;
 const SAME: f64 = 4.0 * f64::EPSILON;
 
 /// The ends of the periods, and what the steps between them have come to.
+#[derive(Clone, Copy)]
 pub(super) struct Steps {
     /// Place of the body's x among the free coordinates.
     pub(super) coordinate: usize,
@@ -19,18 +20,15 @@ pub(super) struct Steps {
     period: f64,
     /// Number of whole periods; may be infinite.
     periods: f64,
-    /// Place of the next end, and when it is due, s; infinite after the last.
-    next: f64,
+    /// When the next end is due, s; infinite after the last.
     due: f64,
     /// From when on a moment is as good as that, s.
     nearly: f64,
     /// Largest change of a step, as a share of it or of the body's natural length, m.
     change: f64,
     natural: f64,
-    /// Origin and place at the end of the last period, m: their differences round apart from each other.
-    place: Option<(f64, f64)>,
-    step: Option<f64>,
-    agreed: u32,
+    /// So far.
+    so_far: Stepped,
 }
 
 impl Steps {
@@ -49,19 +47,29 @@ impl Steps {
         }
     }
 
+    /// What they have come to, where they are asked for.
+    pub(super) fn so_far(&self) -> Option<Stepped> {
+        (self.period > 0.0).then_some(self.so_far)
+    }
+
+    /// Goes on from there.
+    pub(super) fn take_up(&mut self, so_far: Stepped) {
+        if self.period > 0.0 {
+            self.so_far = so_far;
+            self.look_ahead();
+        }
+    }
+
     const NEVER: Self = Self {
         coordinate: 0,
         start: 0.0,
         period: 0.0,
         periods: 0.0,
-        next: 0.0,
         due: f64::INFINITY,
         nearly: f64::INFINITY,
         change: 0.0,
         natural: 0.0,
-        place: None,
-        step: None,
-        agreed: 0,
+        so_far: Stepped { next: 0.0, place: None, step: None, agreed: 0 },
     };
 
     /// None where the waveform has no period or the body's x is not free.
@@ -100,22 +108,27 @@ impl Steps {
     /// of the step or, if that is longer, of the body's natural length: steps of nothing agree, too.
     pub(super) fn take(&mut self, origin: f64, place: f64) -> bool {
         self.advance();
-        let Some(before) = self.place.replace((origin, place)) else { return false };
+        let Some(before) = self.so_far.place.replace((origin, place)) else { return false };
         // Differences of origins and of places apart: a sum of both would have lost the digits that shifting
         // keeps.
         let step = (origin - before.0) + (place - before.1);
-        let last = self.step.replace(step);
+        let last = self.so_far.step.replace(step);
         let agrees =
             last.is_some_and(|last| (step - last).abs() <= self.change * step.abs().max(self.natural));
-        self.agreed = if agrees { self.agreed + 1 } else { 0 };
-        self.agreed >= AGREEING
+        let agreed = &mut self.so_far.agreed;
+        *agreed = if agrees { *agreed + 1 } else { 0 };
+        *agreed >= AGREEING
     }
 
     /// The next end is a product, not a sum of periods: it does not drift.
     fn advance(&mut self) {
-        self.next += 1.0;
-        self.due =
-            if self.next <= self.periods { self.start + self.next * self.period } else { f64::INFINITY };
+        self.so_far.next += 1.0;
+        self.look_ahead();
+    }
+
+    fn look_ahead(&mut self) {
+        let next = self.so_far.next;
+        self.due = if next <= self.periods { self.start + next * self.period } else { f64::INFINITY };
         self.nearly = self.due * (1.0 - SAME);
     }
 }

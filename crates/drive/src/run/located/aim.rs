@@ -66,7 +66,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// `corner` is the next moment that no step may cross, s. The target is never beyond it.
     pub(super) fn aim(&self, state: &State, corner: f64) -> Aim {
-        let longest = self.motion.longest_now(self.setting.model.fastest);
+        let longest = self.motion.longest_now(state.t, self.setting.model.fastest);
         let even = |step: f64| Aim {
             target: end(state.t, step, corner),
             grade: Grade::Even,
@@ -83,7 +83,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let rounding = 16.0 * f64::EPSILON * state.t;
         let within = |end: Expected| OVERSTEP * end.left + rounding;
         // Even steps have become short for what a graded one is spared.
-        let most = step.max(self.motion.pace.proven / FASTEST).min(longest / FASTEST);
+        let most = step.max(self.motion.pace.gait.proven / FASTEST).min(longest / FASTEST);
         let first = [self.piece_end(state), self.lift_off(state, step.max(most))].into_iter().flatten();
         let start = |step: f64| Aim { grade: self.start_grade(state, step), ..even(step) };
         let Some(first) = first.min_by(|a, b| a.left.total_cmp(&b.left)) else { return start(step) };

@@ -8,7 +8,7 @@
 use crate::Model;
 use crate::contact::Contact;
 use crate::equations::{Components, Equations};
-use crate::state::State;
+use crate::state::{Allowed, State};
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
 /// and the estimates of a method of high order see them late. Without it errors were 20 to 1000 times the tolerance.
@@ -22,14 +22,12 @@ const FINEST: f64 = 1e-13;
 
 /// Absolute errors allowed of a step.
 pub(super) struct Allowance {
-    /// Of each component.
-    pub(super) scale: Vec<f64>,
+    /// As they are now.
+    pub(super) allowed: Allowed,
     /// What is asked of the error estimates, relative to natural scales.
     pub(super) strict: f64,
     /// Natural scale of work, J.
     work: f64,
-    /// Largest power that followers could put into the contacts at the last corner, W.
-    pub(super) power: f64,
 }
 
 impl Allowance {
@@ -55,7 +53,7 @@ impl Allowance {
             let own = scale[first..].iter_mut().zip(&wired.states.scales);
             own.for_each(|(scale, natural)| *scale = strict * natural);
         }
-        Self { scale, strict, work: model.work_scale(), power: 0.0 }
+        Self { allowed: Allowed { scale, power: 0.0 }, strict, work: model.work_scale() }
     }
 
     /// The tolerance times the natural scale, and never below what rounding of a far-travelled coordinate makes of the force,
@@ -65,6 +63,7 @@ impl Allowance {
     /// 8ε|x|·speed/length + 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers.
     pub(super) fn set(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
+        let Allowed { scale, power } = &mut self.allowed;
         for (i, free) in model.free.iter().enumerate() {
             let (length, speed) = free.scale;
             // A displacement that has travelled far rounds the force of a stiff contact, and the force the
@@ -73,13 +72,13 @@ impl Allowance {
                 8.0 * f64::EPSILON * state.y[i].abs(),
                 8.0 * f64::EPSILON * state.y[layout.velocity(i)].abs(),
             );
-            self.scale[i] = self.strict * length + x;
-            self.scale[layout.velocity(i)] = self.strict * speed + x * (speed / length) + v;
+            scale[i] = self.strict * length + x;
+            scale[layout.velocity(i)] = self.strict * speed + x * (speed / length) + v;
         }
         // The time of a corner is rounded to εt, in which a follower at power P does the work Pεt. Without
         // this term a flyback of a nanosecond or less ended in steps too small.
-        let work = self.strict * self.work + 8.0 * f64::EPSILON * state.t * self.power;
-        self.scale[layout.dimension()..].fill(work);
+        let work = self.strict * self.work + 8.0 * f64::EPSILON * state.t * *power;
+        scale[layout.dimension()..].fill(work);
     }
 }
 

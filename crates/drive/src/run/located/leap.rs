@@ -14,59 +14,88 @@ use crate::equations::Equations;
 use crate::interval::{Closed, PhasePoint};
 use crate::method::Method;
 use crate::record::Record;
-use crate::run::ledger::Books;
-use crate::state::State;
+use crate::run::horizon::Progress;
+use crate::run::steady::Steps;
+use crate::state::{Books, State, Takeoff};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Moves to the next event, corner or end in one go; false, with nothing done, where the interval has no closed form.
+    /// Moves to the next event, corner or end in one go; none, with nothing done, where the interval has no closed form.
     ///
-    /// The state changes only if it is true. Ends at the first of the event of the motion, the next corner
-    /// and the end of the run. Fails as a step does: values not finite, contacts out of range, limits.
-    pub(super) fn leap(&mut self, state: &mut State, record: &mut dyn Record) -> Result<bool, RunError> {
-        if !self.interval.leaps() || !self.take_up(state) {
-            return Ok(false);
+    /// Ends at the first of the event of the motion, the next corner, and where the run is to go; cut there, the swing stays
+    /// under way. Fails as a step does: values not finite, contacts out of range, limits.
+    pub(super) fn leap(
+        &mut self,
+        state: &mut State,
+        record: &mut dyn Record,
+    ) -> Result<Option<Progress>, RunError> {
+        let begins = self.takeoff.is_none();
+        if begins && !(self.interval.leaps() && self.take_off(state)) {
+            return Ok(None);
         }
+        let spent = if begins { 0 } else { self.swing.evaluations };
         let event = self.swing.end();
-        let corner = self.horizon.next();
-        let mut to = if event.t < corner { event } else { self.swing.at(corner) };
+        let steps = self.horizon.steps;
+        if self.horizon.is_beyond(event.t.min(self.horizon.next())) {
+            return Ok(Some(self.stay(begins, steps)));
+        }
+        let stop = self.horizon.next().min(self.horizon.end);
+        let mut to = if event.t < stop { event } else { self.swing.at(stop) };
         // Less than a last place of t ahead there is no leap: the stepper takes over.
         if to.t <= state.t {
-            return Ok(false);
+            self.takeoff = None;
+            return Ok(None);
         }
         if let Some(steady) = self.leap_over_steps(state, to) {
+            if self.horizon.is_beyond(steady.t) {
+                return Ok(Some(self.stay(begins, steps)));
+            }
             to = steady;
         }
         // Before the rows: what output asks of the swing is no part of the run.
-        state.counts.evaluations += self.swing.evaluations;
+        state.counts.evaluations += self.swing.evaluations - spent;
         if self.output.due(to.t) {
             self.write_on_the_way(state, to, record);
         }
-        self.land(state, to)?;
         // Both may be true, to the last bit: then the event's guards fall and the corner turns in one.
         let (is_event, is_corner) = (to.t == event.t, to.t == self.horizon.corner);
+        self.land(state, to, is_event || is_corner)?;
         self.watch.fired.clear();
         if is_event {
             self.collect_reached(state);
         }
-        if is_event || is_corner {
-            self.pass_event(state, is_corner, record)?;
+        let turns = is_corner && !state.waits_for_input(self.setting.model);
+        if is_event || turns {
+            self.pass_event(state, turns, record)?;
         }
-        self.bounds.step(state, record)?;
-        Ok(true)
+        self.bounds.step(state, record).map(|()| Some(Progress::Made))
+    }
+
+    /// The leap is not made: it would reach the end of the run.
+    fn stay(&mut self, begins: bool, steps: Steps) -> Progress {
+        if begins {
+            // Whoever goes on from here leaps as if nobody had asked.
+            (self.takeoff, self.interval.traits.asked) = (None, false);
+        }
+        self.horizon.steps = steps;
+        Progress::Short
     }
 
     /// Takes up the interval and finds its event.
     ///
     /// False where the scene has more than one free coordinate, the interval no closed form, or the search no
     /// result; steps take the interval then.
-    fn take_up(&mut self, state: &State) -> bool {
+    fn take_off(&mut self, state: &State) -> bool {
         // What has no closed form now has none until the next event.
         self.interval.traits.asked = true;
-        let [slider] = &self.setting.model.free[..] else { return false };
-        let start = PhasePoint { t: state.t, x: state.y[0], v: state.y[1] };
-        let length = slider.scale.0;
-        self.swing.begin(&self.interval, slider, start) && self.swing.aim(length)
+        if self.setting.model.free.len() != 1 {
+            return false;
+        }
+        let from = PhasePoint { t: state.t, x: state.y[0], v: state.y[1] };
+        let leaps = self.swing_from(from);
+        let input = state.y[self.setting.layout.input()];
+        self.takeoff = leaps.then_some(Takeoff { from, input });
+        leaps
     }
 
     /// The end of a period with which the steps of the drive are constant, if there is one on the way.
@@ -76,8 +105,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         while let Some(due) = self.horizon.steps.due(to.t) {
             let place = if due < to.t { self.swing.at(due) } else { to };
             if self.horizon.steps.take(state.shifts[self.horizon.steps.coordinate], place.x) {
-                self.horizon.end = due;
-                self.output.end_at(due);
+                self.end_at(due);
                 return Some(place);
             }
         }
@@ -112,22 +140,33 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let place = if due < to.t { self.swing.at(due) } else { to };
         y.copy_from_slice(&state.y);
         (y[0], y[1]) = (place.x, place.v);
-        y[self.setting.layout.input()] += self.swing.work(&place);
+        y[self.setting.layout.input()] = self.input_at(&place);
     }
 
-    /// Moves the state to a place, and the memories of all contacts with it.
+    /// Work put in until a place on the way, J: counted from where the leap began, however often it was cut.
+    fn input_at(&self, place: &PhasePoint) -> f64 {
+        self.takeoff.map_or(0.0, |takeoff| takeoff.input) + self.swing.work(place)
+    }
+
+    /// Moves the state to a place; where an interval `ends`, the memories of all contacts with it.
     ///
-    /// Counts one step. Fails where place or velocity is not finite, or a contact refuses its path.
-    fn land(&mut self, state: &mut State, to: PhasePoint) -> Result<(), RunError> {
+    /// Counts one step then. Fails where place or velocity is not finite, or a contact refuses its path.
+    fn land(&mut self, state: &mut State, to: PhasePoint, ends: bool) -> Result<(), RunError> {
         if let Some(i) = [to.x, to.v].iter().position(|y| !y.is_finite()) {
             return Err(self.setting.model.not_finite(to.t, i));
         }
-        state.y[self.setting.layout.input()] += self.swing.work(&to);
+        state.y[self.setting.layout.input()] = self.input_at(&to);
         (state.y[0], state.y[1]) = (to.x, to.v);
         state.t = to.t;
+        if !ends {
+            // One chord to the event, as if nobody had looked on the way.
+            self.ledger.booked.books = Books::Behind;
+            return Ok(());
+        }
+        self.takeoff = None;
         state.counts.steps += 1;
         state.tally.step(if self.swing.is_free() { Method::Parabola } else { Method::Swing });
-        self.ledger.books = Books::Current;
+        self.ledger.booked.books = Books::Current;
         self.trace_closed(state);
         self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }

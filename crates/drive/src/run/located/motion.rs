@@ -7,10 +7,10 @@
 use super::Setting;
 use super::aim::{Aim, SHRINK};
 use super::allowance::Allowance;
+use crate::Waveform;
 use crate::equations::Equations;
 use crate::model::{Free, Model};
-use crate::state::State;
-use crate::{Plan, Waveform};
+use crate::state::{Ahead, Gait, Grip, State, Whereabouts};
 use stickslip_stepper::{Attempt, End, Grade, Target};
 
 /// Velocities this small, relative to the natural ones, are rounding: some hundred of their last places.
@@ -23,6 +23,8 @@ const REST_REACH: f64 = 1.0;
 // No estimate sees the error of a chord: 410 leave a row under a sine of load 4e-4 u_c away and books of 9e-6; 4096 about
 // 4e-5 u_c and 9e-8; 40 960 cost ten times as much.
 const CHORDS_PER_PERIOD: f64 = 4096.0;
+/// The same under a load that a caller supplies, in a period of the fastest swing with all contacts stuck.
+const STEPS_PER_SWING: f64 = 16.0;
 /// How often a step is tried again to end nearer to its singular moment.
 // Without any the books of a sine drive at 1e-9 are 25 times worse; more than two change only how a ball bounces that is set
 // down without damping.
@@ -37,62 +39,30 @@ pub(super) struct Motion<A> {
     pub(super) pace: Pace,
 }
 
-/// Where the solver stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Whereabouts {
-    /// Where the state is.
-    Here,
-    /// Left behind by leaps, or by laws that have changed.
-    Behind,
-}
-
 /// How long steps may be.
 pub(super) struct Pace {
     /// Longest step, s: a fraction of the period of the fastest smooth waveform.
     pub(super) longest: f64,
+    /// What takes its place at the start of a run where there is none, s.
+    first: f64,
     /// How near to a singular moment a step must end, as a part of it.
     pub(super) closeness: f64,
     /// How much must be left before such a moment for its law to matter, in natural lengths.
     pub(super) resolved: f64,
-    /// Longest step since the last event, or since a graded one was refused, s.
-    pub(super) proven: f64,
-    /// Whether even steps shorten with what is left.
-    pub(super) ahead: Ahead,
-    /// Whether steps must stay where the solver damps.
-    pub(super) grip: Grip,
-}
-
-/// What a singular moment ahead does to even steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Ahead {
-    /// Nothing yet.
-    Clear,
-    /// It has made one too long.
-    Shortens,
-}
-
-/// What holds the bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Grip {
-    /// No contact does.
-    Slips,
-    /// A contact is in partial slip or sticks, or there is none.
-    Sticks,
-    /// The same, and all that is free is at rest.
-    Rests,
+    /// What one step leaves to the next.
+    pub(super) gait: Gait,
 }
 
 impl<A> Motion<A> {
     /// Nothing is started yet: the solver is behind until it is told of a state.
-    pub(super) fn new(setting: &Setting<'_>, plan: &Plan, solver: A) -> Self {
+    pub(super) fn new(setting: &Setting<'_>, solver: A) -> Self {
         let (model, tolerance) = (setting.model, setting.tolerance);
         let pace = Pace {
-            longest: longest(model, plan),
+            longest: longest(model),
+            first: scene_time(model),
             closeness: closeness(model, tolerance),
             resolved: tolerance.powf(2.0 / 3.0),
-            proven: 0.0,
-            ahead: Ahead::Clear,
-            grip: Grip::Slips,
+            gait: Gait { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips },
         };
         Self { solver, whereabouts: Whereabouts::Behind, allowance: Allowance::new(model, tolerance), pace }
     }
@@ -113,7 +83,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     #[inline(always)]
     pub(super) fn attempt(&mut self, eq: &Equations<'_>, t: f64, aim: &mut Aim, corner: f64) -> f64 {
         let target = Target { end: aim.target, grade: aim.grade };
-        let mut error = self.solver.attempt(eq, target, &self.allowance.scale);
+        let mut error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
         let Some((c, guard)) = aim.closes else { return error };
         let contact = &eq.model.contacts[c];
         for _ in 0..CORRECTIONS {
@@ -131,7 +101,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
             }
             aim.target = to;
             let target = Target { end: to, grade: aim.grade };
-            error = self.solver.attempt(eq, target, &self.allowance.scale);
+            error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
         }
         error
     }
@@ -142,15 +112,23 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. Sticking, a step is at most
     /// the limit of stability over it; at rest, [`REST_REACH`] over it; in gross slip nothing binds but the
     /// waveforms.
-    pub(super) fn longest_now(&self, fastest: f64) -> f64 {
+    pub(super) fn longest_now(&self, t: f64, fastest: f64) -> f64 {
         // Undamped, a long step feeds a swing below the tolerance up to it; what is at rest stays so only
         // within these.
-        let reach = match self.pace.grip {
-            Grip::Slips => return self.pace.longest,
+        let reach = match self.pace.gait.grip {
+            Grip::Slips => return self.longest(t),
             Grip::Sticks => self.solver.stability_limit(),
             Grip::Rests => REST_REACH,
         };
-        self.pace.longest.min(reach / fastest)
+        self.longest(t).min(reach / fastest)
+    }
+
+    /// Longest step from time t whatever holds, s; finite.
+    ///
+    /// Where no wave bounds a step it is as long as the run so far, and at first as the longest waveform takes: none may depend
+    /// on when the run will end.
+    pub(super) fn longest(&self, t: f64) -> f64 {
+        if self.pace.longest < f64::INFINITY { self.pace.longest } else { t.abs().max(self.pace.first) }
     }
 
     /// Looks whether all that is free is at rest.
@@ -158,7 +136,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// In gross slip the answer is given and the grip stays.
     pub(super) fn rest(&mut self, model: &Model, state: &State) -> bool {
         let rests = self.is_at_rest(model, state);
-        self.pace.grip = match self.pace.grip {
+        self.pace.gait.grip = match self.pace.gait.grip {
             Grip::Slips => Grip::Slips,
             Grip::Sticks | Grip::Rests if rests => Grip::Rests,
             Grip::Sticks | Grip::Rests => Grip::Sticks,
@@ -192,7 +170,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
 impl Pace {
     /// After an event nothing is known of what is ahead.
     pub(super) fn restart(&mut self) {
-        (self.proven, self.ahead) = (0.0, Ahead::Clear);
+        (self.gait.proven, self.gait.ahead) = (0.0, Ahead::Clear);
     }
 
     /// How the step after an accepted one of length `h` shrinks. On the way to a singular moment an even step has the same
@@ -202,7 +180,7 @@ impl Pace {
     /// h/singular, not below
     /// [`SHRINK`], and only after a step on this way has been refused.
     pub(super) fn nearing(&self, h: f64, singular: f64) -> f64 {
-        match self.ahead {
+        match self.gait.ahead {
             Ahead::Clear => 1.0,
             Ahead::Shortens => (1.0 - h / singular).max(SHRINK),
         }
@@ -215,9 +193,9 @@ impl Pace {
     /// tolerance of 1e-9 was thrown away.
     pub(super) fn refuse(&mut self, aim: &Aim) {
         if aim.closes.is_some() {
-            self.proven = 0.0;
+            self.gait.proven = 0.0;
         }
-        self.ahead = if aim.singular.is_finite() { Ahead::Shortens } else { Ahead::Clear };
+        self.gait.ahead = if aim.singular.is_finite() { Ahead::Shortens } else { Ahead::Clear };
     }
 
     /// The error by which a step is judged. From a singular moment it falls with the root of the length as that of an even
@@ -232,12 +210,29 @@ impl Pace {
 /// Longest step, s. A row under a varying load follows chords: it needs steps that leave the load no bend.
 ///
 /// ∞ where neither a smooth waveform nor such a row is in the model.
-fn longest(model: &Model, plan: &Plan) -> f64 {
+fn longest(model: &Model) -> f64 {
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
     // A row has no state of growth: a chord per step is all that it follows of a bent load.
     let rows = model.contacts.iter().filter(|c| !c.engine.branches() && !c.is_constant());
-    let load = |w: usize| model.waveforms[w].period().unwrap_or(plan.duration) / CHORDS_PER_PERIOD;
+    // Not the run's duration, where the load has no period: no step may depend on when a run will end.
+    let load = |w: usize| match &model.waveforms[w] {
+        // What a caller will supply nobody knows: steps that follow the fastest swing.
+        input if input.interpolation().is_some() => natural(model) / STEPS_PER_SWING,
+        waveform => waveform.extent() / CHORDS_PER_PERIOD,
+    };
     rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
+}
+
+/// Period of the fastest swing with all contacts stuck, s; 1 ms where nothing swings.
+fn natural(model: &Model) -> f64 {
+    let period = std::f64::consts::TAU / model.fastest;
+    if period.is_normal() { period } else { 1e-3 }
+}
+
+/// That, or the longest time that a waveform takes, s.
+fn scene_time(model: &Model) -> f64 {
+    let extents = model.waveforms.iter().map(Waveform::extent).filter(|extent| extent.is_finite());
+    extents.fold(natural(model), f64::max)
 }
 
 /// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2 of

@@ -10,7 +10,7 @@ use stickslip_stepper::{Attempt, Completion};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Takes the steps of the drive that the attempt just made brings to their end; the one with which they are constant
-    /// ends the attempt and the run. Until then nothing is changed: the places are read off the dense output.
+    /// ends the run. Until then nothing is changed: the places are read off the dense output.
     #[inline(never)]
     pub(super) fn take_steps(&mut self, state: &State) {
         let (t, i) = (self.motion.solver.span().end_time, self.horizon.steps.coordinate);
@@ -19,18 +19,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             if due < t {
                 self.motion.solver.complete(&eq, Completion::Dense);
             }
-            if !self.horizon.steps.take(state.shifts[i], self.motion.component(i, due)) {
-                continue;
+            if self.horizon.steps.take(state.shifts[i], self.motion.component(i, due)) {
+                self.end_at(due);
+                return;
             }
-            self.horizon.end = due;
-            self.output.end_at(due);
-            if due < t {
-                // An event beyond the end is no event of this run: what had fallen is forgotten.
-                self.motion.solver.cut(due);
-                self.watch.arrive(&eq, &self.motion.solver);
-                self.watch.fired.clear();
-            }
-            return;
         }
     }
 }

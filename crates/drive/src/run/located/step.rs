@@ -5,15 +5,15 @@
 //! together, then laws. A step that is refused leaves a shorter wish and one more count.
 
 use super::aim::Aim;
-use super::motion::{Pace, Whereabouts};
+use super::motion::Pace;
 use super::watch::Watch;
 use super::{Located, Motion};
 use crate::RunError;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::record::Record;
-use crate::run::ledger::Books;
-use crate::state::State;
+use crate::run::horizon::Progress;
+use crate::state::{Books, State, Whereabouts};
 use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, StepHistory, Verdict};
 
 /// How a step ends.
@@ -23,7 +23,7 @@ enum Ending {
     Smooth,
     /// Where a guard fell or a period ended, before its target.
     Event,
-    /// Where a waveform turns, or the run ends.
+    /// Where a waveform turns.
     Corner,
 }
 
@@ -33,14 +33,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// Fails where the step would be too small, a value is not finite, a contact or block refuses its path,
     /// or a limit is reached. The state is then that of the last step accepted.
-    pub(super) fn step(
-        &mut self,
-        state: &mut State,
-        control: &mut StepControl,
-        record: &mut dyn Record,
-    ) -> Result<(), RunError> {
-        if self.leap(state, record)? {
-            return Ok(());
+    pub(super) fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
+        if let Some(progress) = self.leap(state, record)? {
+            return Ok(progress);
         }
         if self.motion.whereabouts == Whereabouts::Behind {
             self.catch_up(state);
@@ -51,18 +46,27 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if aim.target <= state.t {
             return Err(RunError::StepTooSmall { t: state.t, step: state.step });
         }
+        let before = self.bookmark();
         let eq = self.setting.equations(state, &self.interval);
-        let verdict = attempt(&mut self.motion, &mut self.watch, &eq, (state, control), (&mut aim, corner));
+        let tried = (&mut self.motion, &mut self.watch, &mut self.control);
+        let verdict = attempt(tried, &eq, state, (&mut aim, corner));
         if !verdict.accepted {
-            return self.reject(state, control, (&aim, verdict), record);
+            return self.reject(state, (&aim, verdict), record).map(|()| Progress::Made);
         }
-        let h = aim.target - state.t;
-        // The length that was judged, even if an event cuts it: it is what the law bore.
-        self.motion.pace.proven = self.motion.pace.proven.max(h);
         if self.horizon.steps.due(self.motion.solver.span().end_time).is_some() {
             self.take_steps(state);
         }
-        let ending = self.ending(&aim, corner);
+        if self.motion.solver.span().end_time >= self.horizon.nearly {
+            if self.horizon.is_beyond(self.motion.solver.span().end_time) {
+                self.turn_back(before);
+                return Ok(Progress::Short);
+            }
+            self.end_here(state);
+        }
+        let h = aim.target - state.t;
+        // The length that was judged, even if an event cuts it: it is what the law bore.
+        self.motion.pace.gait.proven = self.motion.pace.gait.proven.max(h);
+        let ending = self.ending(&aim);
         let wished = self.wished(state, ending, (h, verdict.next));
         state.tally.step(self.method(&aim));
         self.accept(state, record, ending == Ending::Smooth && self.watch.fired.is_empty())?;
@@ -70,23 +74,25 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             // Only what goes on smoothly knows how its error falls; after a corner or an event control begins
             // with caution.
             Ending::Smooth => self.motion.pace.nearing(h, aim.singular) * wished,
-            Ending::Event | Ending::Corner => control.after_event(wished),
+            Ending::Event | Ending::Corner => self.control.after_event(wished),
         };
-        if ending == Ending::Corner || !self.watch.fired.is_empty() {
-            self.pass_event(state, ending == Ending::Corner, record)?;
+        // What turns with an input turns when its caller has said where to.
+        let turns = ending == Ending::Corner && !state.waits_for_input(self.setting.model);
+        if turns || !self.watch.fired.is_empty() {
+            self.pass_event(state, turns, record)?;
         } else {
             self.watch.go_on();
             if self.motion.rest(self.setting.model, state) {
                 self.stop(state);
             }
         }
-        self.bounds.step(state, record)
+        self.bounds.step(state, record).map(|()| Progress::Made)
     }
 
-    fn ending(&self, aim: &Aim, corner: f64) -> Ending {
+    fn ending(&self, aim: &Aim) -> Ending {
         if self.motion.solver.span().end_time < aim.target {
             Ending::Event
-        } else if aim.target == corner {
+        } else if aim.target == self.horizon.corner {
             Ending::Corner
         } else {
             Ending::Smooth
@@ -124,14 +130,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn reject(
         &mut self,
         state: &mut State,
-        control: &mut StepControl,
         (aim, verdict): (&Aim, Verdict),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         if aim.closes.is_some() {
             // The next attempt is an even one: nothing follows from both errors together.
             let rejected = Some(Rejection { step: aim.target - state.t, log_error: f64::INFINITY });
-            control.set_history(StepHistory { rejected, ..control.history() });
+            self.control.set_history(StepHistory { rejected, ..self.control.history() });
         }
         self.motion.pace.refuse(aim);
         state.counts.rejected += 1;
@@ -153,7 +158,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn accept(&mut self, state: &mut State, record: &mut dyn Record, goes_on: bool) -> Result<(), RunError> {
         let t = self.motion.solver.span().end_time;
         self.trace_step(state, t, goes_on);
-        self.ledger.books = if goes_on { Books::Behind } else { Books::Current };
+        self.ledger.booked.books = if goes_on { Books::Behind } else { Books::Current };
         if self.output.due(t) {
             self.write(state, t, record);
         }
@@ -191,10 +196,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 /// collected: one moment, one choice.
 #[inline(always)]
 fn attempt<A: for<'e> Attempt<Equations<'e>>>(
-    motion: &mut Motion<A>,
-    watch: &mut Watch,
+    (motion, watch, control): (&mut Motion<A>, &mut Watch, &mut StepControl),
     eq: &Equations<'_>,
-    (state, control): (&State, &mut StepControl),
+    state: &State,
     (aim, corner): (&mut Aim, f64),
 ) -> Verdict {
     let error = motion.attempt(eq, state.t, aim, corner);

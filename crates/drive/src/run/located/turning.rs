@@ -5,13 +5,13 @@
 //! from the velocities to its right.
 
 use super::Located;
-use crate::Waveform;
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
 use crate::model::Model;
 use crate::record::{self, Record};
-use crate::state::State;
+use crate::state::{Books, State};
+use crate::{RunError, Waveform};
 use stickslip_contact::{Memory, Segment};
 use stickslip_stepper::Attempt;
 
@@ -56,9 +56,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         for (w, waveform) in self.setting.model.waveforms.iter().enumerate() {
             // Several pieces may end in the rounding of one moment.
             while state.pieces[w].end <= state.t {
+                let piece = state.pieces[w];
+                let Some(next) = state.next_piece(w, waveform) else { break };
+                state.pieces[w] = next;
                 // Of the piece that ends: the next one has a jump of its own.
-                let jump = waveform.jump_after(&state.pieces[w]) != 0.0;
-                state.pieces[w] = waveform.after(&state.pieces[w]);
+                let jump = waveform.jump_between(&piece, &next) != 0.0;
                 turned.push((w, if jump { EventKind::Jump } else { EventKind::Corner }));
             }
         }
@@ -69,6 +71,25 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let (w, kind) = self.turning.turned[i];
             self.note(state, Source::Waveform(w), kind, record);
         }
+    }
+
+    /// Turns what an input has been given since the run stopped here.
+    ///
+    /// Memories that wait for an event come to where the state is first: their paths bend here.
+    pub(super) fn turn_due(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
+        if state.supplied.is_empty() {
+            return Ok(());
+        }
+        self.horizon.corner = state.next_corner();
+        if self.horizon.corner > state.t || state.waits_for_input(self.setting.model) {
+            return Ok(());
+        }
+        if self.ledger.booked.books == Books::Behind {
+            self.settle(state);
+            self.ledger.booked.books = Books::Current;
+        }
+        self.watch.fired.clear();
+        self.pass_event(state, true, record)
     }
 
     /// Bodies that follow a waveform jump: a straight path of every contact in no time. The work of the jump is what

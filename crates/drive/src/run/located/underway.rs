@@ -1,0 +1,66 @@
+//! What a run puts down with the state, and takes up again.
+//!
+//! All else is scratch and follows from the state: what is known of the interval, the slopes at the start of the next step,
+//! the contacts there, the swing of a leap.
+
+use super::Located;
+use crate::equations::Equations;
+use crate::interval::PhasePoint;
+use crate::state::{LocatedWay, State, Whereabouts};
+use stickslip_stepper::Attempt;
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Puts down all that the next step depends on, and what the work done so far came to.
+    pub(super) fn put_down(&mut self, state: &mut State) {
+        let solver = &self.motion.solver;
+        // With and without output the same count.
+        state.counts.evaluations += solver.evaluations() - self.output.evaluations;
+        self.output.evaluations = solver.evaluations();
+        state.control = Some(self.control.history());
+        let way = state.located_way();
+        way.tolerance = self.setting.tolerance;
+        (way.whereabouts, way.hand) = (self.motion.whereabouts, solver.hand());
+        way.gait = self.motion.pace.gait;
+        way.allowed.copy(&self.motion.allowance.allowed);
+        way.booked.copy(&self.ledger.booked);
+        (way.asked, way.leap) = (self.interval.traits.asked, self.takeoff);
+        way.windows.clone_from(&self.bounds.windows);
+        way.steps = self.horizon.steps.so_far();
+    }
+
+    /// Goes on from what another run put down.
+    pub(super) fn take_up(&mut self, state: &State, way: &LocatedWay) {
+        if let Some(history) = state.control {
+            self.control.set_history(history);
+        }
+        self.motion.pace.gait = way.gait;
+        self.motion.allowance.allowed.copy(&way.allowed);
+        self.ledger.booked.copy(&way.booked);
+        self.bounds.windows.clone_from(&way.windows);
+        if let Some(steps) = way.steps {
+            self.horizon.steps.take_up(steps);
+        }
+        self.horizon.corner = state.next_corner();
+        self.interval.begin(self.setting.model, state);
+        self.interval.traits.asked = way.asked;
+        self.motion.whereabouts = way.whereabouts;
+        if way.whereabouts == Whereabouts::Here {
+            let eq = self.setting.equations(state, &self.interval);
+            self.motion.solver.take_up(&eq, state.t, &state.y, way.hand);
+            self.watch.set_out(&eq, &self.motion.solver);
+        }
+        if let Some(leap) = way.leap {
+            self.swing_from(leap.from);
+            self.takeoff = way.leap;
+        }
+        // They were counted when they were made first.
+        self.output.evaluations = self.motion.solver.evaluations();
+    }
+
+    /// Finds the event of a swing from where that began; false where it has no closed form.
+    pub(super) fn swing_from(&mut self, from: PhasePoint) -> bool {
+        let [slider] = &self.setting.model.free[..] else { return false };
+        let length = slider.scale.0;
+        self.swing.begin(&self.interval, slider, from) && self.swing.aim(length)
+    }
+}

@@ -1,0 +1,202 @@
+//! A state from words, in the order in which [`write`](super::write) puts them. None where they are not of this model.
+
+use crate::contact::Mode;
+use crate::interval::PhasePoint;
+use crate::method::Tally;
+use crate::model::{BlockState, Model};
+use crate::state::{Ahead, Books, Grip, Layout, Whereabouts};
+use crate::state::{Allowed, Booked, Counts, FixedWay, Gait, Grid, LocatedWay};
+use crate::state::{State, Stepped, Takeoff, Underway, Window};
+use crate::{Piece, Waveform};
+use stickslip_contact::{Branch, Interface, Memory, Words};
+use stickslip_stepper::{Hand, Rejection, StepHistory};
+
+/// Most numbers that a block remembers.
+const MOST_OF_A_MEMORY: usize = 1 << 24;
+
+pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
+    let mut layout = model.layout();
+    layout.growing = if words.flag()? { layout.growing } else { 0 };
+    let [t, jumps, lost, origin, step, stuck_step] = numbers(words)?;
+    let y = reals(words, layout.total())?;
+    let shifts = reals(words, layout.free)?;
+    let friction = reals(words, model.contacts.len())?;
+    let (mut grew, mut memories, mut modes) = (Vec::new(), Vec::new(), Vec::new());
+    for contact in &model.contacts {
+        grew.push(words.flag()?);
+        memories.push(Memory::read(&contact.interface, &contact.engine, words)?);
+        modes.push(mode(&contact.interface, words)?);
+    }
+    let blocks = model.blocks.iter().map(|_| block(words)).collect::<Option<_>>()?;
+    let (pieces, supplied) = pieces(model, words)?;
+    if !((0.0..f64::INFINITY).contains(&t) && step >= 0.0) {
+        return None;
+    }
+    Some(State {
+        t,
+        y,
+        shifts,
+        memories,
+        modes,
+        grew,
+        blocks,
+        pieces,
+        friction,
+        jumps,
+        lost,
+        origin,
+        step,
+        stuck_step,
+        supplied,
+        counts: counts(words)?,
+        tally: Tally::read(model.contacts.len(), words)?,
+        control: option(words, history)?,
+        underway: option(words, |words| underway(model, layout, words))?,
+    })
+}
+
+/// Numbers; each may be infinite.
+fn numbers<const N: usize>(words: &mut Words<'_>) -> Option<[f64; N]> {
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        *number = words.number()?;
+    }
+    Some(numbers)
+}
+
+fn reals(words: &mut Words<'_>, count: usize) -> Option<Vec<f64>> {
+    if count > words.left() {
+        return None;
+    }
+    (0..count).map(|_| words.number()).collect()
+}
+
+fn option<T>(words: &mut Words<'_>, read: impl FnOnce(&mut Words<'_>) -> Option<T>) -> Option<Option<T>> {
+    if words.flag()? { read(words).map(Some) } else { Some(None) }
+}
+
+fn mode(law: &Interface, words: &mut Words<'_>) -> Option<Mode> {
+    Some(match words.word()? {
+        0 => Mode::Open,
+        1 => Mode::Grow,
+        2 => Mode::Slip(Branch::read(law, words)?),
+        3 => Mode::Whole { sense: words.finite()? },
+        _ => return None,
+    })
+}
+
+fn block(words: &mut Words<'_>) -> Option<BlockState> {
+    let law = usize::try_from(words.word()?).ok()?;
+    let count = words.count(MOST_OF_A_MEMORY)?;
+    Some(BlockState { law, memory: reals(words, count)? })
+}
+
+/// Present and supplied pieces.
+type Pieces = (Vec<Piece>, Vec<Option<Piece>>);
+
+fn pieces(model: &Model, words: &mut Words<'_>) -> Option<Pieces> {
+    let (mut pieces, mut supplied) = (Vec::new(), Vec::new());
+    let feeds = model.waveforms.iter().any(|waveform| waveform.interpolation().is_some());
+    for waveform in &model.waveforms {
+        pieces.push(piece(waveform, words)?);
+        if feeds {
+            supplied.push(option(words, |words| piece(waveform, words))?);
+        }
+    }
+    Some((pieces, supplied))
+}
+
+fn piece(waveform: &Waveform, words: &mut Words<'_>) -> Option<Piece> {
+    match waveform.interpolation() {
+        None => waveform.piece(words.word()?),
+        Some(_) => Piece::of_supplied(numbers(words)?),
+    }
+}
+
+fn counts(words: &mut Words<'_>) -> Option<Counts> {
+    let mut next = || words.tally();
+    Some(Counts { steps: next()?, rejected: next()?, evaluations: next()?, events: next()? })
+}
+
+fn history(words: &mut Words<'_>) -> Option<StepHistory> {
+    let log_error = words.number()?;
+    let rejected = option(words, |words| {
+        let [step, log_error] = numbers(words)?;
+        Some(Rejection { step, log_error })
+    })?;
+    Some(StepHistory { log_error, rejected })
+}
+
+fn underway(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Underway> {
+    match words.word()? {
+        0 => located(model, layout, words).map(|way| Underway::Located(Box::new(way))),
+        1 => fixed(model, layout, words).map(|way| Underway::Fixed(Box::new(way))),
+        _ => None,
+    }
+}
+
+fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<LocatedWay> {
+    Some(LocatedWay {
+        tolerance: words.finite()?,
+        whereabouts: if words.flag()? { Whereabouts::Here } else { Whereabouts::Behind },
+        hand: Hand { graded: words.flag()?, both: words.flag()? },
+        gait: Gait {
+            proven: words.number()?,
+            ahead: if words.flag()? { Ahead::Shortens } else { Ahead::Clear },
+            grip: match words.word()? {
+                0 => Grip::Slips,
+                1 => Grip::Sticks,
+                2 => Grip::Rests,
+                _ => return None,
+            },
+        },
+        allowed: Allowed { scale: reals(words, layout.total())?, power: words.number()? },
+        booked: booked(model, words)?,
+        asked: words.flag()?,
+        leap: option(words, |words| {
+            let [t, x, v, input] = numbers(words)?;
+            Some(Takeoff { from: PhasePoint { t, x, v }, input })
+        })?,
+        windows: windows(model, words)?,
+        steps: option(words, stepped)?,
+    })
+}
+
+fn fixed(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<FixedWay> {
+    let stepper = if words.flag()? { "verlet" } else { "rk4" };
+    let [start, step, count] = numbers(words)?;
+    let keeps = words.flag()?;
+    Some(FixedWay {
+        stepper,
+        grid: Grid { start, step, count },
+        slopes: reals(words, if keeps { layout.total() } else { 0 })?,
+        senses: reals(words, model.contacts.len())?,
+        booked: booked(model, words)?,
+        windows: windows(model, words)?,
+        steps: option(words, stepped)?,
+    })
+}
+
+fn booked(model: &Model, words: &mut Words<'_>) -> Option<Booked> {
+    Some(Booked {
+        last: reals(words, model.contacts.len())?,
+        blocks: words.number()?,
+        books: if words.flag()? { Books::Behind } else { Books::Current },
+    })
+}
+
+fn windows(model: &Model, words: &mut Words<'_>) -> Option<Vec<Window>> {
+    let window = |_| {
+        Some(Window { start: words.number()?, count: u32::try_from(words.word()?).ok()?.min(u32::MAX / 2) })
+    };
+    (0..model.contacts.len() + model.blocks.len()).map(window).collect()
+}
+
+fn stepped(words: &mut Words<'_>) -> Option<Stepped> {
+    Some(Stepped {
+        next: words.finite()?,
+        place: option(words, numbers)?.map(|[origin, place]| (origin, place)),
+        step: option(words, |words| words.number())?,
+        agreed: u32::try_from(words.word()?).ok()?.min(u32::MAX / 2),
+    })
+}

@@ -1,0 +1,156 @@
+//! A state into words, in the order in which [`read`](super::read) takes them.
+
+use crate::contact::Mode;
+use crate::model::Model;
+use crate::state::{Ahead, Books, Grip, Whereabouts};
+use crate::state::{Booked, FixedWay, Gait, LocatedWay, State, Stepped, Takeoff, Underway, Window};
+use crate::{Piece, Waveform};
+use stickslip_stepper::StepHistory;
+
+/// The words so far.
+pub(super) struct Page<'a>(&'a mut Vec<u64>);
+
+pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
+    let mut page = Page(words);
+    page.flag(state.layout(model).growing > 0);
+    page.reals([state.t, state.jumps, state.lost, state.origin, state.step, state.stuck_step]);
+    page.reals(state.y.iter().copied());
+    page.reals(state.shifts.iter().copied());
+    page.reals(state.friction.iter().copied());
+    for c in 0..state.memories.len() {
+        page.flag(state.grew[c]);
+        state.memories[c].write(page.0);
+        page.mode(&state.modes[c]);
+    }
+    for block in &state.blocks {
+        page.0.extend([block.law as u64, block.memory.len() as u64]);
+        page.reals(block.memory.iter().copied());
+    }
+    for (w, waveform) in model.waveforms.iter().enumerate() {
+        page.piece(waveform, &state.pieces[w]);
+        if let Some(supplied) = state.supplied.get(w) {
+            page.option(supplied.as_ref(), |page, piece| page.piece(waveform, piece));
+        }
+    }
+    let counts = state.counts;
+    page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events]);
+    state.tally.write(page.0);
+    page.option(state.control.as_ref(), Page::history);
+    page.option(state.underway.as_ref(), Page::underway);
+}
+
+impl Page<'_> {
+    fn flag(&mut self, flag: bool) {
+        self.0.push(u64::from(flag));
+    }
+
+    fn real(&mut self, real: f64) {
+        self.0.push(real.to_bits());
+    }
+
+    fn reals(&mut self, reals: impl IntoIterator<Item = f64>) {
+        self.0.extend(reals.into_iter().map(f64::to_bits));
+    }
+
+    fn option<T>(&mut self, value: Option<&T>, write: impl FnOnce(&mut Self, &T)) {
+        self.flag(value.is_some());
+        if let Some(value) = value {
+            write(self, value);
+        }
+    }
+
+    fn mode(&mut self, mode: &Mode) {
+        match mode {
+            Mode::Open => self.0.push(0),
+            Mode::Grow => self.0.push(1),
+            Mode::Slip(branch) => {
+                self.0.push(2);
+                branch.write(self.0);
+            }
+            Mode::Whole { sense } => self.0.extend([3, sense.to_bits()]),
+        }
+    }
+
+    /// Its index; of an input's, which has none, where it leads from and to.
+    fn piece(&mut self, waveform: &Waveform, piece: &Piece) {
+        match waveform.interpolation() {
+            None => self.0.push(piece.index),
+            Some(_) => self.reals(piece.supplied()),
+        }
+    }
+
+    fn history(&mut self, history: &StepHistory) {
+        self.real(history.log_error);
+        self.option(history.rejected.as_ref(), |page, rejected| {
+            page.reals([rejected.step, rejected.log_error]);
+        });
+    }
+
+    fn underway(&mut self, underway: &Underway) {
+        match underway {
+            Underway::Located(way) => {
+                self.0.push(0);
+                self.located(way);
+            }
+            Underway::Fixed(way) => {
+                self.0.push(1);
+                self.fixed(way);
+            }
+        }
+    }
+
+    fn located(&mut self, way: &LocatedWay) {
+        self.real(way.tolerance);
+        self.flag(way.whereabouts == Whereabouts::Here);
+        self.flag(way.hand.graded);
+        self.flag(way.hand.both);
+        let Gait { proven, ahead, grip } = way.gait;
+        self.real(proven);
+        self.flag(ahead == Ahead::Shortens);
+        self.0.push(match grip {
+            Grip::Slips => 0,
+            Grip::Sticks => 1,
+            Grip::Rests => 2,
+        });
+        self.reals(way.allowed.scale.iter().copied());
+        self.real(way.allowed.power);
+        self.booked(&way.booked);
+        self.flag(way.asked);
+        self.option(way.leap.as_ref(), |page, Takeoff { from, input }| {
+            page.reals([from.t, from.x, from.v, *input]);
+        });
+        self.windows(&way.windows);
+        self.option(way.steps.as_ref(), Self::stepped);
+    }
+
+    fn fixed(&mut self, way: &FixedWay) {
+        // By its letters: there are few.
+        self.0.push(u64::from(way.stepper == "verlet"));
+        self.reals([way.grid.start, way.grid.step, way.grid.count]);
+        self.flag(!way.slopes.is_empty());
+        self.reals(way.slopes.iter().copied());
+        self.reals(way.senses.iter().copied());
+        self.booked(&way.booked);
+        self.windows(&way.windows);
+        self.option(way.steps.as_ref(), Self::stepped);
+    }
+
+    fn booked(&mut self, booked: &Booked) {
+        self.reals(booked.last.iter().copied());
+        self.real(booked.blocks);
+        self.flag(booked.books == Books::Behind);
+    }
+
+    fn windows(&mut self, windows: &[Window]) {
+        for window in windows {
+            self.0.extend([window.start.to_bits(), u64::from(window.count)]);
+        }
+    }
+
+    fn stepped(&mut self, stepped: &Stepped) {
+        self.real(stepped.next);
+        self.option(stepped.place.as_ref(), |page, place| page.reals([place.0, place.1]));
+        self.option(stepped.step.as_ref(), |page, step| page.real(*step));
+        self.0.push(u64::from(stepped.agreed));
+    }
+}

@@ -1,0 +1,332 @@
+//! Runs that a caller holds: advanced in frames, put down and taken up, fed by inputs.
+//!
+//! What a held run must come to is what an undisturbed one comes to: to the bit where nothing was cut, within the tolerance
+//! where it was.
+
+use crate::lottery::{Draw, deal, on_rows};
+use crate::parts::{FOOT_SLIDER, contact, event, foot_and_slider, p1, plan, wave};
+use stickslip_contact::Profile;
+use stickslip_drive::scene::Scene;
+use stickslip_drive::{
+    BytesError, EventKind, InputError, Interpolation, Limits, Model, Plan, Run, RunError, Shape, State,
+    Stepper, Trace, UntilSteady, run,
+};
+
+const PERIOD: f64 = 1e-3;
+const KEY: [u8; 32] = [7; 32];
+
+/// Drawn scenes on both engines, and P1, with the period of their drive, s.
+fn scenes() -> Vec<(Scene, f64, String)> {
+    let drawn = (0..24).map(deal).flat_map(|drawn| {
+        let rows = on_rows(&drawn.scene, 24);
+        [(drawn.scene, drawn.period, drawn.title.clone()), (rows, drawn.period, drawn.title + ", rows")]
+    });
+    drawn.chain([(p1(), PERIOD, "P1".to_owned())]).collect()
+}
+
+fn steppers(period: f64) -> [Stepper; 4] {
+    [
+        Stepper::Event { tolerance: 1e-4 },
+        Stepper::Event { tolerance: 1e-8 },
+        Stepper::Verlet { step: 1e-3 * period },
+        Stepper::Rk4 { step: 1e-3 * period },
+    ]
+}
+
+/// The run from a state to the end of a plan, held or not; none for a fixed step too long for the scene.
+fn finished(model: &Model, plan: &Plan, state: State, resumed: bool) -> Option<(State, Trace)> {
+    let make = if resumed { Run::resume } else { Run::new };
+    let mut run = make(model, plan, state).ok()?;
+    let mut trace = Trace::new(model);
+    let outcome = run.finish(&mut trace);
+    assert!(!matches!(outcome, Err(RunError::StepTooSmall { .. })), "{outcome:?}");
+    Some((run.into_state(), trace))
+}
+
+/// After any number of steps, accepted or rejected: between two of them, in a swing, while growing.
+#[test]
+fn a_run_taken_up_anywhere_goes_on_to_the_same_bits() {
+    let mut taken = 0;
+    for (scene, period, title) in scenes() {
+        let Ok(model) = Model::new(&scene) else { continue };
+        for stepper in steppers(period) {
+            let whole = Plan { every: Some(0.037 * period), ..plan(stepper, 1.3 * period) };
+            let Ok(start) = model.start(&whole) else { continue };
+            let Some((end, rows)) = finished(&model, &whole, start.clone(), false) else { continue };
+            let mut draw = Draw::new(taken);
+            for _ in 0..6 {
+                let steps = (draw.bits() % (end.counts().steps + end.counts().rejected).max(2)).max(1);
+                let short = Plan { limits: Limits { steps, ..Limits::default() }, ..whole };
+                let (mut first, mut before) =
+                    (Run::new(&model, &short, start.clone()).unwrap(), Trace::new(&model));
+                if !matches!(first.approach(&mut before), Err(RunError::TooManySteps { .. })) {
+                    continue;
+                }
+                let bytes = first.state().to_bytes(&model, &KEY);
+                let state = State::from_bytes(&model, &KEY, &bytes).unwrap();
+                assert!(&state == first.state(), "{title} {stepper:?} at {steps}: bytes");
+                assert_eq!(state.to_bytes(&model, &KEY), bytes);
+                let (other, after) = finished(&model, &whole, state, true).unwrap();
+                assert!(
+                    other == end,
+                    "{title} {stepper:?} at {steps}\n{:?}\n{:?}",
+                    other.counts(),
+                    end.counts()
+                );
+                let joined: Vec<&[f64]> = before.rows().chain(after.rows()).collect();
+                assert!(joined == rows.rows().collect::<Vec<_>>(), "{title} {stepper:?} at {steps}: rows");
+                let joined: Vec<_> = before.events().chain(after.events()).collect();
+                assert!(
+                    joined == rows.events().collect::<Vec<_>>(),
+                    "{title} {stepper:?} at {steps}: events"
+                );
+                taken += 1;
+            }
+        }
+    }
+    println!("{taken} runs taken up");
+    assert!(taken > 800, "{taken}");
+}
+
+/// A run to half its end, taken up where it stood before the last step, is the run to its end; its rows and those of the
+/// half are the same as long as both have any.
+#[test]
+fn no_number_depends_on_the_end() {
+    for (scene, period, title) in scenes() {
+        let Ok(model) = Model::new(&scene) else { continue };
+        for stepper in steppers(period) {
+            let every = Some(0.037 * period);
+            let [half, whole] = [0.61, 1.3].map(|share| Plan { every, ..plan(stepper, share * period) });
+            let Ok(start) = model.start(&whole) else { continue };
+            let Some((end, rows)) = finished(&model, &whole, start.clone(), false) else { continue };
+            let (mut first, mut before) =
+                (Run::new(&model, &half, start.clone()).unwrap(), Trace::new(&model));
+            if first.approach(&mut before).is_err() {
+                continue;
+            }
+            let state = first.state().clone();
+            let (on, after) = finished(&model, &whole, state, true).unwrap();
+            assert!(on == end, "{title} {stepper:?}");
+            let joined: Vec<&[f64]> = before.rows().chain(after.rows()).collect();
+            assert!(joined == rows.rows().collect::<Vec<_>>(), "{title} {stepper:?}");
+            // The half in one go, and its last row, which is off the grid of the whole one.
+            let (_, alone) = finished(&model, &half, start, false).unwrap();
+            let shared = alone.rows().len() - 1;
+            assert!(alone.rows().take(shared).eq(rows.rows().take(shared)), "{title} {stepper:?}");
+            first.finish(&mut before).unwrap();
+            assert!(before.rows().eq(alone.rows()), "{title} {stepper:?}");
+        }
+    }
+}
+
+/// The same with an early end: taken up, the run ends with the same period.
+#[test]
+fn an_early_end_is_found_again() {
+    let model = Model::new(&p1()).unwrap();
+    let steady = Some(UntilSteady { waveform: 0, body: 1, change: 1e-4 });
+    for stepper in [Stepper::Event { tolerance: 1e-8 }, Stepper::Verlet { step: 1e-6 }] {
+        let asked = Plan { until_steady: steady, ..plan(stepper, 1000.0 * PERIOD) };
+        let start = model.start(&asked).unwrap();
+        let (end, _) = finished(&model, &asked, start.clone(), false).unwrap();
+        let mut first = Run::new(&model, &asked, start).unwrap();
+        first.approach(&mut ()).unwrap();
+        let (before, last) = (first.state().time(), end.time());
+        assert!(before < last && last < 100.0 * PERIOD, "{stepper:?}: {before} {last}");
+        let (on, _) = finished(&model, &asked, first.state().clone(), true).unwrap();
+        assert!(on == end, "{stepper:?} {} {}", on.time(), end.time());
+    }
+}
+
+/// Frames cut steps, which costs no more than the tolerance; the leaps of P1 stay under way, to the bit.
+#[test]
+fn frames_are_the_whole_run() {
+    for frame in [1.7e-6, 20e-6, 137e-6] {
+        let model = Model::new(&p1()).unwrap();
+        let whole = event(1e-8, 5.0 * PERIOD);
+        let (mut once, mut frames) =
+            (model.start(&whole).unwrap(), Run::new(&model, &whole, model.start(&whole).unwrap()).unwrap());
+        run(&model, &whole, &mut once, &mut ()).unwrap();
+        let mut k = 0.0_f64;
+        while frames.state().time() < 5.0 * PERIOD {
+            k += 1.0;
+            frames.advance((k * frame).min(5.0 * PERIOD), &mut ()).unwrap();
+            // A copy of the state is as good as the run itself.
+            if k % 50.0 == 0.0 {
+                let state = frames.state().clone();
+                assert!(State::from_bytes(&model, &KEY, &state.to_bytes(&model, &KEY)).unwrap() == state);
+                frames = Run::resume(&model, &whole, state).unwrap();
+            }
+        }
+        assert_eq!(frames.state().body(&model, 1), once.body(&model, 1), "{frame:e}");
+        assert_eq!(frames.state().counts().events, once.counts().events);
+    }
+}
+
+/// The same of drawn scenes, which step: within ten tolerances of their natural length where the motion does not multiply
+/// errors itself.
+#[test]
+fn frames_of_steps_keep_the_tolerance() {
+    for seed in 0..24 {
+        let drawn = deal(seed);
+        let Ok(model) = Model::new(&drawn.scene) else { continue };
+        let end = 1.1 * drawn.period;
+        let at = |tolerance: f64, frame: f64| {
+            let plan = event(tolerance, end);
+            let mut run = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+            let mut t = 0.0;
+            while t < end {
+                t = (t + frame).min(end);
+                run.advance(t, &mut ()).unwrap();
+            }
+            (0..drawn.scene.bodies.len())
+                .filter_map(|i| run.state().body(&model, i))
+                .map(|b| b.0)
+                .collect::<Vec<f64>>()
+        };
+        let (exact, whole) = (at(1e-11, end), at(1e-8, end));
+        let unit = model.contact_natural(0).unwrap().displacement;
+        let off = |other: &[f64]| {
+            exact.iter().zip(other).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs() / unit))
+        };
+        for frame in [0.013, 0.11] {
+            let frames = off(&at(1e-8, frame * drawn.period));
+            assert!(frames <= 10.0 * off(&whole).max(1e-8), "{seed}: {frames:e}, whole {:e}", off(&whole));
+        }
+    }
+}
+
+/// The sawtooth of P1, or one that is supplied.
+fn dragged(shape: Shape) -> Scene {
+    let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
+    let mut drive = wave("drive", shape.clone(), PERIOD);
+    if matches!(shape, Shape::Input { .. }) {
+        drive.part = stickslip_drive::Waveform::new(shape, stickslip_drive::Timing::every(1.0)).unwrap();
+    }
+    foot_and_slider(drive, 0.02, ball)
+}
+
+fn input(interpolation: Interpolation) -> Shape {
+    Shape::Input { initial: 0.0, range: (-1e-6, 1e-6), interpolation }
+}
+
+/// Fed piece by piece, as late as can be, an input is the waveform: rows and corners to the bit.
+#[test]
+fn a_sawtooth_fed_as_an_input_is_the_sawtooth() {
+    let (stroke, flyback) = (1e-6, 20e-6);
+    let plan = Plan { every: Some(7e-6), ..event(1e-8, 4.0 * PERIOD) };
+    let known = Model::new(&dragged(Shape::Sawtooth { stroke, flyback })).unwrap();
+    let (_, rows) = finished(&known, &plan, known.start(&plan).unwrap(), false).unwrap();
+    let model = Model::new(&dragged(input(Interpolation::Linear))).unwrap();
+    let mut fed = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+    let mut trace = Trace::new(&model);
+    for k in 0..4 {
+        let start = f64::from(k) * PERIOD;
+        for (until, value) in [(start + (PERIOD - flyback), stroke), (start + PERIOD, 0.0)] {
+            fed.lead(0, until, value).unwrap();
+            fed.advance(until, &mut trace).unwrap();
+        }
+    }
+    // The corner at the end wants to know what is next.
+    fed.lead(0, 5.0 * PERIOD, stroke).unwrap();
+    fed.advance(4.0 * PERIOD + 1e-9, &mut trace).unwrap();
+    assert_eq!(trace.rows().len(), rows.rows().len() - 1);
+    assert!(trace.rows().zip(rows.rows()).all(|(a, b)| a == b));
+    let corners =
+        |trace: &Trace| -> Vec<_> { trace.events().map(|(event, after)| (*event, after.to_vec())).collect() };
+    let (fed, known) = (corners(&trace), corners(&rows));
+    assert_eq!(fed.len(), known.len());
+    // The last corner of the waveform turns into its own next rise, that of the input into another one.
+    let last = 4.0 * PERIOD - 1e-9;
+    assert!(fed.iter().zip(&known).filter(|(a, _)| a.0.t < last).all(|(a, b)| a == b));
+    assert!(known.iter().any(|(event, _)| event.kind == EventKind::Corner));
+}
+
+/// A held input jumps: contacts move in no time, and the books close. Held at what it has, nothing happens.
+#[test]
+fn a_held_input_jumps_and_its_work_is_booked() {
+    let model = Model::new(&dragged(input(Interpolation::Held))).unwrap();
+    let plan = event(1e-9, PERIOD);
+    let mut run = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+    let mut trace = Trace::new(&model);
+    for (k, value) in [0.0, 3e-8, 3e-8, -8e-8, 0.0].into_iter().enumerate() {
+        run.hold(0, value).unwrap();
+        run.advance((k + 1) as f64 * 5e-5, &mut trace).unwrap();
+    }
+    let jumps: Vec<f64> =
+        trace.events().filter(|(e, _)| e.kind == EventKind::Jump).map(|(e, _)| e.t).collect();
+    assert_eq!(jumps, [5e-5, 3.0 * 5e-5, 4.0 * 5e-5]);
+    let mut row = Vec::new();
+    run.row(&mut row);
+    let of = |name: &str| row[model.channels().iter().position(|c| c.name == name).unwrap()];
+    assert!(of("energy.friction_J") > 0.0 && of("energy.input_J") > 0.0);
+    assert!(of("energy.error_J").abs() < 1e-8 * of("energy.input_J"), "{:e}", of("energy.error_J"));
+}
+
+#[test]
+fn what_an_input_does_not_take_is_refused() {
+    let plan = event(1e-9, PERIOD);
+    let of = |interpolation| Model::new(&dragged(input(interpolation))).unwrap();
+    let (held, linear) = (of(Interpolation::Held), of(Interpolation::Linear));
+    let mut run = Run::new(&held, &plan, held.start(&plan).unwrap()).unwrap();
+    assert_eq!(run.hold(1, 0.0), Err(InputError::NoInput(1)));
+    assert_eq!(run.lead(0, 1.0, 0.0), Err(InputError::Interpolation { input: 0, is: Interpolation::Held }));
+    for value in [f64::NAN, 2e-6, f64::INFINITY] {
+        assert!(matches!(run.hold(0, value), Err(InputError::Range { input: 0, .. })));
+    }
+    run.advance(1e-4, &mut ()).unwrap();
+    for until in [0.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(run.advance(until, &mut ()), Err(RunError::Backwards { .. })));
+    }
+    let mut run = Run::new(&linear, &plan, linear.start(&plan).unwrap()).unwrap();
+    assert!(matches!(run.lead(0, 0.0, 0.0), Err(InputError::Time { input: 0, .. })));
+    run.lead(0, 1e-4, 1e-7).unwrap();
+    assert_eq!(
+        run.advance(2e-4, &mut ()),
+        Err(RunError::InputMissing { input: 0, known: 1e-4, until: 2e-4 })
+    );
+    run.lead(0, 2e-4, 0.0).unwrap();
+    assert_eq!(run.lead(0, 3e-4, 0.0), Err(InputError::Occupied { input: 0, until: 2e-4 }));
+    run.advance(2e-4, &mut ()).unwrap();
+    assert!(matches!(run.finish(&mut ()), Err(RunError::InputMissing { .. })));
+    let dopri5 = Plan { stepper: Stepper::Dopri5 { tolerance: 1e-6 }, ..plan };
+    let held = Run::new(&linear, &dopri5, linear.start(&dopri5).unwrap());
+    assert_eq!(held.err(), Some(RunError::NotHeld { stepper: "dopri5" }));
+}
+
+/// Whatever is done to the bytes: a typed error, or the very state; never a panic.
+#[test]
+fn damaged_bytes_are_refused() {
+    let (mut draw, mut refused) = (Draw::new(5), 0);
+    for seed in 0..8 {
+        let drawn = deal(seed);
+        let Ok(model) = Model::new(&drawn.scene) else { continue };
+        let plan = event(1e-6, drawn.period);
+        let mut run = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+        run.advance(0.43 * drawn.period, &mut ()).unwrap();
+        let whole = run.state().to_bytes(&model, &KEY);
+        assert_eq!(State::from_bytes(&model, &[8; 32], &whole).err(), Some(BytesError::OtherModel));
+        assert_eq!(State::from_bytes(&model, &KEY, b"solid stickslip").err(), Some(BytesError::Foreign));
+        for _ in 0..2500 {
+            let mut bytes = whole.clone();
+            let place = draw.bits() as usize % bytes.len();
+            match draw.bits() % 3 {
+                0 => bytes.truncate(place),
+                1 => bytes[place] ^= 1 << (draw.bits() % 8),
+                _ => bytes.extend([0; 8].iter().take(1 + place % 8)),
+            }
+            assert!(State::from_bytes(&model, &KEY, &bytes).is_err());
+            // With a checksum that is right again only the words themselves can tell.
+            let mut forged = whole.clone();
+            for _ in 0..=draw.bits() % 4 {
+                let word = 7 + draw.bits() as usize % (forged.len() / 8 - 8);
+                let value = if draw.bits() & 1 == 0 { draw.bits() } else { draw.bits() % 5 };
+                forged[8 * word..8 * word + 8].copy_from_slice(&value.to_le_bytes());
+            }
+            let end = forged.len() - 8;
+            let sum = u64::from(crc32fast::hash(&forged[..end]));
+            forged[end..].copy_from_slice(&sum.to_le_bytes());
+            refused += 1 + u32::from(State::from_bytes(&model, &KEY, &forged).is_err());
+        }
+    }
+    println!("{refused} refused");
+}
