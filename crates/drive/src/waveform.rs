@@ -3,6 +3,8 @@
 //! A waveform is a chain of smooth pieces, each on a half-open interval [start, end). A stepper keeps the [`Piece`] it
 //! is on, samples that one also at its very end (the limit from the left), and then goes on to the piece
 //! [`Waveform::after`] it. A value that jumps does so between two pieces.
+//!
+//! An input has no chain: its pieces are supplied while it runs, and without a caller it has a single one, its initial value.
 
 mod corners;
 mod course;

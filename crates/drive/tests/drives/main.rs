@@ -37,4 +37,5 @@ mod stages;
 mod statics;
 mod steady;
 mod swings;
+mod unfed_inputs;
 mod vibrated;
