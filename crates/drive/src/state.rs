@@ -2,10 +2,12 @@
 
 mod bytes;
 mod inputs;
+mod layout;
 mod underway;
 
 pub use bytes::BytesError;
 pub use inputs::InputError;
+pub(crate) use layout::Layout;
 
 pub(crate) use underway::{
     Ahead, Allowed, Booked, Books, FixedWay, Gait, Grid, Grip, LocatedWay, Stepped, Takeoff, Underway,
@@ -15,7 +17,7 @@ pub(crate) use underway::{
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::method::Tally;
-use crate::model::{Binding, BlockState, Wired};
+use crate::model::{Binding, BlockState};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, Memory, Move};
@@ -78,66 +80,7 @@ pub struct Counts {
     pub events: u64,
 }
 
-/// Places of the components: positions, velocities, forces of growing contacts, states of blocks; then the integrals on whose
-/// value nothing depends: input work, dissipation, and for each growing contact elastic energy and friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Layout {
-    /// Free coordinates.
-    pub(crate) free: usize,
-    /// Contacts whose force is a state while they grow; 0 in runs by chords.
-    pub(crate) growing: usize,
-    /// States of blocks.
-    pub(crate) own: usize,
-}
-
-impl Layout {
-    /// Number of components on which slopes depend.
-    pub(crate) fn dimension(self) -> usize {
-        2 * self.free + self.growing + self.own
-    }
-    /// The same with the integrals.
-    pub(crate) fn total(self) -> usize {
-        self.dimension() + 2 + 2 * self.growing
-    }
-    /// Place of the velocity of free coordinate `i`.
-    pub(crate) fn velocity(self, i: usize) -> usize {
-        self.free + i
-    }
-    /// Place of F_x of a growing contact, N, of one of its identical members.
-    pub(crate) fn force(self, slot: usize) -> usize {
-        2 * self.free + slot
-    }
-    /// Place of a state among those of all blocks.
-    pub(crate) fn block(self, state: usize) -> usize {
-        2 * self.free + self.growing + state
-    }
-    /// Place of the work put in, J.
-    pub(crate) fn input(self) -> usize {
-        self.dimension()
-    }
-    /// Place of what dampers have taken, J.
-    pub(crate) fn damping(self) -> usize {
-        self.dimension() + 1
-    }
-    /// Place of the elastic energy of a growing contact, J, of one member.
-    pub(crate) fn elastic(self, slot: usize) -> usize {
-        self.dimension() + 2 + 2 * slot
-    }
-    /// Place of the friction work of a growing contact, J, of one member.
-    pub(crate) fn friction(self, slot: usize) -> usize {
-        self.dimension() + 3 + 2 * slot
-    }
-}
-
 impl Model {
-    pub(crate) fn layout(&self) -> Layout {
-        Layout {
-            free: self.free.len(),
-            growing: self.growing,
-            own: self.blocks.iter().map(Wired::count).sum(),
-        }
-    }
-
     /// The error of component `i` that is no longer finite; forces and work are laid at the first body's door.
     pub(crate) fn not_finite(&self, t: f64, i: usize) -> RunError {
         // A force or a work belongs to no coordinate.
@@ -258,13 +201,6 @@ impl State {
     /// When the first piece of a waveform ends, s.
     pub(crate) fn next_corner(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The places of its components: without those of growing contacts after a run by chords.
-    pub(crate) fn layout(&self, model: &Model) -> Layout {
-        let layout = model.layout();
-        let growing = if self.y.len() == layout.total() { layout.growing } else { 0 };
-        Layout { growing, ..layout }
     }
 
     /// What a contact remembers and the mode set for it.

@@ -143,6 +143,11 @@ impl Swing {
         true
     }
 
+    /// Where it began.
+    pub(crate) fn start(&self) -> PhasePoint {
+        self.start
+    }
+
     /// Whether no contact holds back: gross slip, a parabola.
     pub(crate) fn is_free(&self) -> bool {
         self.slips.is_empty()

@@ -9,18 +9,21 @@
 //! second order at best by that, and so is every step across an event, whatever the method's name. Events are
 //! noticed after the fact, for the record alone.
 
+mod noticed;
+mod step;
+
 use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon};
 use super::ledger::Ledger;
 use super::output::{Opening, Output};
 use crate::contact::{Mode, Motion};
 use crate::equations::Equations;
-use crate::event::{Event, EventKind, Source};
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway};
 use crate::{Plan, RunError};
+use step::Step;
 use stickslip_contact::{ContactState, Memory, Segment};
 
 /// A run by chords: accepts steps, writes what falls between them, notices events after the fact.
@@ -252,81 +255,5 @@ impl<'a> Chords<'a> {
             let memories: Result<Vec<_>, _> = memories.collect();
             self.output.looks.show(memories.as_deref().ok(), record);
         }
-    }
-
-    /// The laws of blocks whose guards are down after the step.
-    ///
-    /// One guard of each block in a step, the first that is down; the others have their turn after the next
-    /// step.
-    fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {
-        for (k, wired) in self.model.blocks.iter().enumerate() {
-            let eq = Equations::on(self.model, state, self.layout, true);
-            let t = state.t;
-            let guards = wired.block().guards(&state.blocks[k].law);
-            let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
-            let Some(&guard) = guards.iter().find(down) else { continue };
-            let (kind, law) = eq.block_next(k, guard, state);
-            state.blocks[k].law = law;
-            if record.wants_events() {
-                let event = Event { t, source: Source::Block(k), kind };
-                let eq = Equations::on(self.model, state, self.layout, true);
-                self.output.event(&eq, state, &event, record);
-            }
-        }
-    }
-
-    /// State of contact `c` after the last step.
-    fn standing(&self, c: usize, memory: &Memory) -> ContactState {
-        memory.preview(&self.model.contacts[c].interface, memory.apex()).state
-    }
-
-    /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
-    /// whether somebody watched.
-    fn notice(&mut self, state: &State, record: &mut dyn Record) {
-        for (c, motion) in self.motions.iter().enumerate() {
-            let now = self.standing(c, &state.memories[c]);
-            let was = std::mem::replace(&mut self.standings[c], now);
-            let turns = self.senses[c] * motion.du < 0.0;
-            let kind = match (was, now) {
-                (ContactState::Open, ContactState::Open) => continue,
-                // What is in contact after the first step has been so from the start.
-                (ContactState::Open, _) if state.counts.steps > 1 => EventKind::Touch,
-                (_, ContactState::Open) => EventKind::LiftOff,
-                (ContactState::Slip, now) if now != ContactState::Slip => EventKind::GrossSlipEnds,
-                (was, ContactState::Slip) if was != ContactState::Slip => EventKind::GrossSlip,
-                _ if turns => EventKind::Reversal,
-                _ => continue,
-            };
-            let event = Event { t: state.t, source: Source::Contact(c), kind };
-            let eq = Equations::on(self.model, state, self.layout, true);
-            self.output.event(&eq, state, &event, record);
-        }
-    }
-}
-
-/// A step accepted, with its components at both ends.
-struct Step<'a> {
-    from: (f64, &'a [f64]),
-    to: (f64, &'a [f64]),
-    free: usize,
-}
-
-impl Step<'_> {
-    /// Component `i` at time t of the step: positions by the cubic through both ends, velocities and work in proportion.
-    ///
-    /// The cubic has the places and velocities of both ends.
-    fn value(&self, i: usize, t: f64) -> f64 {
-        let ((t0, from), (t1, to), n) = (self.from, self.to, self.free);
-        if t >= t1 {
-            return to[i];
-        }
-        let h = t1 - t0;
-        let s = (t - t0) / h;
-        let straight = from[i] + s * (to[i] - from[i]);
-        if i >= n {
-            return straight;
-        }
-        let (v0, v1, mean) = (from[n + i], to[n + i], (to[i] - from[i]) / h);
-        straight + h * s * (1.0 - s) * ((1.0 - s) * (v0 - mean) - s * (v1 - mean))
     }
 }

@@ -38,7 +38,7 @@ use crate::interval::{Interval, Swing};
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Books, Grip, Layout, State, Takeoff, Underway, Whereabouts};
+use crate::state::{Books, Grip, Layout, State, Underway, Whereabouts};
 use crate::{Plan, RunError};
 use motion::Motion;
 use path::MOST_PIECES;
@@ -66,8 +66,8 @@ pub(super) struct Located<'a, A> {
     interval: Interval<'a>,
     /// The motion of a single slider until then, where the interval leaps.
     swing: Swing,
-    /// Where that began, while it is under way.
-    takeoff: Option<Takeoff>,
+    /// Work put in before it began, J, while it is under way.
+    takeoff: Option<f64>,
     motion: Motion<A>,
     control: StepControl,
     watch: Watch,

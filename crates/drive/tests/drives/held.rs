@@ -1,15 +1,13 @@
-//! Runs that a caller holds: advanced in frames, put down and taken up, fed by inputs.
+//! Runs that a caller holds: advanced in frames, put down and taken up.
 //!
 //! What a held run must come to is what an undisturbed one comes to: to the bit where nothing was cut, within the tolerance
 //! where it was.
 
 use crate::lottery::{Draw, deal, on_rows};
-use crate::parts::{FOOT_SLIDER, contact, event, foot_and_slider, p1, plan, wave};
-use stickslip_contact::Profile;
+use crate::parts::{event, p1, plan};
 use stickslip_drive::scene::Scene;
 use stickslip_drive::{
-    BytesError, EventKind, InputError, Interpolation, Limits, Model, Plan, Run, RunError, Shape, State,
-    Stepper, Trace, UntilSteady, run,
+    BytesError, Limits, Model, Plan, Run, RunError, State, Stepper, Trace, UntilSteady, run,
 };
 
 const PERIOD: f64 = 1e-3;
@@ -34,7 +32,7 @@ fn steppers(period: f64) -> [Stepper; 4] {
 }
 
 /// The run from a state to the end of a plan, held or not; none for a fixed step too long for the scene.
-fn finished(model: &Model, plan: &Plan, state: State, resumed: bool) -> Option<(State, Trace)> {
+pub(crate) fn finished(model: &Model, plan: &Plan, state: State, resumed: bool) -> Option<(State, Trace)> {
     let make = if resumed { Run::resume } else { Run::new };
     let mut run = make(model, plan, state).ok()?;
     let mut trace = Trace::new(model);
@@ -193,104 +191,6 @@ fn frames_of_steps_keep_the_tolerance() {
             assert!(frames <= 10.0 * off(&whole).max(1e-8), "{seed}: {frames:e}, whole {:e}", off(&whole));
         }
     }
-}
-
-/// The sawtooth of P1, or one that is supplied.
-fn dragged(shape: Shape) -> Scene {
-    let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
-    let mut drive = wave("drive", shape.clone(), PERIOD);
-    if matches!(shape, Shape::Input { .. }) {
-        drive.part = stickslip_drive::Waveform::new(shape, stickslip_drive::Timing::every(1.0)).unwrap();
-    }
-    foot_and_slider(drive, 0.02, ball)
-}
-
-fn input(interpolation: Interpolation) -> Shape {
-    Shape::Input { initial: 0.0, range: (-1e-6, 1e-6), interpolation }
-}
-
-/// Fed piece by piece, as late as can be, an input is the waveform: rows and corners to the bit.
-#[test]
-fn a_sawtooth_fed_as_an_input_is_the_sawtooth() {
-    let (stroke, flyback) = (1e-6, 20e-6);
-    let plan = Plan { every: Some(7e-6), ..event(1e-8, 4.0 * PERIOD) };
-    let known = Model::new(&dragged(Shape::Sawtooth { stroke, flyback })).unwrap();
-    let (_, rows) = finished(&known, &plan, known.start(&plan).unwrap(), false).unwrap();
-    let model = Model::new(&dragged(input(Interpolation::Linear))).unwrap();
-    let mut fed = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
-    let mut trace = Trace::new(&model);
-    for k in 0..4 {
-        let start = f64::from(k) * PERIOD;
-        for (until, value) in [(start + (PERIOD - flyback), stroke), (start + PERIOD, 0.0)] {
-            fed.lead(0, until, value).unwrap();
-            fed.advance(until, &mut trace).unwrap();
-        }
-    }
-    // The corner at the end wants to know what is next.
-    fed.lead(0, 5.0 * PERIOD, stroke).unwrap();
-    fed.advance(4.0 * PERIOD + 1e-9, &mut trace).unwrap();
-    assert_eq!(trace.rows().len(), rows.rows().len() - 1);
-    assert!(trace.rows().zip(rows.rows()).all(|(a, b)| a == b));
-    let corners =
-        |trace: &Trace| -> Vec<_> { trace.events().map(|(event, after)| (*event, after.to_vec())).collect() };
-    let (fed, known) = (corners(&trace), corners(&rows));
-    assert_eq!(fed.len(), known.len());
-    // The last corner of the waveform turns into its own next rise, that of the input into another one.
-    let last = 4.0 * PERIOD - 1e-9;
-    assert!(fed.iter().zip(&known).filter(|(a, _)| a.0.t < last).all(|(a, b)| a == b));
-    assert!(known.iter().any(|(event, _)| event.kind == EventKind::Corner));
-}
-
-/// A held input jumps: contacts move in no time, and the books close. Held at what it has, nothing happens.
-#[test]
-fn a_held_input_jumps_and_its_work_is_booked() {
-    let model = Model::new(&dragged(input(Interpolation::Held))).unwrap();
-    let plan = event(1e-9, PERIOD);
-    let mut run = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
-    let mut trace = Trace::new(&model);
-    for (k, value) in [0.0, 3e-8, 3e-8, -8e-8, 0.0].into_iter().enumerate() {
-        run.hold(0, value).unwrap();
-        run.advance((k + 1) as f64 * 5e-5, &mut trace).unwrap();
-    }
-    let jumps: Vec<f64> =
-        trace.events().filter(|(e, _)| e.kind == EventKind::Jump).map(|(e, _)| e.t).collect();
-    assert_eq!(jumps, [5e-5, 3.0 * 5e-5, 4.0 * 5e-5]);
-    let mut row = Vec::new();
-    run.row(&mut row);
-    let of = |name: &str| row[model.channels().iter().position(|c| c.name == name).unwrap()];
-    assert!(of("energy.friction_J") > 0.0 && of("energy.input_J") > 0.0);
-    assert!(of("energy.error_J").abs() < 1e-8 * of("energy.input_J"), "{:e}", of("energy.error_J"));
-}
-
-#[test]
-fn what_an_input_does_not_take_is_refused() {
-    let plan = event(1e-9, PERIOD);
-    let of = |interpolation| Model::new(&dragged(input(interpolation))).unwrap();
-    let (held, linear) = (of(Interpolation::Held), of(Interpolation::Linear));
-    let mut run = Run::new(&held, &plan, held.start(&plan).unwrap()).unwrap();
-    assert_eq!(run.hold(1, 0.0), Err(InputError::NoInput(1)));
-    assert_eq!(run.lead(0, 1.0, 0.0), Err(InputError::Interpolation { input: 0, is: Interpolation::Held }));
-    for value in [f64::NAN, 2e-6, f64::INFINITY] {
-        assert!(matches!(run.hold(0, value), Err(InputError::Range { input: 0, .. })));
-    }
-    run.advance(1e-4, &mut ()).unwrap();
-    for until in [0.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(run.advance(until, &mut ()), Err(RunError::Backwards { .. })));
-    }
-    let mut run = Run::new(&linear, &plan, linear.start(&plan).unwrap()).unwrap();
-    assert!(matches!(run.lead(0, 0.0, 0.0), Err(InputError::Time { input: 0, .. })));
-    run.lead(0, 1e-4, 1e-7).unwrap();
-    assert_eq!(
-        run.advance(2e-4, &mut ()),
-        Err(RunError::InputMissing { input: 0, known: 1e-4, until: 2e-4 })
-    );
-    run.lead(0, 2e-4, 0.0).unwrap();
-    assert_eq!(run.lead(0, 3e-4, 0.0), Err(InputError::Occupied { input: 0, until: 2e-4 }));
-    run.advance(2e-4, &mut ()).unwrap();
-    assert!(matches!(run.finish(&mut ()), Err(RunError::InputMissing { .. })));
-    let dopri5 = Plan { stepper: Stepper::Dopri5 { tolerance: 1e-6 }, ..plan };
-    let held = Run::new(&linear, &dopri5, linear.start(&dopri5).unwrap());
-    assert_eq!(held.err(), Some(RunError::NotHeld { stepper: "dopri5" }));
 }
 
 /// Whatever is done to the bytes: a typed error, or the very state; never a panic.

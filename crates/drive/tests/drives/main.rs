@@ -18,6 +18,7 @@ mod coupled_books;
 mod endurance;
 mod energy_books;
 mod far_travel;
+mod fed;
 mod held;
 mod impact;
 mod invariance;

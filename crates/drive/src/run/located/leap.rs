@@ -15,8 +15,7 @@ use crate::interval::{Closed, PhasePoint};
 use crate::method::Method;
 use crate::record::Record;
 use crate::run::horizon::Progress;
-use crate::run::steady::Steps;
-use crate::state::{Books, State, Takeoff};
+use crate::state::{Books, State};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
@@ -35,22 +34,24 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let spent = if begins { 0 } else { self.swing.evaluations };
         let event = self.swing.end();
-        let steps = self.horizon.steps;
-        if self.horizon.is_beyond(event.t.min(self.horizon.next())) {
-            return Ok(Some(self.stay(begins, steps)));
+        let next = self.horizon.next();
+        if self.horizon.is_beyond(event.t.min(next)) {
+            return Ok(Some(self.stay(begins)));
         }
-        let stop = self.horizon.next().min(self.horizon.end);
+        let stop = next.min(self.horizon.end);
         let mut to = if event.t < stop { event } else { self.swing.at(stop) };
         // Less than a last place of t ahead there is no leap: the stepper takes over.
         if to.t <= state.t {
             self.takeoff = None;
             return Ok(None);
         }
-        if let Some(steady) = self.leap_over_steps(state, to) {
-            if self.horizon.is_beyond(steady.t) {
-                return Ok(Some(self.stay(begins, steps)));
+        if self.horizon.steps.due(to.t).is_some() {
+            let before = self.horizon.steps;
+            to = self.leap_over_steps(state, to);
+            if self.horizon.is_beyond(to.t) {
+                self.horizon.steps = before;
+                return Ok(Some(self.stay(begins)));
             }
-            to = steady;
         }
         // Before the rows: what output asks of the swing is no part of the run.
         state.counts.evaluations += self.swing.evaluations - spent;
@@ -72,12 +73,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// The leap is not made: it would reach the end of the run.
-    fn stay(&mut self, begins: bool, steps: Steps) -> Progress {
+    fn stay(&mut self, begins: bool) -> Progress {
         if begins {
             // Whoever goes on from here leaps as if nobody had asked.
             (self.takeoff, self.interval.traits.asked) = (None, false);
         }
-        self.horizon.steps = steps;
         Progress::Short
     }
 
@@ -93,23 +93,25 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let from = PhasePoint { t: state.t, x: state.y[0], v: state.y[1] };
         let leaps = self.swing_from(from);
-        let input = state.y[self.setting.layout.input()];
-        self.takeoff = leaps.then_some(Takeoff { from, input });
+        if leaps {
+            self.takeoff = Some(state.y[self.setting.layout.input()]);
+        }
         leaps
     }
 
-    /// The end of a period with which the steps of the drive are constant, if there is one on the way.
+    /// Where the leap ends: at the end of a period with which the steps of the drive are constant, or else where it was to.
     ///
     /// Ends horizon and output there.
-    fn leap_over_steps(&mut self, state: &State, to: PhasePoint) -> Option<PhasePoint> {
+    #[inline(never)]
+    fn leap_over_steps(&mut self, state: &State, to: PhasePoint) -> PhasePoint {
         while let Some(due) = self.horizon.steps.due(to.t) {
             let place = if due < to.t { self.swing.at(due) } else { to };
             if self.horizon.steps.take(state.shifts[self.horizon.steps.coordinate], place.x) {
                 self.end_at(due);
-                return Some(place);
+                return place;
             }
         }
-        None
+        to
     }
 
     /// Rows and looks that are due on the way.
@@ -145,7 +147,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Work put in until a place on the way, J: counted from where the leap began, however often it was cut.
     fn input_at(&self, place: &PhasePoint) -> f64 {
-        self.takeoff.map_or(0.0, |takeoff| takeoff.input) + self.swing.work(place)
+        self.takeoff.unwrap_or(0.0) + self.swing.work(place)
     }
 
     /// Moves the state to a place; where an interval `ends`, the memories of all contacts with it.

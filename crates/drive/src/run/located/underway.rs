@@ -6,7 +6,7 @@
 use super::Located;
 use crate::equations::Equations;
 use crate::interval::PhasePoint;
-use crate::state::{LocatedWay, State, Whereabouts};
+use crate::state::{LocatedWay, State, Takeoff, Whereabouts};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
@@ -23,7 +23,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         way.gait = self.motion.pace.gait;
         way.allowed.copy(&self.motion.allowance.allowed);
         way.booked.copy(&self.ledger.booked);
-        (way.asked, way.leap) = (self.interval.traits.asked, self.takeoff);
+        way.asked = self.interval.traits.asked;
+        way.leap = self.takeoff.map(|input| Takeoff { from: self.swing.start(), input });
         way.windows.clone_from(&self.bounds.windows);
         way.steps = self.horizon.steps.so_far();
     }
@@ -51,13 +52,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         if let Some(leap) = way.leap {
             self.swing_from(leap.from);
-            self.takeoff = way.leap;
+            self.takeoff = Some(leap.input);
         }
         // They were counted when they were made first.
         self.output.evaluations = self.motion.solver.evaluations();
     }
 
     /// Finds the event of a swing from where that began; false where it has no closed form.
+    #[inline(always)]
     pub(super) fn swing_from(&mut self, from: PhasePoint) -> bool {
         let [slider] = &self.setting.model.free[..] else { return false };
         let length = slider.scale.0;

@@ -1,0 +1,59 @@
+//! What shows after a step: guards of blocks that are down, and events of contacts, for the record alone.
+
+use super::Chords;
+use crate::equations::Equations;
+use crate::event::{Event, EventKind, Source};
+use crate::record::Record;
+use crate::state::State;
+use stickslip_contact::{ContactState, Memory};
+
+impl Chords<'_> {
+    /// The laws of blocks whose guards are down after the step.
+    ///
+    /// One guard of each block in a step, the first that is down; the others have their turn after the next
+    /// step.
+    pub(super) fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {
+        for (k, wired) in self.model.blocks.iter().enumerate() {
+            let eq = Equations::on(self.model, state, self.layout, true);
+            let t = state.t;
+            let guards = wired.block().guards(&state.blocks[k].law);
+            let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
+            let Some(&guard) = guards.iter().find(down) else { continue };
+            let (kind, law) = eq.block_next(k, guard, state);
+            state.blocks[k].law = law;
+            if record.wants_events() {
+                let event = Event { t, source: Source::Block(k), kind };
+                let eq = Equations::on(self.model, state, self.layout, true);
+                self.output.event(&eq, state, &event, record);
+            }
+        }
+    }
+
+    /// State of contact `c` after the last step.
+    pub(super) fn standing(&self, c: usize, memory: &Memory) -> ContactState {
+        memory.preview(&self.model.contacts[c].interface, memory.apex()).state
+    }
+
+    /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
+    /// whether somebody watched.
+    pub(super) fn notice(&mut self, state: &State, record: &mut dyn Record) {
+        for (c, motion) in self.motions.iter().enumerate() {
+            let now = self.standing(c, &state.memories[c]);
+            let was = std::mem::replace(&mut self.standings[c], now);
+            let turns = self.senses[c] * motion.du < 0.0;
+            let kind = match (was, now) {
+                (ContactState::Open, ContactState::Open) => continue,
+                // What is in contact after the first step has been so from the start.
+                (ContactState::Open, _) if state.counts.steps > 1 => EventKind::Touch,
+                (_, ContactState::Open) => EventKind::LiftOff,
+                (ContactState::Slip, now) if now != ContactState::Slip => EventKind::GrossSlipEnds,
+                (was, ContactState::Slip) if was != ContactState::Slip => EventKind::GrossSlip,
+                _ if turns => EventKind::Reversal,
+                _ => continue,
+            };
+            let event = Event { t: state.t, source: Source::Contact(c), kind };
+            let eq = Equations::on(self.model, state, self.layout, true);
+            self.output.event(&eq, state, &event, record);
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! A step between two rows: what is read inside it.
+
+/// A step accepted, with its components at both ends.
+pub(super) struct Step<'a> {
+    pub(super) from: (f64, &'a [f64]),
+    pub(super) to: (f64, &'a [f64]),
+    pub(super) free: usize,
+}
+
+impl Step<'_> {
+    /// Component `i` at time t of the step: positions by the cubic through both ends, velocities and work in proportion.
+    ///
+    /// The cubic has the places and velocities of both ends.
+    pub(super) fn value(&self, i: usize, t: f64) -> f64 {
+        let ((t0, from), (t1, to), n) = (self.from, self.to, self.free);
+        if t >= t1 {
+            return to[i];
+        }
+        let h = t1 - t0;
+        let s = (t - t0) / h;
+        let straight = from[i] + s * (to[i] - from[i]);
+        if i >= n {
+            return straight;
+        }
+        let (v0, v1, mean) = (from[n + i], to[n + i], (to[i] - from[i]) / h);
+        straight + h * s * (1.0 - s) * ((1.0 - s) * (v0 - mean) - s * (v1 - mean))
+    }
+}
