@@ -1,9 +1,10 @@
 //! Inputs that a caller feeds while a run goes on.
 
 use crate::held::finished;
-use crate::parts::{FOOT_SLIDER, contact, event, foot_and_slider, wave};
+use crate::lottery::on_rows;
+use crate::parts::{FOOT_SLIDER, contact, event, foot_and_slider, named, sine, wave};
 use stickslip_contact::Profile;
-use stickslip_drive::scene::Scene;
+use stickslip_drive::scene::{Normal, Scene, Varying};
 use stickslip_drive::{
     EventKind, InputError, Interpolation, Model, Plan, Run, RunError, Shape, Stepper, Timing, Trace, Waveform,
 };
@@ -106,4 +107,39 @@ fn what_an_input_does_not_take_is_refused() {
     let dopri5 = Plan { stepper: Stepper::Dopri5 { tolerance: 1e-6 }, ..plan };
     let held = Run::new(&linear, &dopri5, linear.start(&dopri5).unwrap());
     assert_eq!(held.err(), Some(RunError::NotHeld { stepper: "dopri5" }));
+}
+
+/// A row of springs under a load that is fed follows it by chords, as under the same load from a table: as near to it as ten
+/// times as many of them are.
+#[test]
+fn a_row_under_a_fed_load_is_the_row_under_its_table() {
+    let corners: Vec<(f64, f64)> = (0..=40)
+        .map(|k| (f64::from(k) * 1e-4, 1.0 + 0.4 * f64::from(k % 3) - 0.3 * f64::from(k % 2)))
+        .collect();
+    let of = |load: Shape| {
+        let mut ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
+        ball.normal = Normal::Force(Varying::Follows(1));
+        let mut scene = foot_and_slider(wave("drive", sine(0.3e-6), PERIOD), 0.02, ball);
+        let load = Waveform::new(load, Timing::every(1.0)).unwrap();
+        scene.waveforms.push(named("load", load));
+        Model::new(&on_rows(&scene, 64)).unwrap()
+    };
+    let plan = event(1e-8, 40.0 * 1e-4);
+    let table = of(Shape::Table { points: corners.clone() });
+    let (known, _) = finished(&table, &plan, table.start(&plan).unwrap(), false).unwrap();
+    let model = of(Shape::Input { initial: 1.0, range: (0.5, 2.0), interpolation: Interpolation::Linear });
+    let mut fed = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+    for (until, load) in &corners[1..] {
+        fed.lead(1, *until, *load).unwrap();
+        fed.advance(*until, &mut ()).unwrap();
+    }
+    let [fed_x, known_x] = [(fed.state(), &model), (&known, &table)].map(|(s, m)| s.body(m, 1).unwrap().0);
+    let unit = model.contact_natural(0).unwrap().displacement;
+    let off = (fed_x - known_x).abs() / unit;
+    println!(
+        "{off:e} u_c, {} evaluations, table {}",
+        fed.state().counts().evaluations,
+        known.counts().evaluations
+    );
+    assert!(off < 1e-3, "{off:e}");
 }

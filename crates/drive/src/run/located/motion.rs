@@ -23,8 +23,6 @@ const REST_REACH: f64 = 1.0;
 // No estimate sees the error of a chord: 410 leave a row under a sine of load 4e-4 u_c away and books of 9e-6; 4096 about
 // 4e-5 u_c and 9e-8; 40 960 cost ten times as much.
 const CHORDS_PER_PERIOD: f64 = 4096.0;
-/// The same under a load that a caller supplies, in a period of the fastest swing with all contacts stuck.
-const STEPS_PER_SWING: f64 = 16.0;
 /// How often a step is tried again to end nearer to its singular moment.
 // Without any the books of a sine drive at 1e-9 are 25 times worse; more than two change only how a ball bounces that is set
 // down without damping.
@@ -216,8 +214,8 @@ fn longest(model: &Model) -> f64 {
     let rows = model.contacts.iter().filter(|c| !c.engine.branches() && !c.is_constant());
     // Not the run's duration, where the load has no period: no step may depend on when a run will end.
     let load = |w: usize| match &model.waveforms[w] {
-        // What a caller will supply nobody knows: steps that follow the fastest swing.
-        input if input.interpolation().is_some() => natural(model) / STEPS_PER_SWING,
+        // What a caller will supply nobody knows. A tenth of it changes nothing that the chords of a table leave open.
+        input if input.interpolation().is_some() => natural(model),
         waveform => waveform.extent() / CHORDS_PER_PERIOD,
     };
     rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
