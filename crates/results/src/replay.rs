@@ -12,12 +12,21 @@ use stickslip_scenario::PlotName;
 /// Codes of the states of a contact.
 const STATES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
+/// What the last row of a trace shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LastRow {
+    /// The end that the run was to have, before the events of that moment.
+    End,
+    /// Where the run stopped, after all events.
+    Stop,
+}
+
 /// Reads the trace and the events as they were recorded: a row comes before the events of its own moment, for events end
-/// a step that has written its rows; only the last row is written after everything.
+/// a step that has written its rows.
 pub(crate) fn read(
     (trace, events): (&Path, &Path),
     columns: &Columns,
-    plots: &[PlotName],
+    (plots, last): (&[PlotName], LastRow),
 ) -> Result<Kept, ResultsError> {
     let channels = columns.channels();
     let mut kept = Kept::new(&channels, plots).fingerprinted(Columns::all(&channels));
@@ -31,16 +40,22 @@ pub(crate) fn read(
     let mut has_event = events.advance(&mut event)?;
     loop {
         let is_last = !rows.advance(&mut next)?;
-        while has_event && (is_last || time(&event) < time(&row)) {
+        let stops = is_last && last == LastRow::Stop;
+        while has_event && (stops || time(&event) < time(&row)) {
             kept.event([events.rows.text(1), events.rows.text(2)], &event);
             has_event = events.advance(&mut event)?;
         }
         kept.row(&row);
         if is_last {
-            return Ok(kept);
+            break;
         }
         std::mem::swap(&mut row, &mut next);
     }
+    while has_event {
+        kept.event([events.rows.text(1), events.rows.text(2)], &event);
+        has_event = events.advance(&mut event)?;
+    }
+    Ok(kept)
 }
 
 fn time(values: &[f64]) -> f64 {
@@ -118,8 +133,9 @@ mod tests {
         let (outcome, drafts) = job.run_recorded(recorder).unwrap();
         drafts.into_iter().for_each(|(name, draft)| folder.stage(name, draft).unwrap());
         folder.publish().unwrap();
-        let read =
-            read((&job.folder.join(TRACE), &job.folder.join(EVENTS)), &job.columns, &PlotName::ALL).unwrap();
+        let last = if outcome.error.is_some() { LastRow::Stop } else { LastRow::End };
+        let tables = (&*job.folder.join(TRACE), &*job.folder.join(EVENTS));
+        let read = read(tables, &job.columns, (&PlotName::ALL, last)).unwrap();
         (outcome.kept, read)
     }
 

@@ -6,7 +6,7 @@ use crate::frame::FrameError;
 use crate::job::{Job, hash};
 use crate::kept::Kept;
 use crate::program::this_program;
-use crate::replay;
+use crate::replay::{self, LastRow};
 use serde::Deserialize;
 use std::fs;
 use std::io;
@@ -74,6 +74,8 @@ pub enum ResultsError {
 struct Origin {
     program: Program,
     scenario_sha256: String,
+    #[serde(default)]
+    status: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -89,12 +91,12 @@ impl Results {
     /// # Errors
     /// A folder of something else, a file that cannot be read or was changed, a damaged table.
     pub fn read(folder: &Path, plots: &[PlotName]) -> Result<Self, ResultsError> {
-        let mut job = job(folder)?;
+        let (mut job, last) = job(folder)?;
         if !plots.is_empty() {
             job.scenario.plots = plots.to_vec();
         }
         let tables = (&*folder.join(TRACE), &*folder.join(EVENTS));
-        let kept = replay::read(tables, &job.columns, &job.scenario.plots)?;
+        let kept = replay::read(tables, &job.columns, (&job.scenario.plots, last))?;
         Ok(Self { job, kept })
     }
 
@@ -104,8 +106,8 @@ impl Results {
     }
 }
 
-/// The job that was run, under the folder's name.
-fn job(folder: &Path) -> Result<Job, ResultsError> {
+/// The job that was run, under the folder's name, and what its last row shows.
+fn job(folder: &Path) -> Result<(Job, LastRow), ResultsError> {
     if ![SUMMARY, SCENARIO].iter().any(|name| folder.join(name).is_file()) {
         return Err(ResultsError::NoResults(folder.to_owned()));
     }
@@ -114,6 +116,8 @@ fn job(folder: &Path) -> Result<Job, ResultsError> {
         Some(Origin { program, .. }) => format!("{} {}", program.name, program.version),
         None => this_program(),
     };
+    let is_done = origin.as_ref().and_then(|origin| origin.status.as_deref()).is_none_or(|s| s == "done");
+    let last = if is_done { LastRow::End } else { LastRow::Stop };
     let path = folder.join(SCENARIO);
     let refused =
         |error: ScenarioError| ResultsError::Scenario { error: Box::new(error), program: program.clone() };
@@ -127,7 +131,7 @@ fn job(folder: &Path) -> Result<Job, ResultsError> {
     let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     let name = place.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let job = Job::new(scenario, name, folder.to_owned()).map_err(refused)?;
-    Ok(job.with_origin(text, program))
+    Ok((job.with_origin(text, program), last))
 }
 
 /// Where results come from; none without a summary.
