@@ -107,6 +107,7 @@ impl Point {
                 rejected: now.rejected - then.rejected,
                 evaluations: now.evaluations - then.evaluations,
                 events: now.events - then.events,
+                detours: now.detours - then.detours,
             };
             self.times = (TURN / self.cost.wall).clamp(1.0, 100.0) as u32;
         }

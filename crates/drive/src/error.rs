@@ -64,6 +64,16 @@ pub enum RunError {
         /// Length of the window, s.
         window: f64,
     },
+    /// Steps that do not move on.
+    #[error("at t = {t:e} s {attempts} steps have moved the run on by {advance:e} s")]
+    Crawl {
+        /// Time, s.
+        t: f64,
+        /// Number of attempts.
+        attempts: u64,
+        /// What they came to, s.
+        advance: f64,
+    },
     /// A contact cannot follow the motion.
     #[error("contact `{contact}` at t = {t:e} s: {source}")]
     Contact {
@@ -136,6 +146,9 @@ impl RunError {
             }
             Self::NotFinite { .. } => {
                 "take a smaller step, or the event stepper: an explicit step must stay below 2/ω of the stiffest mode"
+            }
+            Self::Crawl { .. } => {
+                "take a fixed step: the whole law by halved steps was tried and found no way on, either"
             }
             Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
             Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",

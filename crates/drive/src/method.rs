@@ -40,6 +40,8 @@ pub enum Method {
     DormandPrince,
     /// Such a step whose stages crowd towards a singular moment at one of its ends.
     Graded,
+    /// Runge–Kutta steps by the whole law of the contacts, against their halves, where events accumulate.
+    Whole,
     /// Steps of whichever stepper was asked for, one without located events.
     AskedFor,
 }

@@ -203,6 +203,19 @@ pub(crate) fn fill(
     row.extend([books.input, books.kinetic, books.elastic, books.friction, damping, error]);
 }
 
+/// What the books of a moment leave open, and the sum of all that is in them, J: rounding goes by the latter.
+pub(crate) fn balance(
+    equations: &Equations<'_>,
+    state: &State,
+    t: f64,
+    y: &impl Fn(usize) -> f64,
+) -> (f64, f64) {
+    let mut row = Vec::new();
+    fill(equations, state, t, y, &mut row);
+    let books = &row[row.len().saturating_sub(6)..];
+    (books.last().copied().unwrap_or(0.0), books.iter().map(|energy| energy.abs()).sum())
+}
+
 /// Columns of one contact: the sum over its identical members.
 ///
 /// Force and energies of all `count` members; displacement, depth and stick radius of one. In the books the

@@ -10,8 +10,8 @@ pub use inputs::InputError;
 pub(crate) use layout::Layout;
 
 pub(crate) use underway::{
-    Ahead, Allowed, Booked, Books, FixedWay, Gait, Grid, Grip, LocatedWay, Stepped, Takeoff, Underway,
-    Whereabouts, Window,
+    Ahead, Allowed, Booked, Books, Crawl, Detour, FixedWay, Gait, Grid, Grip, LocatedWay, Stepped, Takeoff,
+    Underway, Whereabouts, Window,
 };
 
 use crate::contact::{Contact, Mode};
@@ -20,7 +20,7 @@ use crate::method::Tally;
 use crate::model::{Binding, BlockState};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
-use stickslip_contact::{Apex, Memory, Move};
+use stickslip_contact::{Apex, ContactError, Memory, Move};
 use stickslip_stepper::StepHistory;
 
 /// State of a drive: cloneable, comparable. A run started from a copy goes on to the same bits.
@@ -78,6 +78,8 @@ pub struct Counts {
     pub evaluations: u64,
     /// Events.
     pub events: u64,
+    /// Stretches by the whole law, where events accumulated.
+    pub detours: u64,
 }
 
 impl Model {
@@ -87,6 +89,11 @@ impl Model {
         let free = if i < 2 * self.free.len() { i % self.free.len() } else { 0 };
         let body = self.free.get(free).map(|f| self.bodies[f.body].name.clone());
         RunError::NotFinite { t, body: body.unwrap_or_default() }
+    }
+
+    /// The error of contact `c` that cannot follow its path.
+    pub(crate) fn refused(&self, c: usize, t: f64, source: ContactError) -> RunError {
+        RunError::Contact { t, contact: self.contacts[c].name.clone(), source }
     }
 
     /// The state at t = 0, before anything is in equilibrium or classified.

@@ -91,7 +91,16 @@ struct Counts {
     rejected: u64,
     evaluations: u64,
     events: u64,
+    /// Stretches by the whole law where events accumulated; told only where there are any.
+    #[serde(skip_serializing_if = "is_none")]
+    detours: u64,
     rows: u64,
+}
+
+/// Whether nothing of a kind has happened.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 #[derive(Debug, Serialize)]
@@ -127,6 +136,7 @@ impl Summary {
                 rejected: counts.rejected,
                 evaluations: counts.evaluations,
                 events: counts.events,
+                detours: counts.detours,
                 rows: outcome.rows,
             },
             contacts: contacts::of(job, outcome, &mut notes),

@@ -16,13 +16,14 @@ pub struct Tally {
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Walk,
         Self::Swing,
         Self::Parabola,
         Self::Nystrom,
         Self::DormandPrince,
         Self::Graded,
+        Self::Whole,
         Self::AskedFor,
     ];
 
@@ -35,6 +36,7 @@ impl Method {
             Self::Nystrom => "Runge–Kutta–Nyström 8(6)",
             Self::DormandPrince => "Dormand–Prince 8(5,3)",
             Self::Graded => "Dormand–Prince 8(5,3) with crowded stages",
+            Self::Whole => "the whole law, by halved steps",
             Self::AskedFor => "the stepper asked for",
         }
     }

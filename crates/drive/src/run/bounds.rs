@@ -4,7 +4,7 @@
 //! stops a run with an error that says when, and of events whose. It changes nothing.
 
 use crate::record::Record;
-use crate::state::Window;
+use crate::state::{Crawl, Window};
 use crate::{EventKind, Limits, Model, RunError, Source, State};
 use std::time::Instant;
 
@@ -19,6 +19,13 @@ const STRIDE: u64 = 1024;
 /// … and springs that take as long as one such step.
 const SPRINGS_PER_STEP: usize = 1000;
 
+/// No event yet.
+const QUIET: Window = Window { start: f64::NEG_INFINITY, count: 0 };
+/// So many attempts …
+const CRAWLING: u64 = 100_000;
+/// … that together move on by less than this part of a period of the fastest swing are a crawl.
+const PROGRESS: f64 = 0.01;
+
 /// Watches limits, the clock, and events that accumulate.
 pub(super) struct Bounds {
     /// The user's.
@@ -29,23 +36,26 @@ pub(super) struct Bounds {
     stride: u64,
     /// Of each contact, then each block.
     pub(super) windows: Vec<Window>,
+    pub(super) crawl: Crawl,
+    /// Of the fastest swing, s; 0 where steps may be as short as they like.
+    period: f64,
 }
 
 impl Bounds {
     /// A stride that makes looks at the clock about as frequent for rows of a million springs as for none.
-    pub(super) fn new(model: &Model, limits: Limits) -> Self {
+    pub(super) fn new(model: &Model, limits: Limits, period: f64) -> Self {
         let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();
-        let nothing = Window { start: f64::NEG_INFINITY, count: 0 };
-        let windows = vec![nothing; model.contacts.len() + model.blocks.len()];
-        Self { limits, begun: Instant::now(), stride, windows }
+        let windows = vec![QUIET; model.contacts.len() + model.blocks.len()];
+        let crawl = Crawl { since: 0.0, attempts: 0 };
+        Self { limits, begun: Instant::now(), stride, windows, crawl, period }
     }
 
     /// Called after every attempt.
     ///
     /// Fails where steps accepted and rejected reach their limit, time on the wall is over, or the record
     /// wants no more.
-    pub(super) fn step(&self, state: &State, record: &mut dyn Record) -> Result<(), RunError> {
+    pub(super) fn step(&mut self, state: &State, record: &mut dyn Record) -> Result<(), RunError> {
         let tried = state.counts.steps + state.counts.rejected;
         if tried >= self.limits.steps {
             return Err(RunError::TooManySteps { t: state.t, limit: self.limits.steps });
@@ -57,7 +67,30 @@ impl Bounds {
         if let Some(limit) = self.limits.wall.filter(|limit| self.begun.elapsed().as_secs_f64() > *limit) {
             return Err(RunError::OutOfTime { t: state.t, limit });
         }
-        if record.goes_on(state.t) { Ok(()) } else { Err(RunError::Interrupted { t: state.t }) }
+        if !record.goes_on(state.t) {
+            return Err(RunError::Interrupted { t: state.t });
+        }
+        self.watch_progress(state.t)
+    }
+
+    /// Fails where very many attempts have moved the run on by next to nothing.
+    fn watch_progress(&mut self, t: f64) -> Result<(), RunError> {
+        if t - self.crawl.since >= PROGRESS * self.period {
+            self.crawl = Crawl { since: t, attempts: 0 };
+            return Ok(());
+        }
+        self.crawl.attempts += self.stride;
+        if self.crawl.attempts <= CRAWLING {
+            return Ok(());
+        }
+        let (attempts, since) = (self.crawl.attempts, self.crawl.since);
+        Err(RunError::Crawl { t, attempts, advance: t - since })
+    }
+
+    /// What has accumulated so far counts no more.
+    pub(super) fn forget(&mut self) {
+        self.windows.fill(QUIET);
+        self.crawl.attempts = 0;
     }
 
     /// Called after every event of a component. Many loops may close at once: they do not count as accumulating.

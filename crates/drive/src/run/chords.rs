@@ -23,7 +23,7 @@ use crate::model::Model;
 use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway};
 use crate::{Plan, RunError};
-use step::Step;
+pub(super) use step::Between;
 use stickslip_contact::{ContactState, Memory, Segment};
 
 /// A run by chords: accepts steps, writes what falls between them, notices events after the fact.
@@ -53,7 +53,7 @@ impl<'a> Chords<'a> {
             horizon: Horizon::new(model, plan),
             output: Output::new(plan.every, layout),
             ledger: Ledger::new(model, 0),
-            bounds: Bounds::new(model, plan.limits),
+            bounds: Bounds::new(model, plan.limits, 0.0),
             senses: vec![0.0; model.contacts.len()],
             standings: vec![ContactState::Open; model.contacts.len()],
             motions: Vec::with_capacity(model.contacts.len()),
@@ -159,7 +159,7 @@ impl<'a> Chords<'a> {
     /// constant with it.
     pub(super) fn take_steps(&mut self, state: &State, t: f64, y: &[f64]) {
         while let Some(due) = self.horizon.steps.due(t) {
-            let step = Step { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
+            let step = Between { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
             if self.horizon.steps.take(0.0, step.value(self.horizon.steps.coordinate, due)) {
                 self.end_at(due);
                 return;
@@ -192,7 +192,7 @@ impl<'a> Chords<'a> {
         }
         self.write(state, end, (t, y), record);
         let mut last = std::mem::take(&mut self.last);
-        let step = Step { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
+        let step = Between { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
         last.clear();
         last.extend((0..y.len()).map(|i| step.value(i, end)));
         let outcome = self.commit(state, (end, &last), record);
@@ -242,7 +242,7 @@ impl<'a> Chords<'a> {
     /// Looks are shown copies of the memories, each led on one chord to its moment.
     fn write(&mut self, state: &State, t: f64, to: (f64, &[f64]), record: &mut dyn Record) {
         let eq = Equations::on(self.model, state, self.layout, true);
-        let step = Step { from: (state.t, &state.y), to, free: self.layout.free };
+        let step = Between { from: (state.t, &state.y), to, free: self.layout.free };
         while let Some(due) = self.output.grid.due(t) {
             self.output.grid.write(&eq, state, due, &|i| step.value(i, due), record);
         }

@@ -74,7 +74,7 @@ impl Ledger {
             let contact = &model.contacts[c];
             let friction = state.memories[c]
                 .commit(&contact.interface, segment)
-                .map_err(|source| RunError::Contact { t, contact: contact.name.clone(), source })?;
+                .map_err(|source| model.refused(c, t, source))?;
             // Where the friction of a growing contact is an integral it is no work of its commits.
             if contact.slot.is_none() || layout.growing == 0 {
                 state.friction[c] += contact.count * friction;

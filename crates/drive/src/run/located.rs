@@ -26,6 +26,7 @@ mod turning;
 mod underway;
 mod watch;
 mod watched;
+mod whole;
 mod write;
 
 use super::bounds::Bounds;
@@ -38,13 +39,14 @@ use crate::interval::{Interval, Swing};
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Books, Grip, Layout, State, Underway, Whereabouts};
+use crate::state::{Books, Detour, Grip, Layout, State, Underway, Whereabouts};
 use crate::{Plan, RunError};
 use motion::Motion;
 use path::MOST_PIECES;
 use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, One, Paired, StepControl, StepLimits};
 use turning::Turning;
 use watch::Watch;
+use whole::Halves;
 
 /// What stays the same throughout a run. Small and copied: parts that own what they change borrow nothing from it.
 #[derive(Clone, Copy)]
@@ -68,6 +70,11 @@ pub(super) struct Located<'a, A> {
     swing: Swing,
     /// Work put in before it began, J, while it is under way.
     takeoff: Option<f64>,
+    /// The stretch that is taken by the whole law, and room for its steps.
+    detour: Option<Detour>,
+    halves: Option<Box<Halves>>,
+    /// Whether springs are damped: then the law jumps between stick and slip.
+    slides: bool,
     motion: Motion<A>,
     control: StepControl,
     watch: Watch,
@@ -142,13 +149,16 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             interval: Interval::of(model),
             swing: Swing::of(model, motion.allowance.strict),
             takeoff: None,
+            detour: None,
+            halves: None,
+            slides: model.contacts.iter().any(|contact| contact.interface.damping() > 0.0),
             motion,
             control: StepControl::new(order, limits),
             watch: Watch::new(model, setting.tolerance),
             ledger: Ledger::new(model, MOST_PIECES as usize),
             turning: Turning::new(model),
             output: Output::new(plan.every, setting.layout),
-            bounds: Bounds::new(model, plan.limits),
+            bounds: Bounds::new(model, plan.limits, std::f64::consts::TAU / model.fastest),
             setting,
         }
     }

@@ -31,7 +31,10 @@ pub(crate) struct LocatedWay {
     pub(crate) asked: bool,
     /// The leap that an advance has cut.
     pub(crate) leap: Option<Takeoff>,
+    /// The stretch that is taken by the whole law.
+    pub(crate) detour: Option<Detour>,
     pub(crate) windows: Vec<Window>,
+    pub(crate) crawl: Crawl,
     /// The steps of the drive so far, where they may end the run.
     pub(crate) steps: Option<Stepped>,
 }
@@ -163,6 +166,26 @@ pub(crate) struct Window {
     pub(crate) count: u32,
 }
 
+/// A stretch of time in which contacts go by their whole law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Detour {
+    /// Its end, s.
+    pub(crate) end: f64,
+    /// Its length, s.
+    pub(crate) length: f64,
+    /// Next step, s.
+    pub(crate) step: f64,
+}
+
+/// How steps move on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Crawl {
+    /// When they had last moved on by enough, s.
+    pub(crate) since: f64,
+    /// Attempts from then on.
+    pub(crate) attempts: u64,
+}
+
 /// What the steps of a drive have come to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stepped {
@@ -187,7 +210,9 @@ impl LocatedWay {
         booked: Booked { last: Vec::new(), blocks: 0.0, books: Books::Current },
         asked: false,
         leap: None,
+        detour: None,
         windows: Vec::new(),
+        crawl: Crawl { since: 0.0, attempts: 0 },
         steps: None,
     };
 }

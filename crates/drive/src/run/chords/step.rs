@@ -1,17 +1,17 @@
 //! A step between two rows: what is read inside it.
 
 /// A step accepted, with its components at both ends.
-pub(super) struct Step<'a> {
-    pub(super) from: (f64, &'a [f64]),
-    pub(super) to: (f64, &'a [f64]),
-    pub(super) free: usize,
+pub(in crate::run) struct Between<'a> {
+    pub(in crate::run) from: (f64, &'a [f64]),
+    pub(in crate::run) to: (f64, &'a [f64]),
+    pub(in crate::run) free: usize,
 }
 
-impl Step<'_> {
+impl Between<'_> {
     /// Component `i` at time t of the step: positions by the cubic through both ends, velocities and work in proportion.
     ///
     /// The cubic has the places and velocities of both ends.
-    pub(super) fn value(&self, i: usize, t: f64) -> f64 {
+    pub(in crate::run) fn value(&self, i: usize, t: f64) -> f64 {
         let ((t0, from), (t1, to), n) = (self.from, self.to, self.free);
         if t >= t1 {
             return to[i];

@@ -34,6 +34,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Fails where the step would be too small, a value is not finite, a contact or block refuses its path,
     /// or a limit is reached. The state is then that of the last step accepted.
     pub(super) fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
+        let outcome = match self.detour {
+            None => self.step_smoothly(state, record),
+            Some(detour) => self.step_whole(state, detour, record),
+        };
+        match outcome {
+            Ok(progress) => Ok(progress),
+            Err(reason) => self.depart(state, reason),
+        }
+    }
+
+    /// The same between located events.
+    #[inline(always)]
+    fn step_smoothly(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         if let Some(progress) = self.leap(state, record)? {
             return Ok(progress);
         }

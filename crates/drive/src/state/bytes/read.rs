@@ -5,7 +5,7 @@ use crate::interval::PhasePoint;
 use crate::method::Tally;
 use crate::model::{BlockState, Model};
 use crate::state::{Ahead, Books, Grip, Layout, Whereabouts};
-use crate::state::{Allowed, Booked, Counts, FixedWay, Gait, Grid, LocatedWay};
+use crate::state::{Allowed, Booked, Counts, Crawl, Detour, FixedWay, Gait, Grid, LocatedWay};
 use crate::state::{State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
 use stickslip_contact::{Branch, Interface, Memory, Words};
@@ -115,7 +115,13 @@ fn piece(waveform: &Waveform, words: &mut Words<'_>) -> Option<Piece> {
 
 fn counts(words: &mut Words<'_>) -> Option<Counts> {
     let mut next = || words.tally();
-    Some(Counts { steps: next()?, rejected: next()?, evaluations: next()?, events: next()? })
+    Some(Counts {
+        steps: next()?,
+        rejected: next()?,
+        evaluations: next()?,
+        events: next()?,
+        detours: next()?,
+    })
 }
 
 fn history(words: &mut Words<'_>) -> Option<StepHistory> {
@@ -157,7 +163,12 @@ fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Locat
             let [t, x, v, input] = numbers(words)?;
             Some(Takeoff { from: PhasePoint { t, x, v }, input })
         })?,
+        detour: option(words, |words| {
+            let [end, length, step] = numbers(words)?;
+            (step > 0.0 && step <= length && length < f64::INFINITY).then_some(Detour { end, length, step })
+        })?,
         windows: windows(model, words)?,
+        crawl: Crawl { since: words.number()?, attempts: words.tally()? },
         steps: option(words, stepped)?,
     })
 }

@@ -3,7 +3,7 @@
 use crate::contact::Mode;
 use crate::model::Model;
 use crate::state::{Ahead, Books, Grip, Whereabouts};
-use crate::state::{Booked, FixedWay, Gait, LocatedWay, State, Stepped, Takeoff, Underway, Window};
+use crate::state::{Booked, Detour, FixedWay, Gait, LocatedWay, State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
 use stickslip_stepper::StepHistory;
 
@@ -33,7 +33,7 @@ pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
         }
     }
     let counts = state.counts;
-    page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events]);
+    page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events, counts.detours]);
     state.tally.write(page.0);
     page.option(state.control.as_ref(), Page::history);
     page.option(state.underway.as_ref(), Page::underway);
@@ -119,7 +119,11 @@ impl Page<'_> {
         self.option(way.leap.as_ref(), |page, Takeoff { from, input }| {
             page.reals([from.t, from.x, from.v, *input]);
         });
+        self.option(way.detour.as_ref(), |page, Detour { end, length, step }| {
+            page.reals([*end, *length, *step]);
+        });
         self.windows(&way.windows);
+        self.0.extend([way.crawl.since.to_bits(), way.crawl.attempts]);
         self.option(way.steps.as_ref(), Self::stepped);
     }
 

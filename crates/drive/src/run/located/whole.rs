@@ -1,0 +1,318 @@
+//! Where events accumulate: the whole law, kinks included, for a natural period.
+//!
+//! Some motions have no next smooth interval: both edges of a contact stand still at once, it opens and closes within rounding,
+//! ringing fades along a line on which the law changes sides. Nothing is wrong with them, and steps that do not look for events
+//! go through. So that is what is done: every contact goes by the whole law of its memory for a natural period of the one whose
+//! events accumulate, under error control by halved steps, since embedded estimates see neither kinks nor growth. Then events
+//! are located again. The state counts how often; a detour always moves on, so that no run can loop in them.
+//!
+//! A step h by the classical Runge–Kutta method is compared with two of h/2, the memory moved in between. Across a kink both are
+//! of second order: a third of the difference is the error of the halves.
+
+mod way;
+
+use super::Located;
+use crate::RunError;
+use crate::contact::{Contact, Mode};
+use crate::equations::Equations;
+use crate::method::Method;
+use crate::record::{self, Record};
+use crate::run::horizon::Progress;
+use crate::state::{Books, Detour, State};
+use std::f64::consts::TAU;
+use stickslip_contact::{Memory, Segment, Timed};
+use stickslip_stepper::{Attempt, FixedStep, Rk4, System};
+use way::Way;
+
+/// First step of a detour, as a part of it.
+const FIRST: f64 = 1e-3;
+/// Part of the step that would just meet the tolerance.
+const SAFETY: f64 = 0.8;
+/// What of the difference of a step and its halves is the error of the halves.
+const SHARE: f64 = 1.0 / 3.0;
+/// Shortest step, as a part of the detour: where that is too long there is no way on …
+const SHORTEST: f64 = 1e-10;
+/// … but where damped springs stick and slip in turn the law itself jumps, and the motion slides along the jump: no shorter step
+/// agrees better with its halves, and what both err is taken.
+const SLIDING: f64 = 1e-4;
+
+/// What rounding leaves of the books, relative to all that is in them.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+
+/// Room for the steps of a detour, made when the first one begins.
+pub(super) struct Halves {
+    stepper: Rk4,
+    /// The end by one step; the middle and the end by two.
+    one: Vec<f64>,
+    half: Vec<f64>,
+    two: Vec<f64>,
+    /// What the contacts remember in the middle.
+    memories: Vec<Memory>,
+}
+
+/// A step under way: its start, its middle and its end, s.
+#[derive(Clone, Copy)]
+struct Times {
+    from: f64,
+    middle: f64,
+    to: f64,
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Leaves the located run for the whole law, where it would have to stop for accumulating events or steps that do not
+    /// move on; gives the reason back where there is no such way.
+    pub(super) fn depart(&mut self, state: &mut State, reason: RunError) -> Result<Progress, RunError> {
+        let model = self.setting.model;
+        let length = match &reason {
+            RunError::Zeno { contact, .. } => model
+                .contacts
+                .iter()
+                .find(|known| known.name == *contact)
+                .map(|known| TAU / known.natural.frequency),
+            RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(TAU / model.fastest),
+            _ => None,
+        };
+        let Some(length) = length.filter(|length| length.is_normal() && state.t + FIRST * length > state.t)
+        else {
+            return Err(reason);
+        };
+        // Blocks have events of their own, which only a located run looks for.
+        if self.detour.is_some() || model.contacts.is_empty() || !model.blocks.is_empty() {
+            return Err(reason);
+        }
+        if self.ledger.booked.books == Books::Behind {
+            self.settle(state);
+            self.ledger.booked.books = Books::Current;
+        }
+        state.counts.detours += 1;
+        self.detour = Some(Detour { end: state.t + length, length, step: FIRST * length });
+        self.take_whole(state);
+        Ok(Progress::Made)
+    }
+
+    /// Puts every contact on its whole law.
+    fn take_whole(&mut self, state: &mut State) {
+        state.modes.fill(Mode::Whole { sense: 0.0 });
+        state.grew.fill(false);
+        self.takeoff = None;
+    }
+
+    /// One attempt by the whole law and, if its halves agree with it, all that belongs to the step.
+    pub(super) fn step_whole(
+        &mut self,
+        state: &mut State,
+        mut detour: Detour,
+        record: &mut dyn Record,
+    ) -> Result<Progress, RunError> {
+        let times = self.times(state, &detour);
+        let h = times.to - times.from;
+        if times.middle <= times.from || times.to <= times.middle {
+            return Err(RunError::StepTooSmall { t: state.t, step: h });
+        }
+        if self.horizon.is_beyond(times.to) {
+            return Ok(Progress::Short);
+        }
+        let mut halves = self.halves.take().unwrap_or_else(|| Box::new(self.room(state)));
+        let error = self.try_halves(&mut halves, state, times)?;
+        let slides = self.slides && error.is_finite() && h <= SLIDING * detour.length;
+        let outcome = if error <= 1.0 || slides {
+            detour.step = h * (SAFETY * error.max(1e-6).powf(-1.0 / 3.0)).clamp(1.0, 4.0);
+            self.take_halves(&halves, state, times, record)
+        } else {
+            self.refuse_halves(state, (&mut detour, h), error)
+        };
+        self.halves = Some(halves);
+        self.detour = Some(detour);
+        outcome?;
+        if state.t >= detour.end {
+            self.arrive(state, &detour);
+        }
+        self.bounds.step(state, record).map(|()| Progress::Made)
+    }
+
+    fn room(&self, state: &State) -> Halves {
+        let layout = self.setting.layout;
+        let nothing = vec![0.0; layout.total()];
+        Halves {
+            stepper: Rk4::new(layout.dimension(), layout.total()),
+            one: nothing.clone(),
+            half: nothing.clone(),
+            two: nothing,
+            memories: state.memories.clone(),
+        }
+    }
+
+    /// The next step: at most the one wished for, and up to no more than the end of the detour, a corner, or where the run
+    /// is to stop.
+    fn times(&self, state: &State, detour: &Detour) -> Times {
+        let from = state.t;
+        let bound = detour.end.min(self.horizon.next());
+        let left = bound - from;
+        let to = match detour.step {
+            step if step >= 0.999 * left => bound,
+            step if 2.0 * step > left => from + 0.5 * left,
+            step => from + step,
+        };
+        Times { from, middle: from + 0.5 * (to - from), to }
+    }
+
+    /// Tries a step and its halves; gives the error of the halves in units of what is allowed.
+    fn try_halves(&self, halves: &mut Halves, state: &mut State, times: Times) -> Result<f64, RunError> {
+        let Times { from, middle, to } = times;
+        let Halves { stepper, one, half, two, memories } = halves;
+        let spent = stepper.evaluations();
+        let eq = self.setting.plain(state);
+        let (before, size) = record::balance(&eq, state, from, &|i| state.y[i]);
+        let mut friction = 0.0;
+        one.copy_from_slice(&state.y);
+        stepper.step(&eq, from, one, to - from);
+        half.copy_from_slice(&state.y);
+        stepper.step(&eq, from, half, middle - from);
+        if half.iter().all(|y| y.is_finite()) {
+            memories.clone_from(&state.memories);
+            for (c, (contact, memory)) in
+                self.setting.model.contacts.iter().zip(memories.iter_mut()).enumerate()
+            {
+                let path = chord(&eq, contact, middle, |i| half[i]);
+                let work = memory.commit(&contact.interface, Timed { path, duration: middle - from });
+                friction +=
+                    contact.count * work.map_err(|source| self.setting.model.refused(c, middle, source))?;
+            }
+        }
+        let eq = Equations { memories, ..eq };
+        two.copy_from_slice(half);
+        stepper.step(&eq, middle, two, to - middle);
+        // Books that do not close tell of what places and velocities do not: work of friction on a way that bends.
+        let books = record::balance(&eq, state, to, &|i| two[i]).0 - friction - before;
+        state.counts.evaluations += stepper.evaluations() - spent;
+        let scale = &self.motion.allowance.allowed.scale;
+        let off = |i: usize| SHARE * (one[i] - two[i]).abs() / scale[i];
+        let books = books.abs() / (scale[self.setting.layout.input()] + ROUNDING * size);
+        let components = (0..one.len()).filter(|i| scale[*i] > 0.0);
+        // Not a number must not be lost in a maximum.
+        let most = components.map(off).chain([books]).fold(0.0, |most: f64, off| {
+            if off <= most {
+                most
+            } else if most.is_nan() {
+                most
+            } else {
+                off
+            }
+        });
+        Ok(most)
+    }
+
+    /// Shortens the wish; fails where it is as short as can be.
+    fn refuse_halves(
+        &self,
+        state: &mut State,
+        (detour, h): (&mut Detour, f64),
+        error: f64,
+    ) -> Result<(), RunError> {
+        state.counts.rejected += 1;
+        let factor = SAFETY * error.powf(-1.0 / 3.0);
+        detour.step = h * if factor > 0.1 { factor } else { 0.1 };
+        if detour.step < SHORTEST * detour.length {
+            return Err(RunError::StepTooSmall { t: state.t, step: detour.step });
+        }
+        Ok(())
+    }
+
+    /// Rows of the step, then both halves one after the other, then what the waveforms do at its end.
+    fn take_halves(
+        &mut self,
+        halves: &Halves,
+        state: &mut State,
+        Times { from, middle, to }: Times,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let start = state.y.clone();
+        for (from, to) in
+            [((from, &*start), (middle, &*halves.half)), ((middle, &*halves.half), (to, &*halves.two))]
+        {
+            if state.t < self.horizon.end {
+                let half = self.way(state, from, to);
+                self.take_half(state, &half, record)?;
+            }
+        }
+        state.counts.steps += 1;
+        state.tally.step(Method::Whole);
+        if state.t == self.horizon.corner && !state.waits_for_input(self.setting.model) {
+            self.turn_corners(state, record);
+            self.turned(state);
+            self.take_whole(state);
+        }
+        Ok(())
+    }
+
+    /// The way of a half, with the slopes at both its ends: the memories are those of its start.
+    fn way<'y>(&self, state: &State, from: (f64, &'y [f64]), to: (f64, &'y [f64])) -> Way<'y> {
+        let layout = self.setting.layout;
+        let eq = self.setting.plain(state);
+        let slopes = [from, to].map(|(t, y)| {
+            let mut slopes = vec![0.0; layout.total()];
+            eq.slopes(t, &y[..layout.dimension()], &mut slopes);
+            slopes
+        });
+        Way { from, to, slopes, free: layout.free }
+    }
+
+    /// One half: its rows, its end, and the memories of all contacts with it.
+    fn take_half(
+        &mut self,
+        state: &mut State,
+        half: &Way<'_>,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        self.take_periods(state, half);
+        let t = half.to.0.min(self.horizon.end);
+        let y = |i: usize| half.value(i, t);
+        let eq = self.setting.plain(state);
+        while let Some(due) = self.output.grid.due(t) {
+            self.output.grid.write(&eq, state, due, &|i| half.value(i, due), record);
+        }
+        while let Some(due) = self.output.looks.due(t) {
+            let memories = self.memories_at(&eq, state, due, |i| half.value(i, due));
+            self.output.looks.show(memories.as_deref().ok(), record);
+        }
+        for (c, contact) in self.setting.model.contacts.iter().enumerate() {
+            let path = chord(&self.setting.plain(state), contact, t, y);
+            let duration = t - self.ledger.booked.last[c];
+            let friction = state.memories[c]
+                .commit(&contact.interface, Timed { path, duration })
+                .map_err(|source| self.setting.model.refused(c, t, source))?;
+            self.ledger.booked.last[c] = t;
+            state.friction[c] += contact.count * friction;
+        }
+        for i in 0..state.y.len() {
+            state.y[i] = half.value(i, t);
+        }
+        state.t = t;
+        Ok(())
+    }
+
+    /// The steps of the drive that are over in a half; the one with which they are constant ends the run.
+    fn take_periods(&mut self, state: &State, half: &Way<'_>) {
+        while let Some(due) = self.horizon.steps.due(half.to.0) {
+            let i = self.horizon.steps.coordinate;
+            if self.horizon.steps.take(state.shifts[i], half.value(i, due)) {
+                self.end_at(due);
+                return;
+            }
+        }
+    }
+
+    /// Back to located events: every contact is decided afresh.
+    fn arrive(&mut self, state: &mut State, detour: &Detour) {
+        self.detour = None;
+        self.bounds.forget();
+        state.step = self.control.after_event(detour.step);
+        (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
+        self.restart(state);
+    }
+}
+
+/// The straight way of a contact to a time and components.
+fn chord(eq: &Equations<'_>, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Segment {
+    Segment::Straight(eq.motion(contact, t, y).apex())
+}

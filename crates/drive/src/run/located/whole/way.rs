@@ -1,0 +1,56 @@
+//! What is read inside a step of the whole law.
+
+/// A half and what is read inside it: as smooth as the steps are exact.
+pub(super) struct Way<'y> {
+    pub(super) from: (f64, &'y [f64]),
+    pub(super) to: (f64, &'y [f64]),
+    pub(super) slopes: [Vec<f64>; 2],
+    pub(super) free: usize,
+}
+
+impl Way<'_> {
+    /// Component `i` at time t: positions by the quintic through places, velocities and accelerations of both ends, all else
+    /// by the cubic through values and slopes.
+    pub(super) fn value(&self, i: usize, t: f64) -> f64 {
+        let ((t0, y0), (t1, y1)) = (self.from, self.to);
+        if t >= t1 {
+            return y1[i];
+        }
+        let (h, [k0, k1], n) = (t1 - t0, &self.slopes, self.free);
+        let s = (t - t0) / h;
+        let (left, square) = (1.0 - s, s * (1.0 - s));
+        let (rise, first, last) = (y1[i] - y0[i], h * k0[i], h * k1[i]);
+        let cubic = y0[i] + s * rise + square * (left * (first - rise) - s * (last - rise));
+        if i >= n {
+            return cubic;
+        }
+        // What the cubic lacks of the accelerations at both ends.
+        let bend = h * h;
+        let (from, to) = (bend * k0[n + i] - 6.0 * rise + 4.0 * first + 2.0 * last, {
+            bend * k1[n + i] + 6.0 * rise - 2.0 * first - 4.0 * last
+        });
+        cubic + 0.5 * square * square * (left * from + s * to)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x = t⁵ - t³ and an integral q = t³ are met exactly, whatever the ends.
+    #[test]
+    fn a_way_has_the_degrees_of_its_ends() {
+        let x = |t: f64| t.powi(5) - t.powi(3);
+        let v = |t: f64| 5.0 * t.powi(4) - 3.0 * t.powi(2);
+        let a = |t: f64| 20.0 * t.powi(3) - 6.0 * t;
+        let y = |t: f64| [x(t), v(t), t.powi(3)];
+        let slopes = |t: f64| vec![v(t), a(t), 3.0 * t.powi(2)];
+        let (from, to) = (0.3, 1.7);
+        let (begin, end) = (y(from), y(to));
+        let way = Way { from: (from, &begin), to: (to, &end), slopes: [slopes(from), slopes(to)], free: 1 };
+        for t in [0.3, 0.31, 0.9, 1.2, 1.69, 1.7] {
+            assert!((way.value(0, t) - x(t)).abs() < 1e-13, "{t}");
+            assert!((way.value(2, t) - t.powi(3)).abs() < 1e-13, "{t}");
+        }
+    }
+}
