@@ -75,7 +75,7 @@ impl<'a> Chords<'a> {
             *mode = Mode::Whole { sense: 0.0 };
         }
         match &state.underway {
-            Some(Underway::Fixed(way)) => self.take_up(way),
+            Some(Underway::Fixed(way)) => self.take_up(way, state),
             _ => {
                 self.ledger.set_out(state.t);
                 self.horizon.steps.begin(state);
@@ -89,12 +89,12 @@ impl<'a> Chords<'a> {
     }
 
     /// Goes on from what another run put down.
-    fn take_up(&mut self, way: &FixedWay) {
+    fn take_up(&mut self, way: &FixedWay, state: &State) {
         self.senses.clone_from(&way.senses);
         self.ledger.booked.copy(&way.booked);
         self.bounds.windows.clone_from(&way.windows);
         if let Some(steps) = way.steps {
-            self.horizon.steps.take_up(steps);
+            self.horizon.steps.take_up(steps, state);
         }
     }
 
