@@ -95,6 +95,12 @@ pub(crate) fn drawn(base: &Scenario, lottery: &mut Lottery) -> Vec<(String, Stri
 }
 
 impl Lottery {
+    /// Any bits.
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.draw(2);
+        self.0
+    }
+
     /// A number from 0 to 1.
     pub(crate) fn share(&mut self) -> f64 {
         self.draw(1 << 20) as f64 / f64::from(1 << 20)
