@@ -70,6 +70,9 @@ impl Curve {
     // A decay of 40 000 swings, each a bit smaller than the one before, then has 1.4e-5 of the limit force in all its merges,
     // and 1.2e-5 by a stack of 64: what is given up first is small. Room, not exactness, is what it is chosen for: 1.2 MB.
     pub const DEFAULT_CAPACITY: usize = 16_384;
+    /// Knots that there is room for from the start.
+    // What most histories need, 18 kB; a thousand contacts should not take the full stack each.
+    const ROOM: usize = 256;
     /// Fewest knots a stack is made for.
     const LEAST_CAPACITY: usize = 8;
 
@@ -81,8 +84,7 @@ impl Curve {
     /// The same with a stack of another capacity (at least 8 knots).
     pub fn with_capacity(law: &Interface, at: Apex, capacity: usize) -> Self {
         let capacity = capacity.max(Self::LEAST_CAPACITY);
-        // Room for what most histories need, 18 kB; a thousand contacts should not take the full stack each.
-        let mut knots = Vec::with_capacity(capacity.min(256));
+        let mut knots = Vec::with_capacity(capacity.min(Self::ROOM));
         if at.d > 0.0 {
             let first = Knot::touch(at.u);
             knots.push(first);
@@ -96,6 +98,12 @@ impl Curve {
             capacity,
             merged: Merged::default(),
         }
+    }
+
+    /// Makes the room that a new curve has: a copy, or a curve read from words, has none but for what it holds.
+    pub(crate) fn make_room(&mut self) {
+        let room = self.capacity.min(Self::ROOM);
+        self.knots.reserve(room.saturating_sub(self.knots.len()));
     }
 
     /// Where the contact stands.

@@ -194,6 +194,16 @@ macro_rules! either {
 }
 
 impl Memory {
+    /// Makes the room that a new memory has, for one that is a copy or was read from words: within it commits allocate
+    /// nothing.
+    pub fn make_room(&mut self) {
+        match self {
+            Self::Curve(curve) => curve.make_room(),
+            // A row has all its springs.
+            Self::Row(_) => {}
+        }
+    }
+
     /// Where the contact stands.
     #[inline]
     pub fn apex(&self) -> Apex {

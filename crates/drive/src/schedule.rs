@@ -27,6 +27,9 @@ pub struct Schedule {
 /// A multiple this near to the beginning or the end of a run, in intervals, is the beginning or the end.
 const SAME: f64 = 1e-9;
 
+/// Multiples are counted up to here: beyond, a number is its own successor.
+const COUNTED: f64 = 9_007_199_254_740_992.0;
+
 impl Moments {
     /// Number of moments in a run of `duration` s from t = 0, as a number that cannot overflow.
     pub fn count(&self, duration: f64) -> f64 {
@@ -57,7 +60,7 @@ impl Schedule {
         if let Moments::Every(interval) = schedule.moments {
             // To the last bit: what lies within rounding after `from` has not been passed.
             schedule.next = (from / interval).floor().max(0.0);
-            while interval * schedule.next <= from {
+            while interval * schedule.next <= from && schedule.next < COUNTED {
                 schedule.next += 1.0;
             }
             schedule.due = schedule.time();
@@ -97,7 +100,8 @@ impl Schedule {
     fn time(&self) -> f64 {
         let t = match &self.moments {
             // A product: a sum of intervals would drift from the multiples that it is told as.
-            Moments::Every(interval) => interval * self.next,
+            Moments::Every(interval) if self.next < COUNTED => interval * self.next,
+            Moments::Every(_) => f64::INFINITY,
             Moments::At(times) => times.get(self.next as usize).copied().unwrap_or(f64::INFINITY),
         };
         // A multiple that misses the end by rounding is the end itself, once, and no row before it.

@@ -10,6 +10,10 @@
     reason = "a test fails by panicking, and shows what it saw"
 )]
 
+#[allow(dead_code, reason = "shared with other tests")]
+mod shared;
+
+use shared::{Lottery, drawn, scenarios};
 use std::path::PathBuf;
 use stickslip_drive::{Limits, Method, Model, Plan, Stepper, Treatment, run};
 use stickslip_scenario::Scenario;
@@ -17,94 +21,6 @@ use stickslip_scenario::Scenario;
 const VARIANTS: usize = 200;
 /// Longest simulated time of a variant, in parts of its own.
 const PART: f64 = 0.3;
-
-fn scenarios() -> Vec<PathBuf> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
-    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<PathBuf> =
-        files.filter(|path| path.extension().is_some_and(|e| e == "json")).collect();
-    files.sort();
-    files
-}
-
-/// Marsaglia's xorshift64.
-struct Lottery(u64);
-
-impl Lottery {
-    fn draw(&mut self, among: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % among as u64) as usize
-    }
-
-    fn one<'a>(&mut self, among: &[&'a str]) -> &'a str {
-        among[self.draw(among.len())]
-    }
-}
-
-const PROFILES: [&str; 5] = [
-    r#"{"cone":{"slope":0.01}}"#,
-    r#"{"sphere":{"radius":"1 mm"}}"#,
-    r#"{"power":{"coefficient":1e12,"exponent":4}}"#,
-    r#"{"flat":{"radius":"20 um"}}"#,
-    r#"{"paraboloid":{"radius":"2 mm"}}"#,
-];
-const WAVEFORMS: [&str; 4] = [
-    r#"{"sine":{"amplitude":"0.3 um","period":"1 ms"}}"#,
-    r#"{"triangle":{"stroke":"0.4 um","period":"1 ms"}}"#,
-    r#"{"cycloid":{"stroke":"0.4 um","period":"1 ms","flyback":"0.2 ms"}}"#,
-    r#"{"sawtooth":{"stroke":"0.4 um","period":"1 ms","flyback":"20 us"}}"#,
-];
-const STEPPERS: [&str; 6] = [
-    r#"{"event":{"tolerance":1e-4}}"#,
-    r#"{"event":{"tolerance":1e-6}}"#,
-    r#"{"event":{"tolerance":1e-9}}"#,
-    r#"{"verlet":{"step":"1 us"}}"#,
-    r#"{"rk4":{"step":"1 us"}}"#,
-    r#"{"dopri5":{"tolerance":1e-6}}"#,
-];
-const LINKS: [&str; 3] = [
-    r#""stiffness":1e3,"damping":0"#,
-    r#""stiffness":0,"damping":0.1"#,
-    r#""stiffness":1e4,"damping":1,"preload":"1 mN""#,
-];
-
-/// Overrides of one to three things of a scenario.
-fn drawn(base: &Scenario, lottery: &mut Lottery) -> Vec<(String, String)> {
-    let scene = &base.scene;
-    let mut set = Vec::new();
-    for _ in 0..=lottery.draw(3) {
-        let contact = scene.contacts.get(lottery.draw(scene.contacts.len().max(1)));
-        let Some(contact) = contact.map(|contact| format!("contacts.{}", contact.name)) else { continue };
-        let waveform = scene.waveforms.get(lottery.draw(scene.waveforms.len().max(1)));
-        let free = scene.bodies.iter().find(|body| body.part.is_free());
-        set.push(match lottery.draw(9) {
-            0 => (format!("{contact}.profile"), lottery.one(&PROFILES).to_owned()),
-            1 => (format!("{contact}.friction"), lottery.one(&["0", "0.05", "0.3", "1"]).to_owned()),
-            2 => (format!("{contact}.damping"), lottery.one(&["1e-6", "1e-5"]).to_owned()),
-            3 => (format!("{contact}.count"), lottery.one(&["1", "2", "5"]).to_owned()),
-            4 => (format!("{contact}.engine"), r#"{"springs":{"count":64}}"#.to_owned()),
-            5 => (format!("{contact}.normal"), r#"{"force":"0.4 N"}"#.to_owned()),
-            6 => ("run.stepper".to_owned(), lottery.one(&STEPPERS).to_owned()),
-            7 => match waveform {
-                Some(waveform) => {
-                    (format!("waveforms.{}", waveform.name), lottery.one(&WAVEFORMS).to_owned())
-                }
-                None => continue,
-            },
-            _ => match free {
-                Some(body) => {
-                    let link = lottery.one(&LINKS);
-                    let ends = format!(r#""between":["ground","{}"],"direction":"x""#, body.name);
-                    ("springs".to_owned(), format!(r#"{{"drawn":{{{ends},{link}}}}}"#))
-                }
-                None => continue,
-            },
-        });
-    }
-    set
-}
 
 /// Runs a scenario and compares; false where it makes no scene.
 fn compare(file: &std::path::Path, set: &[(String, String)], part: f64) -> bool {

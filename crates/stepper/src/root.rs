@@ -66,7 +66,8 @@ fn search(mut f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance
     // that are exact.
     // `new` is the latest point, `old` the end across the zero, `last` the point before.
     let (mut new, mut old) = (bracket.to, bracket.from);
-    let mut part = 1.0 - guess;
+    // Rates that overflow give no guess.
+    let mut part = if guess.is_finite() { 1.0 - guess } else { 0.5 };
     for _ in 0..MOST {
         let x = new.x + part * (old.x - new.x);
         let value = f(x);
@@ -76,7 +77,8 @@ fn search(mut f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance
         let last = if (value > 0.0) == (new.y > 0.0) { new } else { std::mem::replace(&mut old, new) };
         new = Point { x, y: value };
         let width = (old.x - new.x).abs();
-        if width <= 2.0 * tolerance {
+        // Not a number, either, can be narrowed.
+        if width.is_nan() || width <= 2.0 * tolerance {
             break;
         }
         // At least the tolerance away from both ends, so that the last step closes the bracket.

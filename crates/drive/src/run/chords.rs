@@ -38,6 +38,8 @@ pub(super) struct Chords<'a> {
     senses: Vec<f64>,
     /// State of each contact after the last step, where somebody watches.
     standings: Vec<ContactState>,
+    /// Whether somebody did at the last step.
+    watched: bool,
     /// The contacts at the end of the step.
     motions: Vec<Motion>,
     /// The components there, where a run ends inside the step.
@@ -56,6 +58,7 @@ impl<'a> Chords<'a> {
             bounds: Bounds::new(model, plan.limits, 0.0),
             senses: vec![0.0; model.contacts.len()],
             standings: vec![ContactState::Open; model.contacts.len()],
+            watched: false,
             motions: Vec::with_capacity(model.contacts.len()),
             last: Vec::with_capacity(layout.total()),
             model,
@@ -75,7 +78,7 @@ impl<'a> Chords<'a> {
             *mode = Mode::Whole { sense: 0.0 };
         }
         match &state.underway {
-            Some(Underway::Fixed(way)) => self.take_up(way, &state.memories),
+            Some(Underway::Fixed(way)) => self.take_up(way, state),
             _ => {
                 self.ledger.set_out(state.t);
                 self.horizon.steps.begin(state);
@@ -89,15 +92,12 @@ impl<'a> Chords<'a> {
     }
 
     /// Goes on from what another run put down.
-    fn take_up(&mut self, way: &FixedWay, memories: &[Memory]) {
+    fn take_up(&mut self, way: &FixedWay, state: &State) {
         self.senses.clone_from(&way.senses);
-        for (c, memory) in memories.iter().enumerate() {
-            self.standings[c] = self.standing(c, memory);
-        }
         self.ledger.booked.copy(&way.booked);
         self.bounds.windows.clone_from(&way.windows);
         if let Some(steps) = way.steps {
-            self.horizon.steps.take_up(steps);
+            self.horizon.steps.take_up(steps, state);
         }
     }
 
@@ -209,6 +209,13 @@ impl<'a> Chords<'a> {
         (t, y): (f64, &[f64]),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
+        let was_watched = std::mem::replace(&mut self.watched, record.wants_events());
+        if self.watched && !was_watched && state.counts.steps > 0 {
+            // Who begins to watch sees what happens from here on, not how the contacts came to be where they are.
+            for (c, memory) in state.memories.iter().enumerate() {
+                self.standings[c] = self.standing(c, memory);
+            }
+        }
         let eq = Equations::on(self.model, state, self.layout, true);
         self.motions.clear();
         self.motions.extend(self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])));
@@ -225,7 +232,7 @@ impl<'a> Chords<'a> {
         }
         state.counts.steps += 1;
         state.tally.step(Method::AskedFor);
-        if record.wants_events() {
+        if self.watched {
             self.notice(state, record);
         }
         for (sense, motion) in self.senses.iter_mut().zip(&self.motions) {

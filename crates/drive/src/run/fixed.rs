@@ -26,6 +26,8 @@ pub(super) struct Fixed<'a, F> {
     grid: Grid,
     /// Components at the end of the step under way.
     y: Vec<f64>,
+    /// Slopes kept at the start of a step that may be taken back.
+    slopes: Vec<f64>,
     /// Evaluations counted so far.
     counted: u64,
 }
@@ -47,6 +49,7 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
             name: plan.stepper.name(),
             grid,
             y: vec![0.0; total],
+            slopes: Vec::with_capacity(total),
             counted: 0,
             chords,
         })
@@ -112,14 +115,17 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
         self.y.copy_from_slice(&state.y);
         let (before, is_due) = (self.chords.horizon.steps, self.chords.horizon.steps.due(end).is_some());
         let spent = self.stepper.evaluations();
-        let slopes = if is_due { self.stepper.kept().map(<[f64]>::to_vec) } else { None };
+        if is_due {
+            self.slopes.clear();
+            self.slopes.extend_from_slice(self.stepper.kept().unwrap_or_default());
+        }
         self.stepper.step(&self.chords.equations(state), state.t, &mut self.y, end - state.t);
         if is_due {
             let goal = self.chords.horizon.end;
             self.chords.take_steps(state, end, &self.y);
             if self.chords.horizon.is_beyond(end) {
                 // The steps of the drive are constant with this one: it will be taken by who wants the end.
-                self.stepper.keep(slopes.as_deref().unwrap_or_default());
+                self.stepper.keep(&self.slopes);
                 self.counted += self.stepper.evaluations() - spent;
                 self.chords.horizon.steps = before;
                 self.chords.end_at(goal);

@@ -7,6 +7,7 @@ use super::output::Opening;
 use crate::equations::Equations;
 use crate::record::{self, Record};
 use crate::{InputError, Model, Plan, RunError, State, Stepper};
+use stickslip_contact::Memory;
 use stickslip_stepper::{Rk4, Verlet};
 
 /// A run that its caller moves on: it owns the state and the workspace, and borrows the model.
@@ -76,6 +77,8 @@ pub(super) fn to_the_end(
 
 impl Way<'_> {
     fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
+        // Of a state that was copied or restored; others have it.
+        state.memories.iter_mut().for_each(Memory::make_room);
         each!(self, run => run.set_out(state, opening, record));
     }
 

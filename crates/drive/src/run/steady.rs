@@ -39,6 +39,12 @@ impl Steps {
 
     /// Begins with the first period that begins now or later: what was before the state is not known.
     pub(super) fn begin(&mut self, state: &State) {
+        // Not period by period: a state may come from any time.
+        let passed = ((state.t - self.start) / self.period).floor() - 1.0;
+        if passed > self.so_far.next && passed < self.periods {
+            self.so_far.next = passed;
+            self.look_ahead();
+        }
         while self.due * (1.0 + SAME) < state.t {
             self.advance();
         }
@@ -53,10 +59,16 @@ impl Steps {
     }
 
     /// Goes on from there.
-    pub(super) fn take_up(&mut self, so_far: Stepped) {
+    pub(super) fn take_up(&mut self, so_far: Stepped, state: &State) {
         if self.period > 0.0 {
             self.so_far = so_far;
             self.look_ahead();
+            // No run leaves an end behind that it has passed.
+            if self.due * (1.0 + SAME) < state.t {
+                self.so_far = Self::NEVER.so_far;
+                self.look_ahead();
+                self.begin(state);
+            }
         }
     }
 

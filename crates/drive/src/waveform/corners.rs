@@ -95,7 +95,8 @@ impl Corners {
 
     /// The piece that holds at a time inside the window.
     pub(super) fn piece_at(&self, t: f64) -> Piece {
-        self.piece(1 + self.segment_at(t).clamp(self.first, self.last) - self.first)
+        // At a time beyond all counting the segment is the largest number there is.
+        self.piece((self.segment_at(t).clamp(self.first, self.last) - self.first).saturating_add(1))
     }
 
     /// The piece with this index, 1 for the first segment that runs.

@@ -41,7 +41,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.windows.clone_from(&way.windows);
         (self.detour, self.bounds.crawl) = (way.detour, way.crawl);
         if let Some(steps) = way.steps {
-            self.horizon.steps.take_up(steps);
+            self.horizon.steps.take_up(steps, state);
         }
         self.horizon.corner = state.next_corner();
         self.interval.begin(self.setting.model, state);

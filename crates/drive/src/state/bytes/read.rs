@@ -51,7 +51,7 @@ pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
         counts: counts(words)?,
         tally: Tally::read(model.contacts.len(), words)?,
         control: option(words, history)?,
-        underway: option(words, |words| underway(model, layout, words))?,
+        underway: option(words, |words| underway(model, layout, t, words))?,
     })
 }
 
@@ -133,10 +133,10 @@ fn history(words: &mut Words<'_>) -> Option<StepHistory> {
     Some(StepHistory { log_error, rejected })
 }
 
-fn underway(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Underway> {
+fn underway(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Option<Underway> {
     match words.word()? {
         0 => located(model, layout, words).map(|way| Underway::Located(Box::new(way))),
-        1 => fixed(model, layout, words).map(|way| Underway::Fixed(Box::new(way))),
+        1 => fixed(model, layout, t, words).map(|way| Underway::Fixed(Box::new(way))),
         _ => None,
     }
 }
@@ -173,19 +173,33 @@ fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Locat
     })
 }
 
-fn fixed(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<FixedWay> {
+fn fixed(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Option<FixedWay> {
     let stepper = if words.flag()? { "verlet" } else { "rk4" };
     let [start, step, count] = numbers(words)?;
+    let grid = Grid { start, step, count };
+    if !is_on(grid, t) {
+        return None;
+    }
     let keeps = words.flag()?;
     Some(FixedWay {
         stepper,
-        grid: Grid { start, step, count },
+        grid,
         slopes: reals(words, if keeps { layout.total() } else { 0 })?,
         senses: reals(words, model.contacts.len())?,
         booked: booked(model, words)?,
         windows: windows(model, words)?,
         steps: option(words, stepped)?,
     })
+}
+
+/// Whether a run in these steps can stand at time t, between the last moment of the grid and the next. A step that goes back or
+/// never ends would be made of any other.
+fn is_on(Grid { start, step, count }: Grid, t: f64) -> bool {
+    let [last, next] = [count, count + 1.0].map(|count| start + count * step);
+    let whole = count >= 0.0 && count.fract() == 0.0 && step > 0.0;
+    // By more than all rounding; a step is cut off long before that of t is as long.
+    let slack = 1e-6 * step + 8.0 * f64::EPSILON * t;
+    whole && next.is_finite() && last <= t + slack && next >= t - slack
 }
 
 fn booked(model: &Model, words: &mut Words<'_>) -> Option<Booked> {

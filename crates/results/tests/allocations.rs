@@ -1,0 +1,146 @@
+//! A run that a caller holds allocates nothing once it goes: not per step, not per frame, by any stepper, also where it was
+//! taken up from bytes.
+//!
+//! The exception told of in [`Run`]: a memory that grows deeper than it ever was makes itself room. It starts with room for
+//! 256 knots, copied or restored as well; of these drives the stage alone needs more, and doubles it a few times.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and prints what it measured"
+)]
+
+#[allow(dead_code, reason = "shared with other tests")]
+mod shared;
+
+use shared::{Stage, rk4, verlet};
+use stickslip_contact::Memory;
+use stickslip_drive::{Event, Plan, Record, Run, State, Stepper, UntilSteady};
+
+/// Drives with the period of their waveforms, s.
+const DRIVES: [(&str, f64); 4] = [
+    ("p1.json", 1e-3),
+    ("piezo_stack.json", 1e-3),
+    ("three_ball_stage.json", 2e-3),
+    ("walking_drive.json", 2e-3),
+];
+/// Lengths of frames, s; the last is several periods.
+const FRAMES: [f64; 4] = [20e-6, 3.7e-6, 91.3e-6, 5e-3];
+/// Periods before anything is counted, and counted ones of each frame.
+const WARM: f64 = 3.0;
+const COUNTED: f64 = 3.0;
+/// Room of a memory at the start, knots.
+const ROOM: usize = 256;
+/// Bytes of a knot.
+const KNOT: usize = 72;
+/// How often a memory can double its room: it keeps 16 384 knots at most.
+const DOUBLINGS: u64 = 6;
+
+fn steppers(stage: &Stage) -> Vec<Stepper> {
+    let fixed = [verlet, rk4].map(|make| stage.step(0.5, make).unwrap());
+    [1e-4, 1e-9].map(|tolerance| Stepper::Event { tolerance }).into_iter().chain(fixed).collect()
+}
+
+/// Most knots that a memory has.
+fn depth(state: &State) -> usize {
+    let knots = |memory: &Memory| match memory {
+        Memory::Curve(curve) => curve.knot_count(),
+        _ => 0,
+    };
+    state.memories().iter().map(knots).max().unwrap_or(0)
+}
+
+/// Counts what is written, without keeping it.
+#[derive(Default)]
+struct Written {
+    rows: u64,
+    events: u64,
+}
+
+impl Record for Written {
+    fn row(&mut self, _: &[f64]) {
+        self.rows += 1;
+    }
+
+    fn event(&mut self, _: &Event, _: &[f64]) {
+        self.events += 1;
+    }
+}
+
+/// What was allocated after a warm-up.
+#[derive(Debug, Default)]
+struct Allocated {
+    /// Not by a memory.
+    plain: u64,
+    /// By memories that grew deeper than they ever were.
+    deeper: u64,
+    /// Most knots at the end of a frame.
+    deepest: usize,
+}
+
+/// Allocations of frames after a warm-up.
+fn counted(run: &mut Run<'_>, period: f64, row: &mut Vec<f64>) -> Allocated {
+    let (mut allocated, mut written) = (Allocated::default(), Written::default());
+    let mut advance = |run: &mut Run<'_>, until: f64, counts: bool| {
+        let info = allocation_counter::measure(|| {
+            run.advance(until, &mut written).unwrap();
+            run.row(row);
+        });
+        if counts && info.count_total > 0 {
+            // A memory that was deeper within the frame is known by the size of what it takes: twice the room, or more.
+            let is_deeper = info.bytes_total >= info.count_total * (2 * ROOM * KNOT) as u64;
+            let book = if is_deeper { &mut allocated.deeper } else { &mut allocated.plain };
+            *book += info.count_total;
+        }
+        allocated.deepest = allocated.deepest.max(depth(run.state()));
+    };
+    let start = run.state().time();
+    let warm = (WARM * period / FRAMES[0]) as u32;
+    (1..=warm).for_each(|k| advance(run, start + f64::from(k) * FRAMES[0], false));
+    for frame in FRAMES {
+        let (from, frames) = (run.state().time(), (COUNTED * period / frame).ceil() as u32);
+        (1..=frames).for_each(|k| advance(run, from + f64::from(k) * frame, true));
+    }
+    assert!(written.rows > 1000, "{} rows", written.rows);
+    allocated
+}
+
+#[test]
+fn frames_and_steps_allocate_nothing() {
+    for (name, period) in DRIVES {
+        let stage = Stage::example(name);
+        let model = &stage.job.model;
+        for stepper in steppers(&stage) {
+            let plan = Plan { every: Some(7e-6), ..stage.plan(stepper, 1.0) };
+            let mut row = Vec::new();
+            let mut run = Run::new(model, &plan, stage.start(&plan).unwrap()).unwrap();
+            let fresh = counted(&mut run, period, &mut row);
+            let counts = run.state().counts();
+            let state =
+                State::from_bytes(model, &stage.key, &run.state().to_bytes(model, &stage.key)).unwrap();
+            let mut run = Run::resume(model, &plan, state).unwrap();
+            let restored = counted(&mut run, period, &mut row);
+            println!("{name} {stepper:?}: {fresh:?}; restored {restored:?}; {counts:?}");
+            let contacts = model.contacts().count() as u64;
+            for allocated in [fresh, restored] {
+                assert_eq!(allocated.plain, 0, "{name} {stepper:?}");
+                assert!(allocated.deeper <= contacts * DOUBLINGS, "{name} {stepper:?}: {allocated:?}");
+            }
+        }
+    }
+}
+
+/// Nor where a run looks at the end of each period whether the steps of the drive are constant.
+#[test]
+fn looking_for_constant_steps_allocates_nothing() {
+    let (stage, period) = (Stage::example("p1.json"), 1e-3);
+    // Never constant enough: the run looks at every period.
+    let until_steady = Some(UntilSteady { waveform: 0, body: 1, change: 1e-300 });
+    for stepper in steppers(&stage) {
+        let plan = Plan { every: Some(7e-6), until_steady, ..stage.plan(stepper, 1.0) };
+        let mut run = Run::new(&stage.job.model, &plan, stage.start(&plan).unwrap()).unwrap();
+        let allocated = counted(&mut run, period, &mut Vec::new());
+        println!("{stepper:?}: {allocated:?}");
+        assert_eq!((allocated.plain, allocated.deeper), (0, 0), "{stepper:?}");
+    }
+}
