@@ -24,7 +24,7 @@ use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway};
 use crate::{Plan, RunError};
 pub(super) use step::Between;
-use stickslip_contact::{ContactState, Memory, Segment};
+use stickslip_contact::{ContactState, Segment};
 
 /// A run by chords: accepts steps, writes what falls between them, notices events after the fact.
 pub(super) struct Chords<'a> {
