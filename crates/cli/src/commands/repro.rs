@@ -82,7 +82,7 @@ fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
 fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint, ReproFailure> {
     let job = &origin.job;
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
-    let bar = progress.start(&job.name, job.scenario.plan.duration, &interrupt);
+    let bar = progress.start(&job.name, [0.0, job.scenario.plan.duration], &interrupt);
     let mut recorder = Recorder::new(job, &bar).fingerprinted();
     if !origin.is_whole() {
         recorder = recorder.until(origin.end);
