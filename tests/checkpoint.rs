@@ -148,6 +148,21 @@ fn other_steppers_go_on_as_well() {
     }
 }
 
+/// Periods that agreed before the run was ended count.
+#[test]
+fn a_run_that_goes_on_is_steady_when_it_would_have_been() {
+    let out = tempdir().unwrap();
+    let set = |cycles| ["run.until_steady=1e-4", "output.every=50 us", r#"plots=["events"]"#, cycles];
+    let whole = kept("p1", &out.path().join("whole"), SELDOM, &set("run.cycles=1000"));
+    assert_eq!(number(&summary(&whole), "/steady_after_periods"), 6.0);
+    for cycles in ["run.cycles=3", "run.cycles=5.5"] {
+        let parts = kept("p1", &out.path().join(cycles), SELDOM, &set(cycles));
+        assert!(summary(&parts).get("steady_after_periods").is_none());
+        resumed(&parts, &["--set", "run.cycles=1000"]);
+        assert_same(&whole, &parts, cycles);
+    }
+}
+
 #[test]
 fn a_checkpoint_is_never_that_of_another_run() {
     let out = tempdir().unwrap();

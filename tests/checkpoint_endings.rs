@@ -56,7 +56,10 @@ fn a_killed_run_goes_on_as_if_nothing_had_happened() {
         let (set, (whole, wall)) = (&LONG[k % 2], &whole[k % 2]);
         let parts = out.path().join(format!("parts {k}"));
         let folder = parts.join("quickstart");
-        late += usize::from(killed(keeping("quickstart", &parts, "20 ms", set), wall * draw()));
+        // Every other pair of runs is to become longer only when it goes on.
+        let set = [&set[..], if k % 4 < 2 { &[] } else { &["run.duration=600 ms"] }].concat();
+        let end: &[&str] = if k % 4 < 2 { &[] } else { &["--set", set[0]] };
+        late += usize::from(killed(keeping("quickstart", &parts, "20 ms", &set), wall * draw()));
         if !folder.join("checkpoint/state").exists() {
             let output = resume(&folder, &[]);
             assert!(
@@ -64,14 +67,14 @@ fn a_killed_run_goes_on_as_if_nothing_had_happened() {
                 "{}",
                 stderr(&output)
             );
-            killed(keeping("quickstart", &parts, "20 ms", set), 0.5 * wall);
+            killed(keeping("quickstart", &parts, "20 ms", &set), 0.5 * wall);
             early += 1;
         }
         // Killed once more on the way.
         let mut again = stickslip();
-        again.arg("resume").arg(&folder);
+        again.arg("resume").arg(&folder).args(end);
         late += usize::from(killed(again, wall * draw()));
-        resumed(&folder, &[]);
+        resumed(&folder, end);
         assert_same(whole, &folder, &format!("kill {k}"));
         assert!(!listing(&folder).iter().any(|name| name.starts_with('.')), "{:?}", listing(&folder));
         fs::remove_dir_all(&parts).unwrap();

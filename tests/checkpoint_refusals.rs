@@ -191,6 +191,22 @@ fn only_the_end_can_be_changed() {
     );
 }
 
+/// The last period, whose memory P1 shows, is another one with another end: much of it has passed.
+#[test]
+fn an_end_that_asks_for_looks_at_what_has_passed_is_refused() {
+    let kept = Kept::new("p1", &["run.cycles=3"]);
+    let said = kept.refused(&["--set", "run.cycles=3.4"]);
+    let t = said.split("t = ").nth(1).unwrap().split(' ').next().unwrap();
+    assert!((t.parse::<f64>().unwrap() - (3.4 - 5.0 / 6.0) * 1e-3).abs() < 1e-12, "{said}");
+    assert_eq!(
+        said,
+        format!(
+            "DIR: with this end the run would look into its contacts at t = {t} s, which it has passed without a look\n   \
+             help: give another end, or run the scenario anew with moments for output.memory and output.springs\n"
+        )
+    );
+}
+
 #[test]
 fn one_folder_is_not_resumed_twice_at_once() {
     let kept = Kept::new("p1", &["run.cycles=3"]);

@@ -94,7 +94,8 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     }
     let (outcome, drafts) = job.run_recorded(recorder).map_err(written)?;
     drop(bar);
-    if let Some(folder) = folder {
+    if let Some(mut folder) = folder {
+        folder.forget_checkpoint();
         run::write(job, &arguments.look.look(), folder, (&outcome, drafts)).map_err(written)?;
     }
     if interrupt.is_raised() {

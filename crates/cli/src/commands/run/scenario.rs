@@ -5,7 +5,7 @@ use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use std::io;
 use stickslip_figures::{Look, Sources};
-use stickslip_results::checkpoint::{Keeper, Resumption};
+use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::files::{EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary};
@@ -45,6 +45,7 @@ pub(crate) fn run(
             Beginning::Checkpoints(every) => Some(Keeper::begin(job, every)?),
             Beginning::Resumed(resumption, every) => match resumption.tell(job, every, &mut recorder) {
                 Ok(keeper) => Some(keeper),
+                Err(CheckpointError::Write { source, .. }) => return Err(source),
                 Err(error) => return Ok(Report::refused(&error)),
             },
         };
