@@ -87,6 +87,19 @@ fn a_killed_run_goes_on_as_if_nothing_had_happened() {
     assert!(late <= kills(), "{late} signals came too late");
 }
 
+/// Between its start and its first checkpoint a run has nothing but its start to go on from, rows and looks at t = 0 included.
+#[test]
+fn a_run_that_was_killed_before_its_first_checkpoint_begins_anew() {
+    let out = tempdir().unwrap();
+    for (i, set) in LONG.iter().enumerate() {
+        let (whole, wall) = undisturbed(&out.path().join(format!("whole {i}")), set);
+        let parts = out.path().join(format!("parts {i}"));
+        assert!(!killed(keeping("quickstart", &parts, SELDOM, set), 0.5 * wall));
+        resumed(&parts.join("quickstart"), &[]);
+        assert_same(&whole, &parts.join("quickstart"), &format!("case {i}"));
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_goes_on_from_where_it_was() {
