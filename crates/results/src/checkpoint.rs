@@ -1,7 +1,7 @@
 //! Runs that can go on after they were ended, whatever ended them.
 //!
-//! Beside its results such a run keeps a folder [`FOLDER`] with three files: the scenario, resolved; the [`journal`], all
-//! that the record was told so far; and the state (in a [`stub`]), which counts it off and is replaced as a whole. To go on,
+//! Beside its results such a run keeps a folder [`FOLDER`] with three files: the scenario, resolved; the `journal`, all
+//! that the record was told so far; and the state (in a `stub`), which counts it off and is replaced as a whole. To go on,
 //! a run reads the state, tells the journal to a fresh recorder up to where the state counts, cuts off the rest and steps on:
 //! nothing of its results knows that it was ever interrupted. The state is taken between two steps, where a run may stand as
 //! long as it likes; none is forced for its sake.

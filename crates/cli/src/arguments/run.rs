@@ -14,7 +14,7 @@ Examples:
 
 pub(super) const RESUME_EXAMPLES: &str = "\
 Examples:
-  stickslip resume results/drive                            what was left of a run that was ended
+  stickslip resume results/drive                           what was left of a run that was ended
   stickslip resume results/drive --set run.duration=\"2 s\"  longer than it was to be
   stickslip resume results/* --threads 4";
 
