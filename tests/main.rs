@@ -4,6 +4,9 @@
 mod bench;
 mod broken_files;
 mod check;
+mod checkpoint;
+mod checkpoint_endings;
+mod checkpoint_refusals;
 mod compare;
 mod endings;
 mod gallery;

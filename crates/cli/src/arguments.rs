@@ -4,16 +4,17 @@ pub(crate) mod bench;
 pub(crate) mod compare;
 pub(crate) mod look;
 mod pictures;
+pub(crate) mod run;
 
 use crate::commands::new;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
-use look::LookArguments;
 use std::path::PathBuf;
 
 pub(crate) use bench::BenchArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
+pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
 
 /// Exit codes, as every command keeps them.
 const EXIT_CODES: &str = "\
@@ -46,8 +47,16 @@ pub(crate) enum Command {
     ///
     /// Everything about a scenario is checked before its folder is made. Exit codes: 0 done, 2 bad input, 3 a run
     /// stopped itself, 130 interrupted; of several files the largest. What was computed is written in either case.
-    #[command(after_long_help = RUN_EXAMPLES)]
+    #[command(after_long_help = run::RUN_EXAMPLES)]
     Run(RunArguments),
+    /// Go on with runs that kept checkpoints, to their end or to a later one
+    ///
+    /// Reads DIR/checkpoint of each folder of results, goes on from there and writes what an undisturbed run would have
+    /// written, to the same bits: whether the run was killed, was interrupted or had come to its end. Only the end can be
+    /// changed, by --set run.duration or run.cycles, whichever the scenario has. Goes on keeping checkpoints. Exit codes: 0
+    /// done, 2 no checkpoint, or one that this run cannot go on from, 3 a run stopped itself, 130 interrupted.
+    #[command(after_long_help = run::RESUME_EXAMPLES)]
+    Resume(ResumeArguments),
     /// Check scenarios: all that a run would refuse; runs and writes nothing
     ///
     /// Says "ok" of each good file on stdout, and of each bad one what is wrong, where and what would be right on stderr.
@@ -97,12 +106,6 @@ pub(crate) enum Command {
     #[command(long_about = bench::ABOUT, after_long_help = bench::EXAMPLES)]
     Bench(BenchArguments),
 }
-
-const RUN_EXAMPLES: &str = "\
-Examples:
-  stickslip run drive.json
-  stickslip run drive.json --out small --set waveforms.drive.sawtooth.stroke=\"70 nm\"
-  stickslip run scenarios/*.json --threads 4 --json > summaries.jsonl";
 
 const CHECK_EXAMPLES: &str = "\
 Examples:
@@ -167,30 +170,6 @@ pub(crate) struct NewArguments {
     /// List the templates; write nothing
     #[arg(long)]
     pub(crate) list: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct RunArguments {
-    /// Scenario files
-    #[arg(required = true, value_name = "FILE")]
-    pub(crate) files: Vec<PathBuf>,
-    /// Folder of the results: NAME.json writes into DIR/NAME/
-    #[arg(long, value_name = "DIR", default_value = "results")]
-    pub(crate) out: PathBuf,
-    /// Put a value into every scenario, such as run.duration="20 ms" or contacts.ball.friction=0.3
-    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, String)>,
-    /// Scenarios run at the same time, at most one per core
-    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: u16,
-    /// Print the summaries to stdout, one line of JSON per scenario
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// No progress, no warnings, no result for people; errors only
-    #[arg(short, long)]
-    pub(crate) quiet: bool,
-    #[command(flatten)]
-    pub(crate) look: LookArguments,
 }
 
 /// Splits `path=value`.

@@ -8,5 +8,6 @@ pub(crate) mod info;
 pub(crate) mod new;
 pub(crate) mod plot;
 pub(crate) mod repro;
+pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;

@@ -9,12 +9,13 @@ mod console;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use commands::{bench, check, compare, gallery, info, new, plot, repro, run, schema};
+use commands::{bench, check, compare, gallery, info, new, plot, repro, resume, run, schema};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let verdict = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::Resume(arguments) => resume::resume(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Info(arguments) => info::info(&arguments),
         Command::New(arguments) => new::new(&arguments),

@@ -1,9 +1,13 @@
 //! The folder of a run: its files appear together, each whole.
 
+use crate::checkpoint;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
+
+/// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
+const DRAWN: usize = 6;
 
 /// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
 /// the end: after a crash there is the old file or the whole new one.
@@ -13,6 +17,8 @@ pub struct Folder {
     staged: Vec<(String, NamedTempFile)>,
     /// Files of an earlier run that must not be taken for this one's.
     stale: Vec<String>,
+    /// Whether that holds of its checkpoint as well.
+    stale_checkpoint: bool,
 }
 
 impl Folder {
@@ -22,12 +28,17 @@ impl Folder {
     /// What the system says.
     pub fn make(path: &Path) -> io::Result<Self> {
         fs::create_dir_all(path)?;
-        Ok(Self { path: path.to_owned(), staged: Vec::new(), stale: Vec::new() })
+        Ok(Self { path: path.to_owned(), staged: Vec::new(), stale: Vec::new(), stale_checkpoint: false })
     }
 
     /// Files that go when the others appear, unless they are among them.
     pub fn forget(&mut self, names: Vec<String>) {
         self.stale = names;
+    }
+
+    /// The checkpoint of an earlier run goes, too.
+    pub fn forget_checkpoint(&mut self) {
+        self.stale_checkpoint = true;
     }
 
     /// An empty file beside the place of `name`.
@@ -83,6 +94,9 @@ impl Folder {
                 }
             }
         }
+        if self.stale_checkpoint {
+            checkpoint::remove(&self.path)?;
+        }
         for (name, file) in self.staged {
             file.persist(self.path.join(name)).map_err(|error| error.error)?;
         }
@@ -110,11 +124,30 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
 pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
     let prefix = format!(".{name}-");
     let mut builder = Builder::new();
-    builder.prefix(&prefix);
+    builder.prefix(&prefix).rand_bytes(DRAWN);
     // Results are for everybody whom the user's mask lets read; temporary files are for nobody else by default.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder)
+}
+
+/// Removes what runs that were killed have left of drafts of these names. What cannot be removed stays: it is in nobody's way.
+pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let is_draft = entry
+            .file_name()
+            .to_str()
+            .is_some_and(|found| names.iter().any(|name| is_draft_of(found, name.as_ref())));
+        if is_draft && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a name is one that [`draft`] gives.
+fn is_draft_of(found: &str, name: &str) -> bool {
+    let end = found.strip_prefix('.').and_then(|rest| rest.strip_prefix(name)?.strip_prefix('-'));
+    end.is_some_and(|end| end.len() == DRAWN && end.bytes().all(|byte| byte.is_ascii_alphanumeric()))
 }
 
 #[cfg(test)]
@@ -141,6 +174,27 @@ mod tests {
         folder.publish().unwrap();
         assert_eq!(listing(&path), ["mine.txt", "trace.csv"]);
         assert_eq!(fs::read(path.join("trace.csv")).unwrap(), b"t\n");
+    }
+
+    #[test]
+    fn only_drafts_of_known_names_are_swept() {
+        let root = tempfile::tempdir().unwrap();
+        let left = draft(root.path(), "trace.csv").unwrap().keep().unwrap().1;
+        let others = [
+            ".trace.csv-mine",
+            ".trace.csv-ab12cd3",
+            ".trace.csv_ab12cd",
+            ".notes.csv-ab12cd",
+            "trace.csv-ab12cd",
+        ];
+        others.iter().for_each(|name| fs::write(root.path().join(name), "").unwrap());
+        fs::create_dir(root.path().join(".trace.csv-folder")).unwrap();
+        assert!(left.exists());
+        sweep(root.path(), &["events.csv"]);
+        assert!(left.exists());
+        sweep(root.path(), &["events.csv", "trace.csv"]);
+        assert!(!left.exists());
+        assert_eq!(listing(root.path()).len(), others.len() + 1);
     }
 
     #[test]

@@ -14,11 +14,13 @@
 //! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`summary`] with
 //!   [`Real`] and [`Parts`] (numbers and things in JSON);
 //! * what is read back: `rows` and [`frame`] (tables), `replay` and [`Results`] (a folder), [`springs`] and [`curves`];
+//! * [`checkpoint`] – runs that go on after they were ended;
 //! * [`compare`] – two folders told apart;
 //! * for those who tell of results: [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
 //!   the operating system).
 
 mod books;
+pub mod checkpoint;
 mod columns;
 pub mod compare;
 pub mod complaint;

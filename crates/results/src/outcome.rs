@@ -43,10 +43,10 @@ impl Job {
 }
 
 /// A run that has ended, still without what was recorded of it.
-struct Ended {
-    error: Option<RunError>,
-    state: State,
-    wall: f64,
+pub(crate) struct Ended {
+    pub(crate) error: Option<RunError>,
+    pub(crate) state: State,
+    pub(crate) wall: f64,
 }
 
 impl Ended {
@@ -58,7 +58,8 @@ impl Ended {
         (Self { error: result.err(), state, wall }, recorder)
     }
 
-    fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
+    /// With what was recorded.
+    pub(crate) fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
         let Self { error, state, wall } = self;
         let Recorded { kept, books, rows, drafts } = recorded;
         (Outcome { error, state, kept, books, rows, wall }, drafts)

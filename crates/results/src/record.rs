@@ -10,7 +10,7 @@ use crate::table::Table;
 use crate::watcher::Watcher;
 use std::io;
 use stickslip_contact::Memory;
-use stickslip_drive::{Event, Record};
+use stickslip_drive::{Event, Record, Source};
 use tempfile::NamedTempFile;
 
 /// Writes rows, events and looks into the contacts as they come.
@@ -21,6 +21,8 @@ pub struct Recorder<'a> {
     recorded: Recorded,
     /// Time at which the run is stopped, s.
     until: f64,
+    /// A look that was asked for already, s.
+    asked: Option<f64>,
     failure: Option<io::Error>,
 }
 
@@ -51,7 +53,7 @@ impl<'a> Recorder<'a> {
         let channels = job.model.channels();
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
         let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new() };
-        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, failure: None }
+        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, asked: None, failure: None }
     }
 
     /// The same with tables in a folder.
@@ -75,6 +77,28 @@ impl<'a> Recorder<'a> {
     /// The same for a run that is to stop at a time, s, at which an earlier one was stopped.
     pub fn until(self, until: f64) -> Self {
         Self { until, ..self }
+    }
+
+    /// Takes back the look that was asked for last, s; it is the next again.
+    pub(crate) fn hand_back(&mut self, next: f64) {
+        self.asked = Some(next).filter(|next| next.is_finite());
+    }
+
+    /// Takes an event whose kind is given by its word.
+    pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) {
+        self.recorded.books.read(values);
+        // Names are for those who want them: of a hundred thousand runs in memory nobody reads one.
+        if self.tables.is_none() && !self.recorded.kept.wants_words() {
+            self.recorded.kept.event(["", ""], values);
+            return;
+        }
+        let waveform = |w: usize| self.job.scenario.scene.waveforms.get(w).map(|w| w.name.clone());
+        let source = self.job.model.source_name(source, |w| waveform(w).unwrap_or_default());
+        if let Some(tables) = &mut self.tables {
+            let written = tables.events.write(&[&source, kind], values);
+            self.note(written);
+        }
+        self.recorded.kept.event([&source, kind], values);
     }
 
     /// Closes the tables.
@@ -114,23 +138,11 @@ impl Record for Recorder<'_> {
     }
 
     fn event(&mut self, event: &Event, values: &[f64]) {
-        self.recorded.books.read(values);
-        // Names are for those who want them: of a hundred thousand runs in memory nobody reads one.
-        if self.tables.is_none() && !self.recorded.kept.wants_words() {
-            self.recorded.kept.event(["", ""], values);
-            return;
-        }
-        let waveform = |w: usize| self.job.scenario.scene.waveforms.get(w).map(|w| w.name.clone());
-        let source = self.job.model.source_name(event.source, |w| waveform(w).unwrap_or_default());
-        if let Some(tables) = &mut self.tables {
-            let written = tables.events.write(&[&source, event.kind.name()], values);
-            self.note(written);
-        }
-        self.recorded.kept.event([&source, event.kind.name()], values);
+        self.event_named(event.source, event.kind.name(), values);
     }
 
     fn next_look(&mut self) -> Option<f64> {
-        self.tables.as_mut()?.insides.next_look()
+        self.asked.take().or_else(|| self.tables.as_mut()?.insides.next_look())
     }
 
     fn look(&mut self, _: f64, memories: &[Memory]) {

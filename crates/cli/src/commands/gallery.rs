@@ -62,7 +62,7 @@ fn hang(arguments: &GalleryArguments) -> Result<Vec<Exhibit>, GalleryFailure> {
         .collect::<Result<Vec<(Job, PathBuf)>, GalleryFailure>>()?;
     let mut exhibits = Vec::new();
     for (job, file) in &jobs {
-        let bar = progress.start(&job.name, job.scenario.plan.duration, &interrupt);
+        let bar = progress.start(&job.name, [0.0, job.scenario.plan.duration], &interrupt);
         let pictures = gallery::draw(job, &bar)?;
         drop(bar);
         let failed = |source| GalleryError::File { path: job.folder.clone(), source };

@@ -82,7 +82,7 @@ fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
 fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint, ReproFailure> {
     let job = &origin.job;
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
-    let bar = progress.start(&job.name, job.scenario.plan.duration, &interrupt);
+    let bar = progress.start(&job.name, [0.0, job.scenario.plan.duration], &interrupt);
     let mut recorder = Recorder::new(job, &bar).fingerprinted();
     if !origin.is_whole() {
         recorder = recorder.until(origin.end);
@@ -94,7 +94,8 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     }
     let (outcome, drafts) = job.run_recorded(recorder).map_err(written)?;
     drop(bar);
-    if let Some(folder) = folder {
+    if let Some(mut folder) = folder {
+        folder.forget_checkpoint();
         run::write(job, &arguments.look.look(), folder, (&outcome, drafts)).map_err(written)?;
     }
     if interrupt.is_raised() {

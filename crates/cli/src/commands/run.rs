@@ -3,7 +3,7 @@
 mod report;
 mod scenario;
 
-use crate::arguments::RunArguments;
+use crate::arguments::{ConductArguments, RunArguments};
 use crate::console::answer::{say, warn};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
@@ -11,55 +11,72 @@ use crate::console::verdict::Verdict;
 use rayon::prelude::*;
 use report::Report;
 use std::collections::HashMap;
+use std::fmt::Display;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use stickslip_results::{Job, Refusal};
 
-pub(crate) use scenario::write;
+pub(crate) use scenario::{Beginning, write};
+
+/// A job and how it begins.
+pub(crate) type Task = (Job, Beginning);
 
 /// Prepares and runs all scenarios; the worst ending counts. A file that is refused does not keep the others from
 /// running.
 pub(crate) fn run(arguments: &RunArguments) -> Verdict {
+    conduct(&arguments.conduct, || prepare(arguments))
+}
+
+/// Runs all tasks that were not refused.
+pub(crate) fn conduct<E: Display + Send>(
+    arguments: &ConductArguments,
+    prepare: impl FnOnce() -> Vec<Result<Task, E>>,
+) -> Verdict {
     let interrupt = Interrupt::install();
     let progress = Progress::new(!arguments.quiet);
-    let jobs = prepare(arguments);
+    let tasks = prepare();
     let look = arguments.look.look();
     let console = Console { arguments, progress: &progress, waiting: Mutex::default() };
-    let work = |(place, job): (usize, Result<Job, Refusal>)| {
-        let report = match job {
+    let work = |(place, task): (usize, Result<Task, E>)| {
+        let report = match task {
             Err(refusal) => Report::refused(&refusal),
-            Ok(job) if interrupt.is_raised() => Report::skipped(&job),
-            Ok(job) => scenario::run(&job, &look, &interrupt, &progress),
+            Ok((job, _)) if interrupt.is_raised() => Report::skipped(&job),
+            Ok((job, beginning)) => scenario::run(&job, beginning, &look, &interrupt, &progress),
         };
         let verdict = report.verdict;
         console.print(place, report);
         verdict
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = usize::from(arguments.threads).min(cores).min(jobs.len());
+    let threads = usize::from(arguments.threads).min(cores).min(tasks.len());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let worst = match pool {
         Ok(pool) if threads > 1 => {
-            let jobs = jobs.into_par_iter().enumerate().with_max_len(1);
-            pool.install(|| jobs.map(work).max())
+            let tasks = tasks.into_par_iter().enumerate().with_max_len(1);
+            pool.install(|| tasks.map(work).max())
         }
         // One after the other is slower and as right where no threads can be had.
-        _ => jobs.into_iter().enumerate().map(work).max(),
+        _ => tasks.into_iter().enumerate().map(work).max(),
     };
     worst.unwrap_or(Verdict::Done)
 }
 
 /// Reads and checks all scenarios before the first is run.
-fn prepare(arguments: &RunArguments) -> Vec<Result<Job, Refusal>> {
+fn prepare(arguments: &RunArguments) -> Vec<Result<Task, Refusal>> {
     let mut taken: HashMap<PathBuf, PathBuf> = HashMap::new();
+    let beginning = |job: &Job| match arguments.checkpoint_every {
+        None => Ok(Beginning::Plain),
+        Some(every) => job.check_checkpoints().map(|()| Beginning::Checkpoints(every)),
+    };
     let prepare = |file: &PathBuf| {
         let job = Job::prepare(file, &arguments.set, &arguments.out)?;
-        if !arguments.quiet {
+        let beginning = beginning(&job)?;
+        if !arguments.conduct.quiet {
             warn(&job.scenario);
         }
         match taken.insert(job.folder.clone(), file.clone()) {
-            None => Ok(job),
+            None => Ok((job, beginning)),
             Some(other) => Err(Refusal::SameFolder { file: file.clone(), folder: job.folder, other }),
         }
     };
@@ -68,7 +85,7 @@ fn prepare(arguments: &RunArguments) -> Vec<Result<Job, Refusal>> {
 
 /// Prints reports in the order of the files, whichever is ready first.
 struct Console<'a> {
-    arguments: &'a RunArguments,
+    arguments: &'a ConductArguments,
     progress: &'a Progress,
     waiting: Mutex<Waiting>,
 }
@@ -98,8 +115,8 @@ impl Console<'_> {
 
     fn write(&self, report: &Report) {
         let result = match self.arguments {
-            RunArguments { json: true, .. } => &report.json,
-            RunArguments { quiet: true, .. } => "",
+            ConductArguments { json: true, .. } => &report.json,
+            ConductArguments { quiet: true, .. } => "",
             _ => &report.result,
         };
         if !report.error.is_empty() {

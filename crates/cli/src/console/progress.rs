@@ -17,6 +17,8 @@ pub(crate) struct Progress {
 /// The bar of one run, and the signal that ends it.
 pub(crate) struct Bar<'a> {
     bar: ProgressBar,
+    /// Before which time the bar does not move, s, and its length, s.
+    from: f64,
     duration: f64,
     interrupt: &'a Interrupt,
 }
@@ -29,16 +31,23 @@ impl Progress {
         Self { bars: MultiProgress::with_draw_target(target) }
     }
 
-    /// A bar for a run of `duration` s.
-    pub(crate) fn start<'a>(&self, name: &str, duration: f64, interrupt: &'a Interrupt) -> Bar<'a> {
+    /// A bar for a run from one time to another, s, of a bar from 0 on.
+    pub(crate) fn start<'a>(
+        &self,
+        name: &str,
+        [from, duration]: [f64; 2],
+        interrupt: &'a Interrupt,
+    ) -> Bar<'a> {
         let bar = self.bars.add(ProgressBar::new(TICKS));
+        bar.set_position(ticks(from, duration));
+        bar.reset_eta();
         let rate = move |state: &ProgressState, text: &mut dyn Write| {
-            let simulated = state.pos() as f64 / TICKS as f64 * duration;
+            let simulated = state.pos() as f64 / TICKS as f64 * duration - from;
             let _ = write!(text, "{:.3} s/s", simulated / state.elapsed().as_secs_f64().max(1e-9));
         };
         bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left, {rate}").with_key("rate", rate));
         bar.set_prefix(name.to_owned());
-        Bar { bar, duration, interrupt }
+        Bar { bar, from, duration, interrupt }
     }
 
     /// A bar for work that has a budget of `wall` s of wall time.
@@ -46,13 +55,18 @@ impl Progress {
         let bar = self.bars.add(ProgressBar::new(TICKS));
         bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left"));
         bar.set_prefix(name.to_owned());
-        Bar { bar, duration: wall, interrupt }
+        Bar { bar, from: 0.0, duration: wall, interrupt }
     }
 
     /// Does something with the bars out of the way.
     pub(crate) fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
         self.bars.suspend(act)
     }
+}
+
+/// Where a bar of a length stands at time t, s.
+fn ticks(t: f64, duration: f64) -> u64 {
+    (t / duration * TICKS as f64) as u64
 }
 
 /// The templates are fixed and good; the plain style would do, too.
@@ -62,7 +76,7 @@ fn style(template: &str) -> ProgressStyle {
 
 impl Watcher for Bar<'_> {
     fn reached(&self, t: f64) {
-        self.bar.set_position((t / self.duration * TICKS as f64) as u64);
+        self.bar.set_position(ticks(t.max(self.from), self.duration));
     }
 
     fn goes_on(&self) -> bool {

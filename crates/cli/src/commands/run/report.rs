@@ -2,12 +2,13 @@
 
 use crate::console::quantity::quantity;
 use crate::console::verdict::Verdict;
+use std::fmt::Display;
 use std::io;
+use stickslip_results::Job;
 use stickslip_results::Outcome;
 use stickslip_results::Real;
 use stickslip_results::complaint::words;
 use stickslip_results::summary::{Status, Summary};
-use stickslip_results::{Job, Refusal};
 
 /// A spread below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
@@ -30,7 +31,7 @@ impl Report {
     }
 
     /// A scenario that is not run.
-    pub(crate) fn refused(refusal: &Refusal) -> Self {
+    pub(crate) fn refused(refusal: &impl Display) -> Self {
         Self::failed(Verdict::BadInput, refusal.to_string())
     }
 
@@ -56,6 +57,15 @@ impl Report {
             Verdict::Stopped,
             format!("{}: the results cannot be written to {folder}: {}", job.name, words(error)),
         )
+    }
+
+    /// The same of a run with a checkpoint: how to go on with one that was interrupted.
+    pub(crate) fn resumable(mut self, job: &Job) -> Self {
+        if self.verdict == Verdict::Interrupted {
+            self.error +=
+                &format!("\n   help: `stickslip resume {}` goes on from there", job.folder.display());
+        }
+        self
     }
 
     /// A run that has written its results.

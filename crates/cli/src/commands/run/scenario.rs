@@ -5,22 +5,57 @@ use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use std::io;
 use stickslip_figures::{Look, Sources};
-use stickslip_results::files::{MEMORY, SCENARIO, SPRINGS, SUMMARY};
-use stickslip_results::folder::Folder;
+use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
+use stickslip_results::files::{EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
+use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary};
 
+/// How a run begins.
+pub(crate) enum Beginning {
+    /// At its start.
+    Plain,
+    /// At its start, with checkpoints every so many seconds of wall time.
+    Checkpoints(f64),
+    /// Where its checkpoint is, with more of them; at another interval, s, where one is given.
+    Resumed(Box<Resumption>, Option<f64>),
+}
+
 /// Runs a job and writes its results, also those of a run that did not come to its end.
-pub(crate) fn run(job: &Job, look: &Look, interrupt: &Interrupt, progress: &Progress) -> Report {
-    let folder = match Folder::make(&job.folder) {
+pub(crate) fn run(
+    job: &Job,
+    beginning: Beginning,
+    look: &Look,
+    interrupt: &Interrupt,
+    progress: &Progress,
+) -> Report {
+    let mut folder = match Folder::make(&job.folder) {
         Ok(folder) => folder,
         Err(error) => return Report::no_folder(job, &error),
     };
-    let bar = progress.start(&job.name, job.scenario.plan.duration, interrupt);
+    // A run that was killed has left its drafts.
+    let names = [TRACE, EVENTS, SPRINGS, MEMORY, SCENARIO, SUMMARY].map(str::to_owned);
+    sweep(&job.folder, &[&names[..], &Look::all_files()].concat());
+    let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
+    let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
     let recorder = Recorder::new(job, &bar);
     let recorder = if job.scenario.plots.is_empty() { recorder } else { recorder.fingerprinted() };
-    let report = recorder.with_tables(&folder).and_then(|recorder| {
-        let (outcome, drafts) = job.run_recorded(recorder)?;
-        write(job, look, folder, (&outcome, drafts))
+    let report = recorder.with_tables(&folder).and_then(|mut recorder| {
+        let keeper = match beginning {
+            Beginning::Plain => None,
+            Beginning::Checkpoints(every) => Some(Keeper::begin(job, every)?),
+            Beginning::Resumed(resumption, every) => match resumption.tell(job, every, &mut recorder) {
+                Ok(keeper) => Some(keeper),
+                Err(CheckpointError::Write { source, .. }) => return Err(source),
+                Err(error) => return Ok(Report::refused(&error)),
+            },
+        };
+        let Some(keeper) = keeper else {
+            folder.forget_checkpoint();
+            let (outcome, drafts) = job.run_recorded(recorder)?;
+            return write(job, look, folder, (&outcome, drafts));
+        };
+        let (outcome, drafts) = job.run_kept(recorder, keeper)?;
+        Ok(write(job, look, folder, (&outcome, drafts))?.resumable(job))
     });
     report.unwrap_or_else(|error| Report::not_written(job, &error))
 }

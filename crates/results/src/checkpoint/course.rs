@@ -1,0 +1,93 @@
+//! The course of a run that keeps checkpoints.
+
+use super::keeper::Keeper;
+use crate::job::Job;
+use crate::outcome::{Ended, Outcome};
+use crate::record::{Draft, Recorder};
+use std::io;
+use stickslip_contact::Memory;
+use stickslip_drive::{Event, Record, Run, RunError};
+
+impl Job {
+    /// [`Self::run_recorded`] with checkpoints: the recorder is a fresh one, or one that was told of the parts before.
+    ///
+    /// The last checkpoint of a run that comes to its end is its last moment before steps are cut for that end: from there it
+    /// can go on to a later one. An interrupted run keeps the moment at which it was, one that stops itself the last one
+    /// before.
+    ///
+    /// # Errors
+    /// A table or a checkpoint that cannot be written.
+    pub fn run_kept(&self, recorder: Recorder<'_>, mut keeper: Keeper) -> io::Result<(Outcome, Vec<Draft>)> {
+        let plan = &self.scenario.plan;
+        let begun = match keeper.from.take() {
+            None => Run::new(&self.model, plan, self.start.clone()),
+            Some(state) => Run::resume(&self.model, plan, state),
+        };
+        let mut record = Journalled { recorder, keeper, pauses: false };
+        let ended = match begun {
+            Err(error) => Ended { error: Some(error), state: self.start.clone(), wall: record.keeper.wall() },
+            Ok(run) => record.follow(self, run)?,
+        };
+        Ok(ended.outcome(record.recorder.finish()?))
+    }
+}
+
+/// A recorder that keeps a journal, and pauses the run when a checkpoint is due.
+struct Journalled<'r> {
+    recorder: Recorder<'r>,
+    keeper: Keeper,
+    pauses: bool,
+}
+
+impl Journalled<'_> {
+    /// Follows a run to its end.
+    fn follow(&mut self, job: &Job, mut run: Run<'_>) -> io::Result<Ended> {
+        let ended = loop {
+            let ended = run.approach(self);
+            if let Ok(()) | Err(RunError::Interrupted { .. }) = ended {
+                self.keeper.save(job, run.state())?;
+            }
+            // Only a pause is no end.
+            if ended.is_ok() || !std::mem::take(&mut self.pauses) {
+                break ended;
+            }
+        };
+        // What follows belongs to this end and not to the run as it may go on: it is no part of the journal.
+        let error = match ended {
+            Ok(()) => run.finish(&mut self.recorder).err(),
+            Err(error) => {
+                run.stop(&mut self.recorder);
+                Some(error)
+            }
+        };
+        Ok(Ended { error, state: run.into_state(), wall: self.keeper.wall() })
+    }
+}
+
+impl Record for Journalled<'_> {
+    fn row(&mut self, values: &[f64]) {
+        self.keeper.journal.row(values);
+        self.recorder.row(values);
+    }
+
+    fn event(&mut self, event: &Event, values: &[f64]) {
+        self.keeper.journal.event(event, values);
+        self.recorder.event(event, values);
+    }
+
+    fn next_look(&mut self) -> Option<f64> {
+        self.recorder.next_look()
+    }
+
+    fn look(&mut self, t: f64, memories: &[Memory]) {
+        self.keeper.journal.look(t, memories);
+        self.recorder.look(t, memories);
+    }
+
+    fn goes_on(&mut self, t: f64) -> bool {
+        let goes_on = self.recorder.goes_on(t);
+        // A journal that cannot be written ends the run at its next checkpoint, which is now.
+        self.pauses = goes_on && (self.keeper.is_due() || self.keeper.journal.has_failed());
+        goes_on && !self.pauses
+    }
+}

@@ -1,0 +1,214 @@
+//! A journal told again.
+
+use super::error::CheckpointError;
+use super::journal::{Mark, tag};
+use crate::job::Job;
+use crate::record::Recorder;
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::{self, BufReader, Read};
+use std::path::Path;
+use stickslip_contact::{Engine, Interface, Memory, Words};
+use stickslip_drive::{Record, Source};
+
+/// Bytes read at a time.
+const CHUNK: usize = 1 << 16;
+
+/// Digest of a journal up to a mark.
+///
+/// # Errors
+/// A journal that is shorter than the mark says, that does not hold what it held then, or cannot be read.
+pub(super) fn check(path: &Path, mark: &Mark) -> Result<Sha256, CheckpointError> {
+    let unreadable = |source| CheckpointError::Read { path: path.to_owned(), source };
+    let mut file = File::open(path).map_err(unreadable)?;
+    let metadata = file.metadata().map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err(unreadable(io::ErrorKind::IsADirectory.into()));
+    }
+    let found = metadata.len();
+    if found < mark.length {
+        return Err(CheckpointError::Short { path: path.to_owned(), expected: mark.length, found });
+    }
+    let (mut digest, mut chunk) = (Sha256::new(), vec![0; CHUNK]);
+    let mut left = mark.length;
+    while left > 0 {
+        let next = &mut chunk[..left.min(CHUNK as u64) as usize];
+        file.read_exact(next).map_err(unreadable)?;
+        digest.update(&*next);
+        left -= next.len() as u64;
+    }
+    let same = digest.clone().finalize()[..] == mark.digest;
+    if same { Ok(digest) } else { Err(CheckpointError::Journal(path.to_owned())) }
+}
+
+/// What a journal is told up to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Told {
+    pub(super) mark: Mark,
+    /// Time that the run had come to, s.
+    pub(super) reached: f64,
+    /// Whether it goes on to the end that it had: what was not looked at then could not be.
+    pub(super) same_end: bool,
+}
+
+/// Tells a recorder, fresh from the job, what a journal that was checked holds.
+///
+/// Looks that only the earlier end wanted are left out.
+///
+/// # Errors
+/// A journal of another job, one that lacks a look that the new end wants, or one that cannot be read.
+pub(super) fn tell(
+    path: &Path,
+    told: Told,
+    job: &Job,
+    recorder: &mut Recorder<'_>,
+) -> Result<(), CheckpointError> {
+    let unreadable = |source| CheckpointError::Read { path: path.to_owned(), source };
+    let file = File::open(path).map_err(unreadable)?;
+    let mut playback = Playback {
+        bytes: BufReader::with_capacity(CHUNK, file),
+        left: told.mark.length,
+        contacts: contacts(job),
+        values: vec![0.0; job.model.channels().len()],
+        scratch: Vec::new(),
+        looks: Looks { due: f64::NEG_INFINITY, missed: None },
+        recorder,
+    };
+    playback.looks.ask(playback.recorder);
+    while playback.left > 0 {
+        match playback.record() {
+            Ok(Some(())) => {}
+            Ok(None) => return Err(CheckpointError::Journal(path.to_owned())),
+            Err(source) => return Err(unreadable(source)),
+        }
+    }
+    let Playback { mut looks, recorder, .. } = playback;
+    looks.pass(told.reached.next_up(), recorder);
+    recorder.hand_back(looks.due);
+    match looks.missed.filter(|_| !told.same_end) {
+        None => Ok(()),
+        Some(t) => Err(CheckpointError::Unseen { folder: job.folder.clone(), t }),
+    }
+}
+
+/// The looks that a recorder asks for, as a run keeps them.
+struct Looks {
+    /// The next one, s; infinite after the last.
+    due: f64,
+    /// The first one that the journal lacks, s.
+    missed: Option<f64>,
+}
+
+impl Looks {
+    fn ask(&mut self, recorder: &mut Recorder<'_>) {
+        self.due = recorder.next_look().unwrap_or(f64::INFINITY);
+    }
+
+    /// Passes over those before t.
+    fn pass(&mut self, t: f64, recorder: &mut Recorder<'_>) {
+        while self.due < t {
+            self.missed.get_or_insert(self.due);
+            self.ask(recorder);
+        }
+    }
+}
+
+/// Laws and engines of the contacts.
+fn contacts(job: &Job) -> Vec<(&Interface, Engine)> {
+    let engine = |memory: &Memory| match memory {
+        Memory::Curve(_) => Engine::Curve,
+        Memory::Row(row) => Engine::Row(row.springs.clone()),
+    };
+    job.model.contacts().zip(job.start.memories()).map(|((_, law), memory)| (law, engine(memory))).collect()
+}
+
+/// A journal on the way to a recorder.
+struct Playback<'a, 'r> {
+    bytes: BufReader<File>,
+    /// Bytes still to come.
+    left: u64,
+    contacts: Vec<(&'a Interface, Engine)>,
+    /// Values of the channels.
+    values: Vec<f64>,
+    scratch: Vec<u8>,
+    looks: Looks,
+    recorder: &'a mut Recorder<'r>,
+}
+
+impl Playback<'_, '_> {
+    /// Tells the next record; none for one that no run has written.
+    fn record(&mut self) -> io::Result<Option<()>> {
+        match self.array()? {
+            [tag::ROW] => {
+                self.read_values()?;
+                self.recorder.row(&self.values);
+                Ok(Some(()))
+            }
+            [tag::EVENT] => self.event(),
+            [tag::LOOK] => self.look(),
+            _ => Ok(None),
+        }
+    }
+
+    fn event(&mut self) -> io::Result<Option<()>> {
+        let [kind] = self.array()?;
+        let place = u32::from_le_bytes(self.array()?) as usize;
+        let [length] = self.array()?;
+        self.read_bytes(u64::from(length))?;
+        let word = String::from_utf8_lossy(&self.scratch).into_owned();
+        let source = match kind {
+            0 if place < self.contacts.len() => Source::Contact(place),
+            1 => Source::Waveform(place),
+            2 => Source::Block(place),
+            _ => return Ok(None),
+        };
+        self.read_values()?;
+        self.recorder.event_named(source, &word, &self.values);
+        Ok(Some(()))
+    }
+
+    fn look(&mut self) -> io::Result<Option<()>> {
+        let t = f64::from_le_bytes(self.array()?);
+        let count = u64::from_le_bytes(self.array()?);
+        // What is made room for is never more than the journal has.
+        let Some(length) = count.checked_mul(8).filter(|length| *length <= self.left) else {
+            return Ok(None);
+        };
+        self.read_bytes(length)?;
+        let words: Vec<u64> =
+            self.scratch.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect();
+        let mut words = Words::new(&words);
+        let memories: Option<Vec<Memory>> =
+            self.contacts.iter().map(|(law, engine)| Memory::read(law, engine, &mut words)).collect();
+        let Some(memories) = memories.filter(|_| words.is_empty()) else { return Ok(None) };
+        self.looks.pass(t, self.recorder);
+        if self.looks.due == t {
+            self.recorder.look(t, &memories);
+            self.looks.ask(self.recorder);
+        }
+        Ok(Some(()))
+    }
+
+    fn read_values(&mut self) -> io::Result<()> {
+        self.read_bytes(8 * self.values.len() as u64)?;
+        let chunks = self.scratch.as_chunks().0;
+        for (value, bytes) in self.values.iter_mut().zip(chunks) {
+            *value = f64::from_le_bytes(*bytes);
+        }
+        Ok(())
+    }
+
+    /// Fills the scratch.
+    fn read_bytes(&mut self, length: u64) -> io::Result<()> {
+        self.left = self.left.checked_sub(length).ok_or(io::ErrorKind::UnexpectedEof)?;
+        self.scratch.resize(usize::try_from(length).map_err(io::Error::other)?, 0);
+        self.bytes.read_exact(&mut self.scratch)
+    }
+
+    fn array<const N: usize>(&mut self) -> io::Result<[u8; N]> {
+        self.left = self.left.checked_sub(N as u64).ok_or(io::ErrorKind::UnexpectedEof)?;
+        let mut bytes = [0; N];
+        self.bytes.read_exact(&mut bytes)?;
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,104 @@
+//! A run that goes on from its checkpoint.
+
+use super::error::CheckpointError;
+use super::journal::Journal;
+use super::keeper::Keeper;
+use super::key::{end_of, model_key, run_key};
+use super::playback::Told;
+use super::stub::Stub;
+use super::{JOURNAL, STATE, place, playback};
+use crate::files::SCENARIO;
+use crate::job::Job;
+use crate::record::Recorder;
+use sha2::Sha256;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_drive::State;
+use stickslip_scenario::Scenario;
+
+/// A run that can go on: everything about its checkpoint was found good.
+pub struct Resumption {
+    place: PathBuf,
+    stub: Stub,
+    state: State,
+    /// Digest of the journal as far as it counts.
+    digest: Sha256,
+}
+
+impl Resumption {
+    /// Reads the checkpoint in a folder of results; pairs in `set` give it another end. Writes nothing.
+    ///
+    /// # Errors
+    /// A checkpoint that is none, or not this run's; a change of anything but the end; an end that the run has passed.
+    pub fn read(results: &Path, set: &[(String, String)]) -> Result<(Job, Self), CheckpointError> {
+        let place = place(results);
+        let stub = stub(&place.join(STATE), results)?;
+        let job = job(&place.join(SCENARIO), set, &stub, results)?;
+        let state = State::from_bytes(&job.model, &stub.model_key, &stub.state)
+            .map_err(|source| CheckpointError::State { path: place.join(STATE), source })?;
+        let (reached, end) = (state.time(), job.scenario.plan.duration);
+        if reached >= end {
+            return Err(CheckpointError::Passed { folder: results.to_owned(), reached, end });
+        }
+        let digest = playback::check(&place.join(JOURNAL), &stub.mark)?;
+        Ok((job, Self { place, stub, state, digest }))
+    }
+
+    /// Time that the run has come to, s.
+    pub fn reached(&self) -> f64 {
+        self.state.time()
+    }
+
+    /// Tells a recorder, fresh from the job, of the run so far, and goes on keeping checkpoints: at the interval that was kept,
+    /// or another one, s of wall time.
+    ///
+    /// # Errors
+    /// A journal that changes in these moments, or files that cannot be written.
+    pub fn tell(
+        mut self,
+        job: &Job,
+        every: Option<f64>,
+        recorder: &mut Recorder<'_>,
+    ) -> Result<Keeper, CheckpointError> {
+        let path = self.place.join(JOURNAL);
+        let (mark, end) = (self.stub.mark, job.scenario.plan.duration);
+        // A run whose record was told nothing has not begun: it begins with its first row and look.
+        let from = Some(&self.state).filter(|_| mark.length > 0);
+        if let Some(state) = from {
+            let told = Told { mark, reached: state.time(), same_end: self.stub.end == end };
+            playback::tell(&path, told, job, recorder)?;
+        }
+        let unwritable = |source| CheckpointError::Write { path: self.place.clone(), source };
+        let journal = Journal::go_on(&path, mark.length, self.digest).map_err(unwritable)?;
+        self.stub.every = every.unwrap_or(self.stub.every);
+        self.stub.end = end;
+        Keeper::go_on(job, self.stub, journal, from.cloned()).map_err(unwritable)
+    }
+}
+
+/// The state with what else stands beside it.
+fn stub(path: &Path, results: &Path) -> Result<Stub, CheckpointError> {
+    match fs::read(path) {
+        Ok(bytes) => Stub::from_bytes(&bytes, path),
+        Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+            Err(CheckpointError::None(results.to_owned()))
+        }
+        Err(source) => Err(CheckpointError::Read { path: path.to_owned(), source }),
+    }
+}
+
+/// The job that goes on, perhaps to another end.
+fn job(path: &Path, set: &[(String, String)], stub: &Stub, results: &Path) -> Result<Job, CheckpointError> {
+    let kept = Scenario::load(path)?;
+    if run_key(&kept) != stub.run_key || model_key(&kept) != stub.model_key {
+        return Err(CheckpointError::OtherScenario(path.to_owned()));
+    }
+    let end = end_of(&kept);
+    if let Some((path, value)) = set.iter().find(|(path, _)| path != end) {
+        return Err(CheckpointError::NotTheEnd(format!("{path}={value}"), end));
+    }
+    let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();
+    let scenario = Scenario::load_with(path, &overrides)?;
+    Ok(Job::new(scenario, stub.name.clone(), results.to_owned())?)
+}

@@ -1,0 +1,182 @@
+//! A journal told to a fresh recorder leaves it as the run had left the first one.
+
+use super::error::CheckpointError;
+use super::journal::{Journal, Mark};
+use super::playback::{self, Told};
+use crate::folder::Folder;
+use crate::job::Job;
+use crate::kept::Kept;
+use crate::record::Recorder;
+use std::fs;
+use std::path::Path;
+use stickslip_contact::Memory;
+use stickslip_drive::{Event, Record};
+use stickslip_scenario::PlotName;
+
+/// A recorder that keeps a journal.
+struct Both<'a> {
+    journal: Journal,
+    recorder: Recorder<'a>,
+    rows: usize,
+    /// Rows until a mark is made, and the mark.
+    marked: (usize, Option<Mark>),
+}
+
+impl Record for Both<'_> {
+    fn row(&mut self, values: &[f64]) {
+        self.journal.row(values);
+        self.recorder.row(values);
+        self.rows += 1;
+        if self.rows == self.marked.0 {
+            self.marked.1 = Some(self.journal.mark().unwrap());
+        }
+    }
+
+    fn event(&mut self, event: &Event, values: &[f64]) {
+        self.journal.event(event, values);
+        self.recorder.event(event, values);
+    }
+
+    fn next_look(&mut self) -> Option<f64> {
+        self.recorder.next_look()
+    }
+
+    fn look(&mut self, t: f64, memories: &[Memory]) {
+        self.journal.look(t, memories);
+        self.recorder.look(t, memories);
+    }
+}
+
+/// A job of an example that asks for everything there is.
+fn job(name: &str, set: &[(&str, &str)], out: &Path) -> Job {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name);
+    let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+    let mut job = Job::prepare(&file, &set, out).unwrap();
+    job.scenario.plots = PlotName::ALL.to_vec();
+    job
+}
+
+fn recorder<'a>(job: &'a Job, folder: &Folder) -> Recorder<'a> {
+    Recorder::new(job, &()).fingerprinted().with_tables(folder).unwrap()
+}
+
+/// What a recorder has come to: the bytes of its tables, what is kept, the number of rows.
+type Left = (Vec<(&'static str, Vec<u8>)>, Kept, u64);
+
+fn left(recorder: Recorder<'_>) -> Left {
+    let recorded = recorder.finish().unwrap();
+    let tables = recorded.drafts.iter().map(|(name, draft)| (*name, fs::read(draft.path()).unwrap()));
+    (tables.collect(), recorded.kept, recorded.rows)
+}
+
+/// All of a journal that was not begun for another end.
+fn all(mark: Mark, reached: f64) -> Told {
+    Told { mark, reached, same_end: true }
+}
+
+/// Runs a job with a journal; returns the marks at its end and at a row, and what its recorder has come to.
+fn journalled(job: &Job, folder: &Folder, path: &Path, row: usize) -> (Mark, Option<Mark>, Left) {
+    let journal = Journal::create(path).unwrap();
+    let mut both = Both { journal, recorder: recorder(job, folder), rows: 0, marked: (row, None) };
+    let mut state = job.start.clone();
+    stickslip_drive::run(&job.model, &job.scenario.plan, &mut state, &mut both).unwrap();
+    (both.journal.mark().unwrap(), both.marked.1, left(both.recorder))
+}
+
+const LOOKS: (&str, &str) = ("output.memory", r#"{"every": "0.4 ms"}"#);
+const SPRINGS: (&str, &str) = ("output.springs", r#"{"every": "0.7 ms", "count": 9}"#);
+
+#[test]
+fn a_journal_told_to_a_fresh_recorder_makes_the_same_results() {
+    let row_engine = ("contacts.ball.engine", r#"{"springs": {"count": 40}}"#);
+    let cases: [(&str, &[(&str, &str)]); 4] = [
+        ("p1.json", &[LOOKS, SPRINGS]),
+        ("quickstart.json", &[SPRINGS, row_engine, ("run.duration", "10 ms")]),
+        ("oblique_impact.json", &[]),
+        ("three_ball_stage.json", &[("run.cycles", "2"), SPRINGS]),
+    ];
+    for (name, set) in cases {
+        let root = tempfile::tempdir().unwrap();
+        let (job, path) = (job(name, set, root.path()), root.path().join("journal"));
+        let folder = Folder::make(&job.folder).unwrap();
+        let (mark, _, (tables, kept, rows)) = journalled(&job, &folder, &path, 0);
+        // What was written after the mark does not count.
+        let more = [fs::read(&path).unwrap(), vec![0; 10_000]].concat();
+        fs::write(&path, more).unwrap();
+        playback::check(&path, &mark).unwrap();
+        let mut again = recorder(&job, &folder);
+        playback::tell(&path, all(mark, f64::MAX), &job, &mut again).unwrap();
+        let (tables_again, kept_again, rows_again) = left(again);
+        assert!(tables == tables_again, "{name}: tables");
+        assert!(kept.series == kept_again.series && kept.tracks == kept_again.tracks, "{name}: series");
+        assert_eq!((kept.fingerprint(), rows), (kept_again.fingerprint(), rows_again), "{name}");
+    }
+}
+
+/// As much as was told counts, no more: what the recorder asks for next is what the run goes on with.
+#[test]
+fn a_journal_counts_up_to_its_mark_and_goes_on_from_there() {
+    let root = tempfile::tempdir().unwrap();
+    let (job, path) = (job("p1.json", &[LOOKS], root.path()), root.path().join("journal"));
+    let folder = Folder::make(&job.folder).unwrap();
+    let (end, marked, _) = journalled(&job, &folder, &path, 1000);
+    let whole = fs::read(&path).unwrap();
+    let mark = marked.unwrap();
+    assert!(mark.length < end.length && end.length == whole.len() as u64);
+    let digest = playback::check(&path, &mark).unwrap();
+    let mut again = recorder(&job, &folder);
+    let reached = 999.0 * job.scenario.plan.every.unwrap();
+    playback::tell(&path, all(mark, reached), &job, &mut again).unwrap();
+    assert_eq!(again.next_look(), Some(0.4e-3 * (reached / 0.4e-3).ceil()));
+    assert_eq!(left(again).2, 1000);
+    // The rest is cut off; what is written from here on continues the digest.
+    let mut journal = Journal::go_on(&path, mark.length, digest).unwrap();
+    assert_eq!(journal.mark().unwrap(), mark);
+    journal.row(&[1.0, 2.0]);
+    let longer = journal.mark().unwrap();
+    assert_eq!(longer.length, mark.length + 17);
+    playback::check(&path, &longer).unwrap();
+    assert!(fs::read(&path).unwrap().starts_with(&whole[..mark.length as usize]));
+}
+
+#[test]
+fn a_journal_that_was_cut_or_changed_is_refused() {
+    let root = tempfile::tempdir().unwrap();
+    let (job, path) = (job("p1.json", &[LOOKS], root.path()), root.path().join("journal"));
+    let folder = Folder::make(&job.folder).unwrap();
+    let (mark, ..) = journalled(&job, &folder, &path, 0);
+    let whole = fs::read(&path).unwrap();
+    fs::write(&path, &whole[..whole.len() - 1]).unwrap();
+    assert!(matches!(playback::check(&path, &mark), Err(CheckpointError::Short { .. })));
+    let mut changed = whole.clone();
+    changed[whole.len() / 2] ^= 1;
+    fs::write(&path, changed).unwrap();
+    assert!(matches!(playback::check(&path, &mark), Err(CheckpointError::Journal(_))));
+    fs::remove_file(&path).unwrap();
+    assert!(matches!(playback::check(&path, &mark), Err(CheckpointError::Read { .. })));
+}
+
+/// Whatever stands in a journal that nobody checked, telling it ends.
+#[test]
+fn no_bytes_are_trouble() {
+    let root = tempfile::tempdir().unwrap();
+    let (job, path) = (job("p1.json", &[LOOKS], root.path()), root.path().join("journal"));
+    let folder = Folder::make(&job.folder).unwrap();
+    let (mark, ..) = journalled(&job, &folder, &path, 0);
+    let whole = fs::read(&path).unwrap();
+    for tag in 0..=3_u8 {
+        for place in (0..2000).step_by(7) {
+            let mut bytes = whole[place..place + 3000].to_vec();
+            bytes[0] = tag;
+            // A source that is a contact: other names are looked up where the checked journal has them.
+            bytes[1] = 0;
+            fs::write(&path, &bytes).unwrap();
+            let _ = playback::tell(
+                &path,
+                all(Mark { length: 3000, ..mark }, 0.0),
+                &job,
+                &mut recorder(&job, &folder),
+            );
+        }
+    }
+}
