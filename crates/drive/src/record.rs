@@ -245,7 +245,9 @@ fn contact_columns(
         _ => state.memories[c].preview(&contact.interface, motion.apex()),
     };
     if let Some(slot) = slot {
-        outcome.friction = y(layout.friction(slot));
+        // By the whole law nothing is integrated: the chord from the apex has its own.
+        let chord = if matches!(state.modes[c], Mode::Whole { .. }) { outcome.friction } else { 0.0 };
+        outcome.friction = y(layout.friction(slot)) + chord;
     }
     let count = contact.count;
     let friction = state.friction[c] + count * outcome.friction;

@@ -88,6 +88,10 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
                 Err(error) => outcome = Err(error),
             }
         }
+        // What the caller has supplied ahead begins here: there is room for the piece after it.
+        if state.take_supplied() {
+            self.stepper.restart();
+        }
         self.put_down(state);
         outcome
     }

@@ -72,6 +72,7 @@ pub(super) struct Located<'a, A> {
     takeoff: Option<f64>,
     /// The stretch that is taken by the whole law, and room for its steps.
     detour: Option<Detour>,
+    last_detour: Detour,
     halves: Option<Box<Halves>>,
     /// Whether springs are damped: then the law jumps between stick and slip.
     slides: bool,
@@ -150,6 +151,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             swing: Swing::of(model, motion.allowance.strict),
             takeoff: None,
             detour: None,
+            last_detour: Detour::NONE,
             halves: None,
             slides: model.contacts.iter().any(|contact| contact.interface.damping() > 0.0),
             motion,

@@ -117,6 +117,17 @@ impl State {
         }
     }
 
+    /// Puts every input whose piece is over on the one supplied. Tells whether any was.
+    pub(crate) fn take_supplied(&mut self) -> bool {
+        let mut taken = false;
+        for (w, supplied) in self.supplied.iter_mut().enumerate() {
+            if let Some(next) = supplied.take_if(|next| next.start <= self.t) {
+                (self.pieces[w], taken) = (next, true);
+            }
+        }
+        taken
+    }
+
     /// When the first piece ends that a caller has given, s; infinite without inputs.
     pub(crate) fn next_input(&self, model: &Model) -> f64 {
         let end = |(w, supplied): (usize, &Option<Piece>)| {

@@ -33,6 +33,8 @@ pub(crate) struct LocatedWay {
     pub(crate) leap: Option<Takeoff>,
     /// The stretch that is taken by the whole law.
     pub(crate) detour: Option<Detour>,
+    /// The last one, over or not.
+    pub(crate) last_detour: Detour,
     pub(crate) windows: Vec<Window>,
     pub(crate) crawl: Crawl,
     /// The steps of the drive so far, where they may end the run.
@@ -177,6 +179,11 @@ pub(crate) struct Detour {
     pub(crate) step: f64,
 }
 
+impl Detour {
+    /// Before the first one.
+    pub(crate) const NONE: Self = Self { end: f64::NEG_INFINITY, length: 0.0, step: 0.0 };
+}
+
 /// How steps move on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crawl {
@@ -211,6 +218,7 @@ impl LocatedWay {
         asked: false,
         leap: None,
         detour: None,
+        last_detour: Detour::NONE,
         windows: Vec::new(),
         crawl: Crawl { since: 0.0, attempts: 0 },
         steps: None,

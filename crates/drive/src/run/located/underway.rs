@@ -25,7 +25,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         way.booked.copy(&self.ledger.booked);
         way.asked = self.interval.traits.asked;
         way.leap = self.takeoff.map(|input| Takeoff { from: self.swing.start(), input });
-        (way.detour, way.crawl) = (self.detour, self.bounds.crawl);
+        (way.detour, way.last_detour, way.crawl) = (self.detour, self.last_detour, self.bounds.crawl);
         way.windows.clone_from(&self.bounds.windows);
         way.steps = self.horizon.steps.so_far();
     }
@@ -39,7 +39,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.motion.allowance.allowed.copy(&way.allowed);
         self.ledger.booked.copy(&way.booked);
         self.bounds.windows.clone_from(&way.windows);
-        (self.detour, self.bounds.crawl) = (way.detour, way.crawl);
+        (self.detour, self.last_detour, self.bounds.crawl) = (way.detour, way.last_detour, way.crawl);
         if let Some(steps) = way.steps {
             self.horizon.steps.take_up(steps, state);
         }

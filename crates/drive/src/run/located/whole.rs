@@ -2,8 +2,8 @@
 //!
 //! Some motions have no next smooth interval: both edges of a contact stand still at once, it opens and closes within rounding,
 //! ringing fades along a line on which the law changes sides. Nothing is wrong with them, and steps that do not look for events
-//! go through. So that is what is done: every contact goes by the whole law of its memory for a natural period of the one whose
-//! events accumulate, under error control by halved steps, since embedded estimates see neither kinks nor growth. Then events
+//! go through. So that is what is done: every contact goes by the whole law of its memory for a part of the natural period
+//! of the one whose events accumulate, under error control by halved steps, since embedded estimates see neither kinks nor growth. Then events
 //! are located again. The state counts how often; a detour always moves on, so that no run can loop in them.
 //!
 //! A step h by the classical Runge–Kutta method is compared with two of h/2, the memory moved in between. Across a kink both are
@@ -24,12 +24,14 @@ use stickslip_contact::{Memory, Segment, Timed};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, System};
 use way::Way;
 
+/// Length of a first detour, in natural periods.
+const SHARE: f64 = 1.0 / 64.0;
 /// First step of a detour, as a part of it.
 const FIRST: f64 = 1e-3;
 /// Part of the step that would just meet the tolerance.
 const SAFETY: f64 = 0.8;
 /// What of the difference of a step and its halves is the error of the halves.
-const SHARE: f64 = 1.0 / 3.0;
+const THIRD: f64 = 1.0 / 3.0;
 /// Shortest step, as a part of the detour: where that is too long there is no way on …
 const SHORTEST: f64 = 1e-10;
 /// … but where damped springs stick and slip in turn the law itself jumps, and the motion slides along the jump: no shorter step
@@ -63,19 +65,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// move on; gives the reason back where there is no such way.
     pub(super) fn depart(&mut self, state: &mut State, reason: RunError) -> Result<Progress, RunError> {
         let model = self.setting.model;
-        let length = match &reason {
-            RunError::Zeno { contact, .. } => model
-                .contacts
-                .iter()
-                .find(|known| known.name == *contact)
-                .map(|known| TAU / known.natural.frequency),
+        let of = |name: &str| model.contacts.iter().find(|contact| contact.name == name);
+        let period = match &reason {
+            RunError::Zeno { contact, .. } => of(contact).map(|contact| TAU / contact.natural.frequency),
             RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(TAU / model.fastest),
             _ => None,
         };
-        let Some(length) = length.filter(|length| length.is_normal() && state.t + FIRST * length > state.t)
-        else {
-            return Err(reason);
-        };
+        // Time must be able to tell its steps apart.
+        let tells = |period: &f64| period.is_normal() && state.t + 0.01 * FIRST * SHARE * period > state.t;
+        let Some(period) = period.filter(tells) else { return Err(reason) };
         // Blocks have events of their own, which only a located run looks for.
         if self.detour.is_some() || model.contacts.is_empty() || !model.blocks.is_empty() {
             return Err(reason);
@@ -85,7 +83,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.ledger.booked.books = Books::Current;
         }
         state.counts.detours += 1;
-        self.detour = Some(Detour { end: state.t + length, length, step: FIRST * length });
+        // At first a small part of a period: most of what accumulates does so at one moment. Longer where it goes on.
+        let goes_on = state.t <= self.last_detour.end + 2.0 * self.last_detour.length;
+        let length = if goes_on { f64::min(2.0 * self.last_detour.length, period) } else { SHARE * period };
+        let detour = Detour { end: state.t + length, length, step: FIRST * length };
+        (self.detour, self.last_detour) = (Some(detour), detour);
+        self.bounds.forget();
         self.take_whole(state);
         Ok(Progress::Made)
     }
@@ -186,7 +189,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let books = record::balance(&eq, state, to, &|i| two[i]).0 - friction - before;
         state.counts.evaluations += stepper.evaluations() - spent;
         let scale = &self.motion.allowance.allowed.scale;
-        let off = |i: usize| SHARE * (one[i] - two[i]).abs() / scale[i];
+        let off = |i: usize| THIRD * (one[i] - two[i]).abs() / scale[i];
         let books = books.abs() / (scale[self.setting.layout.input()] + ROUNDING * size);
         let components = (0..one.len()).filter(|i| scale[*i] > 0.0);
         // Not a number must not be lost in a maximum.

@@ -163,14 +163,17 @@ fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Locat
             let [t, x, v, input] = numbers(words)?;
             Some(Takeoff { from: PhasePoint { t, x, v }, input })
         })?,
-        detour: option(words, |words| {
-            let [end, length, step] = numbers(words)?;
-            (step > 0.0 && step <= length && length < f64::INFINITY).then_some(Detour { end, length, step })
-        })?,
+        detour: option(words, detour)?.filter(|detour| detour.step > 0.0),
+        last_detour: detour(words)?,
         windows: windows(model, words)?,
         crawl: Crawl { since: words.number()?, attempts: words.tally()? },
         steps: option(words, stepped)?,
     })
+}
+
+fn detour(words: &mut Words<'_>) -> Option<Detour> {
+    let [end, length, step] = numbers(words)?;
+    (0.0 <= step && step <= length && length < f64::INFINITY).then_some(Detour { end, length, step })
 }
 
 fn fixed(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Option<FixedWay> {

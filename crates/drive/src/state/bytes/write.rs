@@ -122,6 +122,7 @@ impl Page<'_> {
         self.option(way.detour.as_ref(), |page, Detour { end, length, step }| {
             page.reals([*end, *length, *step]);
         });
+        self.reals([way.last_detour.end, way.last_detour.length, way.last_detour.step]);
         self.windows(&way.windows);
         self.0.extend([way.crawl.since.to_bits(), way.crawl.attempts]);
         self.option(way.steps.as_ref(), Self::stepped);

@@ -1,0 +1,85 @@
+//! Scenes whose events accumulate: they used to stop or to hang, and fixed steps run them through.
+//!
+//! * `ball_at_rest`: a ball set down without anything but its weight. Where it turns, its contact neither slides nor sticks: the
+//!   same reversal fired for ever at one moment.
+//! * `lift_off_and_touch`: a flat foot that opens and closes in the last bit of time.
+//! * `flat_damped`: a damped contact dragged back under a falling load, along the line on which stick and slip take turns.
+//! * `hang`: a touch at t = 1e-20 s, after which steps of 1e-28 s followed one another.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and shows what it measured"
+)]
+
+use std::path::Path;
+use stickslip_drive::State;
+use stickslip_results::{Job, Outcome};
+
+fn job(name: &str, stepper: &str) -> Job {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name).with_extension("json");
+    Job::prepare(&file, &[("run.stepper".to_owned(), stepper.to_owned())], Path::new("")).unwrap()
+}
+
+fn event(name: &str, tolerance: f64) -> (Job, Outcome) {
+    let job = job(name, &format!(r#"{{"event": {{"tolerance": {tolerance:e}}}}}"#));
+    let outcome = job.run(&());
+    assert!(outcome.error.is_none(), "{name} at {tolerance:e}: {:?}", outcome.error);
+    (job, outcome)
+}
+
+/// Places of all bodies along x and z at the end, in natural displacements of the first contact.
+fn places(job: &Job, state: &State) -> Vec<f64> {
+    use stickslip_drive::scene::Axis;
+    let unit = job.model.contact_natural(0).unwrap().displacement;
+    let bodies = 0..job.scenario.scene.bodies.len();
+    let axes = |i: usize| [Axis::X, Axis::Z].map(|axis| state.coordinate(&job.model, i, axis));
+    bodies.flat_map(axes).flatten().map(|(place, _)| place / unit).collect()
+}
+
+fn off(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+}
+
+/// Against classical Runge–Kutta at two steps, whose difference is its own error.
+fn against_fixed_steps(name: &str, steps: [&str; 2], tolerances: &[f64], within: f64) {
+    let fixed = steps.map(|step| {
+        let job = job(name, &format!(r#"{{"rk4": {{"step": "{step}"}}}}"#));
+        let outcome = job.run(&());
+        assert!(outcome.error.is_none(), "{name}, rk4: {:?}", outcome.error);
+        places(&job, &outcome.state)
+    });
+    let own = off(&fixed[0], &fixed[1]);
+    for &tolerance in tolerances {
+        let (job, outcome) = event(name, tolerance);
+        let off = off(&places(&job, &outcome.state), &fixed[1]);
+        let counts = outcome.state.counts();
+        println!("{name} at {tolerance:e}: {off:.2e} u_c off, rk4 {own:.2e}, {counts:?}");
+        assert!(off <= within * tolerance + 3.0 * own, "{name} at {tolerance:e}: {off:e}, rk4 {own:e}");
+    }
+}
+
+#[test]
+fn a_ball_set_down_under_its_weight_alone_goes_on() {
+    against_fixed_steps("ball_at_rest", ["40 ns", "20 ns"], &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12], 1e3);
+}
+
+#[test]
+fn a_foot_that_opens_in_the_last_bit_of_time_is_open() {
+    against_fixed_steps("lift_off_and_touch", ["40 ns", "20 ns"], &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12], 1e3);
+}
+
+/// Stick and slip take turns along the line, which is a law of its own that the program does not know yet: that it goes on is
+/// all that is asked here. Books show what it costs.
+#[test]
+fn a_damped_contact_slides_along_the_line_between_stick_and_slip() {
+    for tolerance in [1e-6, 1e-8] {
+        let (_, outcome) = event("flat_damped", tolerance);
+        println!("flat_damped at {tolerance:e}: {:?}", outcome.state.counts());
+    }
+}
+
+#[test]
+fn a_touch_at_the_very_start_does_not_hang() {
+    against_fixed_steps("hang", ["40 ns", "20 ns"], &[1e-6, 1e-8, 1e-10], 1e3);
+}
