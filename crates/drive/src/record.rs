@@ -242,7 +242,7 @@ fn contact_columns(
             stick_radius: contact.interface.profile().radius(motion.d),
             state: ContactState::Stick,
         },
-        _ => state.memories[c].preview(&contact.interface, motion.apex()),
+        _ => equations.memories[c].preview(&contact.interface, motion.apex()),
     };
     if let Some(slot) = slot {
         // By the whole law nothing is integrated: the chord from the apex has its own.

@@ -96,7 +96,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.pass_event(state, turns, record)?;
         } else {
             self.watch.go_on();
-            if state.modes.iter().any(|mode| matches!(mode, Mode::Whole { .. })) {
+            if self.interval.traits.general && state.modes.iter().any(Mode::is_whole) {
                 // The memory that such a law asks has moved with the step: what it said before rounds otherwise, and a run
                 // taken up here could not ask it any more.
                 self.motion.whereabouts = Whereabouts::Behind;
