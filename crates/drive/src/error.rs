@@ -152,8 +152,8 @@ impl RunError {
             }
             Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
             Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",
-            Self::Zeno { .. } => {
-                "put a spring with a little damping beside this contact, or use a fixed step"
+            Self::Zeno { .. } | Self::Crawl { .. } => {
+                "take a fixed step: the whole law by halved steps was tried and found no way on, either"
             }
             Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
             Self::Block { .. } => "look at what the block says of itself",

@@ -6,7 +6,8 @@
 use std::error::Error;
 use std::path::Path;
 use stickslip_drive::{Run, State};
-use stickslip_results::{Job, model_key};
+use stickslip_results::Job;
+use stickslip_results::checkpoint::model_key;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");

@@ -16,6 +16,7 @@ mod allowance;
 mod ending;
 mod laws;
 mod leap;
+mod method;
 mod motion;
 mod path;
 mod search;
@@ -36,14 +37,15 @@ use super::output::{Opening, Output};
 use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::interval::{Interval, Swing};
-use crate::method::{Method, SceneTraits, stepping};
+use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Books, Detour, Grip, Layout, State, Underway, Whereabouts};
 use crate::{Plan, RunError};
+pub(super) use method::LocatedRun;
 use motion::Motion;
 use path::MOST_PIECES;
-use stickslip_stepper::{Attempt, DOP853_ORDER, Dop853, NYSTROM_ORDER, One, Paired, StepControl, StepLimits};
+use stickslip_stepper::{Attempt, StepControl, StepLimits};
 use turning::Turning;
 use watch::Watch;
 use whole::Halves;
@@ -83,39 +85,6 @@ pub(super) struct Located<'a, A> {
     turning: Turning,
     output: Output,
     bounds: Bounds,
-}
-
-/// A run between located events, by the method of the scene's intervals without a closed form: where no force depends on a
-/// velocity, one that spares a third of the evaluations.
-pub(super) enum LocatedRun<'a> {
-    /// A single free coordinate.
-    One(Box<Located<'a, Paired<One>>>),
-    /// Several.
-    Many(Box<Located<'a, Paired>>),
-    /// With dampers, varying loads or growth.
-    General(Box<Located<'a, Dop853>>),
-}
-
-impl<'a> LocatedRun<'a> {
-    pub(super) fn new(model: &'a Model, plan: &Plan, tolerance: f64) -> Self {
-        let layout = model.layout();
-        let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
-        match (setting.method, layout.free) {
-            // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
-            (Method::Nystrom, 1) => {
-                let solver = Paired::one(layout.total());
-                Self::One(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
-            }
-            (Method::Nystrom, free) => {
-                let solver = Paired::new(free, 1, layout.total());
-                Self::Many(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
-            }
-            _ => {
-                let solver = Dop853::new(layout.dimension(), layout.total());
-                Self::General(Box::new(Located::new(setting, plan, solver, DOP853_ORDER)))
-            }
-        }
-    }
 }
 
 impl<'a> Setting<'a> {

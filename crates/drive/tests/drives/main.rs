@@ -34,6 +34,7 @@ mod random_drives;
 mod random_stacks;
 mod ruby;
 mod small_oscillations;
+mod soak;
 mod stages;
 mod statics;
 mod steady;

@@ -9,6 +9,7 @@
 //! A step h by the classical Runge–Kutta method is compared with two of h/2, the memory moved in between. Across a kink both are
 //! of second order: a third of the difference is the error of the halves.
 
+mod ends;
 mod way;
 
 use super::Located;
@@ -18,16 +19,11 @@ use crate::equations::Equations;
 use crate::method::Method;
 use crate::record::{self, Record};
 use crate::run::horizon::Progress;
-use crate::state::{Books, Detour, State};
-use std::f64::consts::TAU;
+use crate::state::{Detour, State};
 use stickslip_contact::{Memory, Segment, Timed};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, System};
 use way::Way;
 
-/// Length of a first detour, in natural periods.
-const SHARE: f64 = 1.0 / 64.0;
-/// First step of a detour, as a part of it.
-const FIRST: f64 = 1e-3;
 /// Part of the step that would just meet the tolerance.
 const SAFETY: f64 = 0.8;
 /// What of the difference of a step and its halves is the error of the halves.
@@ -61,40 +57,8 @@ struct Times {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Leaves the located run for the whole law, where it would have to stop for accumulating events or steps that do not
-    /// move on; gives the reason back where there is no such way.
-    pub(super) fn depart(&mut self, state: &mut State, reason: RunError) -> Result<Progress, RunError> {
-        let model = self.setting.model;
-        let of = |name: &str| model.contacts.iter().find(|contact| contact.name == name);
-        let period = match &reason {
-            RunError::Zeno { contact, .. } => of(contact).map(|contact| TAU / contact.natural.frequency),
-            RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(TAU / model.fastest),
-            _ => None,
-        };
-        // Time must be able to tell its steps apart.
-        let tells = |period: &f64| period.is_normal() && state.t + 0.01 * FIRST * SHARE * period > state.t;
-        let Some(period) = period.filter(tells) else { return Err(reason) };
-        // Blocks have events of their own, which only a located run looks for.
-        if self.detour.is_some() || model.contacts.is_empty() || !model.blocks.is_empty() {
-            return Err(reason);
-        }
-        if self.ledger.booked.books == Books::Behind {
-            self.settle(state);
-            self.ledger.booked.books = Books::Current;
-        }
-        state.counts.detours += 1;
-        // At first a small part of a period: most of what accumulates does so at one moment. Longer where it goes on.
-        let goes_on = state.t <= self.last_detour.end + 2.0 * self.last_detour.length;
-        let length = if goes_on { f64::min(2.0 * self.last_detour.length, period) } else { SHARE * period };
-        let detour = Detour { end: state.t + length, length, step: FIRST * length };
-        (self.detour, self.last_detour) = (Some(detour), detour);
-        self.bounds.forget();
-        self.take_whole(state);
-        Ok(Progress::Made)
-    }
-
     /// Puts every contact on its whole law.
-    fn take_whole(&mut self, state: &mut State) {
+    pub(super) fn take_whole(&mut self, state: &mut State) {
         state.modes.fill(Mode::Whole { sense: 0.0 });
         state.grew.fill(false);
         self.takeoff = None;
@@ -193,15 +157,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let books = books.abs() / (scale[self.setting.layout.input()] + ROUNDING * size);
         let components = (0..one.len()).filter(|i| scale[*i] > 0.0);
         // Not a number must not be lost in a maximum.
-        let most = components.map(off).chain([books]).fold(0.0, |most: f64, off| {
-            if off <= most {
-                most
-            } else if most.is_nan() {
-                most
-            } else {
-                off
-            }
-        });
+        let most = components
+            .map(off)
+            .chain([books])
+            .fold(0.0, |most: f64, off| if off <= most || most.is_nan() { most } else { off });
         Ok(most)
     }
 
@@ -303,15 +262,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 return;
             }
         }
-    }
-
-    /// Back to located events: every contact is decided afresh.
-    fn arrive(&mut self, state: &mut State, detour: &Detour) {
-        self.detour = None;
-        self.bounds.forget();
-        state.step = self.control.after_event(detour.step);
-        (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
-        self.restart(state);
     }
 }
 

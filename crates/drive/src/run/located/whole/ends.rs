@@ -1,0 +1,60 @@
+//! When a detour begins, how long it is, and back from it.
+
+use crate::RunError;
+use crate::equations::Equations;
+use crate::run::horizon::Progress;
+use crate::run::located::Located;
+use crate::state::{Books, Detour, State};
+use std::f64::consts::TAU;
+use stickslip_stepper::Attempt;
+
+/// Length of a first detour, in natural periods.
+const SHARE: f64 = 1.0 / 64.0;
+/// First step of a detour, as a part of it.
+const FIRST: f64 = 1e-3;
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Leaves the located run for the whole law, where it would have to stop for accumulating events or steps that do not
+    /// move on; gives the reason back where there is no such way.
+    pub(in crate::run::located) fn depart(
+        &mut self,
+        state: &mut State,
+        reason: RunError,
+    ) -> Result<Progress, RunError> {
+        let model = self.setting.model;
+        let of = |name: &str| model.contacts.iter().find(|contact| contact.name == name);
+        let period = match &reason {
+            RunError::Zeno { contact, .. } => of(contact).map(|contact| TAU / contact.natural.frequency),
+            RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(TAU / model.fastest),
+            _ => None,
+        };
+        // Time must be able to tell its steps apart.
+        let tells = |period: &f64| period.is_normal() && state.t + 0.01 * FIRST * SHARE * period > state.t;
+        let Some(period) = period.filter(tells) else { return Err(reason) };
+        // Blocks have events of their own, which only a located run looks for.
+        if self.detour.is_some() || model.contacts.is_empty() || !model.blocks.is_empty() {
+            return Err(reason);
+        }
+        if self.ledger.booked.books == Books::Behind {
+            self.settle(state);
+            self.ledger.booked.books = Books::Current;
+        }
+        state.counts.detours += 1;
+        // At first a small part of a period: most of what accumulates does so at one moment. Longer where it goes on.
+        let goes_on = state.t <= self.last_detour.end + 2.0 * self.last_detour.length;
+        let length = if goes_on { f64::min(2.0 * self.last_detour.length, period) } else { SHARE * period };
+        let detour = Detour { end: state.t + length, length, step: FIRST * length };
+        (self.detour, self.last_detour) = (Some(detour), detour);
+        self.bounds.forget();
+        self.take_whole(state);
+        Ok(Progress::Made)
+    }
+
+    /// Back to located events: every contact is decided afresh.
+    pub(super) fn arrive(&mut self, state: &mut State, detour: &Detour) {
+        self.detour = None;
+        self.bounds.forget();
+        state.step = self.control.after_event(detour.step);
+        (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
+        self.restart(state);
+    }
+}

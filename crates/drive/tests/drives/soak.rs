@@ -1,0 +1,85 @@
+//! Drawn scenes run to their end, whatever the tolerance.
+
+use crate::lottery::{Draw, deal, on_rows};
+use crate::parts::{FOOT_SLIDER, contact, event, foot_and_slider, named, wave};
+use std::f64::consts::TAU;
+use stickslip_contact::Profile;
+use stickslip_drive::scene::{Coordinate, Direction, Gravity, Normal, Point, Scene, Side, Spring};
+use stickslip_drive::{Limits, Model, Plan, RunError, Shape, run};
+
+/// Seeds in a test; the variable `STICKSLIP_SEEDS` asks for more.
+const SEEDS: u64 = 60;
+
+/// A slider that nothing but its weight or a preloaded spring presses on its foot, begun anywhere but in balance: in touch, above
+/// it or pressed, on a drive with a phase.
+fn pressed(seed: u64) -> (Scene, f64) {
+    let mut draw = Draw::new(seed);
+    let mut of = |count: u64| draw.bits() % count;
+    let (kind, start, shape, load, rubs) = (of(5), of(4), of(3), of(3), of(4));
+    let (period, mass) = (draw.spread(1e-4, 1e-2), draw.spread(1e-5, 0.1));
+    let amplitude = draw.spread(1e-9, 1e-5);
+    let profile = match kind {
+        0 => Profile::flat(draw.spread(1e-6, 1e-4)),
+        1 => Profile::cone(draw.spread(1e-3, 0.1)),
+        2 => Profile::sphere(draw.spread(1e-4, 1e-2)),
+        3 => Profile::power(draw.spread(1e6, 1e9), 3.0),
+        _ => Profile::paraboloid(draw.spread(1e-4, 1e-2)),
+    };
+    let friction = [0.0, 0.05, 0.2, 0.8][rubs as usize];
+    let mut ball = contact(FOOT_SLIDER, profile.unwrap(), friction, 1.0);
+    ball.normal = Normal::Coupled;
+    let shape = match shape {
+        0 => Shape::Sine { amplitude, phase: draw.between(0.0, TAU), offset: 0.0 },
+        1 => Shape::Triangle { stroke: amplitude },
+        _ => Shape::Sawtooth { stroke: amplitude, flyback: 0.1 * period },
+    };
+    let mut scene = foot_and_slider(wave("drive", shape, period), mass, ball);
+    scene.bodies[1].part.z =
+        Coordinate { position: [0.0, 1e-8, -1e-9, -1e-8][start as usize], ..Coordinate::FREE };
+    if load < 2 {
+        scene.gravity = Gravity { acceleration: 9.81, ..Gravity::default() };
+    }
+    if load > 0 {
+        let press = Spring {
+            between: [Side::Ground, Side::Body(1)],
+            at: [Point::default(); 2],
+            direction: Direction::Z,
+            stiffness: draw.spread(10.0, 1e5),
+            damping: if draw.bits() & 1 == 0 { 0.0 } else { draw.spread(0.01, 10.0) },
+            preload: -draw.spread(1e-3, 10.0),
+        };
+        scene.springs.push(named("press", press));
+    }
+    (scene, period)
+}
+
+/// Fixed steps run all of them through: nothing that stops one by itself is physics. What leaves the range of its model is
+/// refused by name.
+#[test]
+fn no_drawn_scene_stops_itself() {
+    let seeds = std::env::var("STICKSLIP_SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(SEEDS);
+    let (mut runs, mut detours, mut stops) = (0_u32, 0, Vec::new());
+    for seed in 0..seeds {
+        let drawn = deal(seed);
+        let (alone, period) = pressed(seed);
+        let rows = on_rows(&drawn.scene, 16);
+        let scenes =
+            [(rows, drawn.period, "rows"), (drawn.scene, drawn.period, "drawn"), (alone, period, "pressed")];
+        for (scene, period, kind) in scenes {
+            let Ok(model) = Model::new(&scene) else { continue };
+            for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+                let limits = Limits { wall: Some(20.0), ..Limits::default() };
+                let plan = Plan { limits, ..event(tolerance, 3.0 * period) };
+                let Ok(mut state) = model.start(&plan) else { continue };
+                runs += 1;
+                match run(&model, &plan, &mut state, &mut ()) {
+                    Ok(()) | Err(RunError::Contact { .. }) => {}
+                    Err(error) => stops.push((kind, seed, tolerance, error)),
+                }
+                detours += u32::from(state.counts().detours > 0);
+            }
+        }
+    }
+    println!("{runs} runs, {detours} of them with detours, {} stops", stops.len());
+    assert!(stops.is_empty(), "{stops:#?}");
+}
