@@ -147,9 +147,6 @@ impl RunError {
             Self::NotFinite { .. } => {
                 "take a smaller step, or the event stepper: an explicit step must stay below 2/ω of the stiffest mode"
             }
-            Self::Crawl { .. } => {
-                "take a fixed step: the whole law by halved steps was tried and found no way on, either"
-            }
             Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
             Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",
             Self::Zeno { .. } | Self::Crawl { .. } => {
