@@ -12,7 +12,7 @@ const SEEDS: u64 = 60;
 
 /// A slider that nothing but its weight or a preloaded spring presses on its foot, begun anywhere but in balance: in touch, above
 /// it or pressed, on a drive with a phase.
-fn pressed(seed: u64) -> (Scene, f64) {
+pub(crate) fn pressed(seed: u64) -> (Scene, f64) {
     let mut draw = Draw::new(seed);
     let mut of = |count: u64| draw.bits() % count;
     let (kind, start, shape, load, rubs) = (of(5), of(4), of(3), of(3), of(4));
