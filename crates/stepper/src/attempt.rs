@@ -35,6 +35,9 @@ pub trait Step {
     fn cut(&mut self, t: f64);
     /// Moves to its end.
     fn accept(&mut self);
+    /// The slopes at its start, in the stepper's own order, into the room of `slopes`; none where they are not known. They
+    /// belong to a run's state: what the system answers now may round otherwise than what it answered before its memory moved.
+    fn first_slopes(&self, slopes: &mut Vec<f64>);
 }
 
 /// A one-step method that attempts; someone else accepts.
@@ -48,11 +51,9 @@ pub trait Attempt<S: ?Sized>: Method + Step {
     /// Puts the stepper at time `t` and state `y`, of which it takes as many components as it has, and evaluates the
     /// slopes there: due at first, and after anything that makes them jump.
     fn start(&mut self, system: &S, t: f64, y: &[f64]);
-    /// Puts a new stepper where another one stood with its motion at time `t` and state `y`: both go on to the same bits.
-    fn take_up(&mut self, system: &S, t: f64, y: &[f64], hand: Hand) {
-        let _ = hand;
-        self.start(system, t, y);
-    }
+    /// Puts a new stepper where another one stood with its motion at time `t` and state `y`, with the
+    /// [slopes](Step::first_slopes) that it had there: both go on to the same bits. Without slopes it starts.
+    fn take_up(&mut self, system: &S, at: (f64, &[f64]), hand: Hand, slopes: &[f64]);
     /// A first step for a fresh start, at most `longest`.
     fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64;
     /// Tries a step and returns its error in units of `scale`: 1 is just at the tolerance, [`f64::INFINITY`] not finite.

@@ -12,7 +12,7 @@ mod tableau;
 
 pub use grade::Grade;
 
-use crate::{Attempt, Completion, End, Method, Span, Step, System, Target};
+use crate::{Attempt, Completion, End, Hand, Method, Span, Step, System, Target};
 use tableau::Slopes;
 
 /// Order of the method.
@@ -184,6 +184,13 @@ impl Step for Dop853 {
         self.ends.first_known = self.ends.last_known;
         self.forget_step();
     }
+
+    fn first_slopes(&self, slopes: &mut Vec<f64>) {
+        slopes.clear();
+        if self.ends.first_known {
+            slopes.extend_from_slice(&self.ends.first);
+        }
+    }
 }
 
 impl<S: System + ?Sized> Attempt<S> for Dop853 {
@@ -195,6 +202,19 @@ impl<S: System + ?Sized> Attempt<S> for Dop853 {
             *to = *from;
         }
         self.restart_slopes(system);
+    }
+
+    /// Slopes of another number than there are components are none.
+    fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), _: Hand, slopes: &[f64]) {
+        if slopes.len() != self.ends.first.len() {
+            return self.start(system, t, y);
+        }
+        self.extent.time = t;
+        let count = self.begin.len();
+        self.begin.copy_from_slice(&y[..count]);
+        self.forget_step();
+        self.ends.first.copy_from_slice(slopes);
+        (self.ends.first_known, self.coasts) = (true, system.coasts());
     }
 
     /// Hairer, Nørsett, Wanner, section II.4; one evaluation.

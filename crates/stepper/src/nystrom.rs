@@ -18,7 +18,7 @@ mod track;
 pub use storage::{Many, One, Storage, Values};
 pub use track::Track;
 
-use crate::{Attempt, Completion, End, Method, Span, Step, Target};
+use crate::{Attempt, Completion, End, Hand, Method, Span, Step, Target};
 use tableau::END;
 
 /// Power of the step with which the error estimate falls.
@@ -214,6 +214,13 @@ impl<N: Storage> Step for Nystrom<N> {
         self.forget_step();
         self.known.first = known;
     }
+
+    fn first_slopes(&self, slopes: &mut Vec<f64>) {
+        slopes.clear();
+        if self.known.first {
+            slopes.extend(self.tracks.as_ref().iter().map(|track| track.k[0]));
+        }
+    }
 }
 
 impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
@@ -222,6 +229,22 @@ impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
         let begin = self.begin.as_mut();
         begin.copy_from_slice(&y[..begin.len()]);
         self.restart_slopes(system);
+    }
+
+    /// Slopes of another number than there are positions and quadratures are none.
+    fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), _: Hand, slopes: &[f64]) {
+        if slopes.len() != self.tracks.as_ref().len() {
+            return self.start(system, t, y);
+        }
+        self.time = t;
+        let begin = self.begin.as_mut();
+        begin.copy_from_slice(&y[..begin.len()]);
+        self.forget_step();
+        self.set_out();
+        for (track, slope) in self.tracks.as_mut().iter_mut().zip(slopes) {
+            track.k[0] = *slope;
+        }
+        (self.known.first, self.constant) = (true, system.coasts());
     }
 
     fn first_step(&mut self, _: &S, longest: f64, scale: &[f64]) -> f64 {

@@ -139,6 +139,10 @@ impl<N: Storage> Step for Paired<N> {
         last!(self, accept());
         self.both = false;
     }
+
+    fn first_slopes(&self, slopes: &mut Vec<f64>) {
+        last!(self, first_slopes(slopes));
+    }
 }
 
 impl<S: System + Conservative + ?Sized, N: Storage> Attempt<S> for Paired<N> {
@@ -147,10 +151,22 @@ impl<S: System + Conservative + ?Sized, N: Storage> Attempt<S> for Paired<N> {
         (self.last, self.both) = (By::Even, false);
     }
 
-    fn take_up(&mut self, system: &S, t: f64, y: &[f64], hand: Hand) {
-        self.start(system, t, y);
-        if hand.graded || hand.both {
-            self.graded.start(system, t, y);
+    /// The slopes are those of the method that made the last attempt; the other one was started where it stands, if it is there.
+    fn take_up(&mut self, system: &S, at: (f64, &[f64]), hand: Hand, slopes: &[f64]) {
+        let (t, y) = at;
+        match (hand.graded, hand.both) {
+            (true, both) => {
+                self.graded.take_up(system, at, hand, slopes);
+                if both {
+                    self.even.start(system, t, y);
+                }
+            }
+            (false, both) => {
+                self.even.take_up(system, at, hand, slopes);
+                if both {
+                    self.graded.start(system, t, y);
+                }
+            }
         }
         self.set_hand(hand);
     }

@@ -39,11 +39,6 @@ impl Mode {
         matches!(self, Self::Slip(branch) if branch.is_gross())
     }
 
-    /// Whether the whole law holds.
-    pub(crate) fn is_whole(&self) -> bool {
-        matches!(self, Self::Whole { .. })
-    }
-
     /// Whether a contact in this mode has springs that stick.
     pub(crate) fn holds(&self) -> bool {
         !self.is_gross() && *self != Self::Open

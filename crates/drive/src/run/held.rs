@@ -110,7 +110,8 @@ impl<'m> Run<'m> {
         Ok(Self { model, plan: *plan, state, way, resumed: false, begun: false })
     }
 
-    /// A run that goes on where an earlier one stood: rows and looks up to there have been written.
+    /// A run that goes on where an earlier one stood: rows and [looks](Record::look) up to there have been written, and are not
+    /// again. By [`Self::new`] the run would go on to the same bits, and begin with a row.
     ///
     /// # Errors
     ///
@@ -119,8 +120,11 @@ impl<'m> Run<'m> {
         Ok(Self { resumed: true, ..Self::new(model, plan, state)? })
     }
 
-    /// Moves on to time `until`, s, and stands there: the last step is cut, a leap stays under way. Rows are written where they
-    /// are due, none because of the cut.
+    /// Moves on to time `until`, s, and stands there. Rows are written where the plan has them, none because of the stop.
+    ///
+    /// Many short advances come to what one long one does: to the bit where motion has a closed form (a single slider on
+    /// paraboloids, straight waveforms), elsewhere within the tolerance, since a step that would go further is cut. A plan
+    /// without rows (`every: None`) and `&mut ()` for a record cost least.
     ///
     /// # Errors
     ///
@@ -163,7 +167,7 @@ impl<'m> Run<'m> {
         outcome
     }
 
-    /// Writes the row of where the run stands, which ends it here.
+    /// Writes the row of where the run stands, which ends it here; nothing before the first call.
     pub fn stop(&mut self, record: &mut dyn Record) {
         if self.begun {
             self.way.write_now(&self.state, record);
@@ -172,7 +176,10 @@ impl<'m> Run<'m> {
     }
 
     /// Holds an input, the waveform at place `input` of the scene, at a value from the present time on: a jump where the
-    /// value is another one.
+    /// value is another one. Waveforms have their places in the order of the scenario file.
+    ///
+    /// A contact whose body jumps moves along its path straight and in no time, and the work of that is booked. For inputs
+    /// that are held; one that is linear stays where it is by [`Self::lead`] to the value that it has.
     ///
     /// # Errors
     ///
@@ -182,7 +189,8 @@ impl<'m> Run<'m> {
     }
 
     /// Leads an input, the waveform at place `input` of the scene, straight to `value` at time `until`, s, from where its last
-    /// piece ends, or from where it is. One piece may be supplied ahead of the present one.
+    /// piece ends, or from where it is. One piece may be supplied ahead of the present one. Before the first piece an input
+    /// holds its initial value, for as long as the caller likes; after one it has no value, and the run does not go there.
     ///
     /// # Errors
     ///
@@ -202,7 +210,8 @@ impl<'m> Run<'m> {
         self.state
     }
 
-    /// The values of all channels where the run stands, into the room of `row`.
+    /// The values of all channels where the run stands, into the room of `row`; their names and units are those of
+    /// [`Model::channels`], in that order.
     pub fn row(&self, row: &mut Vec<f64>) {
         let layout = self.state.layout(self.model);
         let equations = Equations::on(self.model, &self.state, layout, false);

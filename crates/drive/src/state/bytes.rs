@@ -59,7 +59,9 @@ pub enum BytesError {
 impl State {
     /// The state as bytes, under a key that tells its model from all others.
     ///
-    /// `key` is the caller's: a hash of whatever the model was made from.
+    /// `key` is the caller's: a hash of whatever the model was made from, such as the crate `stickslip-results` makes of a
+    /// scenario. What inputs have been supplied is inside. Bytes are read on any machine; to the same bits goes on whatever
+    /// computes alike, which one build does.
     pub fn to_bytes(&self, model: &Model, key: &[u8; 32]) -> Vec<u8> {
         let mut words = Vec::new();
         write::state(self, model, &mut words);

@@ -4,6 +4,7 @@
 //! as one that was never put down. Everything else a run works with is scratch, and follows from the state.
 
 use super::State;
+use crate::Model;
 use crate::interval::PhasePoint;
 use stickslip_stepper::Hand;
 
@@ -24,6 +25,8 @@ pub(crate) struct LocatedWay {
     pub(crate) whereabouts: Whereabouts,
     /// Which method of a pair stands where the motion is.
     pub(crate) hand: Hand,
+    /// Slopes at the start of the next step, where the solver stands there: they are older than what the memories have committed.
+    pub(crate) slopes: Vec<f64>,
     pub(crate) gait: Gait,
     pub(crate) allowed: Allowed,
     pub(crate) booked: Booked,
@@ -193,6 +196,13 @@ pub(crate) struct Crawl {
     pub(crate) attempts: u64,
 }
 
+impl Window {
+    /// One for the events of each contact and each block, and one for the loops of each contact.
+    pub(crate) fn count(model: &Model) -> usize {
+        2 * model.contacts.len() + model.blocks.len()
+    }
+}
+
 /// What the steps of a drive have come to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stepped {
@@ -212,6 +222,7 @@ impl LocatedWay {
         tolerance: 0.0,
         whereabouts: Whereabouts::Behind,
         hand: Hand { graded: false, both: false },
+        slopes: Vec::new(),
         gait: Gait { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips },
         allowed: Allowed { scale: Vec::new(), power: 0.0 },
         booked: Booked { last: Vec::new(), blocks: 0.0, books: Books::Current },

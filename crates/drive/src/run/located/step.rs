@@ -9,7 +9,6 @@ use super::motion::Pace;
 use super::watch::Watch;
 use super::{Located, Motion};
 use crate::RunError;
-use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::record::Record;
@@ -96,11 +95,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.pass_event(state, turns, record)?;
         } else {
             self.watch.go_on();
-            if self.interval.traits.general && state.modes.iter().any(Mode::is_whole) {
-                // The memory that such a law asks has moved with the step: what it said before rounds otherwise, and a run
-                // taken up here could not ask it any more.
-                self.motion.whereabouts = Whereabouts::Behind;
-            }
             if self.motion.rest(self.setting.model, state) {
                 self.stop(state);
             }

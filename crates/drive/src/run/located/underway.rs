@@ -20,6 +20,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let way = state.located_way();
         way.tolerance = self.setting.tolerance;
         (way.whereabouts, way.hand) = (self.motion.whereabouts, solver.hand());
+        way.slopes.clear();
+        if way.whereabouts == Whereabouts::Here {
+            solver.first_slopes(&mut way.slopes);
+        }
         way.gait = self.motion.pace.gait;
         way.allowed.copy(&self.motion.allowance.allowed);
         way.booked.copy(&self.ledger.booked);
@@ -49,7 +53,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.motion.whereabouts = way.whereabouts;
         if way.whereabouts == Whereabouts::Here {
             let eq = self.setting.equations(state, &self.interval);
-            self.motion.solver.take_up(&eq, state.t, &state.y, way.hand);
+            self.motion.solver.take_up(&eq, (state.t, &state.y), way.hand, &way.slopes);
             self.watch.set_out(&eq, &self.motion.solver);
         }
         if let Some(leap) = way.leap {

@@ -146,6 +146,10 @@ fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Locat
         tolerance: words.finite()?,
         whereabouts: if words.flag()? { Whereabouts::Here } else { Whereabouts::Behind },
         hand: Hand { graded: words.flag()?, both: words.flag()? },
+        slopes: {
+            let count = words.count(layout.total())?;
+            reals(words, count)?
+        },
         gait: Gait {
             proven: words.number()?,
             ahead: if words.flag()? { Ahead::Shortens } else { Ahead::Clear },
@@ -217,7 +221,7 @@ fn windows(model: &Model, words: &mut Words<'_>) -> Option<Vec<Window>> {
     let window = |_| {
         Some(Window { start: words.number()?, count: u32::try_from(words.word()?).ok()?.min(u32::MAX / 2) })
     };
-    (0..model.contacts.len() + model.blocks.len()).map(window).collect()
+    (0..Window::count(model)).map(window).collect()
 }
 
 fn stepped(words: &mut Words<'_>) -> Option<Stepped> {

@@ -104,6 +104,8 @@ impl Page<'_> {
         self.flag(way.whereabouts == Whereabouts::Here);
         self.flag(way.hand.graded);
         self.flag(way.hand.both);
+        self.0.push(way.slopes.len() as u64);
+        self.reals(way.slopes.iter().copied());
         let Gait { proven, ahead, grip } = way.gait;
         self.real(proven);
         self.flag(ahead == Ahead::Shortens);
