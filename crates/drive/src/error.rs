@@ -135,6 +135,12 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// Whether the run was halted from outside and stands between two steps, from where it can go on: by whoever watches it,
+    /// or by a limit on its steps or its time.
+    pub fn is_halt(&self) -> bool {
+        matches!(self, Self::Interrupted { .. } | Self::OutOfTime { .. } | Self::TooManySteps { .. })
+    }
+
     /// What to try.
     pub fn advice(&self) -> &'static str {
         match self {

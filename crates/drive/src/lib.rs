@@ -3,7 +3,7 @@
 //! A [`Scene`] says what is there; [`Model::new`] checks it and assembles the constants. A run is the sentence
 //! that joins four things: the [`Model`] (constant), the [`State`] (all that the future depends on), a
 //! workspace (scratch) and a [`Record`] (output): [`Model::start`] makes the state, [`run`] moves it along a
-//! [`Plan`].
+//! [`Plan`] to its end; a [`Run`] is held by its caller and moved from moment to moment.
 //!
 //! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its small motions, [`Linearised`]; [`State`]; the
 //! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down;

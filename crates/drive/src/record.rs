@@ -203,15 +203,16 @@ pub(crate) fn fill(
     row.extend([books.input, books.kinetic, books.elastic, books.friction, damping, error]);
 }
 
-/// What the books of a moment leave open, and the sum of all that is in them, J: rounding goes by the latter.
+/// What the books of a moment leave open, and the sum of all that is in them, J: rounding goes by the latter. `row` is
+/// scratch.
 pub(crate) fn balance(
     equations: &Equations<'_>,
     state: &State,
     t: f64,
     y: &impl Fn(usize) -> f64,
+    row: &mut Vec<f64>,
 ) -> (f64, f64) {
-    let mut row = Vec::new();
-    fill(equations, state, t, y, &mut row);
+    fill(equations, state, t, y, row);
     let books = &row[row.len().saturating_sub(6)..];
     (books.last().copied().unwrap_or(0.0), books.iter().map(|energy| energy.abs()).sum())
 }

@@ -21,7 +21,6 @@ use crate::model::{Binding, BlockState};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, ContactError, Memory, Move};
-use stickslip_stepper::StepHistory;
 
 /// State of a drive: cloneable, comparable. A run started from a copy goes on to the same bits.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,9 +54,7 @@ pub struct State {
     pub(crate) step: f64,
     /// Step in use when a contact last went into gross slip, s: what comes after needs it again.
     pub(crate) stuck_step: f64,
-    /// What step control has learnt; none before the first run.
-    pub(crate) control: Option<StepHistory>,
-    /// What else a run has learnt; none before the first run.
+    /// What a run has learnt; none before the first run.
     pub(crate) underway: Option<Underway>,
     /// The piece that a caller has supplied of each waveform after the present one; empty where none is an input.
     pub(crate) supplied: Vec<Option<Piece>>,
@@ -130,7 +127,6 @@ impl Model {
             step: 0.0,
             // No gross slip has begun yet: its end takes nothing from the step.
             stuck_step: f64::INFINITY,
-            control: None,
             underway: None,
             supplied: if inputs { vec![None; self.waveforms.len()] } else { Vec::new() },
             counts: Counts::default(),
@@ -201,8 +197,6 @@ impl State {
         self.y.resize(to.total(), 0.0);
         self.y[to.block(0)..to.block(to.own)].copy_from_slice(&own);
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
-        // The next run begins afresh: laws are chosen anew, and the first step with them.
-        self.step = 0.0;
     }
 
     /// When the first piece of a waveform ends, s.
@@ -243,10 +237,7 @@ impl State {
             Binding::Held(x) => (x, 0.0),
             Binding::Free(i) => (self.shifts[i] + self.y[i], self.y[model.layout().velocity(i)]),
             Binding::Driven(_) => {
-                // Blocks' states lie elsewhere where no contact carries a state.
-                let growing = if self.y.len() == model.layout().total() { model.growing } else { 0 };
-                let layout = Layout { growing, ..model.layout() };
-                let equations = Equations::on(model, self, layout, false);
+                let equations = Equations::on(model, self, self.layout(model), false);
                 let [value, rate] = equations.place(place, self.t, |i| self.y[i]);
                 (value, rate)
             }

@@ -55,15 +55,22 @@ impl Bounds {
         Self { limits, begun: Instant::now(), stride, windows, crawl, period }
     }
 
+    /// Attempts so far. Asked before the first one, too: a run that goes on at its limit stops where it stopped.
+    #[inline(always)]
+    pub(super) fn tried(&self, state: &State) -> Result<u64, RunError> {
+        let tried = state.counts.steps + state.counts.rejected;
+        if tried >= self.limits.steps {
+            return Err(RunError::TooManySteps { t: state.t, limit: self.limits.steps });
+        }
+        Ok(tried)
+    }
+
     /// Called after every attempt.
     ///
     /// Fails where steps accepted and rejected reach their limit, time on the wall is over, or the record
     /// wants no more.
     pub(super) fn step(&mut self, state: &State, record: &mut dyn Record) -> Result<(), RunError> {
-        let tried = state.counts.steps + state.counts.rejected;
-        if tried >= self.limits.steps {
-            return Err(RunError::TooManySteps { t: state.t, limit: self.limits.steps });
-        }
+        let tried = self.tried(state)?;
         // A power of two: a division would be felt.
         if tried & (self.stride - 1) != 0 {
             return Ok(());

@@ -33,7 +33,7 @@ pub(super) struct Chords<'a> {
     pub(super) horizon: Horizon,
     output: Output,
     ledger: Ledger,
-    bounds: Bounds,
+    pub(super) bounds: Bounds,
     /// Sense in which each contact slid last; 0 before it did.
     senses: Vec<f64>,
     /// State of each contact after the last step, where somebody watches.

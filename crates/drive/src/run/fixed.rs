@@ -7,7 +7,7 @@ use super::chords::Chords;
 use super::horizon::{Goal, Progress};
 use super::output::Opening;
 use crate::record::Record;
-use crate::state::{Grid, Layout, State, Underway};
+use crate::state::{FixedWay, Grid, Layout, State, Underway};
 use crate::{Model, Plan, RunError};
 use stickslip_stepper::FixedStep;
 
@@ -80,7 +80,7 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         self.chords.aim(goal);
-        let mut outcome = Ok(());
+        let mut outcome = self.chords.bounds.tried(state).map(drop);
         while self.chords.goes_on(state) && outcome.is_ok() {
             match self.step(state, record) {
                 Ok(Progress::Made) => {}
@@ -151,11 +151,15 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
         let evaluations = self.stepper.evaluations();
         state.counts.evaluations += evaluations - self.counted;
         self.counted = evaluations;
-        let way = state.fixed_way();
+        let mut way = match state.underway.take() {
+            Some(Underway::Fixed(way)) => way,
+            _ => Box::new(FixedWay::BLANK),
+        };
         (way.stepper, way.grid) = (self.name, self.grid);
         way.slopes.clear();
         way.slopes.reserve(self.y.len());
         way.slopes.extend_from_slice(self.stepper.kept().unwrap_or_default());
-        self.chords.put_down(way);
+        self.chords.put_down(&mut way);
+        state.underway = Some(Underway::Fixed(way));
     }
 }

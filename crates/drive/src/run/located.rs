@@ -62,6 +62,15 @@ struct Setting<'a> {
     method: Method,
 }
 
+/// The laws with which a run begins.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Laws {
+    /// Those of the state: an earlier run between located events has left them.
+    Kept,
+    /// Chosen from the motion: nothing has run yet, or a run that knows no laws.
+    Chosen,
+}
+
 /// Scratch of one run; all that its future depends on is in the [`State`] whenever a caller holds that.
 pub(super) struct Located<'a, A> {
     setting: Setting<'a>,
@@ -142,7 +151,12 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             Some(Underway::Located(way)) if way.tolerance == self.setting.tolerance => {
                 self.take_up(state, &way);
             }
-            _ => self.begin(state),
+            // At another tolerance the motion goes on, and its laws with it.
+            Some(Underway::Located(way)) => {
+                self.control.set_history(way.history);
+                self.begin(state, Laws::Kept);
+            }
+            Some(Underway::Fixed(_)) | None => self.begin(state, Laws::Chosen),
         }
         if opening.has_row(&self.output, state.t) {
             self.output.write_now(&self.setting.plain(state), state, record);
@@ -161,7 +175,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     ) -> Result<(), RunError> {
         self.horizon.aim(goal);
         self.horizon.nearly = self.output.end_at(self.horizon.end);
-        let mut outcome = self.turn_due(state, record);
+        let mut outcome = self.bounds.tried(state).and_then(|_| self.turn_due(state, record));
         while state.t < self.horizon.limit() && outcome.is_ok() {
             match self.step(state, record) {
                 Ok(Progress::Made) => {}
@@ -187,24 +201,19 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.output.write_now(&self.setting.plain(state), state, record);
     }
 
-    /// Sets the first laws and proposes a first step, unless the state goes on from an earlier run.
+    /// Begins with a state; where its laws are to be chosen, with them and with a first step.
     ///
     /// The first step is at most one natural period of the fastest contact.
-    fn begin(&mut self, state: &mut State) {
+    fn begin(&mut self, state: &mut State, laws: Laws) {
         self.ledger.set_out(state.t);
         self.horizon.steps.begin(state);
-        // What control has learnt goes on with the state.
-        if let Some(history) = state.control {
-            self.control.set_history(history);
-        }
-        let fresh = state.step <= 0.0;
-        if fresh {
+        if laws == Laws::Chosen {
             (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
         }
         self.turned(state);
         self.begin_interval(state);
         self.catch_up(state);
-        if !fresh {
+        if laws == Laws::Kept {
             return;
         }
         let contacts = self.setting.model.contacts.iter();

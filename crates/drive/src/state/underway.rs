@@ -3,10 +3,9 @@
 //! Kept with the state whenever a caller holds it: a run that takes it up, in this process or another, goes on to the same bits
 //! as one that was never put down. Everything else a run works with is scratch, and follows from the state.
 
-use super::State;
 use crate::Model;
 use crate::interval::PhasePoint;
-use stickslip_stepper::Hand;
+use stickslip_stepper::{Hand, StepHistory};
 
 /// Of the run that moved the state last.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +26,8 @@ pub(crate) struct LocatedWay {
     pub(crate) hand: Hand,
     /// Slopes at the start of the next step, where the solver stands there: they are older than what the memories have committed.
     pub(crate) slopes: Vec<f64>,
+    /// What step control has learnt.
+    pub(crate) history: StepHistory,
     pub(crate) gait: Gait,
     pub(crate) allowed: Allowed,
     pub(crate) booked: Booked,
@@ -218,11 +219,12 @@ pub(crate) struct Stepped {
 
 impl LocatedWay {
     /// Nothing learnt yet.
-    const BLANK: Self = Self {
+    pub(crate) const BLANK: Self = Self {
         tolerance: 0.0,
         whereabouts: Whereabouts::Behind,
         hand: Hand { graded: false, both: false },
         slopes: Vec::new(),
+        history: StepHistory::BLANK,
         gait: Gait { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips },
         allowed: Allowed { scale: Vec::new(), power: 0.0 },
         booked: Booked { last: Vec::new(), blocks: 0.0, books: Books::Current },
@@ -238,7 +240,7 @@ impl LocatedWay {
 
 impl FixedWay {
     /// Nothing learnt yet.
-    const BLANK: Self = Self {
+    pub(crate) const BLANK: Self = Self {
         stepper: "",
         grid: Grid { start: 0.0, step: 0.0, count: 0.0 },
         slopes: Vec::new(),
@@ -247,29 +249,4 @@ impl FixedWay {
         windows: Vec::new(),
         steps: None,
     };
-}
-
-impl State {
-    /// What a run at a fixed step puts down, to be filled.
-    pub(crate) fn fixed_way(&mut self) -> &mut FixedWay {
-        if !matches!(self.underway, Some(Underway::Fixed(_))) {
-            self.underway = None;
-        }
-        match self.underway.get_or_insert_with(|| Underway::Fixed(Box::new(FixedWay::BLANK))) {
-            Underway::Fixed(way) => way,
-            Underway::Located(_) => unreachable!("made above"),
-        }
-    }
-
-    /// What a run between located events puts down, to be filled.
-    pub(crate) fn located_way(&mut self) -> &mut LocatedWay {
-        if !matches!(self.underway, Some(Underway::Located(_))) {
-            self.underway = None;
-        }
-        let blank = || Underway::Located(Box::new(LocatedWay::BLANK));
-        match self.underway.get_or_insert_with(blank) {
-            Underway::Located(way) => way,
-            Underway::Fixed(_) => unreachable!("made above"),
-        }
-    }
 }

@@ -1,7 +1,10 @@
 //! What must not change a run: output, repetition, an interruption; and what must stop it in an orderly way.
 
 use crate::lottery::deal;
-use crate::parts::{Looker, damper, event, named, of_profile, p1, piezo, plan, push, try_end};
+use crate::parts::{
+    FOOT_SLIDER, Looker, contact, damper, event, foot_and_slider, named, of_profile, p1, piezo, plan, push,
+    sine, try_end, wave,
+};
 use proptest::{prelude::*, test_runner::RngSeed};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
@@ -113,6 +116,29 @@ fn a_run_in_two_halves_is_one_run() {
         run(&model, &whole, &mut second, &mut ()).unwrap();
         same(&once, &second, &scene);
         assert_ne!(first, second);
+    }
+}
+
+/// After steps that know no laws a run between located events chooses them anew, and finds as many as one that was never left:
+/// a slider on a sine, which has no corner to choose them at, is in its steady motion by then.
+#[test]
+fn after_fixed_steps_events_are_located_again() {
+    let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
+    let model = Model::new(&foot_and_slider(wave("drive", sine(0.5e-6), PERIOD), 0.02, ball)).unwrap();
+    let (exact, step) = (Stepper::Event { tolerance: 1e-8 }, 1e-6);
+    // Events up to 3.3, 6.3 and 9.3 periods, the second part by another stepper.
+    let events = |between: Stepper| {
+        let mut state = model.start(&plan(exact, PERIOD)).unwrap();
+        [(exact, 3.3), (between, 6.3), (exact, 9.3)].map(|(stepper, periods)| {
+            let before = state.counts().events;
+            run(&model, &plan(stepper, periods * PERIOD), &mut state, &mut ()).unwrap();
+            state.counts().events - before
+        })
+    };
+    let known = events(exact);
+    for between in [Stepper::Verlet { step }, Stepper::Rk4 { step }, Stepper::Dopri5 { tolerance: 1e-6 }] {
+        let found = events(between);
+        assert!(found[1] == 0 && found[2].abs_diff(known[2]) <= 1, "{between:?}: {found:?} {known:?}");
     }
 }
 

@@ -6,7 +6,7 @@
 use super::Located;
 use crate::equations::Equations;
 use crate::interval::PhasePoint;
-use crate::state::{LocatedWay, State, Takeoff, Whereabouts};
+use crate::state::{LocatedWay, State, Takeoff, Underway, Whereabouts};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
@@ -16,15 +16,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // With and without output the same count.
         state.counts.evaluations += solver.evaluations() - self.output.evaluations;
         self.output.evaluations = solver.evaluations();
-        state.control = Some(self.control.history());
-        let way = state.located_way();
+        // Into the room of the one before, where that was of this kind.
+        let mut way = match state.underway.take() {
+            Some(Underway::Located(way)) => way,
+            _ => Box::new(LocatedWay::BLANK),
+        };
         way.tolerance = self.setting.tolerance;
         (way.whereabouts, way.hand) = (self.motion.whereabouts, solver.hand());
         way.slopes.clear();
         if way.whereabouts == Whereabouts::Here {
             solver.first_slopes(&mut way.slopes);
         }
-        way.gait = self.motion.pace.gait;
+        (way.history, way.gait) = (self.control.history(), self.motion.pace.gait);
         way.allowed.copy(&self.motion.allowance.allowed);
         way.booked.copy(&self.ledger.booked);
         way.asked = self.interval.traits.asked;
@@ -32,13 +35,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (way.detour, way.last_detour, way.crawl) = (self.detour, self.last_detour, self.bounds.crawl);
         way.windows.clone_from(&self.bounds.windows);
         way.steps = self.horizon.steps.so_far();
+        state.underway = Some(Underway::Located(way));
     }
 
     /// Goes on from what another run put down.
     pub(super) fn take_up(&mut self, state: &State, way: &LocatedWay) {
-        if let Some(history) = state.control {
-            self.control.set_history(history);
-        }
+        self.control.set_history(way.history);
         self.motion.pace.gait = way.gait;
         self.motion.allowance.allowed.copy(&way.allowed);
         self.ledger.booked.copy(&way.booked);

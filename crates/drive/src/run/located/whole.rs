@@ -1,10 +1,10 @@
-//! Where events accumulate: the whole law, kinks included, for a natural period.
+//! Where events accumulate: the whole law, kinks included, for a part of a natural period.
 //!
 //! Some motions have no next smooth interval: both edges of a contact stand still at once, it opens and closes within rounding,
 //! ringing fades along a line on which the law changes sides. Nothing is wrong with them, and steps that do not look for events
-//! go through. So that is what is done: every contact goes by the whole law of its memory for a part of the natural period
-//! of the one whose events accumulate, under error control by halved steps, since embedded estimates see neither kinks nor growth. Then events
-//! are located again. The state counts how often; a detour always moves on, so that no run can loop in them.
+//! go through. So that is what is done: every contact goes by the whole law of its memory for a part of the natural period of
+//! the one whose events accumulate, under error control by halved steps, since embedded estimates see neither kinks nor growth.
+//! Then events are located again. The state counts how often; a detour always moves on, so that no run can loop in them.
 //!
 //! A step h by the classical Runge–Kutta method is compared with two of h/2, the memory moved in between. Across a kink both are
 //! of second order: a third of the difference is the error of the halves.
@@ -46,6 +46,11 @@ pub(super) struct Halves {
     two: Vec<f64>,
     /// What the contacts remember in the middle.
     memories: Vec<Memory>,
+    /// Components at the start, and slopes at both ends of a half that is read inside.
+    start: Vec<f64>,
+    slopes: [Vec<f64>; 2],
+    /// The channels of a moment, for the books.
+    row: Vec<f64>,
 }
 
 /// A step under way: its start, its middle and its end, s.
@@ -84,7 +89,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let slides = self.slides && error.is_finite() && h <= SLIDING * detour.length;
         let outcome = if error <= 1.0 || slides {
             detour.step = h * (SAFETY * error.max(1e-6).powf(-1.0 / 3.0)).clamp(1.0, 4.0);
-            self.take_halves(&halves, state, times, record)
+            self.take_halves(&mut halves, state, times, record)
         } else {
             self.refuse_halves(state, (&mut detour, h), error)
         };
@@ -99,13 +104,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     fn room(&self, state: &State) -> Halves {
         let layout = self.setting.layout;
-        let nothing = vec![0.0; layout.total()];
+        let nothing = || vec![0.0; layout.total()];
         Halves {
             stepper: Rk4::new(layout.dimension(), layout.total()),
-            one: nothing.clone(),
-            half: nothing.clone(),
-            two: nothing,
+            one: nothing(),
+            half: nothing(),
+            two: nothing(),
             memories: state.memories.clone(),
+            start: nothing(),
+            slopes: [nothing(), nothing()],
+            row: Vec::new(),
         }
     }
 
@@ -126,10 +134,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Tries a step and its halves; gives the error of the halves in units of what is allowed.
     fn try_halves(&self, halves: &mut Halves, state: &mut State, times: Times) -> Result<f64, RunError> {
         let Times { from, middle, to } = times;
-        let Halves { stepper, one, half, two, memories } = halves;
+        let Halves { stepper, one, half, two, memories, row, .. } = halves;
         let spent = stepper.evaluations();
         let eq = self.setting.plain(state);
-        let (before, size) = record::balance(&eq, state, from, &|i| state.y[i]);
+        let (before, size) = record::balance(&eq, state, from, &|i| state.y[i], row);
         let mut friction = 0.0;
         one.copy_from_slice(&state.y);
         stepper.step(&eq, from, one, to - from);
@@ -150,7 +158,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         two.copy_from_slice(half);
         stepper.step(&eq, middle, two, to - middle);
         // Books that do not close tell of what places and velocities do not: work of friction on a way that bends.
-        let books = record::balance(&eq, state, to, &|i| two[i]).0 - friction - before;
+        let books = record::balance(&eq, state, to, &|i| two[i], row).0 - friction - before;
         state.counts.evaluations += stepper.evaluations() - spent;
         let scale = &self.motion.allowance.allowed.scale;
         let off = |i: usize| THIRD * (one[i] - two[i]).abs() / scale[i];
@@ -183,17 +191,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Rows of the step, then both halves one after the other, then what the waveforms do at its end.
     fn take_halves(
         &mut self,
-        halves: &Halves,
+        halves: &mut Halves,
         state: &mut State,
         Times { from, middle, to }: Times,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        let start = state.y.clone();
-        for (from, to) in
-            [((from, &*start), (middle, &*halves.half)), ((middle, &*halves.half), (to, &*halves.two))]
-        {
+        let Halves { half, two, start, slopes, .. } = halves;
+        start.copy_from_slice(&state.y);
+        for (from, to) in [((from, &**start), (middle, &**half)), ((middle, &**half), (to, &**two))] {
             if state.t < self.horizon.end {
-                let half = self.way(state, from, to);
+                if self.is_read_inside(to.0) {
+                    self.fill_slopes(state, [from, to], slopes);
+                }
+                let half = Way { from, to, slopes, free: self.setting.layout.free };
                 self.take_half(state, &half, record)?;
             }
         }
@@ -207,16 +217,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// The way of a half, with the slopes at both its ends: the memories are those of its start.
-    fn way<'y>(&self, state: &State, from: (f64, &'y [f64]), to: (f64, &'y [f64])) -> Way<'y> {
-        let layout = self.setting.layout;
+    /// Whether anything is read of a half that ends at t before its end.
+    fn is_read_inside(&self, t: f64) -> bool {
+        self.output.due(t) || t > self.horizon.end || self.horizon.steps.due(t).is_some()
+    }
+
+    /// The slopes at both ends of a half, whose memories are those of its start.
+    fn fill_slopes(&self, state: &State, ends: [(f64, &[f64]); 2], slopes: &mut [Vec<f64>; 2]) {
         let eq = self.setting.plain(state);
-        let slopes = [from, to].map(|(t, y)| {
-            let mut slopes = vec![0.0; layout.total()];
-            eq.slopes(t, &y[..layout.dimension()], &mut slopes);
-            slopes
-        });
-        Way { from, to, slopes, free: layout.free }
+        for ((t, y), slopes) in ends.into_iter().zip(slopes) {
+            eq.slopes(t, &y[..self.setting.layout.dimension()], slopes);
+        }
     }
 
     /// One half: its rows, its end, and the memories of all contacts with it.

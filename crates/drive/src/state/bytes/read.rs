@@ -50,7 +50,6 @@ pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
         supplied,
         counts: counts(words)?,
         tally: Tally::read(model.contacts.len(), words)?,
-        control: option(words, history)?,
         underway: option(words, |words| underway(model, layout, t, words))?,
     })
 }
@@ -150,6 +149,7 @@ fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Locat
             let count = words.count(layout.total())?;
             reals(words, count)?
         },
+        history: history(words)?,
         gait: Gait {
             proven: words.number()?,
             ahead: if words.flag()? { Ahead::Shortens } else { Ahead::Clear },

@@ -35,7 +35,6 @@ pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
     let counts = state.counts;
     page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events, counts.detours]);
     state.tally.write(page.0);
-    page.option(state.control.as_ref(), Page::history);
     page.option(state.underway.as_ref(), Page::underway);
 }
 
@@ -106,6 +105,7 @@ impl Page<'_> {
         self.flag(way.hand.both);
         self.0.push(way.slopes.len() as u64);
         self.reals(way.slopes.iter().copied());
+        self.history(&way.history);
         let Gait { proven, ahead, grip } = way.gait;
         self.real(proven);
         self.flag(ahead == Ahead::Shortens);

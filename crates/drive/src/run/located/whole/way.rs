@@ -4,7 +4,7 @@
 pub(super) struct Way<'y> {
     pub(super) from: (f64, &'y [f64]),
     pub(super) to: (f64, &'y [f64]),
-    pub(super) slopes: [Vec<f64>; 2],
+    pub(super) slopes: &'y [Vec<f64>; 2],
     pub(super) free: usize,
 }
 
@@ -16,7 +16,7 @@ impl Way<'_> {
         if t >= t1 {
             return y1[i];
         }
-        let (h, [k0, k1], n) = (t1 - t0, &self.slopes, self.free);
+        let (h, [k0, k1], n) = (t1 - t0, self.slopes, self.free);
         let s = (t - t0) / h;
         let (left, square) = (1.0 - s, s * (1.0 - s));
         let (rise, first, last) = (y1[i] - y0[i], h * k0[i], h * k1[i]);
@@ -46,8 +46,8 @@ mod tests {
         let y = |t: f64| [x(t), v(t), t.powi(3)];
         let slopes = |t: f64| vec![v(t), a(t), 3.0 * t.powi(2)];
         let (from, to) = (0.3, 1.7);
-        let (begin, end) = (y(from), y(to));
-        let way = Way { from: (from, &begin), to: (to, &end), slopes: [slopes(from), slopes(to)], free: 1 };
+        let (begin, end, ends) = (y(from), y(to), [slopes(from), slopes(to)]);
+        let way = Way { from: (from, &begin), to: (to, &end), slopes: &ends, free: 1 };
         for t in [0.3, 0.31, 0.9, 1.2, 1.69, 1.7] {
             assert!((way.value(0, t) - x(t)).abs() < 1e-13, "{t}");
             assert!((way.value(2, t) - t.powi(3)).abs() < 1e-13, "{t}");
