@@ -160,3 +160,18 @@ fn a_run_that_stopped_itself_stops_again_where_it_did() {
     assert_eq!(stderr(&again), stderr(&output));
     assert_same(&plain, &folder, "stopped again");
 }
+
+/// Raised, the limit is one that the run had from the start; nothing of it is computed twice.
+#[test]
+fn a_run_that_a_limit_has_stopped_goes_on_with_another() {
+    let out = tempdir().unwrap();
+    let of = |limit: &'static str| [limit, "run.duration=20 ms", VERLET, "output.every=1 ms"];
+    let whole = kept("quickstart", &out.path().join("whole"), SELDOM, &of("run.limits.steps=200000"));
+    let output = keeping("quickstart", out.path(), SELDOM, &of("run.limits.steps=7000")).output().unwrap();
+    let folder = out.path().join("quickstart");
+    let hint = format!("`stickslip resume {} --set run.limits.steps=…` goes on from there", folder.display());
+    assert_eq!(code(&output), 3);
+    assert!(stderr(&output).contains(&hint), "{}", stderr(&output));
+    resumed(&folder, &["--set", "run.limits.steps=200000"]);
+    assert_same(&whole, &folder, "another limit");
+}

@@ -166,14 +166,15 @@ fn a_checkpoint_of_another_run_is_refused() {
 }
 
 #[test]
-fn only_the_end_can_be_changed() {
+fn only_the_end_and_the_limits_can_be_changed() {
     let kept = Kept::new("p1", &["run.cycles=3"]);
     let help = "   help: run the scenario anew to change anything else\n";
-    for set in ["contacts.ball.friction=0.2", "run.duration=1 s", "run.limits.steps=9", "title=x"] {
+    for set in ["contacts.ball.friction=0.2", "run.duration=1 s", "run.limitsx=9", "title=x"] {
         assert_eq!(
             kept.refused(&["--set", set]),
             format!(
-                "--set {set}  a run that goes on is the same run: only its end can be changed, by run.cycles\n{help}"
+                "--set {set}  a run that goes on is the same run: only its end can be changed, by run.cycles, and \
+                 run.limits\n{help}"
             )
         );
     }
@@ -240,5 +241,21 @@ fn an_interval_is_a_time_above_zero() {
             command.arg("run").arg(scenario("p1")).args(["--checkpoint-every", every]).output().unwrap();
         assert_eq!(code(&output), 2);
         assert!(stderr(&output).contains(words), "{}", stderr(&output));
+    }
+}
+
+/// A pipe would be waited for until somebody writes into it.
+#[cfg(unix)]
+#[test]
+fn what_is_no_plain_file_is_not_waited_for() {
+    let kept = Kept::new("p1", &["run.cycles=3"]);
+    for name in ["journal", "state"] {
+        let path = kept.file(name);
+        fs::remove_file(&path).unwrap();
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+        assert_eq!(
+            kept.refused(&[]),
+            format!("{}: cannot be read: it is not a plain file\n", path.display())
+        );
     }
 }

@@ -43,6 +43,16 @@ fn place(results: &Path) -> PathBuf {
     results.join(FOLDER)
 }
 
+/// Refuses what is there and no plain file: a pipe would be waited for, a device read without end.
+fn plain(path: &Path) -> io::Result<()> {
+    let kind = fs::metadata(path)?.file_type();
+    match (kind.is_file(), kind.is_dir()) {
+        (true, _) => Ok(()),
+        (_, true) => Err(io::ErrorKind::IsADirectory.into()),
+        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a plain file")),
+    }
+}
+
 /// Removes the checkpoint of a folder of results, if there is one; whatever else lies beside its files stays.
 ///
 /// # Errors

@@ -12,8 +12,8 @@ impl Job {
     /// [`Self::run_recorded`] with checkpoints: the recorder is a fresh one, or one that was told of the parts before.
     ///
     /// The last checkpoint of a run that comes to its end is its last moment before steps are cut for that end: from there it
-    /// can go on to a later one. An interrupted run keeps the moment at which it was, one that stops itself the last one
-    /// before.
+    /// can go on to a later one. A run that is halted, by an interrupt or a limit, keeps the moment at which it was, one
+    /// that stops itself the last one before.
     ///
     /// # Errors
     /// A table or a checkpoint that cannot be written.
@@ -44,7 +44,7 @@ impl Journalled<'_> {
     fn follow(&mut self, job: &Job, mut run: Run<'_>) -> io::Result<Ended> {
         let ended = loop {
             let ended = run.approach(self);
-            if let Ok(()) | Err(RunError::Interrupted { .. }) = ended {
+            if ended.as_ref().err().is_none_or(RunError::is_halt) {
                 self.keeper.save(job, run.state())?;
             }
             // Only a pause is no end.

@@ -81,7 +81,7 @@ pub enum CheckpointError {
     OtherScenario(PathBuf),
     /// Something other than the end is to change.
     #[error(
-        "--set {0}  a run that goes on is the same run: only its end can be changed, by {1}\n   help: run the scenario anew to change anything else"
+        "--set {0}  a run that goes on is the same run: only its end can be changed, by {1}, and run.limits\n   help: run the scenario anew to change anything else"
     )]
     NotTheEnd(String, &'static str),
     /// An end that the run has passed.

@@ -5,9 +5,11 @@ use sha2::{Digest, Sha256};
 use stickslip_scenario::Scenario;
 
 /// Keys of a scenario that change nothing of what moves up to a time that both reach.
-const BESIDE: [&str; 6] = ["title", "figures", "output", "plots", "run.limits", "run.until_steady"];
+const BESIDE: [&str; 6] = ["title", "figures", "output", "plots", LIMITS, "run.until_steady"];
 /// Keys that give a run its end. Whichever of them the file has may be changed from one part of a run to the next.
-pub(super) const END: [&str; 2] = ["run.duration", "run.cycles"];
+const END: [&str; 2] = ["run.duration", "run.cycles"];
+/// Guards that may be changed as well: a run that one of them has stopped could not go on otherwise.
+const LIMITS: &str = "run.limits";
 
 /// SHA-256 of what moves: of the resolved scenario without title, end, limits, figures, output and pictures. States of runs
 /// with one key are states of one motion.
@@ -15,9 +17,14 @@ pub fn model_key(scenario: &Scenario) -> [u8; 32] {
     key(scenario, BESIDE.into_iter().chain(END))
 }
 
-/// SHA-256 of the resolved scenario without its end: what all parts of a run share, their results included.
+/// SHA-256 of the resolved scenario without its end and its limits: what all parts of a run share, their results included.
 pub(super) fn run_key(scenario: &Scenario) -> [u8; 32] {
-    key(scenario, END.into_iter())
+    key(scenario, END.into_iter().chain([LIMITS]))
+}
+
+/// Whether a path is that of a limit, or of all of them.
+pub(super) fn is_limit(path: &str) -> bool {
+    path.strip_prefix(LIMITS).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// Which key gives a scenario its end.

@@ -2,6 +2,7 @@
 
 use super::error::CheckpointError;
 use super::journal::{Mark, tag};
+use super::plain;
 use crate::job::Job;
 use crate::record::Recorder;
 use sha2::{Digest, Sha256};
@@ -20,12 +21,9 @@ const CHUNK: usize = 1 << 16;
 /// A journal that is shorter than the mark says, that does not hold what it held then, or cannot be read.
 pub(super) fn check(path: &Path, mark: &Mark) -> Result<Sha256, CheckpointError> {
     let unreadable = |source| CheckpointError::Read { path: path.to_owned(), source };
+    plain(path).map_err(unreadable)?;
     let mut file = File::open(path).map_err(unreadable)?;
-    let metadata = file.metadata().map_err(unreadable)?;
-    if metadata.is_dir() {
-        return Err(unreadable(io::ErrorKind::IsADirectory.into()));
-    }
-    let found = metadata.len();
+    let found = file.metadata().map_err(unreadable)?.len();
     if found < mark.length {
         return Err(CheckpointError::Short { path: path.to_owned(), expected: mark.length, found });
     }

@@ -3,10 +3,10 @@
 use super::error::CheckpointError;
 use super::journal::Journal;
 use super::keeper::Keeper;
-use super::key::{end_of, model_key, run_key};
+use super::key::{end_of, is_limit, model_key, run_key};
 use super::playback::Told;
 use super::stub::Stub;
-use super::{JOURNAL, STATE, place, playback};
+use super::{JOURNAL, STATE, place, plain, playback};
 use crate::files::SCENARIO;
 use crate::job::Job;
 use crate::record::Recorder;
@@ -27,10 +27,11 @@ pub struct Resumption {
 }
 
 impl Resumption {
-    /// Reads the checkpoint in a folder of results; pairs in `set` give it another end. Writes nothing.
+    /// Reads the checkpoint in a folder of results; pairs in `set` give it another end or other limits. Writes
+    /// nothing.
     ///
     /// # Errors
-    /// A checkpoint that is none, or not this run's; a change of anything but the end; an end that the run has passed.
+    /// A checkpoint that is none, or not this run's; a change of anything but the end and the limits; an end that the run has passed.
     pub fn read(results: &Path, set: &[(String, String)]) -> Result<(Job, Self), CheckpointError> {
         let place = place(results);
         let stub = stub(&place.join(STATE), results)?;
@@ -79,7 +80,7 @@ impl Resumption {
 
 /// The state with what else stands beside it.
 fn stub(path: &Path, results: &Path) -> Result<Stub, CheckpointError> {
-    match fs::read(path) {
+    match plain(path).and_then(|()| fs::read(path)) {
         Ok(bytes) => Stub::from_bytes(&bytes, path),
         Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
             Err(CheckpointError::None(results.to_owned()))
@@ -95,7 +96,7 @@ fn job(path: &Path, set: &[(String, String)], stub: &Stub, results: &Path) -> Re
         return Err(CheckpointError::OtherScenario(path.to_owned()));
     }
     let end = end_of(&kept);
-    if let Some((path, value)) = set.iter().find(|(path, _)| path != end) {
+    if let Some((path, value)) = set.iter().find(|(path, _)| path != end && !is_limit(path)) {
         return Err(CheckpointError::NotTheEnd(format!("{path}={value}"), end));
     }
     let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();

@@ -4,6 +4,7 @@ use crate::console::quantity::quantity;
 use crate::console::verdict::Verdict;
 use std::fmt::Display;
 use std::io;
+use stickslip_drive::RunError;
 use stickslip_results::Job;
 use stickslip_results::Outcome;
 use stickslip_results::Real;
@@ -59,12 +60,16 @@ impl Report {
         )
     }
 
-    /// The same of a run with a checkpoint: how to go on with one that was interrupted.
-    pub(crate) fn resumable(mut self, job: &Job) -> Self {
-        if self.verdict == Verdict::Interrupted {
-            self.error +=
-                &format!("\n   help: `stickslip resume {}` goes on from there", job.folder.display());
-        }
+    /// The same of a run with a checkpoint: how to go on with one that was halted.
+    pub(crate) fn resumable(mut self, job: &Job, error: Option<&RunError>) -> Self {
+        let limit = match error {
+            Some(RunError::OutOfTime { .. }) => " --set run.limits.wall=…",
+            Some(RunError::TooManySteps { .. }) => " --set run.limits.steps=…",
+            Some(error) if error.is_halt() => "",
+            _ => return self,
+        };
+        self.error +=
+            &format!("\n   help: `stickslip resume {}{limit}` goes on from there", job.folder.display());
         self
     }
 

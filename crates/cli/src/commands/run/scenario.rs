@@ -55,7 +55,7 @@ pub(crate) fn run(
             return write(job, look, folder, (&outcome, drafts));
         };
         let (outcome, drafts) = job.run_kept(recorder, keeper)?;
-        Ok(write(job, look, folder, (&outcome, drafts))?.resumable(job))
+        Ok(write(job, look, folder, (&outcome, drafts))?.resumable(job, outcome.error.as_ref()))
     });
     report.unwrap_or_else(|error| Report::not_written(job, &error))
 }
