@@ -62,7 +62,8 @@ fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
         if path.is_dir() {
             all.extend(contents(&path));
         } else {
-            let bytes = fs::read(&path).unwrap();
+            // A pipe would be waited for.
+            let bytes = if path.is_file() { fs::read(&path).unwrap() } else { Vec::new() };
             all.push((path, bytes));
         }
     }
@@ -255,7 +256,7 @@ fn what_is_no_plain_file_is_not_waited_for() {
         assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
         assert_eq!(
             kept.refused(&[]),
-            format!("{}: cannot be read: it is not a plain file\n", path.display())
+            format!("DIR/checkpoint/{name}: cannot be read: it is not a plain file\n")
         );
     }
 }
