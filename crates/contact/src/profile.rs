@@ -138,10 +138,12 @@ impl Profile {
         self.depth(0.5 * m)
     }
 
-    /// Height at which M (m²) is reached, m: the inverse of [`Self::reduced_force`]; 0 for M ≤ 0.
+    /// Height at which M (m²) is reached, m: the inverse of [`Self::reduced_force`]. For M ≤ 0 the height of first touch: 0, or
+    /// that of the lowest spring of a list.
+    // Not 0 of a list whose springs begin higher: a load that fades would then end with a jump of the depth, in no time.
     pub fn height_of_reduced_force(&self, force: f64) -> f64 {
         if force.is_nan() || force <= 0.0 {
-            return 0.0;
+            return of_kind!(self, kind => kind.lowest());
         }
         of_kind!(self, kind => kind.height_of_reduced_force(force))
     }

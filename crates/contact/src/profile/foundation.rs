@@ -143,6 +143,10 @@ impl Kind for Foundation {
         self.heights[index] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
     }
 
+    fn lowest(&self) -> f64 {
+        self.heights[0]
+    }
+
     fn depth(&self, a: f64) -> f64 {
         self.height_of_reduced_stiffness(2.0 * a)
     }

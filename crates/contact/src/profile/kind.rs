@@ -17,6 +17,11 @@ pub(super) trait Kind {
     /// Height at which M > 0 (m²) is reached, m.
     fn height_of_reduced_force(&self, force: f64) -> f64;
 
+    /// Height of first touch, m.
+    fn lowest(&self) -> f64 {
+        0.0
+    }
+
     /// g(a), m; the lowest of several, infinite where none reaches a.
     fn depth(&self, a: f64) -> f64;
 
