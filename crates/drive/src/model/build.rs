@@ -7,7 +7,7 @@
 use super::contact::{self, Surroundings};
 use super::{
     Binding, Body, Free, Link, Load, Measure, Model, Signals, Spared, Stroke, block, check, dampers, held,
-    scale, used,
+    reach, scale, used,
 };
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
@@ -46,6 +46,7 @@ impl Model {
             contacts.push(contact);
             deepest.push(deep);
         }
+        let pushes: Vec<f64> = (0..free.len()).map(|i| reach::pressing(i, &around)).collect();
         dampers::check(scene, &links, &contacts, around.signals)?;
         held::check(&free, &contacts, &links)?;
         let mut spared = Spared { loads: spared_loads(scene, &bodies), ..Spared::default() };
@@ -61,7 +62,7 @@ impl Model {
         }
         spared.waveforms =
             used::hold_the_others(&mut waveforms, (&bodies, &blocks), &contacts, &links, &loads);
-        scale::assign(&mut contacts, &mut free, &links, &waveforms, &deepest);
+        scale::assign(&mut contacts, &mut free, &links, &waveforms, (&deepest, &pushes));
         let constants = Self {
             waveforms,
             bodies,

@@ -49,7 +49,7 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
 ///
 /// A bound, not a sum of what acts at once: magnitudes of gravity and constant loads, of the widest values of
 /// those that vary, of preloads, and of springs at their widest stroke.
-fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
+pub(super) fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     let widest = |w: usize| {
         let (low, high) = around.signals.range(w);
         low.abs().max(high.abs())

@@ -8,7 +8,7 @@ use crate::scene::Axis;
 /// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and the velocities they
 /// make with the stuck stiffness.
 ///
-/// `deepest` is the largest indentation of each contact.
+/// `deepest` is the largest indentation of each contact, `pushes` the largest force on each free coordinate.
 ///
 /// A free coordinate has a length l, the smallest u_c or d of its contacts by their arms, and the speed lω
 /// with ω² = k/m of all that is stuck to it; without contacts the smallest stroke, without stiffness the
@@ -18,7 +18,7 @@ pub(super) fn assign(
     free: &mut [Free],
     links: &[Link],
     waveforms: &[Waveform],
-    deepest: &[f64],
+    (deepest, pushes): (&[f64], &[f64]),
 ) {
     let springs = springs(contacts, free.len(), links, deepest);
     let (stroke, slow) = slowest(waveforms);
@@ -29,14 +29,16 @@ pub(super) fn assign(
     for (i, f) in free.iter_mut().enumerate() {
         let (stiffness, length) = springs[i];
         // Along x no motion wider than the widest waveform matters; a depth is its own measure.
-        let length = match (length.is_finite(), f.axis) {
-            (true, Axis::X) => length.min(reach),
-            (true, _) => length,
-            (false, _) => stroke,
-        };
         if stiffness > 0.0 {
             frequency[i] = (stiffness / f.mass).sqrt();
         }
+        // A push or a velocity at the start moves it, too, however small the stroke.
+        let pushed = (pushes[i] / stiffness).max(f.start.1.abs() / frequency[i]);
+        let length = match (length.is_finite(), f.axis) {
+            (true, Axis::X) => length.min(if pushed > reach { pushed } else { reach }),
+            (true, _) => length,
+            (false, _) => stroke,
+        };
         f.scale = (length, length * frequency[i]);
     }
     for (c, &d) in contacts.iter_mut().zip(deepest) {
