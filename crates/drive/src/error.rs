@@ -12,8 +12,8 @@ use thiserror::Error;
 /// Why a run stopped itself: what, where, when. [`RunError::advice`] says what to try.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
-    /// Step control asks for steps below the resolution of time.
-    #[error("at t = {t:e} s the step fell to {step:e} s, below what a double can tell apart")]
+    /// Step control asks for steps below the resolution of time, or below any that helps.
+    #[error("at t = {t:e} s even a step of {step:e} s misses the tolerance")]
     StepTooSmall {
         /// Time, s.
         t: f64,
@@ -29,7 +29,7 @@ pub enum RunError {
         limit: f64,
     },
     /// A coordinate is no longer a number.
-    #[error("at t = {t:e} s the motion of `{body}` is no longer finite")]
+    #[error("at t = {t:e} s the motion of `{body}`, or the work on it, is no longer finite")]
     NotFinite {
         /// Time, s.
         t: f64,
@@ -145,13 +145,13 @@ impl RunError {
     pub fn advice(&self) -> &'static str {
         match self {
             Self::StepTooSmall { .. } => {
-                "loosen the tolerance, or look for a mass or stiffness off by orders of magnitude"
+                "loosen the tolerance, or look for a length, mass or stiffness off by orders of magnitude"
             }
             Self::Unstable { .. } => {
                 "take a step well below the limit, or the event stepper, which needs none"
             }
             Self::NotFinite { .. } => {
-                "take a smaller step, or the event stepper: an explicit step must stay below 2/ω of the stiffest mode"
+                "look for a number off by orders of magnitude; a fixed step must stay below 2/ω of the stiffest mode"
             }
             Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
             Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",

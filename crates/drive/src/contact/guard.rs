@@ -133,7 +133,9 @@ impl Guard {
         // The laws on the two sides of the old curve differ by the square of the distance δ from it only, by about
         // (δ/u_c)²μF_N. A contact that shrinks along the line on which it grew slips nowhere and rides on that line but for
         // rounding, the chords of the line and its own ringing: what the square cannot tell from the line is on it.
-        let dead = if self == Self::Side { (NEARNESS * tolerance).sqrt() } else { DEADBAND };
+        // Where stuck springs are damped the law jumps there, and nothing is to spare.
+        let square = self == Self::Side && contact.interface.damping() == 0.0;
+        let dead = if square { (NEARNESS * tolerance).sqrt() } else { DEADBAND };
         let near = (NEARNESS * tolerance).max(2.0 * DEADBAND);
         (dead * unit + rounding, near * unit + 2.0 * rounding)
     }

@@ -4,11 +4,13 @@
 //! where it was.
 
 use crate::lottery::{Draw, deal, on_rows};
-use crate::parts::{event, p1, plan};
+use crate::parts::{FOOT_SLIDER, contact, damped, damper, event, foot_and_slider, named, p1, plan};
 use crate::soak::pressed;
-use stickslip_drive::scene::Scene;
+use stickslip_contact::Profile;
+use stickslip_drive::scene::{Normal, Scene, Side, Varying};
 use stickslip_drive::{
-    BytesError, Limits, Model, Plan, Run, RunError, State, Stepper, Trace, UntilSteady, run,
+    BytesError, Limits, Model, Plan, Run, RunError, Shape, State, Stepper, Timing, Trace, UntilSteady,
+    Waveform, run,
 };
 
 const PERIOD: f64 = 1e-3;
@@ -20,12 +22,30 @@ fn scenes() -> Vec<(Scene, f64, String)> {
         let rows = on_rows(&drawn.scene, 24);
         [(drawn.scene, drawn.period, drawn.title.clone()), (rows, drawn.period, drawn.title + ", rows")]
     });
-    // Events accumulate in some of these: there they are left in the middle of a detour, too.
     let begun_badly = (0..24).map(|seed| {
         let (scene, period) = pressed(seed);
         (scene, period, format!("pressed {seed}"))
     });
-    drawn.chain(begun_badly).chain([(p1(), PERIOD, "P1".to_owned())]).collect()
+    // Events accumulate in the last one: there it is left in the middle of a detour, too.
+    let others = [(p1(), PERIOD, "P1".to_owned()), (dragged_back(), 7.8e-3, "dragged back".to_owned())];
+    drawn.chain(begun_badly).chain(others).collect()
+}
+
+/// A damped flat punch dragged back under a falling load: from 7.88 ms on stick and slip take turns along a line.
+fn dragged_back() -> Scene {
+    let table = |name: &str, points: &[(f64, f64)]| {
+        let shape = Shape::Table { points: points.to_vec() };
+        named(name, Waveform::new(shape, Timing::every(0.01)).unwrap())
+    };
+    let mut punch = damped(&contact(FOOT_SLIDER, Profile::flat(1e-5).unwrap(), 0.2, 1.0), 5e-6);
+    punch.normal = Normal::Force(Varying::Follows(1));
+    let way = table("way", &[(0.0, 0.0), (1e-3, 1e-6), (1.2e-3, 9.99e-7), (0.01, -3e-6)]);
+    let mut scene = foot_and_slider(way, 1e-6, punch);
+    scene.waveforms.push(table("load", &[(0.0, 2.0), (1e-3, 2.0), (0.01, 0.02)]));
+    let mut spring = damper([Side::Ground, Side::Body(1)], 0.0);
+    spring.stiffness = 5e4;
+    scene.springs.push(named("spring", spring));
+    scene
 }
 
 fn steppers(period: f64) -> [Stepper; 4] {

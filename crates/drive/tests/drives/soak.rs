@@ -76,7 +76,10 @@ fn no_drawn_scene_stops_itself() {
                     Ok(()) | Err(RunError::Contact { .. }) => {}
                     Err(error) => stops.push((kind, seed, tolerance, error)),
                 }
-                detours += u32::from(state.counts().detours > 0);
+                if state.counts().detours > 0 {
+                    println!("{kind} {seed} at {tolerance:e}: {} detours", state.counts().detours);
+                    detours += 1;
+                }
             }
         }
     }

@@ -19,6 +19,9 @@ use crate::state::State;
 use stickslip_contact::Course;
 use stickslip_stepper::{Attempt, System};
 
+/// How far ahead ḋ is looked at for its rate, as a part of the waveform's period and of the contact's.
+const BEND_AHEAD: f64 = 1e-5;
+
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets the next law of every contact whose guard fell; after a corner, of all contacts it moves.
     ///
@@ -69,7 +72,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
-        let (mut kind, course) = guard.fired(contact, &state.modes[c], &motion);
+        let (mut kind, course) = self.after(state, (c, guard), &motion);
         // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
         // end counts as reached.
         let slack = if guard == Guard::Piece {
@@ -85,6 +88,41 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         self.note(state, Source::Contact(c), kind, record);
         self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
+    }
+
+    /// What it means that a guard fell, and the course after it.
+    ///
+    /// Where d turns while u̇ = 0 the guards of both edges vanish together: then accelerations decide, and not the order in
+    /// which rounding has let them fall.
+    fn after(&mut self, state: &State, (c, guard): (usize, Guard), motion: &Motion) -> (EventKind, Course) {
+        let (contact, old) = (&self.setting.model.contacts[c], &state.modes[c]);
+        let edges = matches!(guard, Guard::Drag | Guard::Lower | Guard::Upper);
+        let fired = guard.fired(contact, old, motion);
+        if !edges || contact.is_constant() || !matches!(old, Mode::Slip(_) | Mode::Grow) {
+            return fired;
+        }
+        if !self.stands(contact, motion) {
+            return fired;
+        }
+        let (dd, du) = self.push(state, c, motion);
+        let course = state.memories[c].course(&contact.interface, motion.d, dd, du);
+        let kind = match (old, course) {
+            (_, Course::Open) => EventKind::LiftOff,
+            (Mode::Grow, Course::Grow) => return fired,
+            (Mode::Grow, _) => EventKind::SlipBegins,
+            (_, Course::Grow) => EventKind::FullStick,
+            _ if course.sense() == old.sense() => return fired,
+            _ if old.is_gross() => EventKind::GrossSlipEnds,
+            _ => EventKind::Reversal,
+        };
+        (kind, course)
+    }
+
+    /// Whether neither edge of a contact moves, but for rounding: |u̇| and κ|ḋ| are both within the band of [`Guard::Drag`]
+    /// for the distance it has travelled.
+    fn stands(&self, contact: &Contact, motion: &Motion) -> bool {
+        let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
+        motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near
     }
 
     /// The law of a block after one of its guards fell.
@@ -129,16 +167,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Decides from velocities what a contact does, and from accelerations where it is at rest.
-    ///
-    /// At rest is a contact of which |u̇| and κ|ḋ| are both within the band of [`Guard::Drag`] for the
-    /// distance it has travelled.
     pub(super) fn decide(&mut self, state: &mut State, c: usize) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
         // Within the band velocities have no sign to go by: the accelerations just after the moment decide.
-        let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
-        if motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near {
+        if self.stands(contact, &motion) {
             (motion.dd, motion.du) = self.push(state, c, &motion);
         }
         let course = state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du);
@@ -163,9 +197,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let at = Components { t: state.t, y: |i: usize| state.y[i] };
             eq.acceleration(measure, &at, |i| slopes[self.setting.layout.velocity(i)])
         };
-        let (bend, pull) = (contact.coupling().map_or(0.0, of), of(&contact.u));
+        let (bend, pull) = (contact.coupling().map(of), of(&contact.u));
+        let bend = bend.unwrap_or_else(|| self.bend(state, contact));
         // Rounding of the forces, as an acceleration in the contact's own scale.
         let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;
+        let pull = if pull.abs() > noise { pull } else { 0.0 };
         if pull.abs().max(contact.interface.stick_slope() * bend.abs()) > noise {
             (bend, pull)
         } else if motion.du != 0.0 {
@@ -174,6 +210,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             // Nothing decides: the mode it had stays.
             (motion.dd, state.modes[c].sense())
         }
+    }
+
+    /// d̈ of a contact that a waveform presses, m/s²: the difference of ḋ over a short time on the waveform's piece.
+    fn bend(&self, state: &State, contact: &Contact) -> f64 {
+        let Some(w) = contact.press.waveform() else { return 0.0 };
+        let eq = self.setting.plain(state);
+        let extent = self.setting.model.waveforms[w].extent();
+        let ahead = BEND_AHEAD * extent.min(contact.natural.frequency.recip());
+        let rate = |t: f64| eq.motion(contact, t, |i| state.y[i]).dd;
+        (rate(state.t + ahead) - rate(state.t)) / ahead
     }
 
     /// Sets the law of a contact, and the force and energy it starts to grow with.

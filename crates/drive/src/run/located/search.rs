@@ -33,6 +33,8 @@ struct Search<'r, 'e, A> {
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 // Seven looks or one see the same but for a few events of contacts that grow under a sine of load.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
+/// How often a step is halved in search of a moment at which a guard that rested at its start is armed.
+const HALVINGS: u32 = 40;
 
 impl Watch {
     /// The earliest fall in the step just attempted, on its dense output.
@@ -158,9 +160,9 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         self.solver.complete(self.eq, Completion::Dense);
         let (t0, g0) = (self.solver.span().time, self.at_begin(watched));
         let (_, near) = self.bands(watched);
-        // A flight may be one step from a lift-off to the next touch: its start is as good as a touch.
-        if g0 <= 0.0 || self.solver.coasts() && g0 < near {
-            return self.leave(watched, (t0, low));
+        // What starts as good as down rests until it has left its deadband.
+        if g0 < near {
+            return self.leave(watched, Point { x: t0, y: g0 }, Point { x: low, y: below });
         }
         // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.
         let tolerance = (0.1 * NEARNESS * self.tolerance * (low - t0)).max(4.0 * f64::EPSILON * low.abs());
@@ -185,18 +187,27 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         Cubic { y0: g0, dy0: rates[0], y1: below, dy1: rates[1], h }.root()
     }
 
-    /// A guard that starts within its deadband: it may first rise and then fall.
-    fn leave(&self, watched: Watched<'_>, (t0, low): (f64, f64)) -> f64 {
-        let g = |t: f64| self.inside(watched, t);
-        let mut t = low;
-        for _ in 0..40 {
-            t = t0 + 0.5 * (t - t0);
-            if g(t) > 0.0 {
-                let bracket = Bracket { from: Point { x: t, y: g(t) }, to: Point { x: low, y: g(low) } };
-                return root(g, bracket, 4.0 * f64::EPSILON * low.abs());
+    /// The moment of a guard that rests at the start of the step, having just fallen or as good as down: it rises out of its
+    /// deadband, is armed there and falls, or it leaves on the other side.
+    ///
+    /// Either way there lies an excursion larger than rounding between two events of one guard.
+    fn leave(&self, watched: Watched<'_>, from: Point, low: Point) -> f64 {
+        let (g, dead) = (|t: f64| self.inside(watched, t), self.bands(watched).0);
+        let tolerance = 4.0 * f64::EPSILON * low.x.abs();
+        let mut t = low.x;
+        for _ in 0..HALVINGS {
+            t = from.x + 0.5 * (t - from.x);
+            let armed = Point { x: t, y: g(t) };
+            if armed.y > dead {
+                return root(g, Bracket { from: armed, to: low }, tolerance);
             }
         }
-        t
+        let level = from.y.min(0.0) - dead;
+        if low.y >= level {
+            return low.x;
+        }
+        let above = |point: Point| Point { y: point.y - level, ..point };
+        root(|t| g(t) - level, Bracket { from: above(from), to: above(low) }, tolerance)
     }
 
     /// Value of a guard at the start of the step.

@@ -78,11 +78,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) -> Result<Progress, RunError> {
         let times = self.times(state, &detour);
         let h = times.to - times.from;
-        if times.middle <= times.from || times.to <= times.middle {
-            return Err(RunError::StepTooSmall { t: state.t, step: h });
-        }
         if self.horizon.is_beyond(times.to) {
             return Ok(Progress::Short);
+        }
+        if times.middle <= times.from || times.to <= times.middle {
+            return self.step_instant(state, (times.to, &detour), record);
         }
         let mut halves = self.halves.take().unwrap_or_else(|| Box::new(self.room(state)));
         let error = self.try_halves(&mut halves, state, times)?;
@@ -91,7 +91,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             detour.step = h * (SAFETY * error.max(1e-6).powf(-1.0 / 3.0)).clamp(1.0, 4.0);
             self.take_halves(&mut halves, state, times, record)
         } else {
-            self.refuse_halves(state, (&mut detour, h), error)
+            self.refuse_halves(state, (&mut detour, h), (error, &halves.two))
         };
         self.halves = Some(halves);
         self.detour = Some(detour);
@@ -100,6 +100,33 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.arrive(state, &detour);
         }
         self.bounds.step(state, record).map(|()| Progress::Made)
+    }
+
+    /// To a corner or an end that is a last place of t or two away: one instant, in which nothing moves.
+    fn step_instant(
+        &mut self,
+        state: &mut State,
+        (to, detour): (f64, &Detour),
+        record: &mut dyn Record,
+    ) -> Result<Progress, RunError> {
+        if to <= state.t {
+            return Err(RunError::StepTooSmall { t: state.t, step: to - state.t });
+        }
+        state.t = to;
+        self.turn_in_detour(state, record);
+        if to >= detour.end {
+            self.arrive(state, detour);
+        }
+        self.bounds.step(state, record).map(|()| Progress::Made)
+    }
+
+    /// What the waveforms do where a step ends at a corner.
+    fn turn_in_detour(&mut self, state: &mut State, record: &mut dyn Record) {
+        if state.t == self.horizon.corner && !state.waits_for_input(self.setting.model) {
+            self.turn_corners(state, record);
+            self.turned(state);
+            self.take_whole(state);
+        }
     }
 
     fn room(&self, state: &State) -> Halves {
@@ -172,17 +199,21 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(most)
     }
 
-    /// Shortens the wish; fails where it is as short as can be.
+    /// Shortens the wish; fails where it is as short as can be, and where not even the shortest leads to a number.
     fn refuse_halves(
         &self,
         state: &mut State,
         (detour, h): (&mut Detour, f64),
-        error: f64,
+        (error, end): (f64, &[f64]),
     ) -> Result<(), RunError> {
         state.counts.rejected += 1;
         let factor = SAFETY * error.powf(-1.0 / 3.0);
         detour.step = h * if factor > 0.1 { factor } else { 0.1 };
         if detour.step < SHORTEST * detour.length {
+            if !error.is_finite() {
+                let i = end.iter().position(|y| !y.is_finite()).unwrap_or(self.setting.layout.input());
+                return Err(self.setting.model.not_finite(state.t, i));
+            }
             return Err(RunError::StepTooSmall { t: state.t, step: detour.step });
         }
         Ok(())
@@ -209,11 +240,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         state.counts.steps += 1;
         state.tally.step(Method::Whole);
-        if state.t == self.horizon.corner && !state.waits_for_input(self.setting.model) {
-            self.turn_corners(state, record);
-            self.turned(state);
-            self.take_whole(state);
-        }
+        self.turn_in_detour(state, record);
         Ok(())
     }
 
