@@ -5,8 +5,9 @@ use super::{Measure, Stroke};
 use stickslip_contact::Interface;
 
 /// Indentation taken where nothing that is known at the start presses a contact, m.
-// Where a search for the deepest begins here, another value moves its steps of a tenth, and natural scales by as much.
 const SHALLOW: f64 = 1e-9;
+/// Halvings of a bracket of one power of two: all digits of a double but three.
+const HALVINGS: u32 = 50;
 /// Room left above what is expected: bodies share loads in ways that the estimate does not see.
 // It sets natural scales: ten times as much makes tolerances mean less, and a rocking slider ends 5.6 u_c elsewhere at 1e-6
 // instead of 0.06. With a tenth rows of springs are outgrown before the run, and the slider takes nearly six times the
@@ -30,7 +31,7 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     let gap = if falls { (-first).max(0.0) } else { 0.0 };
     let force = d.free.iter().map(|(i, a)| pressing(*i, around) / a.abs()).fold(0.0, f64::max);
     let reached = |d: f64| count * law.normal_energy(d) >= kinetic + force * (gap + d);
-    let dynamic = if kinetic + force > 0.0 { bracket(first.max(SHALLOW), reached) } else { 0.0 };
+    let dynamic = if kinetic + force > 0.0 { bracket(reached) } else { 0.0 };
     let span = |w: usize| around.signals.range(w);
     let driven: f64 = d
         .driven
@@ -42,7 +43,8 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     if d.free.is_empty() && driven < 0.0 {
         return driven;
     }
-    MARGIN * dynamic.max(driven).max(first).max(SHALLOW)
+    let deepest = MARGIN * dynamic.max(driven).max(first);
+    if deepest > 0.0 { deepest } else { SHALLOW }
 }
 
 /// Largest force on a free coordinate, N or N m.
@@ -68,13 +70,26 @@ pub(super) fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     around.free[i].force.abs() + loads + links.sum::<f64>()
 }
 
-/// The smallest indentation, to a factor of 1.1, at which `reached` holds.
+/// The indentation at which `reached` begins to hold, m; at most 1.2e18 m, so that a scene in which nothing holds ends, too.
 ///
-/// At most 1 m or a step beyond it, so that a scene in which nothing holds ends, too.
-fn bracket(from: f64, reached: impl Fn(f64) -> bool) -> f64 {
-    let mut d = from;
-    while !reached(d) && d < 1.0 {
-        d *= 1.1;
+/// Between neighbouring powers of two and then by halves: a scene in units that differ by a power of two has the same digits.
+fn bracket(reached: impl Fn(f64) -> bool) -> f64 {
+    // From far below any depth: beyond its reach a profile says nothing.
+    let mut high = 2.0_f64.powi(-60);
+    while !reached(high) && high < 1e18 {
+        high *= 2.0;
     }
-    d
+    while reached(0.5 * high) && high > f64::MIN_POSITIVE {
+        high *= 0.5;
+    }
+    let mut low = 0.5 * high;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if reached(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
 }

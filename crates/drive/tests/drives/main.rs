@@ -40,4 +40,5 @@ mod statics;
 mod steady;
 mod swings;
 mod unfed_inputs;
+mod units;
 mod vibrated;
