@@ -159,7 +159,8 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         let (t0, g0) = (self.solver.span().time, self.at_begin(watched));
         let (_, near) = self.bands(watched);
         // A flight may be one step from a lift-off to the next touch: its start is as good as a touch.
-        if g0 <= 0.0 || self.solver.coasts() && g0 < near {
+        // So is a lull: a spring that has just touched is as near to parting.
+        if g0 <= 0.0 || (self.solver.coasts() || watched.ends_a_lull()) && g0 < near {
             return self.leave(watched, (t0, low));
         }
         // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.

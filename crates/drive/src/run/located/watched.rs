@@ -35,6 +35,11 @@ impl<'e> Watched<'e> {
         }
     }
 
+    /// Whether it ends the lull of a row.
+    pub(super) fn ends_a_lull(self) -> bool {
+        matches!(self, Self::Contact(_, _, guard) if guard.change().is_some())
+    }
+
     /// What falls with it.
     pub(super) fn fallen(self) -> Fallen {
         match self {
