@@ -1,6 +1,7 @@
 //! What two bodies share where they touch: moduli, profile, coefficient of friction. Constant.
 
-use crate::{Pair, Profile};
+use crate::{Pair, Profile, Springs};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// The constants of one contact: with a memory of where it has been, all that its forces follow from. Functions that take
@@ -14,6 +15,8 @@ pub struct Interface {
     slope: f64,
     profile: Profile,
     damping: f64,
+    /// What presses in place of the profile.
+    springs: Option<Arc<Springs>>,
 }
 
 /// Coulomb's coefficient of friction is out of its range.
@@ -33,7 +36,7 @@ impl Interface {
             return Err(FrictionError(friction));
         }
         let slope = friction * pair.normal_modulus() / pair.tangential_modulus();
-        Ok(Self { pair, friction, slope, profile, damping: 0.0 })
+        Ok(Self { pair, friction, slope, profile, damping: 0.0, springs: None })
     }
 
     /// The same with stuck springs that carry βG\*ṡ beside G\*s, ṡ the rate of their stretch; β in s, at least 0.
@@ -45,6 +48,15 @@ impl Interface {
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
         Self { damping, ..self }
+    }
+
+    /// The same pressed on a row of springs: normal force, stiffness and energy, and what is asked of them backwards, are the
+    /// sums over its springs, which differ from those of the profile by the size of the cells.
+    // The profile's own M(d) would do for a smooth one, and did: then a row and the curve could not differ in F_N, and neither
+    // was a test of the other. It also gave a bent contact force to a law whose springs are straight.
+    #[must_use]
+    pub fn on_springs(self, springs: Arc<Springs>) -> Self {
+        Self { springs: Some(springs), ..self }
     }
 
     /// Time constant β of the stuck springs, s.
@@ -87,24 +99,46 @@ impl Interface {
         &self.profile
     }
 
+    /// M(d), m²: the normal force over E\*, of the profile or of the row that it is pressed on.
+    #[inline(always)]
+    pub fn reduced_force(&self, d: f64) -> f64 {
+        match &self.springs {
+            None => self.profile.reduced_force(d),
+            Some(springs) => springs.reduced_force(d),
+        }
+    }
+
+    /// m(d), m: the normal stiffness over E\*, likewise.
+    fn reduced_stiffness(&self, d: f64) -> f64 {
+        match &self.springs {
+            None => self.profile.reduced_stiffness(d),
+            Some(springs) => springs.reduced_stiffness(d),
+        }
+    }
+
     /// Normal force F_N = E\* M(d), N (4.26); zero while the contact is open (d ≤ 0).
     pub fn normal_force(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus() * self.profile.reduced_force(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus() * self.reduced_force(d) } else { 0.0 }
     }
 
     /// Normal stiffness ∂F_N/∂d = E\* m(d), N/m.
     pub fn normal_stiffness(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus() * self.profile.reduced_stiffness(d) } else { 0.0 }
+        if d > 0.0 { self.normal_modulus() * self.reduced_stiffness(d) } else { 0.0 }
     }
 
     /// Elastic energy of the normal deformation E\* N(d), J.
     pub fn normal_energy(&self, d: f64) -> f64 {
-        if d > 0.0 { self.normal_modulus() * self.profile.reduced_energy(d) } else { 0.0 }
+        let reduced_energy = match &self.springs {
+            _ if d.is_nan() || d <= 0.0 => return 0.0,
+            None => self.profile.reduced_energy(d),
+            Some(springs) => springs.reduced_energy(d),
+        };
+        self.normal_modulus() * reduced_energy
     }
 
     /// Tangential stiffness of full stick G\* m(d), N/m; 2G\*a for a convex profile.
     pub fn stick_stiffness(&self, d: f64) -> f64 {
-        if d > 0.0 { self.tangential_modulus() * self.profile.reduced_stiffness(d) } else { 0.0 }
+        if d > 0.0 { self.tangential_modulus() * self.reduced_stiffness(d) } else { 0.0 }
     }
 
     /// u_c = κd, m: displacement at which gross slip starts, the same for every profile (4.28).
@@ -112,9 +146,14 @@ impl Interface {
         self.slope * d.max(0.0)
     }
 
-    /// Indentation d that carries the normal force, m: the inverse of [`Self::normal_force`]; 0 at 0 N.
+    /// Indentation d that carries the normal force, m: the inverse of [`Self::normal_force`]; at 0 N it is 0, on a row of
+    /// springs the height of the lowest of them.
     pub fn indentation(&self, normal_force: f64) -> f64 {
-        self.profile.height_of_reduced_force(normal_force / self.normal_modulus())
+        let reduced_force = normal_force / self.normal_modulus();
+        match &self.springs {
+            None => self.profile.height_of_reduced_force(reduced_force),
+            Some(springs) => springs.height_of_reduced_force(reduced_force),
+        }
     }
 }
 

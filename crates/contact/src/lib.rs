@@ -37,5 +37,5 @@ pub use motion::{
     Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState, Timed,
 };
 pub use profile::{Profile, ProfileError};
-pub use row::{Row, Springs, SpringsError};
+pub use row::{Change, Lull, Row, Slack, Springs, SpringsError};
 pub use words::Words;

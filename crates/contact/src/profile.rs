@@ -9,7 +9,7 @@ mod power;
 mod sphere;
 
 pub use error::ProfileError;
-pub(crate) use foundation::Foundation;
+pub(crate) use foundation::{Foundation, Sums};
 pub(crate) use kind::Peak;
 
 use crate::quadrature::GAUSS;

@@ -9,9 +9,11 @@
 
 mod chord;
 mod lanes;
+mod lull;
 mod springs;
 mod words;
 
+pub use lull::{Change, Lull, Slack};
 pub use springs::{Springs, SpringsError};
 
 use crate::{Apex, ContactError, ContactState, Interface, Move, Outcome, Response, Segment, SpringState};

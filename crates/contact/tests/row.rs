@@ -3,9 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use serde_json::Value;
+use std::sync::Arc;
 use stickslip_contact::{
-    Apex, ContactError, ContactState, Interface, Move, Pair, Profile, Row, Segment, SpringState, Springs,
-    SpringsError,
+    Apex, Change, ContactError, ContactState, Interface, Motion, Move, Pair, Profile, Row, Segment, Slack,
+    SpringState, Springs, SpringsError,
 };
 
 fn to(d: f64, u: f64) -> Segment {
@@ -489,4 +490,71 @@ fn equal_rows_give_equal_bits() {
         (row.force(&springs, &history.law, at).to_bits(), row)
     };
     assert_eq!(run(), run());
+}
+
+/// F_N of a row was the closed form of its profile: with 16 springs 2e-3 away from the sum of its own. Here that sum is
+/// written out, spring by spring, from the midpoints of the cells.
+#[test]
+fn the_normal_force_of_a_row_is_the_sum_over_its_springs() {
+    let profile = Profile::paraboloid(1.0).unwrap();
+    let span = 2.2;
+    for count in [1, 2, 16, 17, 1000] {
+        let springs = Arc::new(Springs::new(&profile, count, span).unwrap());
+        let law = law(profile.clone()).on_springs(springs);
+        let cell = span / f64::from(count as u32);
+        let sum = |power: i32, d: f64| -> f64 {
+            let x = |i: usize| -0.5 * span + (i as f64 + 0.5) * cell;
+            (0..count).map(|i| cell * (d - x(i).powi(2)).max(0.0).powi(power)).sum()
+        };
+        for d in [-0.1, 0.0, 1e-4, 0.03, 0.4, 0.9, 1.2] {
+            let (force, energy) = (sum(1, d), 0.5 * sum(2, d));
+            assert!((law.normal_force(d) - force).abs() <= 1e-14, "{count} springs, F_N({d})");
+            assert!((law.normal_energy(d) - energy).abs() <= 1e-14, "{count} springs, energy at {d}");
+            // E* = 1: the inverse is exact between two heights.
+            if force > 0.0 {
+                assert!((law.indentation(force) - d).abs() <= 1e-14, "{count} springs, d of {force}");
+                let stiffness = law.normal_stiffness(d);
+                let slope = (sum(1, d + 1e-9) - sum(1, d - 1e-9)) / 2e-9;
+                assert!((stiffness - slope).abs() < 1e-5, "{count} springs, {stiffness} and {slope}");
+            }
+        }
+    }
+}
+
+/// Until a spring changes the row's own force and the two straight lines of its lull are the same, wherever it goes; the row
+/// asks every spring.
+#[test]
+fn a_lull_is_the_row_until_its_end() {
+    let profile = Profile::paraboloid(1.0).unwrap();
+    let (springs, mut row) = row(&profile, 101);
+    let springs = Arc::new(springs);
+    let law = law(profile).on_springs(Arc::clone(&springs));
+    let slack = Slack { d: 1e-14, u: 1e-14 };
+    let (mut seed, mut looked) = (7, 0);
+    for _ in 0..2000 {
+        let mut next = || 2.0 * random(&mut seed) - 1.0;
+        let (dd, du) = (next(), next());
+        let from = row.apex();
+        let at = Motion { d: from.d, u: from.u, dd, du };
+        let lull = row.lull(&springs, &law, (&at, Change::Any), slack, false);
+        // Along a straight way until just before its first end.
+        let inside = |t: f64| {
+            let to = Apex { d: from.d + t * dd, u: from.u + t * du };
+            let sticks = lull.left(1.0, to).min(lull.left(-1.0, to)) > 0.0;
+            (sticks && to.d < lull.next() && to.d > lull.top()).then_some(to)
+        };
+        let mut t = 0.1;
+        while inside(t).is_none() && t > 1e-9 {
+            t *= 0.5;
+        }
+        if let Some(to) = inside(t) {
+            let (one, all) = (lull.force(&law, to), row.force(&springs, &law, to));
+            assert!((one - all).abs() < 1e-14, "{one} and {all} at {to:?}, {lull:?}");
+            assert!((lull.reduced_force(to.d) - springs.reduced_force(to.d)).abs() < 1e-14);
+            looked += 1;
+        }
+        let (d, u) = (0.6 + 0.35 * next(), from.u + 0.2 * next());
+        row.commit(&springs, &law, Segment::Straight(Apex { d, u })).unwrap();
+    }
+    assert!(looked > 1500, "{looked}");
 }

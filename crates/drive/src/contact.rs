@@ -16,13 +16,15 @@ pub(crate) use mode::Mode;
 use crate::Sample;
 use crate::model::Measure;
 pub(crate) use stickslip_contact::Motion;
-use stickslip_contact::{Engine, Interface};
+use stickslip_contact::{Engine, Interface, Lull};
 
 /// A contact's constants.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Contact {
     /// As the scene names it.
     pub(crate) name: String,
+    /// Place among the contacts.
+    pub(crate) place: usize,
     /// u = x(first) - x(second) at the contact point, counted from the start.
     pub(crate) u: Measure,
     pub(crate) interface: Interface,
@@ -87,9 +89,15 @@ impl Contact {
         self.natural.displacement * self.natural.frequency
     }
 
-    /// Indentation d (m) and its rate (m/s) from a sample of the waveform that presses.
+    /// Indentation d (m) and its rate (m/s) from a sample of the waveform that presses; of a row in a lull as if no other
+    /// spring touched.
     #[inline(never)]
-    pub(crate) fn pressed(&self, sample: Sample) -> (f64, f64) {
+    pub(crate) fn pressed(&self, sample: Sample, lull: Option<&Lull>) -> (f64, f64) {
+        if let (Press::Force(_), Some(lull)) = (&self.press, lull) {
+            let modulus = self.interface.normal_modulus();
+            let (d, slope) = lull.depth(sample.value.max(0.0) / modulus);
+            return (d, sample.rate / modulus * slope);
+        }
         match self.press {
             Press::Constant { d, .. } => (d, 0.0),
             Press::Indentation(_) | Press::Coupled(_) => (sample.value, sample.rate),

@@ -153,7 +153,13 @@ impl<'a> Equations<'a> {
     fn pressed(&self, contact: &Contact, t: f64) -> (f64, f64) {
         match &contact.press {
             Press::Constant { d, .. } => (*d, 0.0),
-            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(self.sample(*w, t)),
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
+                let lull = match &self.modes[contact.place] {
+                    Mode::Lull { lull, .. } => Some(lull),
+                    _ => None,
+                };
+                contact.pressed(self.sample(*w, t), lull)
+            }
             // The bodies say.
             Press::Coupled(_) => (0.0, 0.0),
         }

@@ -66,7 +66,7 @@ impl Model {
                 if coupled { (start.min(0.0), contact.natural.depth.max(start)) } else { (start, start) };
             return Some(Indentations { least, start, most });
         };
-        let at = |value| contact.pressed(Sample { value, rate: 0.0, acceleration: 0.0 }).0;
+        let at = |value| contact.pressed(Sample { value, rate: 0.0, acceleration: 0.0 }, None).0;
         let (low, high) = self.waveforms[waveform].range();
         Some(Indentations { least: at(low), start, most: at(high) })
     }

@@ -171,6 +171,7 @@ pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() 
         (Mode::Slip(_), Press::Constant { .. }) => (Treatment::General, Why::ContactDamping),
         (Mode::Slip(_), _) => (Treatment::General, Why::VaryingIndentation),
         (Mode::Grow, _) => (Treatment::General, Why::Growth),
+        (Mode::Lull { .. }, _) => (Treatment::General, Why::BetweenSprings),
         (Mode::Whole { .. }, _) if contact.inert => (Treatment::General, Why::NoFriction),
         (Mode::Whole { .. }, _) => (Treatment::General, Why::WholeLaw),
     }

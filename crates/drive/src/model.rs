@@ -193,7 +193,7 @@ impl Model {
         let first = |w: usize| self.signals().first(w);
         match &contact.press {
             Press::Constant { d, .. } => *d,
-            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(first(*w)).0,
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => contact.pressed(first(*w), None).0,
             Press::Coupled(measure) => measure.value(|i| self.free[i].start.0, |w| first(w).value),
         }
     }

@@ -23,13 +23,60 @@ pub(crate) struct Foundation {
 
 /// m, M and N at a height.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Sums {
+pub(crate) struct Sums {
     /// m, m.
-    reduced_stiffness: f64,
+    pub(crate) reduced_stiffness: f64,
     /// M, m².
-    reduced_force: f64,
+    pub(crate) reduced_force: f64,
     /// N, m³.
-    reduced_energy: f64,
+    pub(crate) reduced_energy: f64,
+}
+
+impl Sums {
+    /// At every height, in ascending order, from the lowest on; of heights that no indentation reaches there are none.
+    pub(crate) fn of(heights: &[f64], lengths: &[f64]) -> Vec<Self> {
+        let (mut stiffness, mut force, mut energy) =
+            (Compensated::default(), Compensated::default(), Compensated::default());
+        let (mut at, mut last) = (Self::default(), 0.0);
+        let step = |(&height, &own): (&f64, &f64)| {
+            let rise = height - last;
+            let before = at;
+            at.reduced_energy =
+                energy.add((before.reduced_force + 0.5 * before.reduced_stiffness * rise) * rise);
+            at.reduced_force = force.add(before.reduced_stiffness * rise);
+            at.reduced_stiffness = stiffness.add(own);
+            last = height;
+            at
+        };
+        heights.iter().take_while(|height| height.is_finite()).zip(lengths).map(step).collect()
+    }
+
+    /// The same `rise` (m) higher, below the next height: M is straight and N a parabola.
+    #[inline]
+    pub(crate) fn at(self, rise: f64) -> Self {
+        Self {
+            reduced_energy: self.reduced_energy
+                + (self.reduced_force + 0.5 * self.reduced_stiffness * rise) * rise,
+            reduced_force: self.reduced_force + self.reduced_stiffness * rise,
+            ..self
+        }
+    }
+
+    /// At a height h (m) above springs at `heights`, in ascending order, with the sums of each.
+    #[inline]
+    pub(crate) fn below(sums: &[Self], heights: &[f64], h: f64) -> Self {
+        let count = heights.partition_point(|&height| height < h).min(sums.len());
+        if count == 0 { Self::default() } else { sums[count - 1].at(h - heights[count - 1]) }
+    }
+
+    /// Height at which M > 0 (m²) is reached.
+    pub(crate) fn height_of_reduced_force(sums: &[Self], heights: &[f64], reduced_force: f64) -> f64 {
+        // Between two heights M is straight: the inverse is a division, and no iteration can miss it.
+        // M is 0 at the lowest height, so at least one spring lies below.
+        let index = sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
+        let sums = sums[index];
+        heights[index] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
+    }
 }
 
 /// A sum with the rounding error it has made so far (Neumaier, ZAMM 54, 1974).
@@ -73,7 +120,7 @@ impl Foundation {
         }
         let heights: Vec<f64> = order.iter().map(|&i| heights[i].abs()).collect();
         let lengths: Vec<f64> = order.iter().map(|&i| lengths[i]).collect();
-        let sums = sums(&heights, &lengths);
+        let sums = Sums::of(&heights, &lengths);
         Ok(Self { heights, lengths, ranks, sums })
     }
 
@@ -92,16 +139,15 @@ impl Foundation {
         &self.ranks
     }
 
-    /// The sums at the last height below h and how far h lies above it.
+    /// The sums at h.
     #[inline]
-    fn below(&self, h: f64) -> (Sums, f64) {
-        let count = self.heights.partition_point(|&height| height < h);
-        if count == 0 { (Sums::default(), 0.0) } else { (self.sums[count - 1], h - self.heights[count - 1]) }
+    fn below(&self, h: f64) -> Sums {
+        Sums::below(&self.sums, &self.heights, h)
     }
 
     /// ∫ w m dh between two heights, w straight from a value with a slope: one term per height in between.
     pub(super) fn moment(&self, [from, to]: [f64; 2], [value, slope]: [f64; 2]) -> f64 {
-        let (mut at, mut length, mut sum) = (from, self.below(from).0.reduced_stiffness, 0.0);
+        let (mut at, mut length, mut sum) = (from, self.below(from).reduced_stiffness, 0.0);
         let first = self.heights.partition_point(|&height| height < from);
         let inside = self.heights[first..].iter().zip(&self.sums[first..]).take_while(|(h, _)| **h < to);
         for (edge, next) in inside.map(|(h, sums)| (*h, sums.reduced_stiffness)).chain([(to, 0.0)]) {
@@ -121,26 +167,20 @@ impl Foundation {
 
 impl Kind for Foundation {
     fn reduced_stiffness(&self, h: f64) -> f64 {
-        self.below(h).0.reduced_stiffness
+        self.below(h).reduced_stiffness
     }
 
     fn reduced_force(&self, h: f64) -> f64 {
-        let (sums, rise) = self.below(h);
-        sums.reduced_force + sums.reduced_stiffness * rise
+        self.below(h).reduced_force
     }
 
     fn reduced_energy(&self, h: f64) -> f64 {
-        let (sums, rise) = self.below(h);
-        sums.reduced_energy + (sums.reduced_force + 0.5 * sums.reduced_stiffness * rise) * rise
+        self.below(h).reduced_energy
     }
 
     /// Height at which M > 0 is reached.
     fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
-        // Between two heights M is straight: the inverse is a division, and no iteration can miss it.
-        // M is 0 at the lowest height, so at least one spring lies below.
-        let index = self.sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
-        let sums = self.sums[index];
-        self.heights[index] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
+        Sums::height_of_reduced_force(&self.sums, &self.heights, reduced_force)
     }
 
     fn lowest(&self) -> f64 {
@@ -194,21 +234,4 @@ fn check(heights: &[f64], lengths: &[f64]) -> Result<(), ProfileError> {
         Some(index) => Err(ProfileError::Length { index, value: lengths[index] }),
         None => Ok(()),
     }
-}
-
-/// m, M and N at every height, from the lowest on.
-fn sums(heights: &[f64], lengths: &[f64]) -> Vec<Sums> {
-    let (mut stiffness, mut force, mut energy) =
-        (Compensated::default(), Compensated::default(), Compensated::default());
-    let (mut at, mut last) = (Sums::default(), 0.0);
-    let step = |(&height, &own): (&f64, &f64)| {
-        let rise = height - last;
-        let before = at;
-        at.reduced_energy = energy.add((before.reduced_force + 0.5 * before.reduced_stiffness * rise) * rise);
-        at.reduced_force = force.add(before.reduced_stiffness * rise);
-        at.reduced_stiffness = stiffness.add(own);
-        last = height;
-        at
-    };
-    heights.iter().zip(lengths).map(step).collect()
 }

@@ -49,6 +49,22 @@ pub(super) fn shear(cells: Cells<'_>, anchors: &[f64], to: Apex, slope: f64) -> 
     total(&lanes)
 }
 
+/// Σ length·(u-p) of springs that stick, m².
+pub(super) fn stuck(cells: Cells<'_>, anchors: &[f64], u: f64) -> f64 {
+    let (lengths, rest_l) = cells.lengths.as_chunks::<LANES>();
+    let (anchors, rest_a) = anchors.as_chunks::<LANES>();
+    let mut lanes = [0.0; LANES];
+    for (l, a) in lengths.iter().zip(anchors) {
+        for i in 0..LANES {
+            lanes[i] += l[i] * (u - a[i]);
+        }
+    }
+    for (i, (&l, &a)) in rest_l.iter().zip(rest_a).enumerate() {
+        lanes[i] += l * (u - a);
+    }
+    total(&lanes)
+}
+
 /// What the springs in contact before and after a move add up to.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Tally {

@@ -1,6 +1,7 @@
 //! What a row of springs is made of. Constant.
 
 use crate::Profile;
+use crate::profile::Sums;
 use thiserror::Error;
 
 /// The springs of a row: heights and lengths of the foundation's cells.
@@ -16,6 +17,8 @@ pub struct Springs {
     /// Half the length of the distinct springs before each, m; one more entry for all of them: the radius of the zone that
     /// reaches up to each.
     radii: Vec<f64>,
+    /// m, M and N of the row at the height of each.
+    sums: Vec<Sums>,
     /// Position x of every spring, m, ascending.
     positions: Vec<f64>,
     /// Index among the distinct springs of every spring.
@@ -115,7 +118,8 @@ impl Springs {
             sum += 0.5 * length;
             sum
         }));
-        Self { heights, lengths, radii, positions, ranks, reach }
+        let sums = Sums::of(&heights, &lengths);
+        Self { heights, lengths, radii, sums, positions, ranks, reach }
     }
 
     /// Number of springs, mirror images counted.
@@ -136,6 +140,43 @@ impl Springs {
     /// Largest indentation that the row can follow, m; infinite for a flat punch and for a list.
     pub fn reach(&self) -> f64 {
         self.reach
+    }
+
+    /// m(d) = Σ lᵢ over the springs with heights below d, m: the normal stiffness of the row over E\*. 0 for d ≤ 0, as the
+    /// two that follow.
+    #[inline]
+    pub fn reduced_stiffness(&self, d: f64) -> f64 {
+        self.sums_at(d).reduced_stiffness
+    }
+
+    /// M(d) = Σ lᵢ(d-hᵢ), m²: its normal force over E\*. Straight between two heights.
+    #[inline]
+    pub fn reduced_force(&self, d: f64) -> f64 {
+        self.sums_at(d).reduced_force
+    }
+
+    /// N(d) = Σ lᵢ(d-hᵢ)²/2, m³: its normal elastic energy over E\*.
+    #[inline]
+    pub fn reduced_energy(&self, d: f64) -> f64 {
+        self.sums_at(d).reduced_energy
+    }
+
+    /// Height at which M > 0 (m²) is reached, m: the inverse of [`Self::reduced_force`], exact but for rounding. For M ≤ 0
+    /// the height of the lowest spring, where M begins to grow.
+    pub fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
+        Sums::height_of_reduced_force(&self.sums, &self.heights, reduced_force.max(0.0))
+    }
+
+    /// m, M and N at an indentation.
+    #[inline]
+    fn sums_at(&self, d: f64) -> Sums {
+        Sums::below(&self.sums, &self.heights, d)
+    }
+
+    /// m, M and N at an indentation as if the first `count` distinct springs touched and no other, whatever d.
+    pub(super) fn sums_of(&self, count: usize, d: f64) -> Sums {
+        let count = count.min(self.sums.len());
+        if count == 0 { Sums::default() } else { self.sums[count - 1].at(d - self.heights[count - 1]) }
     }
 
     /// Index among the distinct springs of every spring, in the order of [`Self::positions`].
@@ -163,6 +204,11 @@ impl Springs {
     #[inline]
     pub(super) fn range(&self, start: usize, end: usize) -> Cells<'_> {
         Cells { heights: &self.heights[start..end], lengths: &self.lengths[start..end] }
+    }
+
+    /// Number of distinct springs with heights up to d.
+    pub(super) fn up_to(&self, d: f64) -> usize {
+        self.heights.partition_point(|&height| height <= d)
     }
 
     /// Number of distinct springs with heights below d.

@@ -40,7 +40,7 @@ impl Component for Contact {
         at: &Moment<'_, Motion>,
     ) -> (EventKind, Mode) {
         let (kind, course) = guard.fired(self, standing.law, at.inputs);
-        (kind, Mode::of(self, standing.memory, course, 0.0))
+        (kind, Mode::of(self, standing.memory, (course, at.inputs), 0.0, 0.0))
     }
 
     fn commit(&self, memory: &mut Memory, segment: &Segment) -> Result<f64, ContactError> {

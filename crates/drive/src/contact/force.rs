@@ -42,13 +42,14 @@ impl Contact {
                 // At a constant indentation M(d) is known since the model was built.
                 let reduced_force = match &self.press {
                     Press::Constant { reduced_force, .. } => *reduced_force,
-                    _ => self.interface.profile().reduced_force(motion.d),
+                    _ => self.interface.reduced_force(motion.d),
                 };
                 branch.force(&self.interface, motion.d, motion.u, reduced_force)
             }
             // Without friction the memory need not be asked.
             Mode::Whole { .. } if self.inert => 0.0,
             Mode::Whole { .. } => self.whole(memory, motion),
+            Mode::Lull { lull, .. } => lull.force(&self.interface, motion.apex()),
             Mode::Grow => grown(),
             Mode::Open => 0.0,
         }
@@ -91,6 +92,7 @@ impl Contact {
             Mode::Slip(branch) => self
                 .interface
                 .stick_stiffness(self.front(memory, branch, motion).clamp(0.0, motion.d.max(0.0))),
+            Mode::Lull { lull, .. } => lull.stiffness(&self.interface),
             // The whole law knows only from a trial which springs stick, and a trial that goes nowhere slips nowhere: at the
             // start of a step a sliding contact would resist with all its springs.
             Mode::Whole { .. } => {
@@ -124,6 +126,10 @@ impl Contact {
                 let friction = branch.friction_power(&self.interface, front, motion);
                 GrowthRates { friction, ..GrowthRates::default() }
             }
+            Mode::Lull { lull, .. } => GrowthRates {
+                friction: lull.friction_power(&self.interface, motion),
+                ..GrowthRates::default()
+            },
             Mode::Open | Mode::Whole { .. } => GrowthRates::default(),
         }
     }

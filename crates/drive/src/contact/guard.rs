@@ -13,7 +13,7 @@
 
 use super::{Contact, Mode, Motion};
 use crate::EventKind;
-use stickslip_contact::{Course, Memory};
+use stickslip_contact::{Change, Course, Memory};
 
 /// A function that falls through zero where a mode ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +32,17 @@ pub(crate) enum Guard {
     Contact,
     /// -d: still apart.
     Gap,
+    /// σu̇ - κḋ of a row: its springs that slip go on slipping. This one and those below are silent: each is a change of one
+    /// spring and ends a lull.
+    Edge,
+    /// Stretch left until a spring slips forward.
+    Forward,
+    /// Stretch left until a spring slips backward.
+    Backward,
+    /// Indentation left until a spring touches.
+    Rise,
+    /// Indentation left until a spring parts.
+    Sink,
 }
 
 /// Round-off deadbands, relative to the natural displacement and velocity: without them a body at rest rings in
@@ -57,6 +68,17 @@ impl Guard {
         match (mode, contact.is_constant()) {
             // Nothing that it does ends a step: nobody looks at it.
             _ if contact.unguarded => &[],
+            (Mode::Lull { .. }, true) => &[Self::Drag, Self::Edge, Self::Forward, Self::Backward],
+            (Mode::Lull { .. }, false) if contact.inert => &[Self::Rise, Self::Sink, Self::Contact],
+            (Mode::Lull { .. }, false) => &[
+                Self::Drag,
+                Self::Edge,
+                Self::Forward,
+                Self::Backward,
+                Self::Rise,
+                Self::Sink,
+                Self::Contact,
+            ],
             // Without friction it can but part.
             (Mode::Whole { .. }, false) if contact.inert => &[Self::Contact],
             (Mode::Open, true) => &[],
@@ -81,7 +103,15 @@ impl Guard {
         match (self, mode) {
             // A row needs its reversals only: its springs know by themselves when they stick.
             (Self::Drag, Mode::Whole { sense }) if *sense == 0.0 => f64::INFINITY,
-            (Self::Drag, Mode::Whole { sense }) => sense * at.du,
+            (Self::Drag, Mode::Whole { sense } | Mode::Lull { sense, .. }) => sense * at.du,
+            (Self::Edge, Mode::Lull { lull, .. }) if lull.sense() != 0.0 => {
+                lull.sense() * at.du - slope * at.dd
+            }
+            (Self::Forward, Mode::Lull { lull, .. }) => lull.left(1.0, at.apex()),
+            (Self::Backward, Mode::Lull { lull, .. }) => lull.left(-1.0, at.apex()),
+            (Self::Rise, Mode::Lull { lull, .. }) => lull.next() - at.d,
+            (Self::Sink, Mode::Lull { lull, .. }) => at.d - lull.top(),
+            (Self::Edge | Self::Forward | Self::Backward | Self::Rise | Self::Sink, _) => f64::INFINITY,
             // s₊ or s₋: at constant depth it is a reversal of sliding, at a growing one the start of full
             // stick.
             (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
@@ -104,7 +134,13 @@ impl Guard {
     pub(crate) fn rate(self, contact: &Contact, mode: &Mode, at: &Motion, (bend, pull): (f64, f64)) -> f64 {
         let slope = contact.interface.stick_slope();
         match (self, mode) {
-            (Self::Drag, Mode::Whole { sense }) => sense * pull,
+            (Self::Drag, Mode::Whole { sense } | Mode::Lull { sense, .. }) => sense * pull,
+            (Self::Edge, Mode::Lull { lull, .. }) => lull.sense() * pull - slope * bend,
+            (Self::Edge, _) => 0.0,
+            (Self::Forward, _) => slope * at.dd - at.du,
+            (Self::Backward, _) => slope * at.dd + at.du,
+            (Self::Rise, _) => -at.dd,
+            (Self::Sink, _) => at.dd,
             (Self::Drag, _) => mode.sense() * pull - slope * bend,
             (Self::Piece | Self::Side, _) => slope * at.dd - mode.sense() * at.du,
             (Self::Lower, _) => slope * bend - pull,
@@ -123,12 +159,14 @@ impl Guard {
     pub(crate) fn bands(self, contact: &Contact, tolerance: f64, u: f64) -> (f64, f64) {
         let rounding = 4.0 * f64::EPSILON * u.abs();
         let (unit, rounding) = match self {
-            Self::Drag | Self::Lower | Self::Upper => {
+            Self::Drag | Self::Lower | Self::Upper | Self::Edge => {
                 (contact.natural_velocity(), rounding * contact.natural.frequency)
             }
-            Self::Piece | Self::Side => (contact.natural.displacement, rounding),
+            Self::Piece | Self::Side | Self::Forward | Self::Backward => {
+                (contact.natural.displacement, rounding)
+            }
             // A depth is no difference of displacements along the slide: their travel does not round it.
-            Self::Contact | Self::Gap => (contact.natural.depth, 0.0),
+            Self::Contact | Self::Gap | Self::Rise | Self::Sink => (contact.natural.depth, 0.0),
         };
         // The laws on the two sides of the old curve differ by the square of the distance δ from it only, by about
         // (δ/u_c)²μF_N. A contact that shrinks along the line on which it grew slips nowhere and rides on that line but for
@@ -138,6 +176,18 @@ impl Guard {
         let dead = if square { (NEARNESS * tolerance).sqrt() } else { DEADBAND };
         let near = (NEARNESS * tolerance).max(2.0 * DEADBAND);
         (dead * unit + rounding, near * unit + 2.0 * rounding)
+    }
+
+    /// What it means for the springs of a row, where it means nothing else.
+    pub(crate) fn change(self) -> Option<Change> {
+        match self {
+            Self::Edge => Some(Change::Sticks),
+            Self::Forward => Some(Change::Slips(1.0)),
+            Self::Backward => Some(Change::Slips(-1.0)),
+            Self::Rise => Some(Change::Touches),
+            Self::Sink => Some(Change::Parts),
+            _ => None,
+        }
     }
 
     /// What it means that this guard fell: the event and the course after it.
@@ -155,6 +205,10 @@ impl Guard {
             Self::Drag if mode.is_gross() => (EventKind::GrossSlipEnds, turned),
             Self::Drag | Self::Side => (EventKind::Reversal, turned),
             Self::Piece => (EventKind::LoopClosed, same),
+            // Changes of single springs are nobody's news.
+            Self::Edge | Self::Forward | Self::Backward | Self::Rise | Self::Sink => {
+                (EventKind::LoopClosed, same)
+            }
             Self::Lower => (EventKind::SlipBegins, Course::Forward),
             Self::Upper => (EventKind::SlipBegins, Course::Backward),
             Self::Contact => (EventKind::LiftOff, Course::Open),

@@ -5,7 +5,8 @@
 //! it.
 
 use super::Contact;
-use stickslip_contact::{Branch, Course, Memory};
+use super::{Motion, Press, bands};
+use stickslip_contact::{Branch, Change, Course, Lull, Memory, Slack, SpringRow};
 
 /// What a contact is doing, set at the last event: the smooth law that is integrated until the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,8 +17,15 @@ pub(crate) enum Mode {
     Grow,
     /// Slip spreads along one branch of the curve.
     Slip(Branch),
-    /// The whole law from the committed memory, kinks and all, in one sense of sliding: a row of springs, or a
-    /// stepper without events.
+    /// A row of springs until the next of them touches, parts, slips or sticks.
+    Lull {
+        /// Its law.
+        lull: Lull,
+        /// Sense of sliding.
+        sense: f64,
+    },
+    /// The whole law from the committed memory, kinks and all, in one sense of sliding: a stepper without events, or a
+    /// contact without friction.
     Whole {
         /// Sense of sliding.
         sense: f64,
@@ -30,7 +38,7 @@ impl Mode {
         match self {
             Self::Open | Self::Grow => 0.0,
             Self::Slip(branch) => branch.sense(),
-            Self::Whole { sense } => *sense,
+            Self::Whole { sense } | Self::Lull { sense, .. } => *sense,
         }
     }
 
@@ -47,20 +55,46 @@ impl Mode {
     /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
     ///
     /// `slack`, m: a piece of memory of which no more is left counts as used up.
-    pub(crate) fn of(contact: &Contact, memory: &Memory, course: Course, slack: f64) -> Self {
+    pub(crate) fn of(
+        contact: &Contact,
+        memory: &Memory,
+        (course, at): (Course, &Motion),
+        slack: f64,
+        tolerance: f64,
+    ) -> Self {
         match (memory.branching(), course) {
             // Nothing to press and nothing to hold: it is as good as apart for ever.
             _ if contact.inert && contact.coupling().is_none() => Self::Open,
             // Whatever is remembered: apart, springs are unstretched.
             (_, Course::Open) => Self::Open,
+            // A row of springs has no branches, but lulls.
+            (None, course) => Self::lull(contact, memory, (at, Change::Any), course.sense(), tolerance),
             // Without friction there is nothing to remember, but the bodies still press on each other.
             _ if contact.inert => Self::Whole { sense: 0.0 },
-            // A row of springs has no branches.
-            (None, course) => Self::Whole { sense: course.sense() },
             (Some(_), Course::Grow) => Self::Grow,
             (Some(branching), Course::Forward | Course::Backward) => {
                 Self::Slip(branching.branch(&contact.interface, course.sense(), slack))
             }
         }
+    }
+
+    /// The mode of a row that moves as `at` after a change of its springs, sliding in a sense.
+    pub(crate) fn lull(
+        contact: &Contact,
+        memory: &Memory,
+        (at, change): (&Motion, Change),
+        sense: f64,
+        tolerance: f64,
+    ) -> Self {
+        let Memory::Row(SpringRow { row, springs }) = memory else { return Self::Whole { sense } };
+        // What rounding leaves of a displacement that has travelled far is no way to go.
+        let rounding = 8.0 * f64::EPSILON * at.u.abs();
+        let slack = Slack {
+            d: bands(contact.natural.depth, tolerance).1,
+            u: bands(contact.natural.displacement, tolerance).1 + rounding,
+        };
+        let holds = matches!(contact.press, Press::Force(_));
+        let lull = row.lull(springs, &contact.interface, (at, change), slack, holds);
+        Self::Lull { lull, sense }
     }
 }

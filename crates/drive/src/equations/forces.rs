@@ -43,7 +43,10 @@ impl Equations<'_> {
         let (d, dd, reduced_force) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
-                let reduced_force = contact.interface.profile().reduced_force(d.value);
+                let reduced_force = match &self.modes[c] {
+                    Mode::Lull { lull, .. } => lull.reduced_force(d.value),
+                    _ => contact.interface.reduced_force(d.value),
+                };
                 // Apart by its law, it is so beyond the touch that will end the step.
                 if self.modes[c] != Mode::Open {
                     // M(d) is asked for once, for normal force and branch alike.
@@ -54,7 +57,7 @@ impl Equations<'_> {
             }
             _ => {
                 let (d, dd) = self.pressed(contact, at.time());
-                (d, dd, contact.interface.profile().reduced_force(d))
+                (d, dd, contact.interface.reduced_force(d))
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };

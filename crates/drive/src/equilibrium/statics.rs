@@ -113,9 +113,7 @@ fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     let (mut along, mut across) = (response.stiffness, response.coupling);
     // A short chord is as good as its end, and differences would be rounding.
     if to.d > 0.0 && shift.abs() <= law.stick_slope() * rise && rise > SHORT * to.d {
-        let profile = law.profile();
-        along =
-            law.tangential_modulus() * (profile.reduced_force(to.d) - profile.reduced_force(from.d)) / rise;
+        along = law.tangential_modulus() * (law.reduced_force(to.d) - law.reduced_force(from.d)) / rise;
         across = shift / rise * (law.stick_stiffness(to.d) - along);
     }
     Tangents { force: response.force, along, across }

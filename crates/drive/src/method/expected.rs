@@ -5,7 +5,7 @@
 //! intervals that a scene cannot come to, such as a flight of a contact that is always pressed, are left out.
 
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
-use crate::contact::{Contact, Mode};
+use crate::contact::{Contact, Mode, Motion};
 use crate::equations::Equations;
 use crate::interval::{Followed, Interval, PhasePoint, Swing};
 use crate::model::Model;
@@ -138,7 +138,9 @@ impl Model {
                 _ => Course::Forward,
             };
             let memory = self.dragged(contact, &state, lean * phase.dragged);
-            state.modes[c] = Mode::of(contact, &memory, course, 0.0);
+            let apex = memory.apex();
+            let at = Motion { d: apex.d, u: apex.u, dd: 0.0, du: course.sense() };
+            state.modes[c] = Mode::of(contact, &memory, (course, &at), 0.0, 0.0);
             state.memories[c] = memory;
         }
         state

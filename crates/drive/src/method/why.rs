@@ -41,7 +41,9 @@ pub enum Why {
     VaryingIndentation,
     /// No friction: nothing to remember.
     NoFriction,
-    /// An engine without smooth branches.
+    /// A row of springs, straight until the next of them changes.
+    BetweenSprings,
+    /// The whole law of a memory.
     WholeLaw,
 }
 
@@ -72,7 +74,8 @@ impl fmt::Display for Why {
             Self::CurvedFollower => "followers that are neither lines nor a single sum of sines",
             Self::VaryingIndentation => "the indentation varies",
             Self::NoFriction => "no friction",
-            Self::WholeLaw => "a row of springs is asked at every evaluation",
+            Self::BetweenSprings => "forces of a row are straight until one of its springs changes",
+            Self::WholeLaw => "the memory is asked at every evaluation",
         })
     }
 }

@@ -39,7 +39,7 @@ impl Model {
         let mut growing = 0;
         for (place, named) in scene.contacts.iter().enumerate() {
             let (mut contact, deep) = contact::build(place, named, &around)?;
-            if !contact.is_constant() && !contact.inert && contact.engine.branches() {
+            if !contact.is_constant() && !contact.inert {
                 contact.slot = Some(growing);
                 growing += 1;
             }

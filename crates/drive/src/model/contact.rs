@@ -49,19 +49,26 @@ pub(super) fn build(
 ) -> Result<(Contact, f64), SceneError> {
     let refused = |(field, fault): Refused| fault.of(Part::Contact(place), field);
     let [first, second] = part.between;
-    let law = &part.interface;
-    let (press, known) = press(part, around).map_err(refused)?;
+    let mut law = part.interface.clone();
+    let (mut pressed, mut known) = press(part, &law, around).map_err(refused)?;
     let inert = law.friction() == 0.0 || known.deepest <= 0.0;
     let engine = engine(part, known).map_err(refused)?;
-    let start = start(part, known).map_err(refused)?;
+    if let Engine::Row(springs) = &engine {
+        // The row's own force presses it. Natural scales stay those of the profile, which has no cells.
+        law = law.on_springs(Arc::clone(springs));
+        let (again, first) = press(part, &law, around).map_err(refused)?;
+        (pressed, known) = (again, Pressed { deepest: known.deepest, ..first });
+    }
+    let start = start(part, &law, known).map_err(refused)?;
     let mut u = Measure::between([(first, part.at[0]), (second, part.at[1])], Direction::X, around.bodies);
     u.constant -= around.at_start(&u) - start;
     let contact = Contact {
         name: name.clone(),
+        place,
         u,
-        interface: law.clone(),
+        interface: law,
         engine,
-        press,
+        press: pressed,
         count: f64::from(part.count.max(1)),
         start,
         inert,
@@ -108,8 +115,8 @@ fn row(law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Sprin
 }
 
 /// Displacement reached before the start, m.
-fn start(part: &scene::Contact, known: Pressed) -> Result<f64, Refused> {
-    let (law, d) = (&part.interface, known.first);
+fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, Refused> {
+    let d = known.first;
     if part.start != ContactStart::Untouched && d <= 0.0 {
         return Err((Field::Start, SceneFault::Open));
     }
@@ -134,13 +141,16 @@ fn start(part: &scene::Contact, known: Pressed) -> Result<f64, Refused> {
 ///
 /// Both ends of the range that a waveform has are checked: force and radius within the profile's reach. The
 /// indentation grows with each of the three, so that the highest value is the deepest.
-fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
-    let law = &part.interface;
+fn press(
+    part: &scene::Contact,
+    law: &Interface,
+    around: &Surroundings<'_>,
+) -> Result<(Press, Pressed), Refused> {
     let (field, value, given): (_, _, fn(f64) -> NormalGiven) = match part.normal {
         Normal::Force(v) => (Field::NormalForce, v, NormalGiven::Force),
         Normal::Indentation(v) => (Field::NormalIndentation, v, NormalGiven::Indentation),
         Normal::Radius(v) => (Field::NormalRadius, v, NormalGiven::Radius),
-        Normal::Coupled => return coupled(part, around),
+        Normal::Coupled => return coupled(part, law, around),
     };
     let depth = |value: f64| match given(value) {
         NormalGiven::Force(force) => law.indentation(force),
@@ -159,7 +169,7 @@ fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pre
     }
     let d = depth(first);
     let press = match (value, part.normal) {
-        (Varying::Constant(_), _) => Press::Constant { d, reduced_force: law.profile().reduced_force(d) },
+        (Varying::Constant(_), _) => Press::Constant { d, reduced_force: law.reduced_force(d) },
         (Varying::Follows(w), Normal::Force(_)) => Press::Force(w),
         (Varying::Follows(w), Normal::Radius(_)) => Press::Radius(w),
         (Varying::Follows(w), _) => Press::Indentation(w),
@@ -172,8 +182,11 @@ fn press(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pre
 ///
 /// d = z(first) - z(second) - gap at the contact point. Fails where the bodies cannot move against each
 /// other, or are expected deeper than the profile reaches.
-fn coupled(part: &scene::Contact, around: &Surroundings<'_>) -> Result<(Press, Pressed), Refused> {
-    let law = &part.interface;
+fn coupled(
+    part: &scene::Contact,
+    law: &Interface,
+    around: &Surroundings<'_>,
+) -> Result<(Press, Pressed), Refused> {
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
     let mut d = Measure::between(ends, Direction::Z, around.bodies);
     d.constant -= part.gap;

@@ -47,7 +47,7 @@ impl Model {
 
     /// Whether the force of contact `index` is a state of its own while the contact grows in full stick.
     pub fn grows(&self, index: usize) -> bool {
-        self.contacts.get(index).is_some_and(|contact| contact.slot.is_some())
+        self.contacts.get(index).is_some_and(|contact| contact.slot.is_some() && contact.engine.branches())
     }
 
     /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts depends on

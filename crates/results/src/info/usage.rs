@@ -95,7 +95,11 @@ impl Usage {
             match contact.part.engine {
                 EngineChoice::Curve => self.uses("memory", name, "the exact curve"),
                 EngineChoice::Springs { count, .. } => {
-                    self.uses("memory", name, format!("a row of {count} springs, asked at every evaluation"));
+                    self.uses(
+                        "memory",
+                        name,
+                        format!("a row of {count} springs, straight from spring to spring"),
+                    );
                 }
             }
             self.pressing(job, c, name);

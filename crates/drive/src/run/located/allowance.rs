@@ -11,7 +11,8 @@ use crate::equations::{Components, Equations};
 use crate::state::{Allowed, State};
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
-/// and the estimates of a method of high order see them late. Without it errors were 20 to 1000 times the tolerance.
+/// and the estimates of a method of high order see them late; and where a row under a normal that moves begins a step at
+/// every change of a spring. Without it errors were 20 to 1000 times the tolerance.
 // With 0.01 a sine drive on 64 heights saves a quarter of its evaluations, for books of the size of the tolerance and twenty
 // times the error; 1e-4 costs a quarter more.
 const KINKS: f64 = 1e-3;
@@ -36,7 +37,9 @@ impl Allowance {
     ///
     /// `tolerance` is relative to natural scales: u_c, u_cω, μF_N and μF_N u_c.
     pub(super) fn new(model: &Model, tolerance: f64) -> Self {
-        let kinks = model.contacts.iter().any(|contact| contact.interface.profile().has_kinks());
+        let kinks = model.contacts.iter().any(|contact| {
+            contact.interface.profile().has_kinks() || !contact.engine.branches() && !contact.is_constant()
+        });
         let strict = if kinks { (KINKS * tolerance).max(f64::min(tolerance, FINEST)) } else { tolerance };
         let layout = model.layout();
         let mut scale = vec![0.0; layout.total()];

@@ -72,6 +72,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
+        if let Some(change) = guard.change() {
+            let sense = state.modes[c].sense();
+            let at = (&motion, change);
+            state.modes[c] = Mode::lull(contact, &state.memories[c], at, sense, self.setting.tolerance);
+            return Ok(());
+        }
         let (mut kind, course) = self.after(state, (c, guard), &motion);
         // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
         // end counts as reached.
@@ -82,7 +88,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             0.0
         };
         // The law first: whether the slip is gross is known of the branch that it gives.
-        self.set_law(state, c, course, slack);
+        self.set_law(state, c, (course, &motion), slack);
         if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
             kind = EventKind::GrossSlip;
         }
@@ -179,7 +185,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
         // A branch that goes on in its sense is still anchored where it was.
         if !same || !matches!(state.modes[c], Mode::Slip(_)) {
-            self.set_law(state, c, course, 0.0);
+            self.set_law(state, c, (course, &motion), 0.0);
         }
     }
 
@@ -227,7 +233,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// `slack` (m) is how much of a piece of memory may be left and still count as used up. The step in use
     /// is kept from the start of gross slip to its end: steps grow in between to lengths that the law after
     /// it refuses.
-    pub(super) fn set_law(&self, state: &mut State, c: usize, course: Course, slack: f64) {
+    pub(super) fn set_law(&self, state: &mut State, c: usize, (course, at): (Course, &Motion), slack: f64) {
         let contact = &self.setting.model.contacts[c];
         // A contact pressed by a constant load cannot open: without any motion it sets out forward.
         let course = if course == Course::Open && contact.is_constant() && state.memories[c].apex().d > 0.0 {
@@ -237,7 +243,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         };
         // Read before the law changes: only the passage from one to the other says something of the step.
         let was_gross = state.modes[c].is_gross();
-        state.modes[c] = Mode::of(contact, &state.memories[c], course, slack);
+        state.modes[c] = Mode::of(contact, &state.memories[c], (course, at), slack, self.setting.tolerance);
         state.grew[c] = false;
         match (was_gross, state.modes[c].is_gross()) {
             (false, true) if state.step > 0.0 => state.stuck_step = state.step,

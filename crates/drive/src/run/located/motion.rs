@@ -19,10 +19,6 @@ const REST: f64 = 1e-13;
 /// Largest product of step and rate at rest. Long steps multiply rounding by their many large coefficients.
 // With 0.1 P1 on a sine has five times the error at 1e-6; with 10 nothing is saved.
 const REST_REACH: f64 = 1.0;
-/// Steps of a row under a varying load in a period of the load, at least.
-// No estimate sees the error of a chord: 410 leave a row under a sine of load 4e-4 u_c away and books of 9e-6; 4096 about
-// 4e-5 u_c and 9e-8; 40 960 cost ten times as much.
-const CHORDS_PER_PERIOD: f64 = 4096.0;
 /// How often a step is tried again to end nearer to its singular moment.
 // Without any the books of a sine drive at 1e-9 are 25 times worse; more than two change only how a ball bounces that is set
 // down without damping.
@@ -205,20 +201,9 @@ impl Pace {
     }
 }
 
-/// Longest step, s. A row under a varying load follows chords: it needs steps that leave the load no bend.
-///
-/// ∞ where neither a smooth waveform nor such a row is in the model.
+/// Longest step, s, that leaps over no smooth wave; ∞ where there is none.
 fn longest(model: &Model) -> f64 {
-    let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
-    // A row has no state of growth: a chord per step is all that it follows of a bent load.
-    let rows = model.contacts.iter().filter(|c| !c.engine.branches() && !c.is_constant());
-    // Not the run's duration, where the load has no period: no step may depend on when a run will end.
-    let load = |w: usize| match &model.waveforms[w] {
-        // What a caller will supply nobody knows. A tenth of it changes nothing that the chords of a table leave open.
-        input if input.interpolation().is_some() => natural(model),
-        waveform => waveform.extent() / CHORDS_PER_PERIOD,
-    };
-    rows.filter_map(|c| c.press.waveform().map(load)).fold(waves, f64::min)
+    model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min)
 }
 
 /// Period of the fastest swing with all contacts stuck, s; 1 ms where nothing swings.

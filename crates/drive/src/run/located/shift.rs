@@ -38,9 +38,11 @@ fn shift_one(model: &Model, state: &mut State, i: usize) {
         let along: f64 = contact.u.free.iter().filter(|(free, _)| *free == i).map(|(_, a)| a).sum();
         if along != 0.0 {
             state.memories[c].shift(-along * by);
-            if let Mode::Slip(branch) = &mut state.modes[c] {
-                // The law was made of the memory and lies where that did.
-                branch.shift(-along * by);
+            // The law was made of the memory and lies where that did.
+            match &mut state.modes[c] {
+                Mode::Slip(branch) => branch.shift(-along * by),
+                Mode::Lull { lull, .. } => lull.shift(-along * by),
+                Mode::Open | Mode::Grow | Mode::Whole { .. } => {}
             }
         }
     }

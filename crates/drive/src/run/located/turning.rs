@@ -5,7 +5,7 @@
 //! from the velocities to its right.
 
 use super::Located;
-use crate::contact::{Contact, Mode};
+use crate::contact::{Contact, Mode, Motion};
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
 use crate::model::Model;
@@ -112,7 +112,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             // The law follows the way of the jump; a contact that the jump did not move keeps its own.
             if let (Some(branching), true) = (state.memories[c].branching(), to != from) {
                 let course = branching.course(&contact.interface, to.d - from.d, to.u - from.u);
-                self.set_law(state, c, course, 0.0);
+                let at = Motion { d: to.d, u: to.u, dd: to.d - from.d, du: to.u - from.u };
+                self.set_law(state, c, (course, &at), 0.0);
             }
         }
         state.jumps += self.stored(state) - before + friction;

@@ -9,6 +9,7 @@ use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::{Components, Equations};
 use crate::interval::{Closed, Interval};
 use crate::model::{Measure, Model};
+use stickslip_contact::Memory;
 use stickslip_stepper::{End, Step};
 
 /// A contact at one end of a step. Closed contacts have none: their motion is read off the state where it is asked for.
@@ -162,12 +163,30 @@ impl Watch {
     /// ∞ where it drags no edge, or its edge will not get there as it moves now.
     pub(super) fn expected_of(&self, eq: &Equations<'_>, c: usize) -> f64 {
         let (contact, mode) = (&eq.model.contacts[c], &eq.modes[c]);
-        let Mode::Slip(branch) = mode else { return f64::INFINITY };
         let Moving { motion, second } = self.from[c];
+        if let Mode::Lull { .. } = mode {
+            return lull_end(contact, eq.law(c), &motion, second);
+        }
+        let Mode::Slip(branch) = mode else { return f64::INFINITY };
         let speed = Guard::Drag.value(contact, eq.law(c), &motion);
         let pull = Guard::Drag.rate(contact, mode, &motion, second);
         reached(branch.margin(motion.d, motion.u), speed, pull)
     }
+}
+
+/// When the first spring of a row will touch, part or slip, s from now.
+fn lull_end(contact: &Contact, law: (&Memory, &Mode), at: &Motion, (bend, pull): (f64, f64)) -> f64 {
+    let slope = contact.interface.stick_slope();
+    let of = |guard: Guard, pull: f64| {
+        reached(guard.value(contact, law, at), -guard.rate(contact, law.1, at, (bend, pull)), pull)
+    };
+    let ends = [
+        of(Guard::Forward, pull - slope * bend),
+        of(Guard::Backward, -pull - slope * bend),
+        of(Guard::Rise, bend),
+        of(Guard::Sink, -bend),
+    ];
+    ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// When what is left (m) will be used up at a speed (m/s) and its rate (m/s²): left = speed t + pull t²/2.

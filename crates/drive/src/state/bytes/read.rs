@@ -8,7 +8,7 @@ use crate::state::{Ahead, Books, Grip, Layout, Whereabouts};
 use crate::state::{Allowed, Booked, Counts, Crawl, Detour, FixedWay, Gait, Grid, LocatedWay};
 use crate::state::{State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
-use stickslip_contact::{Branch, Interface, Memory, Words};
+use stickslip_contact::{Branch, Interface, Lull, Memory, Words};
 use stickslip_stepper::{Hand, Rejection, StepHistory};
 
 /// Most numbers that a block remembers.
@@ -80,6 +80,7 @@ fn mode(law: &Interface, words: &mut Words<'_>) -> Option<Mode> {
         1 => Mode::Grow,
         2 => Mode::Slip(Branch::read(law, words)?),
         3 => Mode::Whole { sense: words.finite()? },
+        4 => Mode::Lull { lull: Lull::read(law, words)?, sense: words.finite()? },
         _ => return None,
     })
 }

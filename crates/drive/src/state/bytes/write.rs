@@ -67,6 +67,11 @@ impl Page<'_> {
                 branch.write(self.0);
             }
             Mode::Whole { sense } => self.0.extend([3, sense.to_bits()]),
+            Mode::Lull { lull, sense } => {
+                self.0.push(4);
+                lull.write(self.0);
+                self.0.push(sense.to_bits());
+            }
         }
     }
 
