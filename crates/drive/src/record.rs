@@ -233,9 +233,10 @@ fn contact_columns(
     let layout = equations.layout;
     let motion = equations.motion(contact, t, y);
     let slot = contact.slot.filter(|_| layout.growing > 0);
+    let straight = contact.goes_straight(equations.pieces);
     // In full stick the memory stands at the step's start: force and energy are the states, and every spring
     // sticks.
-    let mut outcome = match (state.modes[c], slot) {
+    let mut outcome = match (state.modes[c], slot.filter(|_| !straight)) {
         (Mode::Grow, Some(slot)) => Outcome {
             force: y(layout.force(slot)),
             elastic: y(layout.elastic(slot)),
@@ -246,8 +247,9 @@ fn contact_columns(
         _ => equations.memories[c].preview(&contact.interface, motion.apex()),
     };
     if let Some(slot) = slot {
-        // By the whole law nothing is integrated: the chord from the apex has its own.
-        let chord = if matches!(state.modes[c], Mode::Whole { .. }) { outcome.friction } else { 0.0 };
+        // By the whole law and on a straight path nothing is integrated: the chord from the apex has its own.
+        let chord = straight || matches!(state.modes[c], Mode::Whole { .. });
+        let chord = if chord { outcome.friction } else { 0.0 };
         outcome.friction = y(layout.friction(slot)) + chord;
     }
     let count = contact.count;

@@ -61,8 +61,10 @@ impl Equations<'_> {
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
-        // Runs by chords carry no extra components, whatever slots the model has.
-        let mut force = match (&self.modes[c], contact.slot.filter(|_| self.layout.growing > 0)) {
+        // Runs by chords carry no extra components, whatever slots the model has; on a straight path the memory has all.
+        let straight = contact.goes_straight(self.pieces);
+        let slot = contact.slot.filter(|_| self.layout.growing > 0 && !straight);
+        let mut force = match (&self.modes[c], slot) {
             // Force and friction power of one slip front, found once; beyond what the branch covers the
             // memory is asked.
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
@@ -70,8 +72,9 @@ impl Equations<'_> {
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }
+            (Mode::Grow, None) => self.memories[c].force(&contact.interface, motion.apex()),
             (_, slot) => {
-                let grown = || contact.slot.map_or(0.0, |slot| at.component(self.layout.force(slot)));
+                let grown = || slot.map_or(0.0, |slot| at.component(self.layout.force(slot)));
                 let force = contact.force(self.law(c), &motion, grown);
                 if let Some(slot) = slot {
                     self.grow((c, slot), &motion, force, extra);

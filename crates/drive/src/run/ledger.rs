@@ -75,8 +75,9 @@ impl Ledger {
             let friction = state.memories[c]
                 .commit(&contact.interface, segment)
                 .map_err(|source| model.refused(c, t, source))?;
-            // Where the friction of a growing contact is an integral it is no work of its commits.
-            if contact.slot.is_none() || layout.growing == 0 {
+            // Where the friction of a growing contact is an integral it is no work of its commits. Waveforms are still on the
+            // pieces on which the path went.
+            if contact.slot.is_none() || layout.growing == 0 || contact.goes_straight(&state.pieces) {
                 state.friction[c] += contact.count * friction;
             }
             // Growth that goes on joins the piece before it; anything else ends that piece.

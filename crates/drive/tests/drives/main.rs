@@ -38,6 +38,7 @@ mod soak;
 mod stages;
 mod statics;
 mod steady;
+mod straight_walks;
 mod swings;
 mod unfed_inputs;
 mod units;

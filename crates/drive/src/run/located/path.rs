@@ -49,7 +49,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             }
             let span = self.motion.solver.span();
             let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
-            if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+            let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
+            if let (Mode::Grow, Some(slot)) = (state.modes[c], curved) {
                 // Of what is committed only growth reads the inside of a step: the evaluations of the dense
                 // output are asked for here and not before.
                 self.motion.solver.complete(&eq, Completion::Dense);

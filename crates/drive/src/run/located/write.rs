@@ -54,7 +54,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let contacts = self.setting.model.contacts.iter().zip(&state.memories).enumerate();
         let memories = contacts.map(|(c, (contact, memory))| {
             let motion = eq.motion(contact, t, &y);
-            if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+            let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
+            if let (Mode::Grow, Some(slot)) = (state.modes[c], curved) {
                 let growth = Growth { motion: &self.motion, eq, state, tolerance: self.setting.tolerance };
                 growth.trace((c, slot), (t, &motion), |_, piece| path.push(piece));
             } else {
