@@ -18,6 +18,10 @@ use crate::{Piece, Sample};
 pub(crate) use stickslip_contact::Motion;
 use stickslip_contact::{Engine, Interface, Lull};
 
+/// Most springs of a row whose changes end steps. Each moves the whole row: the cost goes with the square of their number.
+// P1 on a row takes @@ at 8 192 springs.
+const MOST_SPRINGS: usize = 8192;
+
 /// A contact's constants.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Contact {
@@ -140,6 +144,11 @@ impl Contact {
             Press::Force(_) | Press::Radius(_) => rests(),
             Press::Coupled(d) => d.free.is_empty() && (straight(d) && straight(&self.u) || rests()),
         }
+    }
+
+    /// Whether it is a row whose springs are few enough to end a step at each of their changes.
+    pub(crate) fn has_lulls(&self) -> bool {
+        (1..=MOST_SPRINGS).contains(&self.engine.springs())
     }
 
     /// Whether the indentation never changes.

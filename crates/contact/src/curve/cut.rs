@@ -79,13 +79,15 @@ pub(super) fn onward(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> (
     let dragged = knots.iter().rev().take_while(|end| end.h > 0.0 && runs_along(slope, sense, end)).count();
     let knots = &knots[..knots.len() - dragged];
     let Edge { kept, height, .. } = Edge::find(law, knots, sense, to);
-    let Some(base) = kept.min(knots.len() - 1).checked_sub(1).map(|i| &knots[i]) else {
+    // What has only just touched remembers nothing: all of it slips.
+    let last = kept.min(knots.len().saturating_sub(1));
+    let Some(base) = last.checked_sub(1).map(|i| &knots[i]) else {
         // Gross slip, or no piece to go on along.
         let base =
             knots.first().filter(|_| kept > 0).map_or((0.0, 0.0), |base| (base.shear, base.reduced_force));
         return (base.0 + edge * (whole - base.1), height);
     };
-    let end = &knots[kept.min(knots.len() - 1)];
+    let end = &knots[last];
     let level = sense * to.u - slope * to.d;
     let rise = base.level(sense, slope) - level;
     let height =

@@ -87,6 +87,9 @@ impl Mode {
         tolerance: f64,
     ) -> Self {
         let Memory::Row(SpringRow { row, springs }) = memory else { return Self::Whole { sense } };
+        if !contact.has_lulls() {
+            return Self::Whole { sense };
+        }
         // What rounding leaves of a displacement that has travelled far is no way to go.
         let rounding = 8.0 * f64::EPSILON * at.u.abs();
         let slack = Slack {

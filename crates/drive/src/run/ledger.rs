@@ -7,6 +7,7 @@
 
 use crate::RunError;
 use crate::component::{Passage, Refused};
+use crate::contact::Mode;
 use crate::equations::{Components, Equations};
 use crate::model::{Model, Wired};
 use crate::state::{Booked, Books, Layout, State};
@@ -77,7 +78,9 @@ impl Ledger {
                 .map_err(|source| model.refused(c, t, source))?;
             // Where the friction of a growing contact is an integral it is no work of its commits. Waveforms are still on the
             // pieces on which the path went.
-            if contact.slot.is_none() || layout.growing == 0 || contact.goes_straight(&state.pieces) {
+            let whole = matches!(state.modes[c], Mode::Whole { .. });
+            if contact.slot.is_none() || layout.growing == 0 || whole || contact.goes_straight(&state.pieces)
+            {
                 state.friction[c] += contact.count * friction;
             }
             // Growth that goes on joins the piece before it; anything else ends that piece.

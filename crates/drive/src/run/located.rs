@@ -213,6 +213,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.turned(state);
         self.begin_interval(state);
         self.catch_up(state);
+        self.stay_whole(state);
         if laws == Laws::Kept {
             return;
         }

@@ -150,7 +150,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let from = state.t;
         let bound = detour.end.min(self.horizon.next());
         let left = bound - from;
-        let to = match detour.step {
+        let to = match detour.step.min(self.motion.longest(from)) {
             step if step >= 0.999 * left => bound,
             step if 2.0 * step > left => from + 0.5 * left,
             step => from + step,

@@ -1,6 +1,7 @@
 //! When a detour begins, how long it is, and back from it.
 
 use crate::RunError;
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::run::horizon::Progress;
 use crate::run::located::Located;
@@ -47,6 +48,20 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.forget();
         self.take_whole(state);
         Ok(Progress::Made)
+    }
+
+    /// Takes the whole law to the end of the run where a row under a moving normal has too many springs to look for the changes
+    /// of each: embedded estimates do not see them.
+    pub(in crate::run::located) fn stay_whole(&mut self, state: &mut State) {
+        let model = self.setting.model;
+        let dense =
+            |contact: &Contact| contact.slot.is_some() && !contact.engine.branches() && !contact.has_lulls();
+        // Blocks have events of their own, which only a located run looks for.
+        if model.blocks.is_empty() && model.contacts.iter().any(dense) {
+            let length = TAU / model.fastest;
+            self.detour = Some(Detour { end: f64::MAX, length, step: FIRST * length });
+            self.take_whole(state);
+        }
     }
 
     /// Back to located events: every contact is decided afresh.
