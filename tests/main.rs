@@ -23,3 +23,4 @@ mod repro;
 mod reproducibility;
 mod results;
 mod scenarios;
+mod soak;

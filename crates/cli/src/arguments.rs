@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub(crate) mod look;
 mod pictures;
 pub(crate) mod run;
+pub(crate) mod soak;
 
 use crate::commands::new;
 use clap::builder::PossibleValuesParser;
@@ -15,6 +16,7 @@ pub(crate) use bench::BenchArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
+pub(crate) use soak::SoakArguments;
 
 /// Exit codes, as every command keeps them.
 const EXIT_CODES: &str = "\
@@ -105,6 +107,9 @@ pub(crate) enum Command {
     /// Measure what accuracy costs: every stepper on both engines, errors over time and evaluations
     #[command(long_about = bench::ABOUT, after_long_help = bench::EXAMPLES)]
     Bench(BenchArguments),
+    /// Draw scenes, run them all, and judge them: do they end, and are they right?
+    #[command(long_about = soak::ABOUT, after_long_help = soak::EXAMPLES)]
+    Soak(SoakArguments),
 }
 
 const CHECK_EXAMPLES: &str = "\

@@ -11,3 +11,4 @@ pub(crate) mod repro;
 pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod soak;

@@ -9,7 +9,7 @@ mod console;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use commands::{bench, check, compare, gallery, info, new, plot, repro, resume, run, schema};
+use commands::{bench, check, compare, gallery, info, new, plot, repro, resume, run, schema, soak};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Repro(arguments) => repro::repro(&arguments),
         Command::Bench(arguments) => bench::bench(&arguments),
+        Command::Soak(arguments) => soak::soak(&arguments),
         Command::Gallery(arguments) => gallery::gallery(&arguments),
     };
     ExitCode::from(verdict.max(console::answer::verdict()).code())

@@ -1,0 +1,97 @@
+//! A sample of the soak: scenes drawn from seeds run to their end, and are right. The rest is `stickslip soak`.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and shows what it measured"
+)]
+
+use std::collections::BTreeSet;
+use stickslip_bench::soak::{Kind, Seeds, Verdict, scenario, soak};
+use stickslip_scenario::Scenario;
+
+/// Seeds of the sample.
+const SAMPLE: u64 = 160;
+
+/// Faults of the sample that are known, by seed. 8 and 154 stop: lists of heights under a force that comes from nothing. Of the
+/// others, 23 have a row of springs under a moving normal, whose error no estimate sees; 99 is a contact without friction that
+/// its damping drags; the books of the rest miss a hundred tolerances by little.
+const KNOWN: [u64; 31] = [
+    8, 11, 24, 25, 31, 32, 46, 56, 61, 70, 75, 76, 84, 89, 90, 95, 96, 99, 100, 102, 106, 107, 118, 120, 124,
+    125, 149, 151, 153, 154, 159,
+];
+
+#[test]
+fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let findings = soak(&Seeds { seeds: (0..SAMPLE).collect(), rows: 4, threads }, &());
+    assert_eq!(findings.len() as u64, SAMPLE);
+    let faults: Vec<_> = findings.iter().filter(|finding| finding.verdict.is_fault()).collect();
+    let new: Vec<_> = faults.iter().filter(|finding| !KNOWN.contains(&finding.seed)).collect();
+    assert!(new.is_empty(), "{new:#?}");
+    // Whoever mends one takes it off the list.
+    let gone: Vec<_> =
+        KNOWN.iter().filter(|seed| faults.iter().all(|finding| finding.seed != **seed)).collect();
+    assert!(gone.is_empty(), "no fault any more: {gone:?}");
+    let right = findings.iter().filter(|finding| finding.verdict <= Verdict::Warned).count();
+    let compared = findings.iter().filter(|finding| !finding.row[0].is_nan()).count();
+    println!("{right} right or warned, {} faults, {compared} against a row", faults.len());
+    assert!(compared > 0);
+}
+
+/// What the generator promises: of everything something, files that can be read, and the same ones again.
+#[test]
+fn everything_is_drawn() {
+    let mut met = BTreeSet::new();
+    for seed in 0..400 {
+        let (kind, text) = scenario(seed);
+        assert_eq!(scenario(seed), (kind, text.clone()), "seed {seed}");
+        let read = Scenario::from_str_alone(&text, "drawn").unwrap();
+        met.insert(kind.name().to_owned());
+        let bodies = read.scene.bodies.iter().filter(|body| body.part.is_free()).count();
+        assert!(bodies <= 4, "seed {seed}");
+        let keys = [
+            "flat",
+            "cone",
+            "paraboloid",
+            "sphere",
+            "power",
+            "foundation",
+            "springs",
+            "count",
+            "damping",
+            "force",
+            "indentation",
+            "radius",
+            "coupled",
+            "sawtooth",
+            "triangle",
+            "sine",
+            "harmonics",
+            "cycloid",
+            "table",
+            "phase",
+            "delay",
+            "cycles",
+            "offset",
+            "equilibrium",
+            "given",
+            "actuators",
+            "incline",
+            "preload",
+            "vx",
+            "vz",
+            "z",
+            "pitch",
+            "gap",
+            "displacement",
+        ];
+        met.extend(
+            keys.iter().filter(|key| text.contains(&format!("\"{key}\""))).map(|key| (*key).to_owned()),
+        );
+        met.insert(format!("{bodies} free"));
+    }
+    let missing: Vec<_> = Kind::ALL.iter().filter(|kind| !met.contains(kind.name())).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    assert_eq!(met.len(), Kind::ALL.len() + 34 + 4, "{met:?}");
+}

@@ -1,0 +1,144 @@
+//! `stickslip soak`: scenes drawn from seeds, run and judged.
+
+use crate::arguments::SoakArguments;
+use crate::console::answer::say;
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use stickslip_bench::soak::{self, Finding, Kind, Seeds};
+use stickslip_results::complaint::words;
+use stickslip_results::folder::Folder;
+use thiserror::Error;
+
+/// A line under the heads, nothing else.
+const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+
+/// Something that cannot be written.
+#[derive(Debug, Error)]
+#[error("{}: {}", .path.display(), words(.source))]
+struct Unwritten {
+    path: PathBuf,
+    source: io::Error,
+}
+
+/// Judges seeds, or writes their scenarios.
+pub(crate) fn soak(arguments: &SoakArguments) -> Verdict {
+    let done = match &arguments.write {
+        Some(folder) => write(arguments, folder).map(|()| Verdict::Done),
+        None => judge(arguments),
+    };
+    done.unwrap_or_else(|failure| {
+        let _ = writeln!(io::stderr(), "{failure}");
+        Verdict::Stopped
+    })
+}
+
+/// The seeds asked for.
+fn seeds(arguments: &SoakArguments) -> Vec<u64> {
+    if arguments.named.is_empty() {
+        (arguments.from..).take(arguments.seeds.get() as usize).collect()
+    } else {
+        arguments.named.clone()
+    }
+}
+
+/// Scenarios of seeds, as files to be run.
+fn write(arguments: &SoakArguments, path: &Path) -> Result<(), Unwritten> {
+    let failed = |source| Unwritten { path: path.to_owned(), source };
+    let mut folder = Folder::make(path).map_err(failed)?;
+    for seed in seeds(arguments) {
+        let (_, text) = soak::scenario(seed);
+        folder.write(&format!("seed-{seed}.json"), text.as_bytes()).map_err(failed)?;
+    }
+    folder.publish().map_err(failed)
+}
+
+fn judge(arguments: &SoakArguments) -> Result<Verdict, Unwritten> {
+    let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = arguments.threads.map_or(cores, usize::from);
+    let seeds = Seeds { seeds: seeds(arguments), rows: arguments.rows, threads };
+    let bar = progress.budget("soak", seeds.seeds.len() as f64, &interrupt);
+    let findings = soak::soak(&seeds, &bar);
+    drop(bar);
+    if let Some(path) = &arguments.out {
+        let failed = |source| Unwritten { path: path.clone(), source };
+        let table = soak::table(&findings).map_err(failed)?;
+        let mut folder = Folder::make(path).map_err(failed)?;
+        folder.write(soak::TABLE, &table).and_then(|()| folder.publish()).map_err(failed)?;
+    }
+    if !arguments.quiet {
+        say(format_args!("{}", shares(&findings)));
+        say(format_args!("{}", work(&findings)));
+    }
+    soak::exceptions(&findings).iter().for_each(|line| say(format_args!("{line}")));
+    Ok(ending(interrupt.is_raised(), &findings))
+}
+
+/// How the command ends.
+fn ending(interrupted: bool, findings: &[Finding]) -> Verdict {
+    match (interrupted, findings.iter().any(|finding| finding.verdict.is_fault())) {
+        (true, _) => Verdict::Interrupted,
+        (false, true) => Verdict::Differs,
+        (false, false) => Verdict::Done,
+    }
+}
+
+/// How many of each kind ended how.
+fn shares(findings: &[Finding]) -> Table {
+    let met = soak::Verdict::ALL.into_iter().filter(|verdict| soak::count(findings, None, *verdict) > 0);
+    let verdicts: Vec<soak::Verdict> = met.collect();
+    let mut table = Table::new();
+    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
+    let heads = verdicts.iter().map(|verdict| verdict.name().to_owned());
+    table.set_header(["kind", "scenes"].map(str::to_owned).into_iter().chain(heads));
+    let kinds = Kind::ALL.into_iter().map(|kind| Some(kind.name())).chain([None]);
+    for kind in kinds {
+        let counts: Vec<usize> =
+            verdicts.iter().map(|verdict| soak::count(findings, kind, *verdict)).collect();
+        let all: usize = counts.iter().sum();
+        let name = kind.unwrap_or("all").to_owned();
+        let numbers = counts.iter().map(usize::to_string);
+        table.add_row([name, all.to_string()].into_iter().chain(numbers));
+    }
+    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    table
+}
+
+/// What it took.
+fn work(findings: &[Finding]) -> String {
+    let runs: u32 = findings.iter().map(|finding| finding.runs.0).sum();
+    let wall: f64 = findings.iter().map(|finding| finding.runs.1).sum();
+    let longest = findings.iter().map(|finding| finding.runs.2).fold(0.0, f64::max);
+    let detours = findings.iter().filter(|finding| finding.detours > 0).count();
+    let mean = wall / f64::from(runs.max(1));
+    format!("{runs} runs, {mean:.3} s each, the longest {longest:.1} s; detours in {detours} scenes")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_end_in_a_difference() {
+        let finding = |verdict| Finding {
+            seed: 1,
+            kind: "slider",
+            verdict,
+            note: String::new(),
+            errors: [f64::NAN; 2],
+            growth: 1.0,
+            books: 0.0,
+            row: [f64::NAN; 2],
+            runs: (3, 0.1, 0.1),
+            detours: 0,
+        };
+        use soak::Verdict::{Refused, Right, Stopped};
+        assert_eq!(ending(false, &[finding(Right), finding(Refused)]), Verdict::Done);
+        assert_eq!(ending(false, &[finding(Right), finding(Stopped)]), Verdict::Differs);
+        assert_eq!(ending(true, &[finding(Stopped)]), Verdict::Interrupted);
+    }
+}
