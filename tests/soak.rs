@@ -41,3 +41,21 @@ fn seeds_are_named_or_counted() {
     assert!(stderr(&output).contains("cannot be used with"), "{}", stderr(&output));
     assert_eq!(code(&stickslip().args(["soak", "--seeds", "0"]).output().unwrap()), 2);
 }
+
+#[test]
+fn a_cell_of_the_matrix_is_judged_and_written_by_its_number() {
+    let out = tempdir().unwrap();
+    let hostile = |more: &[&str]| stickslip().args(["soak", "--hostile"]).args(more).output().unwrap();
+    let output = hostile(&["1207"]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    assert!(stdout(&output).contains("right"), "{}", stdout(&output));
+    assert_eq!(code(&hostile(&["1207", "--write", out.path().to_str().unwrap()])), 0);
+    assert_eq!(listing(out.path()), ["cell-1207.json"]);
+    let output = run(&out.path().join("cell-1207.json"), &out.path().join("results"), &[]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let output = hostile(&["99999"]);
+    assert_eq!((code(&output), stdout(&output)), (2, String::new()));
+    assert!(stderr(&output).contains("there is no cell 99999"), "{}", stderr(&output));
+    // A record of a part would be taken for one of the whole.
+    assert_eq!(code(&hostile(&["1207", "--out", "a", "--page", "b"])), 2);
+}

@@ -4,13 +4,15 @@
 //!
 //! In reading order: `draw` (numbers from a seed), `basis` (a contact and its scales), `course` (waveforms), `sketch` (the
 //! scenario so far), `kinds` (what is drawn); `trial` (a scene made ready, its runs), `finding` (what may become of one),
-//! `judge`, `rows` (the second method); `crew` (threads), `sheet` (what is told).
+//! `judge`, `rows` (the second method); `crew` (threads), `sheet` (what is told). [`hostile`] is a matrix of scenes at the extremes
+//! of a plain one.
 
 mod basis;
 mod course;
 mod crew;
 mod draw;
 mod finding;
+pub mod hostile;
 mod judge;
 mod kinds;
 mod rows;

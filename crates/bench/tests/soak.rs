@@ -7,7 +7,7 @@
 )]
 
 use std::collections::BTreeSet;
-use stickslip_bench::soak::{Kind, Seeds, Verdict, scenario, soak};
+use stickslip_bench::soak::{Kind, Seeds, Verdict, hostile, scenario, soak};
 use stickslip_scenario::Scenario;
 
 /// Seeds of the sample.
@@ -94,4 +94,18 @@ fn everything_is_drawn() {
     let missing: Vec<_> = Kind::ALL.iter().filter(|kind| !met.contains(kind.name())).collect();
     assert!(missing.is_empty(), "{missing:?}");
     assert_eq!(met.len(), Kind::ALL.len() + 34 + 4, "{met:?}");
+}
+
+/// Every 41st cell of the matrix in docs/stability.md, which has all of them.
+#[test]
+fn a_sample_of_hostile_scenes_ends_right_or_in_an_error_that_helps() {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let cells: Vec<u64> = (3..hostile::size() as u64).step_by(41).collect();
+    let findings = hostile::matrix(cells.clone(), threads, &());
+    assert_eq!(findings.len(), cells.len());
+    let faults: Vec<_> = findings.iter().filter(|finding| finding.verdict.is_fault()).collect();
+    assert!(faults.is_empty(), "{faults:#?}");
+    let families: BTreeSet<_> = findings.iter().map(|finding| finding.kind).collect();
+    assert_eq!(families.len(), 16);
+    assert!(findings.iter().filter(|finding| finding.verdict == Verdict::Right).count() > cells.len() / 2);
 }

@@ -11,6 +11,10 @@ pub enum Verdict {
     Refused,
     /// Ended by name where it left the range of the model.
     Left,
+    /// Ended at a limit that the scene set itself.
+    Limited,
+    /// Neither method is exact enough to judge the other.
+    Undecided,
     /// Off by more than its own sensitivity to a change of 1e-9 explains, but not more than that to one of the tolerance's own
     /// size: a contact that grazes.
     Grazing,
@@ -28,11 +32,13 @@ pub enum Verdict {
 
 impl Verdict {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Right,
         Self::Warned,
         Self::Refused,
         Self::Left,
+        Self::Limited,
+        Self::Undecided,
         Self::Grazing,
         Self::Unbalanced,
         Self::Wrong,
@@ -48,6 +54,8 @@ impl Verdict {
             Self::Warned => "warned",
             Self::Refused => "refused",
             Self::Left => "left the model",
+            Self::Limited => "limited",
+            Self::Undecided => "undecided",
             Self::Grazing => "grazing",
             Self::Unbalanced => "books open",
             Self::Wrong => "wrong",

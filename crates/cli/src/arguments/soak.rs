@@ -21,7 +21,9 @@ until it agrees with itself, and must meet them to 1e-5 natural lengths times S.
 Prints a table of shares, and what is neither right nor warned by seed, a line each: refused before the start, left the range of the \
 model, grazing (off by more than S explains, but not more than the growth of a change as large as the tolerance), books open, \
 wrong, stopped, hung (20 s), panicked. Exit codes: 0 none of the last five, 1 some of them, 2 bad input, 3 something cannot be written, \
-130 interrupted.";
+130 interrupted.
+
+--hostile judges a matrix of scenes instead: one thing of a plain drive at a time at its extremes, by every stepper and tolerance; with --out and --page it writes the stability record, a page that says how its cells are judged, with a picture and a table.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -29,11 +31,13 @@ Examples:
   stickslip soak                           the seeds 0 to 499
   stickslip soak --seeds 5000 --rows 200   all that is asked of a release
   stickslip soak 258 1041                  two of them
-  stickslip soak 258 --write scenes        scenes/seed-258.json, for `stickslip run`";
+  stickslip soak 258 --write scenes        scenes/seed-258.json, for `stickslip run`
+  stickslip soak --hostile --out docs/stability --page docs/stability.md
+  stickslip soak --hostile 17 --write scenes   scenes/cell-17.json";
 
 #[derive(Debug, Args)]
 pub(crate) struct SoakArguments {
-    /// Seeds to be judged, or written
+    /// Seeds to be judged, or written; all that --seeds and --from say, where none is named
     #[arg(value_name = "SEED", conflicts_with_all = ["seeds", "from"])]
     pub(crate) named: Vec<u64>,
     /// How many seeds, from --from on
@@ -54,6 +58,12 @@ pub(crate) struct SoakArguments {
     /// Write the scenarios of the seeds into this folder, and judge none
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
+    /// Judge the matrix of hostile scenes; numbers name cells of it
+    #[arg(long, conflicts_with_all = ["seeds", "from", "rows"])]
+    pub(crate) hostile: bool,
+    /// Write the stability record as a page in Markdown, its picture and table into the folder --out
+    #[arg(long, value_name = "FILE", requires = "hostile", requires = "out", conflicts_with_all = ["named", "write"])]
+    pub(crate) page: Option<PathBuf>,
     /// No progress, no table; exceptions only
     #[arg(short, long)]
     pub(crate) quiet: bool,

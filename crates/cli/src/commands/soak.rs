@@ -8,7 +8,8 @@ use crate::console::verdict::Verdict;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use stickslip_bench::soak::{self, Finding, Kind, Seeds};
+use stickslip_bench::BenchError;
+use stickslip_bench::soak::{self, Finding, Seeds, hostile};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::Folder;
 use thiserror::Error;
@@ -16,15 +17,21 @@ use thiserror::Error;
 /// A line under the heads, nothing else.
 const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
-/// Something that cannot be written.
+/// Why not everything was done.
 #[derive(Debug, Error)]
-#[error("{}: {}", .path.display(), words(.source))]
-struct Unwritten {
-    path: PathBuf,
-    source: io::Error,
+enum SoakFailure {
+    /// A cell beyond the matrix.
+    #[error("there is no cell {0}: the matrix has the cells 0 to {1}")]
+    NoCell(u64, usize),
+    /// The stability record.
+    #[error(transparent)]
+    Record(#[from] BenchError),
+    /// Something that cannot be written.
+    #[error("{}: {}", .path.display(), words(.source))]
+    Unwritten { path: PathBuf, source: io::Error },
 }
 
-/// Judges seeds, or writes their scenarios.
+/// Judges seeds or the matrix, or writes their scenarios.
 pub(crate) fn soak(arguments: &SoakArguments) -> Verdict {
     let done = match &arguments.write {
         Some(folder) => write(arguments, folder).map(|()| Verdict::Done),
@@ -32,43 +39,54 @@ pub(crate) fn soak(arguments: &SoakArguments) -> Verdict {
     };
     done.unwrap_or_else(|failure| {
         let _ = writeln!(io::stderr(), "{failure}");
-        Verdict::Stopped
+        if matches!(failure, SoakFailure::NoCell(..)) { Verdict::BadInput } else { Verdict::Stopped }
     })
 }
 
-/// The seeds asked for.
-fn seeds(arguments: &SoakArguments) -> Vec<u64> {
-    if arguments.named.is_empty() {
-        (arguments.from..).take(arguments.seeds.get() as usize).collect()
-    } else {
-        arguments.named.clone()
+/// The seeds or cells asked for.
+fn seeds(arguments: &SoakArguments) -> Result<Vec<u64>, SoakFailure> {
+    let cells = hostile::size();
+    match arguments.named.iter().find(|cell| arguments.hostile && **cell >= cells as u64) {
+        Some(beyond) => Err(SoakFailure::NoCell(*beyond, cells - 1)),
+        None if !arguments.named.is_empty() => Ok(arguments.named.clone()),
+        None if arguments.hostile => Ok((0..cells as u64).collect()),
+        None => Ok((arguments.from..).take(arguments.seeds.get() as usize).collect()),
     }
 }
 
 /// Scenarios of seeds, as files to be run.
-fn write(arguments: &SoakArguments, path: &Path) -> Result<(), Unwritten> {
-    let failed = |source| Unwritten { path: path.to_owned(), source };
+fn write(arguments: &SoakArguments, path: &Path) -> Result<(), SoakFailure> {
+    let failed = |source| SoakFailure::Unwritten { path: path.to_owned(), source };
+    let seeds = seeds(arguments)?;
     let mut folder = Folder::make(path).map_err(failed)?;
-    for seed in seeds(arguments) {
-        let (_, text) = soak::scenario(seed);
-        folder.write(&format!("seed-{seed}.json"), text.as_bytes()).map_err(failed)?;
+    for seed in seeds {
+        let (word, text) = if arguments.hostile {
+            ("cell", hostile::scenario(seed).unwrap_or_default())
+        } else {
+            ("seed", soak::scenario(seed).1)
+        };
+        folder.write(&format!("{word}-{seed}.json"), text.as_bytes()).map_err(failed)?;
     }
     folder.publish().map_err(failed)
 }
 
-fn judge(arguments: &SoakArguments) -> Result<Verdict, Unwritten> {
+fn judge(arguments: &SoakArguments) -> Result<Verdict, SoakFailure> {
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = arguments.threads.map_or(cores, usize::from);
-    let seeds = Seeds { seeds: seeds(arguments), rows: arguments.rows, threads };
-    let bar = progress.budget("soak", seeds.seeds.len() as f64, &interrupt);
-    let findings = soak::soak(&seeds, &bar);
+    let seeds = seeds(arguments)?;
+    let bar = progress.budget("soak", seeds.len() as f64, &interrupt);
+    let findings = if arguments.hostile {
+        hostile::matrix(seeds, threads, &bar)
+    } else {
+        soak::soak(&Seeds { seeds, rows: arguments.rows, threads }, &bar)
+    };
     drop(bar);
-    if let Some(path) = &arguments.out {
-        let failed = |source| Unwritten { path: path.clone(), source };
-        let table = soak::table(&findings).map_err(failed)?;
-        let mut folder = Folder::make(path).map_err(failed)?;
-        folder.write(soak::TABLE, &table).and_then(|()| folder.publish()).map_err(failed)?;
+    match (&arguments.out, &arguments.page) {
+        // An interrupted record would tell of half a matrix.
+        (Some(out), Some(page)) if !interrupt.is_raised() => hostile::write_record(&findings, page, out)?,
+        (Some(out), None) => write_table(&findings, out)?,
+        _ => {}
     }
     if !arguments.quiet {
         say(format_args!("{}", shares(&findings)));
@@ -76,6 +94,13 @@ fn judge(arguments: &SoakArguments) -> Result<Verdict, Unwritten> {
     }
     soak::exceptions(&findings).iter().for_each(|line| say(format_args!("{line}")));
     Ok(ending(interrupt.is_raised(), &findings))
+}
+
+fn write_table(findings: &[Finding], path: &Path) -> Result<(), SoakFailure> {
+    let failed = |source| SoakFailure::Unwritten { path: path.to_owned(), source };
+    let table = soak::table(findings).map_err(failed)?;
+    let mut folder = Folder::make(path).map_err(failed)?;
+    folder.write(soak::TABLE, &table).and_then(|()| folder.publish()).map_err(failed)
 }
 
 /// How the command ends.
@@ -95,8 +120,13 @@ fn shares(findings: &[Finding]) -> Table {
     table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
     let heads = verdicts.iter().map(|verdict| verdict.name().to_owned());
     table.set_header(["kind", "scenes"].map(str::to_owned).into_iter().chain(heads));
-    let kinds = Kind::ALL.into_iter().map(|kind| Some(kind.name())).chain([None]);
-    for kind in kinds {
+    let mut kinds: Vec<&str> = Vec::new();
+    for finding in findings {
+        if !kinds.contains(&finding.kind) {
+            kinds.push(finding.kind);
+        }
+    }
+    for kind in kinds.into_iter().map(Some).chain([None]) {
         let counts: Vec<usize> =
             verdicts.iter().map(|verdict| soak::count(findings, kind, *verdict)).collect();
         let all: usize = counts.iter().sum();

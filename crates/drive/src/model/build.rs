@@ -26,12 +26,14 @@ impl Model {
         let loads = loads(scene, &bodies, &mut free);
         let equilibrium = scene.start == Start::Equilibrium;
         let blocks = block::wire(scene, &bodies)?;
+        let piled = reach::piled(scene, &free);
         let around = Surroundings {
             signals: Signals { waveforms: &waveforms, blocks: &blocks },
             bodies: &bodies,
             free: &free,
             links: &links,
             loads: &loads,
+            piled: &piled,
             equilibrium,
         };
         let mut contacts = Vec::with_capacity(scene.contacts.len());

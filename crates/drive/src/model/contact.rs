@@ -23,6 +23,8 @@ pub(super) struct Surroundings<'a> {
     pub(super) free: &'a [Free],
     pub(super) links: &'a [Link],
     pub(super) loads: &'a [Load],
+    /// Of each free coordinate along z those of the other bodies piled up with its own: their weight may rest on it.
+    pub(super) piled: &'a [Vec<usize>],
     /// Whether the bodies are set down before they start.
     pub(super) equilibrium: bool,
 }

@@ -1,7 +1,8 @@
 //! How deep a coupled contact may be expected to go: its natural scale, and the span of a row of springs.
 
 use super::contact::Surroundings;
-use super::{Measure, Stroke};
+use super::{Free, Measure, Stroke};
+use crate::scene::{Axis, Normal, Scene, Side};
 use stickslip_contact::Interface;
 
 /// Indentation taken where nothing that is known at the start presses a contact, m.
@@ -29,7 +30,8 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     let falls = !around.equilibrium;
     let kinetic = if falls && mobility > 0.0 { 0.5 * rate * rate / mobility } else { 0.0 };
     let gap = if falls { (-first).max(0.0) } else { 0.0 };
-    let force = d.free.iter().map(|(i, a)| pressing(*i, around) / a.abs()).fold(0.0, f64::max);
+    let pile = |i: usize| around.piled[i].iter().map(|other| pressing(*other, around)).sum::<f64>();
+    let force = d.free.iter().map(|(i, a)| (pressing(*i, around) + pile(*i)) / a.abs()).fold(0.0, f64::max);
     let reached = |d: f64| count * law.normal_energy(d) >= kinetic + force * (gap + d);
     let dynamic = if kinetic + force > 0.0 { bracket(reached) } else { 0.0 };
     let span = |w: usize| around.signals.range(w);
@@ -45,6 +47,31 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     }
     let deepest = MARGIN * dynamic.max(driven).max(first);
     if deepest > 0.0 { deepest } else { SHALLOW }
+}
+
+/// Of each free coordinate along z those of all other bodies that coupled contacts join to its own, however many lie between.
+pub(super) fn piled(scene: &Scene, free: &[Free]) -> Vec<Vec<usize>> {
+    let mut pile: Vec<usize> = (0..scene.bodies.len()).collect();
+    let joined = scene.contacts.iter().filter(|named| named.part.normal == Normal::Coupled);
+    for between in joined.map(|named| named.part.between) {
+        if let [Side::Body(a), Side::Body(b)] = between
+            && a < pile.len()
+            && b < pile.len()
+            && [a, b].iter().all(|body| free.iter().any(|f| f.body == *body && f.axis == Axis::Z))
+        {
+            let (from, to) = (pile[a], pile[b]);
+            pile.iter_mut().filter(|own| **own == from).for_each(|own| *own = to);
+        }
+    }
+    let mut members = vec![Vec::new(); pile.len()];
+    for (i, own) in free.iter().enumerate().filter(|(_, own)| own.axis == Axis::Z) {
+        members[pile[own.body]].push(i);
+    }
+    let others = |own: &Free| -> Vec<usize> {
+        let members = if own.axis == Axis::Z { &members[pile[own.body]][..] } else { &[] };
+        members.iter().copied().filter(|i| free[*i].body != own.body).collect()
+    };
+    free.iter().map(others).collect()
 }
 
 /// Largest force on a free coordinate, N or N m.
