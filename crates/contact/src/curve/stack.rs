@@ -1,11 +1,10 @@
 //! The stack of knots: how it grows, is cut, and stays bounded.
 //!
 //! A growing contact pushes knots, a dragging edge gives up those it passes and puts itself in their place, and where the
-//! stack is full the knot that matters least goes.
+//! stack is full the knots that matter least go ([`super::thinning`]).
 
 use super::cut::Edge;
 use super::front::Front;
-use super::knot::Knot;
 use super::{Curve, sweep};
 use crate::{Apex, Interface};
 
@@ -99,37 +98,5 @@ impl Curve {
         self.front = edge.front();
         self.range = SlopeRange::NONE;
         friction
-    }
-
-    /// Gives up the knot whose loss changes the anchors least, and books the change.
-    ///
-    /// The change of the anchors is a triangle between the knot and the chord of its neighbours; the sums of all knots above
-    /// are made anew.
-    // Giving up the oldest instead books 0.32 of the limit force over a decay of 40 000 swings by a stack of 64, and this
-    // 1.2e-5: the first swings are the largest, and the centre remembers them longest.
-    pub(super) fn merge_smallest(&mut self, law: &Interface) {
-        let triangle = |w: &[Knot]| {
-            let (a, b, c) = (&w[0], &w[1], &w[2]);
-            ((c.slope - b.slope) * (b.h - a.h) * (c.h - b.h)).abs()
-        };
-        let smallest = self.knots.windows(3).map(triangle).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((index, _)) = smallest else { return };
-        let (force, energy) = (self.force(law), self.elastic(law));
-        self.knots.remove(index + 1);
-        for i in index + 1..self.knots.len() {
-            let (below, old) = (self.knots[i - 1], self.knots[i]);
-            let (slope, gain) = if i == index + 1 {
-                let slope = (old.p - below.p) / (old.h - below.h);
-                (slope, slope)
-            } else {
-                (old.slope, old.gain)
-            };
-            let joined = old.joined;
-            self.knots[i] = below.extend(old.h, old.p, slope, gain, old.reduced_force, old.reduced_energy);
-            self.knots[i].joined = joined;
-        }
-        self.merged.knots += 1;
-        self.merged.force += (self.force(law) - force).abs();
-        self.merged.energy += (self.elastic(law) - energy).abs();
     }
 }
