@@ -13,13 +13,9 @@ use stickslip_scenario::Scenario;
 /// Seeds of the sample.
 const SAMPLE: u64 = 160;
 
-/// Faults of the sample that are known, by seed. 8 and 154 stop: lists of heights under a force that comes from nothing. Of the
-/// others, 23 have a row of springs under a moving normal, whose error no estimate sees; 99 is a contact without friction that
-/// its damping drags; the books of the rest miss a hundred tolerances by little.
-const KNOWN: [u64; 31] = [
-    8, 11, 24, 25, 31, 32, 46, 56, 61, 70, 75, 76, 84, 89, 90, 95, 96, 99, 100, 102, 106, 107, 118, 120, 124,
-    125, 149, 151, 153, 154, 159,
-];
+/// Faults of the sample that are known, by seed: books that miss a hundred tolerances by a factor of 1 to 3. All of them are of contacts
+/// that grow, whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c.
+const KNOWN: [u64; 8] = [14, 45, 73, 87, 90, 98, 120, 149];
 
 #[test]
 fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
