@@ -48,6 +48,20 @@ impl Rig {
         })
     }
 
+    /// Where springs at these places, each as wide as its share of the contact, carry the load: E\*Δx Σ(d-h) = F_N, by halves.
+    fn depth_of_row(&self, places: &[f64]) -> f64 {
+        let normal = 210e9 / (2.0 * (1.0 - 0.09));
+        let width = 2.0 * self.radius() / places.len() as f64;
+        let force =
+            |d: f64| normal * width * places.iter().map(|x| (d - x * x / RADIUS).max(0.0)).sum::<f64>();
+        let (mut low, mut high) = (0.0, 2.0 * self.d);
+        for _ in 0..100 {
+            let d = 0.5 * (low + high);
+            if force(d) < LOAD { low = d } else { high = d }
+        }
+        low
+    }
+
     fn u(&self, t: f64) -> f64 {
         self.amplitude * (TAU * t).sin()
     }
@@ -121,7 +135,7 @@ fn springs_do_what_the_clamped_sum_says() {
 
 #[test]
 fn a_row_of_springs_shows_its_own() {
-    let rig = Rig::new(500e-9);
+    let mut rig = Rig::new(500e-9);
     let output = json!({ "springs": { "count": 7, "every": "73 ms" } });
     let out = tempdir().unwrap();
     let row = r#"contacts.ball.engine={"springs": {"count": 40}}"#;
@@ -129,6 +143,7 @@ fn a_row_of_springs_shows_its_own() {
     assert_eq!(table.rows.len(), 28 * 40);
     let (time, x, stretch) =
         (numbers(&table, "time_s"), numbers(&table, "x_m"), numbers(&table, "stretch_m"));
+    rig.d = rig.depth_of_row(&x[..40]);
     for (i, state) in table.column("state").into_iter().enumerate() {
         let (s, known) = rig.spring(x[i], time[i]);
         assert!((stretch[i] - s).abs() < 1e-12 * rig.slope * rig.d, "{i}: {} {s}", stretch[i]);

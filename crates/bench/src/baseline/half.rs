@@ -27,10 +27,12 @@ impl Half {
             let blocks = heights.chunks_exact(LANES);
             blocks.map(|block| std::array::from_fn(|lane| value(block[lane]))).collect::<Vec<_>>()
         };
-        let (slope, d) = (law.stick_slope(), tie.start.apex().d);
+        let pair = 2.0 * width;
+        // The springs carry the load among them: as deep as they go, not as the profile would.
+        let held = law.normal_force(tie.start.apex().d) / (pair * law.normal_modulus());
+        let (slope, d) = (law.stick_slope(), depth(&heights, held));
         let height: &dyn Fn(f64) -> f64 =
             if tie.press.is_some() { &|h| h } else { &|h| slope * (d - h).max(0.0) };
-        let pair = 2.0 * width;
         Self {
             stretch: lanes(&|h| tie.start.stretch(h)),
             height: lanes(height),
@@ -85,4 +87,17 @@ impl Half {
         }
         (self.stiffness.0 * shear.iter().sum::<f64>(), self.stiffness.1 * depth.iter().sum::<f64>())
     }
+}
+
+/// Where Σ(d-h) over the springs that touch reaches a value, m; heights ascend.
+fn depth(heights: &[f64], held: f64) -> f64 {
+    let mut below = 0.0;
+    for (k, height) in heights.iter().enumerate() {
+        below += height;
+        let d = (held + below) / (k + 1) as f64;
+        if heights.get(k + 1).is_none_or(|next| d <= *next) {
+            return d;
+        }
+    }
+    0.0
 }
