@@ -72,18 +72,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
+        // Where rounding, of time or of a displacement that has travelled far, stops short of where the guard falls, that counts
+        // as reached.
+        let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
         if let Some(change) = guard.change() {
             let sense = state.modes[c].sense();
-            let at = (&motion, change);
+            let at = (&motion, change, left(state));
             state.modes[c] = Mode::lull(contact, &state.memories[c], at, sense, self.setting.tolerance);
             return Ok(());
         }
         let (mut kind, course) = self.after(state, (c, guard), &motion);
-        // Where rounding, of time or of a displacement that has travelled far, stops short of the end of the piece, the
-        // end counts as reached.
         let slack = if guard == Guard::Piece {
-            let left = guard.value(contact, state.law(c), &motion);
-            guard.bands(contact, self.setting.tolerance, motion.u).1 + left.max(0.0)
+            guard.bands(contact, self.setting.tolerance, motion.u).1 + left(state)
         } else {
             0.0
         };
