@@ -88,8 +88,6 @@ fn the_benchmark_drive_makes_its_known_steps() {
             assert!((step - known * 1e-9).abs() < 2e-18, "step {i}: {step:e}");
         }
         assert!((number(&summary, "/steps/net_travel_m") / known_end - 1.0).abs() < 1e-12);
-        // The ends of the periods are corners of the sawtooth: known exactly, whether rows lie there or not.
-        assert_eq!(number(&summary, "/steps/interpolated_ends"), 0.0);
         assert!(number(&summary, "/energy/largest_error_relative") < 1e-11);
     }
 }
@@ -152,8 +150,10 @@ fn vibration_along_the_motion_lets_a_small_load_move() {
     let out = tempdir().unwrap();
     let folder = run_example("vibrated_slider", out.path(), &[]);
     let summary = summary(&folder);
+    // After 20 periods it is still 4 % from its steady step, and knows where that is.
+    assert_eq!(summary["steps"]["settling"]["state"], "not_settled");
     let rigid = 1e-6 * std::f64::consts::TAU * 1e3 * (0.1 * std::f64::consts::PI).sin();
-    let speed = number(&summary, "/steps/steady/step_m") / 1e-3;
+    let speed = number(&summary, "/steps/settling/limit_m") / 1e-3;
     assert!((speed / rigid - 1.0).abs() < 0.05, "{speed} m/s for {rigid} m/s");
     let trace = Table::read(&folder.join("trace.csv"));
     let end: f64 = trace.column("resting slider.x_m").last().unwrap().parse().unwrap();

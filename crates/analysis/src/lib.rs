@@ -6,6 +6,7 @@
 //! * [`cycles`] – cuts a long record into cycles;
 //! * [`fretting`] – the quantities of one cycle: amplitudes, loop area, ratios, stiffness;
 //! * [`regime`] – thresholds between partial and gross slip, and on which side a cycle lies;
+//! * [`settling`] – whether a sequence has settled, and where it goes;
 //! * [`steps`] – the quantities of a drive: step length, back-step, mean speed, repeatability;
 //! * [`prefix`] – the SI prefix that makes a series readable.
 
@@ -14,6 +15,7 @@ pub mod fretting;
 pub mod prefix;
 pub mod regime;
 pub mod series;
+pub mod settling;
 pub mod steps;
 
 pub use cycles::{Cut, split_cycles};
@@ -21,4 +23,5 @@ pub use fretting::Cycle;
 pub use prefix::Prefix;
 pub use regime::{Regime, Thresholds};
 pub use series::SeriesError;
+pub use settling::{Bounds, Settled, Settling};
 pub use steps::{Steady, Step, Steps};

@@ -1,9 +1,7 @@
 //! The quantities of a stepping drive.
 
 use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, mean, sum};
-
-/// Deviation from the steady step, as a share of it, within which a drive counts as settled.
-pub const SETTLED_BAND: f64 = 0.05;
+use crate::settling::{Bounds, Settled, Settling};
 
 /// One period of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,13 +15,17 @@ pub struct Step {
     pub backward: f64,
 }
 
-/// The steady state: statistics over the last half of the periods.
+/// The steady state: statistics over the last periods, of a drive that has settled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steady {
-    /// Number of periods averaged: half of them, rounded up.
+    /// First period from which every step lies within [`BAND`](crate::settling::BAND) of what the steps settle to.
+    pub from: usize,
+    /// Number of periods averaged: those at the end whose steps are as near to that as the last one.
     pub periods: usize,
     /// Steady step: mean step length, m.
     pub step: f64,
+    /// How far the mean of all later steps may lie from it, m: by the decay of the differences.
+    pub error: f64,
     /// Repeatability: standard deviation of the step length (n-1), m; none for a single period.
     pub repeatability: Option<f64>,
     /// Mean back-step; none where a period has no forward stroke.
@@ -39,11 +41,10 @@ pub struct Steps {
     pub mean_speed: f64,
     /// Net travel over the whole record, a trailing part of a period included, m.
     pub net_travel: f64,
-    /// The steady state.
-    pub steady: Steady,
-    /// First period from which every step stays within [`SETTLED_BAND`] of the steady step; none where even the
-    /// averaged half does not, and the steady step is then a mean of steps that still vary.
-    pub settled_from: Option<usize>,
+    /// What the step lengths do.
+    pub settling: Settling,
+    /// The steady state; none of a drive that has not settled.
+    pub steady: Option<Steady>,
 }
 
 impl Step {
@@ -54,53 +55,76 @@ impl Step {
 }
 
 impl Steps {
-    /// Takes the quantities of the slider's position x(t), m over s, driven with a period T, s. Periods count
-    /// from the first sample; positions at their ends are interpolated linearly.
+    /// Takes the quantities from the positions at the ends of all periods, m, and the least and largest position within each; all
+    /// of length `period`, s. `net_travel` is theirs and that of what comes before and after, m.
     ///
     /// The direction of travel is the sign of the displacement over the whole periods: a drive that runs backwards
-    /// has negative steps and the same back-steps.
+    /// has negative steps and the same back-steps. What is known of the lengths is in `bounds`.
+    pub fn of_periods(
+        ends: &[f64],
+        ranges: &[[f64; 2]],
+        period: f64,
+        net_travel: f64,
+        bounds: Bounds,
+    ) -> Self {
+        let travel = ends.last().zip(ends.first()).map_or(0.0, |(last, first)| last - first);
+        let forward = travel >= 0.0;
+        let periods: Vec<Step> = ends
+            .windows(2)
+            .zip(ranges)
+            .map(|(ends, [least, most])| {
+                let [forward, backward] = if forward {
+                    [most - ends[0], most - ends[1]]
+                } else {
+                    [ends[0] - least, ends[1] - least]
+                };
+                Step { length: ends[1] - ends[0], forward, backward }
+            })
+            .collect();
+        let lengths: Vec<f64> = periods.iter().map(|step| step.length).collect();
+        let settling = Settling::of(&lengths, bounds);
+        let steady = match settling {
+            Settling::Settled(settled) => Some(Steady::of_periods(&periods, settled)),
+            _ => None,
+        };
+        let time = (periods.len() as f64 * period).max(f64::MIN_POSITIVE);
+        Self { mean_speed: travel / time, net_travel, settling, steady, periods }
+    }
+
+    /// Takes the quantities of the slider's position x(t), m over s, driven with a period T, s. Periods count
+    /// from the first sample; positions at their ends are interpolated linearly.
     ///
     /// # Errors
     /// Fewer than 2 samples, series of different lengths, values that are not finite, times that decrease, a
     /// period not above 0, a record shorter than a period or with fewer samples than periods.
-    pub fn of_record(t: &[f64], x: &[f64], period: f64) -> Result<Self, SeriesError> {
+    pub fn of_record(t: &[f64], x: &[f64], period: f64, bounds: Bounds) -> Result<Self, SeriesError> {
         check_lengths(("x", x), ("t", t))?;
         check_time(t, 2)?;
         check("x", x, 2)?;
         check_positive("period", period)?;
         let count = whole_periods(t, period)?;
         let ends: Vec<f64> = (0..=count).map(|k| position(t, x, t[0] + k as f64 * period)).collect();
-        let travel = ends[count] - ends[0];
-        let direction = if travel < 0.0 { -1.0 } else { 1.0 };
-        let periods: Vec<Step> = (0..count)
-            .map(|k| {
-                let inside = span(t, t[0] + k as f64 * period, t[0] + (k + 1) as f64 * period);
-                let (start, end) = (direction * ends[k], direction * ends[k + 1]);
-                let most = x[inside].iter().fold(start.max(end), |most, &x| most.max(direction * x));
-                Step { length: ends[k + 1] - ends[k], forward: most - start, backward: most - end }
-            })
-            .collect();
-        let steady = Steady::of_periods(&periods[count / 2..]);
-        Ok(Self {
-            mean_speed: travel / (count as f64 * period),
-            net_travel: x[x.len() - 1] - x[0],
-            settled_from: settled_from(&periods, &steady),
-            steady,
-            periods,
-        })
+        let range = |k: usize| {
+            let inside = span(t, t[0] + k as f64 * period, t[0] + (k + 1) as f64 * period);
+            let both = [ends[k].min(ends[k + 1]), ends[k].max(ends[k + 1])];
+            x[inside].iter().fold(both, |[least, most], &x| [least.min(x), most.max(x)])
+        };
+        let ranges: Vec<[f64; 2]> = (0..count).map(range).collect();
+        Ok(Self::of_periods(&ends, &ranges, period, x[x.len() - 1] - x[0], bounds))
     }
 }
 
 impl Steady {
-    fn of_periods(periods: &[Step]) -> Self {
-        let lengths: Vec<f64> = periods.iter().map(|p| p.length).collect();
-        let step = mean(&lengths);
-        let spread = sum(lengths.iter().map(|l| (l - step).powi(2)));
-        let back: Option<Vec<f64>> = periods.iter().map(Step::back_step).collect();
+    fn of_periods(periods: &[Step], settled: Settled) -> Self {
+        let averaged = &periods[periods.len() - settled.last.min(periods.len())..];
+        let spread = sum(averaged.iter().map(|p| (p.length - settled.value).powi(2)));
+        let back: Option<Vec<f64>> = averaged.iter().map(Step::back_step).collect();
         Self {
-            periods: periods.len(),
-            step,
-            repeatability: (lengths.len() > 1).then(|| (spread / (lengths.len() - 1) as f64).sqrt()),
+            from: settled.from,
+            periods: averaged.len(),
+            step: settled.value,
+            error: settled.error,
+            repeatability: (averaged.len() > 1).then(|| (spread / (averaged.len() - 1) as f64).sqrt()),
             back_step: back.map(|shares| mean(&shares)),
         }
     }
@@ -140,16 +164,12 @@ fn position(t: &[f64], x: &[f64], time: f64) -> f64 {
     x[after - 1] + share * (x[after] - x[after - 1])
 }
 
-fn settled_from(periods: &[Step], steady: &Steady) -> Option<usize> {
-    let off = |p: &Step| (p.length - steady.step).abs() > SETTLED_BAND * steady.step.abs();
-    let from = periods.iter().rposition(off).map_or(0, |last| last + 1);
-    (from <= periods.len() - steady.periods).then_some(from)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
+
+    const BOUNDS: Bounds = Bounds { least: 0.0, most: f64::INFINITY, error: 0.0 };
 
     /// A slider that goes forward by `forward` over 0.8 of each period and back by `back(k)` in the rest.
     fn staircase(count: usize, forward: f64, back: impl Fn(usize) -> f64) -> (Vec<f64>, Vec<f64>) {
@@ -165,42 +185,52 @@ mod tests {
     #[test]
     fn a_regular_staircase_has_its_steps() {
         let (t, x) = staircase(8, 2.0, |_| 0.5);
-        let steps = Steps::of_record(&t, &x, 1.0).unwrap();
+        let steps = Steps::of_record(&t, &x, 1.0, BOUNDS).unwrap();
+        let steady = steps.steady.unwrap();
         assert_eq!(steps.periods.len(), 8);
-        assert_relative_eq!(steps.steady.step, 1.5, max_relative = 1e-14);
-        assert_abs_diff_eq!(steps.steady.repeatability.unwrap(), 0.0, epsilon = 1e-14);
-        assert_relative_eq!(steps.steady.back_step.unwrap(), 0.25, max_relative = 1e-14);
+        assert_relative_eq!(steady.step, 1.5, max_relative = 1e-14);
+        assert_abs_diff_eq!(steady.repeatability.unwrap(), 0.0, epsilon = 1e-14);
+        assert_relative_eq!(steady.back_step.unwrap(), 0.25, max_relative = 1e-14);
         assert_relative_eq!(steps.mean_speed, 1.5, max_relative = 1e-14);
         assert_relative_eq!(steps.net_travel, 12.0, max_relative = 1e-14);
-        assert_eq!((steps.settled_from, steps.steady.periods), (Some(0), 4));
+        assert_eq!((steady.from, steady.periods), (0, 8));
     }
 
     #[test]
     fn the_way_in_is_told_from_the_steady_state() {
-        // Two short steps of 0.5, then steps of 1.4 and 1.6 by turns: mean 1.5, standard deviation (n-1) over
-        // six 0.1·√(6/5); all within 5 % would be 1.425 to 1.575, so it has not settled; at ±0.05 it has.
+        // Two short steps of 0.5, then steps of 1.4 and 1.6 by turns: a beat of two periods that neither fades nor grows. At
+        // ±0.5e-3 they are settled: mean 1.5, standard deviation (n-1) over ten 0.5e-3·√(10/9).
         let back = |k: usize, wobble: f64| match k {
             0 | 1 => 1.5,
             k if k % 2 == 0 => 0.5 - wobble,
             _ => 0.5 + wobble,
         };
         let (t, x) = staircase(12, 2.0, |k| back(k, 0.1));
-        let steps = Steps::of_record(&t, &x, 1.0).unwrap();
-        assert_relative_eq!(steps.steady.step, 1.5, max_relative = 1e-14);
-        assert_relative_eq!(steps.steady.repeatability.unwrap(), 0.1 * 1.2_f64.sqrt(), max_relative = 1e-12);
-        assert_eq!(steps.settled_from, None);
-        let (t, x) = staircase(12, 2.0, |k| back(k, 0.05));
-        assert_eq!(Steps::of_record(&t, &x, 1.0).unwrap().settled_from, Some(2));
+        let steps = Steps::of_record(&t, &x, 1.0, BOUNDS).unwrap();
+        assert!(matches!(steps.settling, Settling::Beats { period, .. } if (period - 2.0).abs() < 1e-6));
+        assert!(steps.steady.is_none());
+        let (t, x) = staircase(12, 2.0, |k| back(k, 0.5e-3));
+        let steady = Steps::of_record(&t, &x, 1.0, BOUNDS).unwrap().steady.unwrap();
+        assert_eq!((steady.from, steady.periods), (2, 10));
+        assert_relative_eq!(steady.step, 1.5, max_relative = 1e-12);
+        assert_relative_eq!(
+            steady.repeatability.unwrap(),
+            0.5e-3 * (10.0_f64 / 9.0).sqrt(),
+            max_relative = 1e-9
+        );
     }
 
     #[test]
     fn a_drive_that_runs_backwards_mirrors() {
         let (t, x) = staircase(4, 2.0, |_| 0.5);
         let mirrored: Vec<f64> = x.iter().map(|x| -x).collect();
-        let (ahead, back) =
-            (Steps::of_record(&t, &x, 1.0).unwrap(), Steps::of_record(&t, &mirrored, 1.0).unwrap());
-        assert_eq!(back.steady.step, -ahead.steady.step);
-        assert_eq!(back.steady.back_step, ahead.steady.back_step);
+        let (ahead, back) = (
+            Steps::of_record(&t, &x, 1.0, BOUNDS).unwrap(),
+            Steps::of_record(&t, &mirrored, 1.0, BOUNDS).unwrap(),
+        );
+        let steady = |steps: &Steps| steps.steady.unwrap();
+        assert_eq!(steady(&back).step, -steady(&ahead).step);
+        assert_eq!(steady(&back).back_step, steady(&ahead).back_step);
         assert_eq!(back.mean_speed, -ahead.mean_speed);
     }
 
@@ -209,20 +239,21 @@ mod tests {
         let (mut t, mut x) = staircase(3, 2.0, |_| 1.0);
         t.push(3.5);
         x.push(20.0);
-        let steps = Steps::of_record(&t, &x, 1.0).unwrap();
+        let steps = Steps::of_record(&t, &x, 1.0, BOUNDS).unwrap();
         assert_eq!((steps.periods.len(), steps.net_travel), (3, 15.0));
         assert_relative_eq!(steps.mean_speed, 1.0, max_relative = 1e-14);
     }
 
     #[test]
     fn no_motion_is_no_back_step_and_no_error() {
-        let steps = Steps::of_record(&[0.0, 1.0, 2.0], &[1.0; 3], 1.0).unwrap();
-        assert_eq!((steps.steady.step, steps.steady.back_step, steps.settled_from), (0.0, None, Some(0)));
+        let steps = Steps::of_record(&[0.0, 1.0, 2.0, 3.0, 4.0], &[1.0; 5], 1.0, BOUNDS).unwrap();
+        let steady = steps.steady.unwrap();
+        assert_eq!((steady.step, steady.back_step, steady.from), (0.0, None, 0));
     }
 
     #[test]
     fn what_has_no_steps_is_refused() {
-        let refused = |t: &[f64], x: &[f64], period| Steps::of_record(t, x, period).unwrap_err();
+        let refused = |t: &[f64], x: &[f64], period| Steps::of_record(t, x, period, BOUNDS).unwrap_err();
         assert!(matches!(refused(&[], &[], 1.0), SeriesError::TooShort { .. }));
         assert!(matches!(refused(&[0.0, 1.0], &[0.0], 1.0), SeriesError::Lengths { .. }));
         assert!(matches!(refused(&[0.0, f64::NAN], &[0.0; 2], 1.0), SeriesError::NotFinite { .. }));

@@ -237,7 +237,8 @@ proptest! {
         t.sort_by(f64::total_cmp);
         let _ = split_cycles(&t, &u, &q, Cut::Reversals { least: period });
         let _ = split_cycles(&t, &u, &q, Cut::Period { start: 0.0, period });
-        let _ = stickslip_analysis::Steps::of_record(&t, &q, period);
+        let bounds = stickslip_analysis::Bounds { least: 0.0, most: f64::INFINITY, error: 0.0 };
+        let _ = stickslip_analysis::Steps::of_record(&t, &q, period, bounds);
     }
 
     #[test]

@@ -37,6 +37,28 @@ pub trait Record {
         let _ = (t, memories);
     }
 
+    /// The next moment at which the record wants a row for itself, s; none for never again. Asked as looks are. A moment within
+    /// four last places of the end of a step is that end.
+    fn next_mark(&mut self) -> Option<f64> {
+        None
+    }
+
+    /// The row of the moment asked for: read off the same step as rows, whose interval it does not depend on.
+    fn mark(&mut self, values: &[f64]) {
+        let _ = values;
+    }
+
+    /// The body, by its place in the scene, whose range of x is wanted; asked before the run. Such a record reads every step.
+    fn watched(&self) -> Option<usize> {
+        None
+    }
+
+    /// Least and largest x of that body, m, since the last range that was told: before every mark, and whenever a run is put
+    /// down. Between both ends of a step x is the cubic that has its places and velocities.
+    fn range(&mut self, range: [f64; 2]) {
+        let _ = range;
+    }
+
     /// Asked now and then with the time reached, s; `false` interrupts the run.
     fn goes_on(&mut self, t: f64) -> bool {
         let _ = t;

@@ -20,14 +20,15 @@ fn variant(number: u32) -> Result<Job, Box<dyn Error>> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let jobs = (0..VARIANTS).map(variant).collect::<Result<Vec<_>, _>>()?;
-    println!("{:>8} {:>10} {:>8} {:>8}", "stroke", "step", "events", "rows");
+    println!("{:>8} {:>11} {:>8} {:>8}", "stroke", "step", "events", "rows");
     for (number, job) in jobs.iter().enumerate() {
         let outcome = job.run(&());
         let summary = Summary::new(job, &outcome);
-        let step = summary.steps.map_or(0.0, |steps| steps.steady.step.0);
+        let steady = summary.steps.and_then(|steps| steps.steady);
+        let step = steady.map_or("not settled".to_owned(), |steady| format!("{:.1} nm", 1e9 * steady.step.0));
         if number % 10 == 0 {
             let (events, rows) = (outcome.state.counts().events, outcome.rows);
-            println!("{:>8} {:>7.1} nm {events:>8} {rows:>8}", job.name, 1e9 * step);
+            println!("{:>8} {step:>11} {events:>8} {rows:>8}", job.name);
         }
     }
     Ok(())

@@ -15,16 +15,22 @@ const FINENESS: f64 = 128.0;
 pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
     let Some((name, law)) = job.model.contacts().nth(c) else { return Trail::default() };
     let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
-    let jumps = job.scenario.scene.waveforms.iter().any(|w| Waveform::has_jumps(&w.part));
-    let turns_known = job.model.effective(job.scenario.plan.stepper).locates_events();
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
     match job.start.memories().get(c) {
-        Some(memory) if turns_known && !jumps && job.has_law_without_time(c) => {
+        Some(memory) if is_walked(job, c) => {
             let d = d.first().copied().unwrap_or(0.0);
             refined(&samples, law, memory.clone(), (d, f64::from(job.count(c))))
         }
         _ => samples,
     }
+}
+
+/// Whether the force of contact `c` between two moments of a run follows from the contact's own law: that has no time in it, and
+/// all turning points are events.
+pub(crate) fn is_walked(job: &Job, c: usize) -> bool {
+    let jumps = job.scenario.scene.waveforms.iter().any(|w| Waveform::has_jumps(&w.part));
+    let turns_known = job.model.effective(job.scenario.plan.stepper).locates_events();
+    turns_known && !jumps && job.has_law_without_time(c)
 }
 
 /// The way with points between its samples; at indentation d, of `count` contacts.

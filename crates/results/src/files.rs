@@ -8,6 +8,8 @@ pub const EVENTS: &str = "events.csv";
 pub const SPRINGS: &str = "springs.csv";
 /// The memory curves at some moments, where they are asked for.
 pub const MEMORY: &str = "memory.csv";
+/// Every cycle of contacts that come back.
+pub const CYCLES: &str = "cycles.csv";
 /// The scenario as it was run.
 pub const SCENARIO: &str = "scenario.json";
 /// What the run came to.

@@ -8,10 +8,19 @@ use crate::tracks::Tracks;
 use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
 
+/// No place yet.
+const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
 /// What stays in memory of a run.
 pub struct Kept {
     /// Rows and moments after events.
     pub series: Series,
+    /// Moments after events, and the marks: what figures are taken from, whatever rows are asked for.
+    pub moments: Series,
+    /// Least and largest x of the body of the figures in each of their periods, m.
+    pub ranges: Vec<[f64; 2]>,
+    /// The same in the period under way.
+    range: [f64; 2],
     /// Moments of the events, where a picture shows them.
     pub tracks: Option<Tracks>,
     /// Events left out of the series for want of room.
@@ -24,7 +33,15 @@ impl Kept {
     /// Nothing yet, of these channels; what only pictures need is kept for those in `plots`.
     pub fn new(channels: &[Channel], plots: &[PlotName]) -> Self {
         let tracks = plots.contains(&PlotName::Events).then(Tracks::default);
-        Self { series: Series::new(channels, plots), tracks, left_out: 0, sketch: None }
+        Self {
+            series: Series::new(channels, plots),
+            moments: Series::of_figures(channels),
+            ranges: Vec::new(),
+            range: NOWHERE,
+            tracks,
+            left_out: 0,
+            sketch: None,
+        }
     }
 
     /// The same with a fingerprint of the tables that have these columns.
@@ -51,6 +68,23 @@ impl Kept {
         }
     }
 
+    /// Takes the row of a mark.
+    pub fn mark(&mut self, values: &[f64]) {
+        if self.moments.size() < MOST_VALUES {
+            self.moments.push(values);
+        }
+    }
+
+    /// Takes where the body of the figures has been, m.
+    pub fn range(&mut self, [least, most]: [f64; 2]) {
+        self.range = [self.range[0].min(least), self.range[1].max(most)];
+    }
+
+    /// Ends a period of the figures.
+    pub fn end_range(&mut self) {
+        self.ranges.push(std::mem::replace(&mut self.range, NOWHERE));
+    }
+
     /// Takes the next event, its source and kind, and the values after it.
     pub fn event(&mut self, words: [&str; 2], values: &[f64]) {
         if let Some(sketch) = &mut self.sketch {
@@ -59,6 +93,7 @@ impl Kept {
         // Rows are bounded before the run starts; events are not.
         if self.series.size() < 2 * MOST_VALUES {
             self.series.push(values);
+            self.moments.push(values);
             if let (Some(tracks), Some(time)) = (&mut self.tracks, values.first()) {
                 tracks.push(words, *time);
             }

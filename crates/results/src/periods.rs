@@ -1,4 +1,4 @@
-//! The periods of a waveform within a run, and a body's motion with a sample at each of their ends.
+//! The periods of a waveform within a run.
 
 use crate::job::Job;
 use stickslip_drive::Waveform;
@@ -16,17 +16,6 @@ pub struct Periods {
     pub length: f64,
     /// How many are whole; at least one.
     pub count: usize,
-}
-
-/// A body's motion over whole periods.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
-    /// Times, s, with the ends of all periods.
-    pub t: Vec<f64>,
-    /// Positions, m.
-    pub x: Vec<f64>,
-    /// How many ends had no row or event and were interpolated by the cubic of positions and velocities.
-    pub interpolated: usize,
 }
 
 impl Periods {
@@ -74,47 +63,12 @@ impl Periods {
         (self.end_of(self.count - 1), self.end_of(self.count))
     }
 
-    /// A motion (t, x, v) cut to the periods, with a sample at each end of a period.
-    pub fn motion(&self, t: &[f64], x: &[f64], v: &[f64]) -> Motion {
-        let mut motion = Motion { t: Vec::new(), x: Vec::new(), interpolated: 0 };
-        let samples = t.len().min(x.len()).min(v.len());
-        if samples == 0 {
-            return motion;
-        }
-        let hair = SAME * self.length;
-        let mut next = 0;
-        for k in 0..=self.count {
-            let end = self.end_of(k);
-            while next < samples && t[next] < end - hair {
-                if k > 0 {
-                    motion.t.push(t[next]);
-                    motion.x.push(x[next]);
-                }
-                next += 1;
-            }
-            let here = next.min(samples - 1);
-            motion.t.push(end);
-            if (t[here] - end).abs() <= hair || here == 0 {
-                motion.x.push(x[here]);
-            } else {
-                motion.x.push(cubic((t, x, v), here, end));
-                motion.interpolated += 1;
-            }
-            while next < samples && t[next] <= end + hair {
-                next += 1;
-            }
-        }
-        motion
+    /// Place of a moment of a rising sequence that is the end of period k; none where there is none.
+    pub fn end_in(&self, t: &[f64], k: usize) -> Option<usize> {
+        let (end, hair) = (self.end_of(k), SAME * self.length);
+        let place = t.partition_point(|t| *t < end - hair);
+        (*t.get(place)? <= end + hair).then_some(place)
     }
-}
-
-/// The cubic through positions and velocities of samples `after - 1` and `after`, at time `at`.
-fn cubic((t, x, v): (&[f64], &[f64], &[f64]), after: usize, at: f64) -> f64 {
-    let before = after - 1;
-    let h = t[after] - t[before];
-    let s = (at - t[before]) / h;
-    let (rise, r) = (x[after] - x[before], 1.0 - s);
-    x[before] + s * rise + s * r * (r * (h * v[before] - rise) - s * (h * v[after] - rise))
 }
 
 #[cfg(test)]
@@ -136,25 +90,12 @@ mod tests {
     }
 
     #[test]
-    fn a_cubic_motion_is_interpolated_exactly_and_samples_are_taken_as_they_are() {
-        // x = t³ - 2t has no error in the cubic of positions and velocities.
-        let (x, v) = (|t: f64| t.powi(3) - 2.0 * t, |t: f64| 3.0 * t * t - 2.0);
-        let t = [0.0, 0.5, 1.0, 1.7, 2.0, 3.5, 4.5, 6.0];
-        let periods = Periods { start: 0.0, length: 2.0, count: 3 };
-        let motion = periods.motion(&t, &t.map(x), &t.map(v));
-        assert_eq!(motion.t, [0.0, 0.5, 1.0, 1.7, 2.0, 3.5, 4.0, 4.5, 6.0]);
-        assert_eq!(motion.interpolated, 1);
-        for (t, got) in motion.t.iter().zip(&motion.x) {
-            assert!((got - x(*t)).abs() < 1e-13, "{t}: {got}");
-        }
-    }
-
-    #[test]
-    fn rounded_ends_are_the_samples_there() {
+    fn rounded_ends_are_found() {
         let t: Vec<f64> = (0..=30).map(|i| f64::from(i) * 0.1).collect();
         let periods = Periods { start: 0.0, length: 0.3, count: 10 };
-        let motion = periods.motion(&t, &t, &vec![f64::NAN; 31]);
-        assert_eq!((motion.interpolated, motion.t.len()), (0, 31));
-        assert_eq!(motion.x, t);
+        let found: Vec<Option<usize>> = (0..=11).map(|k| periods.end_in(&t, k)).collect();
+        let wanted: Vec<Option<usize>> = (0..=10).map(|k| Some(3 * k)).chain([None]).collect();
+        assert_eq!(found, wanted);
+        assert_eq!(Periods { length: 0.25, ..periods }.end_in(&t, 1), None);
     }
 }

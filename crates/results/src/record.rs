@@ -6,6 +6,7 @@ use crate::folder::Folder;
 use crate::insides::Insides;
 use crate::job::Job;
 use crate::kept::Kept;
+use crate::marks::Marks;
 use crate::table::Table;
 use crate::watcher::Watcher;
 use std::io;
@@ -21,6 +22,8 @@ pub struct Recorder<'a> {
     recorded: Recorded,
     /// Time at which the run is stopped, s.
     until: f64,
+    /// Where the figures are taken.
+    marks: Marks,
     /// A look that was asked for already, s.
     asked: Option<f64>,
     failure: Option<io::Error>,
@@ -53,7 +56,8 @@ impl<'a> Recorder<'a> {
         let channels = job.model.channels();
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
         let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new() };
-        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, asked: None, failure: None }
+        let marks = Marks::of(job);
+        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, marks, asked: None, failure: None }
     }
 
     /// The same with tables in a folder.
@@ -150,6 +154,25 @@ impl Record for Recorder<'_> {
             let written = tables.insides.look(memories);
             self.note(written);
         }
+    }
+
+    fn next_mark(&mut self) -> Option<f64> {
+        self.marks.next()
+    }
+
+    fn mark(&mut self, values: &[f64]) {
+        self.recorded.kept.mark(values);
+        if self.marks.ends_period(values.first().copied().unwrap_or(0.0)) {
+            self.recorded.kept.end_range();
+        }
+    }
+
+    fn watched(&self) -> Option<usize> {
+        self.marks.body
+    }
+
+    fn range(&mut self, range: [f64; 2]) {
+        self.recorded.kept.range(range);
     }
 
     fn goes_on(&mut self, t: f64) -> bool {

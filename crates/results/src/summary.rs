@@ -1,6 +1,7 @@
 //! `summary.json`: what a run came to, in numbers.
 
 mod contacts;
+mod fretting;
 mod steps;
 
 use crate::books::Balance;
@@ -13,8 +14,9 @@ use serde::Serialize;
 use std::io;
 use stickslip_drive::RunError;
 
-pub use contacts::{ContactSummary, Fretting};
-pub use steps::{DriveSummary, Steady};
+pub use contacts::ContactSummary;
+pub use fretting::{Fretting, JudgedCycle};
+pub use steps::{DriveSummary, SettlingSummary, Steady};
 
 /// The summary of a run. Everything but `timing` is the same whenever the same scenario is run.
 #[derive(Debug, Serialize)]
@@ -139,7 +141,7 @@ impl Summary {
                 detours: counts.detours,
                 rows: outcome.rows,
             },
-            contacts: contacts::of(job, outcome, &mut notes),
+            contacts: contacts::of(job, outcome),
             steps: steps::of(job, outcome, &mut notes),
             energy: outcome.books.balance(),
             notes,

@@ -31,7 +31,7 @@ pub(super) struct Chords<'a> {
     pub(super) model: &'a Model,
     pub(super) layout: Layout,
     pub(super) horizon: Horizon,
-    output: Output,
+    pub(super) output: Output,
     ledger: Ledger,
     pub(super) bounds: Bounds,
     /// Sense in which each contact slid last; 0 before it did.
@@ -88,7 +88,8 @@ impl<'a> Chords<'a> {
         if opening.has_row(&self.output, state.t) {
             self.write_now(state, record);
         }
-        self.output.begin_looks((model, state), opening, record);
+        let eq = Equations::on(self.model, state, self.layout, true);
+        self.output.begin_looks(&eq, (model, state), opening, record);
     }
 
     /// Goes on from what another run put down.
@@ -252,6 +253,14 @@ impl<'a> Chords<'a> {
         let step = Between { from: (state.t, &state.y), to, free: self.layout.free };
         while let Some(due) = self.output.grid.due(t) {
             self.output.grid.write(&eq, state, due, &|i| step.value(i, due), record);
+        }
+        while let Some(due) = self.output.marks.due(t) {
+            self.output.marks.write(&eq, state, due, &|i| step.value(i, due), record);
+        }
+        if let Some(i) = self.output.marks.watches() {
+            let to = [t, state.shifts[i] + step.value(i, t), step.value(self.layout.velocity(i), t)];
+            self.output.marks.pass(state, to);
+            self.output.marks.end_step();
         }
         while let Some(due) = self.output.looks.due(t) {
             let memories = self.model.contacts.iter().zip(&state.memories).map(|(contact, memory)| {

@@ -101,6 +101,11 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
         self.chords.write_now(state, record);
     }
 
+    /// Tells the range of a watched body so far.
+    pub(super) fn hand_over(&mut self, record: &mut dyn Record) {
+        self.chords.output.marks.hand_over(record);
+    }
+
     /// Memories are where the state is after every step.
     pub(super) fn settle_books(&mut self, _: &mut State) {}
 

@@ -90,6 +90,11 @@ impl Way<'_> {
         each!(self, run => run.write_now(state, record));
     }
 
+    /// The range of a body since its last mark is told: nobody remembers it beyond this call.
+    fn hand_over(&mut self, record: &mut dyn Record) {
+        each!(self, run => run.hand_over(record));
+    }
+
     /// Memories come to where the state is.
     fn settle(&mut self, state: &mut State) {
         each!(self, run => run.settle_books(state));
@@ -231,6 +236,8 @@ impl<'m> Run<'m> {
             self.way.set_out(&mut self.state, opening, record);
             self.begun = true;
         }
-        self.way.go(&mut self.state, goal, record)
+        let outcome = self.way.go(&mut self.state, goal, record);
+        self.way.hand_over(record);
+        outcome
     }
 }

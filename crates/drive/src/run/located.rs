@@ -161,7 +161,8 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         if opening.has_row(&self.output, state.t) {
             self.output.write_now(&self.setting.plain(state), state, record);
         }
-        self.output.begin_looks((self.setting.model, state), opening, record);
+        let eq = self.setting.plain(state);
+        self.output.begin_looks(&eq, (self.setting.model, state), opening, record);
     }
 
     /// Goes as far as a goal says, and puts down in the state what its future depends on.
@@ -185,6 +186,11 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
         self.put_down(state);
         outcome
+    }
+
+    /// Tells the range of a watched body so far.
+    pub(super) fn hand_over(&mut self, record: &mut dyn Record) {
+        self.output.marks.hand_over(record);
     }
 
     /// Brings memories that wait for an event to where the state is. For who will read them, at the end of a run.

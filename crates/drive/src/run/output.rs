@@ -4,12 +4,16 @@
 //! output, inside a leap from its closed form. No step ends because of output, and evaluations that it costs
 //! are counted apart.
 
+mod marks;
+
 use crate::equations::Equations;
 use crate::event::Event;
 use crate::record::{self, Record};
 use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
+
+pub(super) use marks::Marks;
 
 /// What a run hands to its record. It reads states and dense outputs and changes neither: with it and without it a run has
 /// the same bits.
@@ -18,6 +22,7 @@ pub(super) struct Output {
     every: Option<f64>,
     pub(super) grid: Grid,
     pub(super) looks: Looks,
+    pub(super) marks: Marks,
     row: Vec<f64>,
     /// Scratch: components of a moment, or their slopes.
     pub(super) components: Vec<f64>,
@@ -29,7 +34,7 @@ impl Output {
     pub(super) fn new(every: Option<f64>, layout: Layout) -> Self {
         let (row, components) = (Vec::new(), vec![0.0; layout.total()]);
         let grid = Grid::new(None, 0.0);
-        Self { every, grid, looks: Looks::NONE, row, components, evaluations: 0 }
+        Self { every, grid, looks: Looks::NONE, marks: Marks::none(), row, components, evaluations: 0 }
     }
 
     /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
@@ -37,17 +42,30 @@ impl Output {
         self.grid = Grid::new(self.every, from);
     }
 
-    /// Asks for the first look, and takes it if it is at hand.
-    pub(super) fn begin_looks(&mut self, at: (&Model, &State), opening: Opening, record: &mut dyn Record) {
+    /// Asks for the first look and the first mark, and takes them if they are at hand.
+    pub(super) fn begin_looks(
+        &mut self,
+        equations: &Equations<'_>,
+        at: (&Model, &State),
+        opening: Opening,
+        record: &mut dyn Record,
+    ) {
         self.looks = Looks::begin(at, opening, record);
+        self.marks.begin(equations, at, opening == Opening::Resumed, record);
     }
 
-    /// Whether a row or a look is due at t or before it.
+    /// Whether a row, a look or a mark is due at t or before it, or every step is read.
     ///
-    /// Two comparisons: all that a step without output pays for it.
+    /// A few comparisons: all that a step without output pays for it.
     #[inline(always)]
     pub(super) fn due(&self, t: f64) -> bool {
-        self.grid.due(t).is_some() || self.looks.due(t).is_some()
+        self.marks.watches().is_some() || self.reads(t)
+    }
+
+    /// Whether something is read inside a step that ends at t.
+    #[inline(always)]
+    pub(super) fn reads(&self, t: f64) -> bool {
+        self.grid.due(t).is_some() || self.looks.due(t).is_some() || self.marks.due(t).is_some()
     }
 
     /// Ends the rows at a time, s; the last of them is there, on the grid or not. Gives from when on a moment is the end.

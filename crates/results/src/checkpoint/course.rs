@@ -84,6 +84,24 @@ impl Record for Journalled<'_> {
         self.recorder.look(t, memories);
     }
 
+    fn next_mark(&mut self) -> Option<f64> {
+        self.recorder.next_mark()
+    }
+
+    fn mark(&mut self, values: &[f64]) {
+        self.keeper.journal.mark_row(values);
+        self.recorder.mark(values);
+    }
+
+    fn watched(&self) -> Option<usize> {
+        self.recorder.watched()
+    }
+
+    fn range(&mut self, range: [f64; 2]) {
+        self.keeper.journal.range(range);
+        self.recorder.range(range);
+    }
+
     fn goes_on(&mut self, t: f64) -> bool {
         let goes_on = self.recorder.goes_on(t);
         // A journal that cannot be written ends the run at its next checkpoint, which is now.

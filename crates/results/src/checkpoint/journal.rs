@@ -8,6 +8,8 @@
 //! | row | tag, a number for each channel |
 //! | event | tag, kind of its source and its place (u32), length of its word (u8) and the word, a number for each channel |
 //! | look | tag, time, number of words (u64), the words of each contact's memory |
+//! | mark | tag, a number for each channel |
+//! | range | tag, least and largest place |
 
 use sha2::{Digest, Sha256};
 use std::fs::{File, OpenOptions};
@@ -21,6 +23,8 @@ pub(super) mod tag {
     pub(in super::super) const ROW: u8 = 0;
     pub(in super::super) const EVENT: u8 = 1;
     pub(in super::super) const LOOK: u8 = 2;
+    pub(in super::super) const MARK: u8 = 3;
+    pub(in super::super) const RANGE: u8 = 4;
 }
 
 /// How far a journal counts, and what it holds up to there.
@@ -114,6 +118,18 @@ impl Journal {
         self.reals(&[t]);
         self.bytes.extend((self.words.len() as u64).to_le_bytes());
         self.bytes.extend(self.words.iter().flat_map(|word| word.to_le_bytes()));
+        self.put();
+    }
+
+    pub(super) fn mark_row(&mut self, values: &[f64]) {
+        self.bytes.push(tag::MARK);
+        self.reals(values);
+        self.put();
+    }
+
+    pub(super) fn range(&mut self, range: [f64; 2]) {
+        self.bytes.push(tag::RANGE);
+        self.reals(&range);
         self.put();
     }
 

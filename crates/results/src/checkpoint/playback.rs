@@ -142,6 +142,16 @@ impl Playback<'_, '_> {
                 self.recorder.row(&self.values);
                 Ok(Some(()))
             }
+            [tag::MARK] => {
+                self.read_values()?;
+                self.recorder.mark(&self.values);
+                Ok(Some(()))
+            }
+            [tag::RANGE] => {
+                let range = [f64::from_le_bytes(self.array()?), f64::from_le_bytes(self.array()?)];
+                self.recorder.range(range);
+                Ok(Some(()))
+            }
             [tag::EVENT] => self.event(),
             [tag::LOOK] => self.look(),
             _ => Ok(None),

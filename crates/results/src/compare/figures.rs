@@ -51,17 +51,11 @@ pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> Figure
     let has_same_span = a.end == b.end;
     let rows = |results: &Results| results.summary.pointer("/counts/rows").cloned();
     let has_same_rows = rows(a) == rows(b);
-    let interpolates = [a, b].iter().any(|results| {
-        results
-            .summary
-            .pointer("/steps/interpolated_ends")
-            .and_then(Value::as_u64)
-            .is_some_and(|ends| ends > 0)
-    });
     let is_comparable = |name: &str| {
         let is_of_part = name.starts_with("steps.lengths_m[") || is_of_start(name);
-        let hangs_on_rows = hangs_on_rows(name) || (interpolates && name.starts_with("steps."));
-        !allowance.ignores(name) && (has_same_span || is_of_part) && (has_same_rows || !hangs_on_rows)
+        let is_told = allowance.is_same_run || !is_judgement(name);
+        let is_written = has_same_rows || !hangs_on_rows(name);
+        !allowance.ignores(name) && (has_same_span || is_of_part) && is_written && is_told
     };
     let mut differences = FigureDifferences::default();
     for &(ref name, first) in figures_a.iter().filter(|(name, _)| is_comparable(name)) {
@@ -101,10 +95,15 @@ fn difference(name: &str, a: &Value, b: &Value, allowance: &Allowance) -> Option
 
 /// Figures that are taken from the rows that were written, and differ where other rows are.
 fn hangs_on_rows(name: &str) -> bool {
-    const ENDS: [&str; 4] = ["peak_fx_N", "peak_fn_N", "throughput_J", "interpolated_ends"];
-    name.contains(".fretting.")
-        || name.contains(".largest_error_")
-        || ENDS.iter().any(|end| name.ends_with(end))
+    const ENDS: [&str; 3] = ["peak_fx_N", "peak_fn_N", "throughput_J"];
+    name.contains(".largest_error_") || ENDS.iter().any(|end| name.ends_with(end))
+}
+
+/// Figures that tell how sure others are: by steps of another kind they are others.
+fn is_judgement(name: &str) -> bool {
+    const OF_STEADY: [&str; 4] = ["from_period", "periods", "error_m", "repeatability_m"];
+    name.starts_with("steps.settling.")
+        || name.strip_prefix("steps.steady.").is_some_and(|rest| OF_STEADY.contains(&rest))
 }
 
 /// Figures of the start, which are there however long the run is.

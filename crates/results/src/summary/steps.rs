@@ -5,8 +5,14 @@ use crate::outcome::Outcome;
 use crate::periods::Periods;
 use crate::real::Real;
 use serde::Serialize;
-use stickslip_analysis::Steps;
-use stickslip_drive::scene::Freedom;
+use stickslip_analysis::{Bounds, Settling, Steps};
+use stickslip_drive::scene::{Freedom, Varying};
+
+/// A step below this share of the natural displacement counts as nothing.
+const NOTHING: f64 = 1e-2;
+/// Global over local error of a run, as comparisons allow it; that of fixed steps, which promise none.
+const GLOBAL: f64 = 100.0;
+const FIXED: f64 = 1e-9;
 
 /// Steps of the body named in `figures`, over the whole periods of the waveform named there.
 #[derive(Debug, Serialize)]
@@ -18,28 +24,80 @@ pub struct DriveSummary {
     /// Length of every step.
     #[serde(rename = "lengths_m")]
     lengths: Vec<Real>,
-    /// What the steps settled to.
-    pub steady: Steady,
-    /// First period, from 0, from which every step stays near the steady one; none: it has not settled.
+    /// What the steps do.
+    pub settling: SettlingSummary,
+    /// The step that they have settled to; none where they have not.
     #[serde(skip_serializing_if = "Option::is_none")]
-    settled_from: Option<usize>,
+    pub steady: Option<Steady>,
     /// Net travel over time, m/s.
     #[serde(rename = "mean_speed_m_s")]
     pub mean_speed: Real,
     #[serde(rename = "net_travel_m")]
     net_travel: Real,
-    /// Ends of periods without a row or an event, where the position was interpolated by the cubic of positions and
-    /// velocities; at the others it is exact.
-    interpolated_ends: usize,
 }
 
-/// Over the last half of the periods.
+impl DriveSummary {
+    /// Length of the last step, m.
+    pub fn last(&self) -> Option<Real> {
+        self.lengths.last().copied()
+    }
+}
+
+/// What the lengths of the steps do from period to period. Lengths are in m, changes and growth are those of one period.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "state", rename_all = "snake_case")]
+pub enum SettlingSummary {
+    /// They stay what they are: the steady step says more.
+    Settled,
+    /// They are on their way, or too few to tell.
+    NotSettled {
+        /// Last change.
+        change_m: Real,
+        /// Where it leads, if it goes on to fall as it does.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        limit_m: Option<Real>,
+        /// How far two fits of that are apart.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        limit_error_m: Option<Real>,
+    },
+    /// They change without a pattern, half of the last half of them by more than this to either side.
+    Irregular {
+        /// Half of what lies between the longest and the shortest.
+        spread_m: Real,
+    },
+    /// They change in one direction, to no limit that could be told.
+    Drifts {
+        /// Last change.
+        change_m: Real,
+    },
+    /// They swing about a mean.
+    Beats {
+        /// Periods of the drive to a beat.
+        periods: Real,
+        /// By which share the beat grows, below 0 where it fades; none where that cannot be told yet.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        growth: Option<Real>,
+        /// The mean.
+        about_m: Real,
+        /// Amplitude at the end.
+        amplitude_m: Real,
+    },
+}
+
+/// The step of a drive that has settled.
 #[derive(Debug, Serialize)]
 pub struct Steady {
+    /// First period, from 0, from which every step lies within a thousandth of the limit of all.
+    #[serde(rename = "from_period")]
+    pub from: usize,
+    /// Number of periods averaged: those at the end that are as near to the limit as the last.
     periods: usize,
     /// Mean length of a step, m.
     #[serde(rename = "step_m")]
     pub step: Real,
+    /// How far the mean of all later steps may lie from it, m.
+    #[serde(rename = "error_m")]
+    pub error: Real,
     /// Standard deviation of the step.
     #[serde(rename = "repeatability_m", skip_serializing_if = "Option::is_none")]
     pub repeatability: Option<Real>,
@@ -73,33 +131,80 @@ pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Optio
         ));
         return None;
     };
-    let series = &outcome.kept.series;
-    let [x, v] = ["x_m", "vx_m_s"].map(|quantity| series.column(&body.name, quantity));
-    let motion = periods.motion(series.time(), x, v);
-    match Steps::of_record(&motion.t, &motion.x, period) {
-        Ok(steps) => Some(summary(&steps, &body.name, &waveform.name, (period, motion.interpolated))),
-        Err(error) => {
-            notes.push(format!("no steps: {error}"));
-            None
-        }
+    let moments = &outcome.kept.moments;
+    let places = moments.column(&body.name, "x_m");
+    // A run that was ended between two marks, or had more events than there is room for, lacks the last ones.
+    let ends = (0..=periods.count).map_while(|k| Some(*places.get(periods.end_in(moments.time(), k)?)?));
+    let ends: Vec<f64> = ends.collect();
+    if ends.len() < 2 {
+        notes.push("no steps: the ends of the periods were not recorded".to_owned());
+        return None;
     }
+    let series = outcome.kept.series.column(&body.name, "x_m");
+    let net_travel = series.last().zip(series.first()).map_or(0.0, |(last, first)| last - first);
+    let steps = Steps::of_periods(&ends, &outcome.kept.ranges, period, net_travel, bounds(job));
+    Some(summary(&steps, &body.name, &waveform.name, period))
 }
 
-fn summary(steps: &Steps, body: &str, waveform: &str, (period, interpolated): (f64, usize)) -> DriveSummary {
+/// What is known of a step before any is made.
+///
+/// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke
+/// without being carried away; each may be off by the error that the stepper promises.
+fn bounds(job: &Job) -> Bounds {
+    let natural = (0..job.scenario.scene.contacts.len()).filter_map(|c| job.model.contact_natural(c));
+    let natural = natural.map(|natural| natural.displacement).fold(0.0, f64::max);
+    let promised = match job.stepper() {
+        (_, "tolerance", tolerance) => GLOBAL * tolerance,
+        _ => FIXED,
+    };
+    let most = stroke(job).map_or(f64::INFINITY, |stroke| 2.0 * stroke);
+    Bounds { least: NOTHING * natural, most, error: promised * natural }
+}
+
+/// Stroke of the waveform of the figures, where it is a length: one that a body or an actuator follows.
+fn stroke(job: &Job) -> Option<f64> {
+    let (scene, waveform) = (&job.scenario.scene, job.scenario.figures.waveform?);
+    let followed = scene.bodies.iter().any(|body| body.part.x.freedom == Freedom::Follows(waveform));
+    let drives = scene.actuators.iter().any(|part| part.part.stroke == Varying::Follows(waveform));
+    let (low, high) = scene.waveforms.get(waveform)?.part.range();
+    (followed || drives).then_some(high - low)
+}
+
+fn summary(steps: &Steps, body: &str, waveform: &str, period: f64) -> DriveSummary {
     DriveSummary {
         body: body.to_owned(),
         waveform: waveform.to_owned(),
         period: Real(period),
         lengths: steps.periods.iter().map(|p| Real(p.length)).collect(),
-        steady: Steady {
-            periods: steps.steady.periods,
-            step: Real(steps.steady.step),
-            repeatability: steps.steady.repeatability.map(Real),
-            back_step: steps.steady.back_step.map(Real),
-        },
-        settled_from: steps.settled_from,
+        settling: settling(&steps.settling),
+        steady: steps.steady.map(|steady| Steady {
+            from: steady.from,
+            periods: steady.periods,
+            step: Real(steady.step),
+            error: Real(steady.error),
+            repeatability: steady.repeatability.map(Real),
+            back_step: steady.back_step.map(Real),
+        }),
         mean_speed: Real(steps.mean_speed),
         net_travel: Real(steps.net_travel),
-        interpolated_ends: interpolated,
+    }
+}
+
+fn settling(settling: &Settling) -> SettlingSummary {
+    match *settling {
+        Settling::Settled(_) => SettlingSummary::Settled,
+        Settling::NotSettled { change, limit } => SettlingSummary::NotSettled {
+            change_m: Real(change),
+            limit_m: limit.map(|(limit, _)| Real(limit)),
+            limit_error_m: limit.map(|(_, error)| Real(error)),
+        },
+        Settling::Irregular { spread } => SettlingSummary::Irregular { spread_m: Real(spread) },
+        Settling::Drifts { change } => SettlingSummary::Drifts { change_m: Real(change) },
+        Settling::Beats { period, growth, about, amplitude } => SettlingSummary::Beats {
+            periods: Real(period),
+            growth: growth.map(|growth| Real(growth - 1.0)),
+            about_m: Real(about),
+            amplitude_m: Real(amplitude),
+        },
     }
 }

@@ -9,9 +9,9 @@ use stickslip_results::Job;
 use stickslip_results::Outcome;
 use stickslip_results::Real;
 use stickslip_results::complaint::words;
-use stickslip_results::summary::{Status, Summary};
+use stickslip_results::summary::{DriveSummary, SettlingSummary, Status, Summary};
 
-/// A spread below this share of the step does not show in its digits.
+/// An error below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
 
 /// What is to be printed of one scenario.
@@ -92,6 +92,45 @@ impl Report {
     }
 }
 
+/// What the steps of a drive have come to.
+fn settling(steps: &DriveSummary) -> String {
+    let length = |length: Real| quantity(length, "m");
+    let last = steps.last().map(length).unwrap_or_default();
+    match (&steps.settling, &steps.steady) {
+        (_, Some(steady)) => {
+            let error = Some(steady.error).filter(|e| e.0 > SHOWN * steady.step.0.abs());
+            let error = error.map(|error| format!(" ± {}", length(error))).unwrap_or_default();
+            let back =
+                steady.back_step.map(|b| format!(", back-step {:.1} %", 100.0 * b.0)).unwrap_or_default();
+            let step = length(steady.step);
+            format!("steady step {step}{error}, settled from period {}{back}", steady.from + 1)
+        }
+        (SettlingSummary::NotSettled { change_m, limit_m, .. }, _) => {
+            let limit = limit_m.map(|limit| format!(", on its way to {}", length(limit))).unwrap_or_default();
+            format!("not settled: the step of {last} changes by {} per period{limit}", length(*change_m))
+        }
+        (SettlingSummary::Irregular { spread_m }, _) => {
+            format!("not settled: steps vary by ± {} without a pattern", length(*spread_m))
+        }
+        (SettlingSummary::Drifts { change_m }, _) => {
+            format!("drifts: the step of {last} changes by {} per period", length(*change_m))
+        }
+        (SettlingSummary::Beats { periods, growth, about_m, amplitude_m }, _) => {
+            let growth = growth.map(|growth| {
+                let how = if growth.0 < 0.0 { "fading" } else { "growing" };
+                format!(", {how} by {:.2} % per period", 100.0 * growth.0.abs())
+            });
+            let (about, amplitude) = (length(*about_m), length(*amplitude_m));
+            let growth = growth.unwrap_or_default();
+            format!(
+                "steps beat about {about} by {amplitude} with a period of about {:.1} periods{growth}",
+                periods.0
+            )
+        }
+        (SettlingSummary::Settled, None) => "settled".to_owned(),
+    }
+}
+
 /// What was done, the numbers looked for first, where the files are.
 fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     let (simulated, wall) = (quantity(summary.simulated, "s"), quantity(Real(outcome.wall), "s"));
@@ -99,15 +138,15 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     let mut lines =
         vec![format!("{}: {simulated} simulated in {wall}{}", job.name, steady.unwrap_or_default())];
     if let Some(steps) = &summary.steps {
-        let steady = &steps.steady;
-        let spread = steady.repeatability.filter(|r| r.0 > SHOWN * steady.step.0.abs());
-        let spread = spread.map(|r| format!(" ± {}", quantity(r, "m"))).unwrap_or_default();
-        let back = steady.back_step.map(|b| format!(", back-step {:.1} %", 100.0 * b.0)).unwrap_or_default();
-        let speed = quantity(steps.mean_speed, "m/s");
-        lines.push(format!("  steady step {}{spread}{back}, mean speed {speed}", quantity(steady.step, "m")));
+        lines.push(format!("  {}, mean speed {}", settling(steps), quantity(steps.mean_speed, "m/s")));
     }
     for (name, contact) in &summary.contacts.0 {
         if let Some(fretting) = &contact.fretting {
+            if !fretting.closed {
+                let lost = quantity(fretting.dissipated, "J");
+                lines.push(format!("  {name}: the last cycle is not closed; friction took {lost} in it"));
+                continue;
+            }
             let regime = match fretting.regime {
                 Some("stick") => "stick, ".to_owned(),
                 Some(regime) => format!("{regime} slip, "),

@@ -6,9 +6,9 @@ use crate::console::progress::Progress;
 use std::io;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
-use stickslip_results::files::{EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
+use stickslip_results::files::{CYCLES, EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Draft, Job, Outcome, Recorder, Summary};
+use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, cycles_table};
 
 /// How a run begins.
 pub(crate) enum Beginning {
@@ -33,7 +33,7 @@ pub(crate) fn run(
         Err(error) => return Report::no_folder(job, &error),
     };
     // A run that was killed has left its drafts.
-    let names = [TRACE, EVENTS, SPRINGS, MEMORY, SCENARIO, SUMMARY].map(str::to_owned);
+    let names = [TRACE, EVENTS, SPRINGS, MEMORY, CYCLES, SCENARIO, SUMMARY].map(str::to_owned);
     sweep(&job.folder, &[&names[..], &Look::all_files()].concat());
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
     let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
@@ -77,7 +77,10 @@ pub(crate) fn write(
             Err(error) => summary.note(error.to_string()),
         }
     }
-    let optional = [SPRINGS, MEMORY].map(str::to_owned);
+    if let Some(cycles) = cycles_table(&summary)? {
+        folder.write(CYCLES, &cycles)?;
+    }
+    let optional = [SPRINGS, MEMORY, CYCLES].map(str::to_owned);
     folder.forget(optional.into_iter().chain(Look::all_files()).collect());
     let names = folder.names().into_iter().chain([SUMMARY.to_owned()]).collect();
     summary.set_files(names);

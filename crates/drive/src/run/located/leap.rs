@@ -18,6 +18,10 @@ use crate::run::horizon::Progress;
 use crate::state::{Books, State};
 use stickslip_stepper::Attempt;
 
+/// Parts of an arc, from one turning point of a slide to the next, whose extremes are those of cubics.
+// In eight the range of a period of P1 is right to 1e-6 of the step.
+const PARTS: u32 = 8;
+
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves to the next event, corner or end in one go; none, with nothing done, where the interval has no closed form.
     ///
@@ -126,12 +130,41 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.fill(state, due, to, &mut y);
             self.output.grid.write(&eq, state, due, &|i| y[i], record);
         }
+        if self.output.marks.watches().is_some() {
+            self.pass_leap(&eq, state, to, (&mut y, record));
+        }
+        while let Some(due) = self.output.marks.due(to.t) {
+            self.fill(state, due, to, &mut y);
+            self.output.marks.write(&eq, state, due, &|i| y[i], record);
+        }
         while let Some(due) = self.output.looks.due(to.t) {
             self.fill(state, due, to, &mut y);
             let memories = self.memories_at(&eq, state, due, |i| y[i]);
             self.output.looks.show(memories.as_deref().ok(), record);
         }
         self.output.components = y;
+    }
+
+    /// The way of the watched body, and the marks on it: an arc in so many parts that each is a cubic.
+    fn pass_leap(
+        &mut self,
+        eq: &Equations<'_>,
+        state: &State,
+        to: PhasePoint,
+        (y, record): (&mut [f64], &mut dyn Record),
+    ) {
+        let (from, shift) = (state.t, state.shifts[0]);
+        for part in 1..=PARTS {
+            let t =
+                if part == PARTS { to.t } else { from + (to.t - from) * f64::from(part) / f64::from(PARTS) };
+            while let Some(due) = self.output.marks.due(t) {
+                self.fill(state, due, to, y);
+                self.output.marks.write(eq, state, due, &|i| y[i], record);
+            }
+            let place = if t < to.t { self.swing.at(t) } else { to };
+            self.output.marks.pass(state, [t, shift + place.x, place.v]);
+        }
+        self.output.marks.end_step();
     }
 
     /// Components at a time on the way.

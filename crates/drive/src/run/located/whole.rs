@@ -271,6 +271,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         while let Some(due) = self.output.grid.due(t) {
             self.output.grid.write(&eq, state, due, &|i| half.value(i, due), record);
         }
+        while let Some(due) = self.output.marks.due(t) {
+            self.output.marks.write(&eq, state, due, &|i| half.value(i, due), record);
+        }
+        if let Some(i) = self.output.marks.watches() {
+            let to = [t, state.shifts[i] + y(i), y(self.setting.layout.velocity(i))];
+            self.output.marks.pass(state, to);
+            self.output.marks.end_step();
+        }
         while let Some(due) = self.output.looks.due(t) {
             let memories = self.memories_at(&eq, state, due, |i| half.value(i, due));
             self.output.looks.show(memories.as_deref().ok(), record);

@@ -21,16 +21,33 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
         // By the general law: a row shows every contact, those of closed form, too.
         let eq = self.setting.plain(state);
+        if self.output.reads(t) {
+            self.read(&eq, state, t, record);
+        }
+        if let Some(i) = self.output.marks.watches() {
+            let end = self.motion.solver.span().end;
+            let to = [t, state.shifts[i] + end[i], end[self.setting.layout.velocity(i)]];
+            self.output.marks.pass(state, to);
+            self.output.marks.end_step();
+        }
+    }
+
+    /// What is due inside the step.
+    fn read(&mut self, eq: &Equations<'_>, state: &State, t: f64, record: &mut dyn Record) {
         let asked = self.motion.solver.evaluations();
         self.motion.solver.complete(&self.setting.equations(state, &self.interval), Completion::Dense);
+        // Integrals of the state that this run has no need to integrate stay as they are.
+        let known = self.motion.solver.span().end.len();
         while let Some(due) = self.output.grid.due(t) {
-            // Integrals of the state that this run has no need to integrate stay as they are.
-            let known = self.motion.solver.span().end.len();
             let y = |i: usize| if i < known { self.motion.solver.value(i, due) } else { state.y[i] };
-            self.output.grid.write(&eq, state, due, &y, record);
+            self.output.grid.write(eq, state, due, &y, record);
+        }
+        while let Some(due) = self.output.marks.due(t) {
+            let y = |i: usize| if i < known { self.motion.solver.value(i, due) } else { state.y[i] };
+            self.output.marks.write(eq, state, due, &y, record);
         }
         while let Some(due) = self.output.looks.due(t) {
-            let memories = self.memories_at(&eq, state, due, |i| self.motion.component(i, due));
+            let memories = self.memories_at(eq, state, due, |i| self.motion.component(i, due));
             self.output.looks.show(memories.as_deref().ok(), record);
         }
         // What output asks for is no part of the run.

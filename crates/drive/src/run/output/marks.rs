@@ -1,0 +1,171 @@
+//! Rows at moments that a record asks for itself, and how far a body has moved between them.
+//!
+//! They are read off steps as rows are, but for the record's own figures: so that these do not depend on where rows lie.
+
+use crate::Model;
+use crate::equations::Equations;
+use crate::model::Binding;
+use crate::record::{self, Record};
+use crate::scene::Axis;
+use crate::state::State;
+
+/// A moment this near before the one asked for, relative to the time, is it: ends of periods are rounded.
+const SAME: f64 = 4.0 * f64::EPSILON;
+
+/// Time (s), place (m) and velocity (m/s) of a body.
+pub(in crate::run) type Point = [f64; 3];
+
+/// The marks ahead, and the way of a body since the last one.
+pub(in crate::run) struct Marks {
+    /// The next moment, s; infinite where none is left.
+    due: f64,
+    /// From when on a moment is as good as that, s.
+    nearly: f64,
+    /// The free coordinate whose range is asked for.
+    coordinate: Option<usize>,
+    /// Where it was read last inside the present step.
+    inside: Option<Point>,
+    /// Least and largest place since the last mark, m; counted from the coordinate's origin.
+    range: [f64; 2],
+    row: Vec<f64>,
+}
+
+/// No place yet.
+const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+impl Marks {
+    /// Before a run: nobody has asked yet.
+    pub(in crate::run) const fn none() -> Self {
+        let never = f64::INFINITY;
+        Self { due: never, nearly: never, coordinate: None, inside: None, range: NOWHERE, row: Vec::new() }
+    }
+
+    /// Asks for the first moment after the state's, and takes one that is at hand. Of a run that is `resumed` that has been taken.
+    pub(in crate::run) fn begin(
+        &mut self,
+        equations: &Equations<'_>,
+        (model, state): (&Model, &State),
+        resumed: bool,
+        record: &mut dyn Record,
+    ) {
+        let binding =
+            record.watched().and_then(|body| Some(model.bodies.get(body)?.bindings[Axis::X as usize]));
+        self.coordinate = match binding {
+            Some(Binding::Free(i)) => Some(i),
+            _ => None,
+        };
+        self.due = f64::NEG_INFINITY;
+        self.ask(record);
+        while self.due < state.t || resumed && self.due(state.t).is_some() {
+            self.ask(record);
+        }
+        if let Some(i) = self.coordinate {
+            self.range = [state.shifts[i] + state.y[i]; 2];
+        }
+        while self.due(state.t).is_some() {
+            self.write(equations, state, state.t, &|i| state.y[i], record);
+        }
+        self.inside = None;
+    }
+
+    /// The next moment, if it lies at `t` or before it; `t` itself where it is as good as there.
+    #[inline(always)]
+    pub(in crate::run) fn due(&self, t: f64) -> Option<f64> {
+        (t >= self.nearly).then(|| self.due.min(t))
+    }
+
+    /// Whether the range of a coordinate is asked for: then every step is read.
+    #[inline(always)]
+    pub(in crate::run) fn watches(&self) -> Option<usize> {
+        self.coordinate
+    }
+
+    /// Hands over the row at a moment of the present step, and asks for the next.
+    pub(in crate::run) fn write(
+        &mut self,
+        equations: &Equations<'_>,
+        state: &State,
+        t: f64,
+        y: &impl Fn(usize) -> f64,
+        record: &mut dyn Record,
+    ) {
+        if let Some(i) = self.coordinate {
+            let point = [t, state.shifts[i] + y(i), y(equations.layout.velocity(i))];
+            self.pass(state, point);
+            self.inside = Some(point);
+            self.hand_over(record);
+            self.range = [point[1]; 2];
+        }
+        record::fill(equations, state, t, y, &mut self.row);
+        record.mark(&self.row);
+        self.ask(record);
+    }
+
+    /// Takes the way to a point of the present step, at whose start the state is.
+    pub(in crate::run) fn pass(&mut self, state: &State, to: Point) {
+        let Some(i) = self.coordinate else { return };
+        let start = || [state.t, state.shifts[i] + state.y[i], state.y[state.shifts.len() + i]];
+        let from = self.inside.take().unwrap_or_else(start);
+        let [least, most] = extent(from, to);
+        self.range = [self.range[0].min(least), self.range[1].max(most)];
+        self.inside = Some(to);
+    }
+
+    /// The present step is over.
+    pub(in crate::run) fn end_step(&mut self) {
+        self.inside = None;
+    }
+
+    /// Hands over the range so far.
+    pub(in crate::run) fn hand_over(&mut self, record: &mut dyn Record) {
+        if self.range[0] <= self.range[1] {
+            record.range(self.range);
+            self.range = NOWHERE;
+        }
+    }
+
+    /// Moments that do not ascend end the marks.
+    fn ask(&mut self, record: &mut dyn Record) {
+        let next = record.next_mark().unwrap_or(f64::INFINITY);
+        self.due = if next > self.due { next } else { f64::INFINITY };
+        self.nearly = self.due * (1.0 - SAME);
+    }
+}
+
+/// Least and largest place on the cubic that has places and velocities of both points.
+fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> [f64; 2] {
+    let (h, ends) = (t1 - t0, [x0.min(x1), x0.max(x1)]);
+    if h.is_nan() || h <= 0.0 {
+        return ends;
+    }
+    // x(s) = x₀ + hv₀s + bs² + cs³, s from 0 to 1; its slope vanishes where hv₀ + 2bs + 3cs² = 0.
+    let (slope, rise) = (h * v0, x1 - x0);
+    let (b, c) = (3.0 * rise - 2.0 * slope - h * v1, slope + h * v1 - 2.0 * rise);
+    let root = (b * b - 3.0 * c * slope).sqrt();
+    // Either root without the difference of two nearly equal numbers.
+    let q = -(b + root.copysign(b));
+    let turns = [q / (3.0 * c), slope / q].into_iter().filter(|s| *s > 0.0 && *s < 1.0);
+    turns.fold(ends, |[least, most], s| {
+        let x = x0 + s * (slope + s * (b + s * c));
+        [least.min(x), most.max(x)]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::extent;
+
+    #[test]
+    fn a_cubic_has_its_turning_points() {
+        // x = t³ - 3t turns at -1 and 1, with 2 and -2.
+        let (x, v) = (|t: f64| t.powi(3) - 3.0 * t, |t: f64| 3.0 * t * t - 3.0);
+        let between = |a: f64, b: f64| extent([a, x(a), v(a)], [b, x(b), v(b)]);
+        assert_eq!(between(-1.5, 1.5), [-2.0, 2.0]);
+        assert_eq!(between(0.0, 1.5), [-2.0, 0.0]);
+        assert_eq!(between(1.5, 2.0), [x(1.5), 2.0]);
+        // A parabola, thrown at 1 m/s against 2 m/s², a straight way, and rest.
+        assert_eq!(extent([0.0, 0.0, 1.0], [1.0, 0.0, -1.0]), [0.0, 0.25]);
+        assert_eq!(extent([0.0, 1.0, 2.0], [1.0, 3.0, 2.0]), [1.0, 3.0]);
+        assert_eq!(extent([0.0, 1.0, 0.0], [1.0, 1.0, 0.0]), [1.0, 1.0]);
+    }
+}

@@ -1,0 +1,264 @@
+//! The cycles of a contact, from the moments of a run and the contact's own law between them.
+//!
+//! Nothing here is read off rows. Ends of cycles are marks, turning points are events; where the contact's law has no time in
+//! it, the way from one to the next is walked once more, and what lies between is asked of the law.
+
+use crate::contact_path::is_walked;
+use crate::job::Job;
+use crate::periods::Periods;
+use crate::series::Series;
+use std::ops::Range;
+use stickslip_analysis::{Cut, Cycle, split_cycles};
+use stickslip_contact::{Apex, Interface, Memory, Segment};
+use stickslip_drive::scene::{Freedom, Side};
+
+/// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
+const CLOSED: f64 = 0.01;
+/// Share of the displacement range over which a secant is taken.
+const WINDOW: f64 = stickslip_analysis::fretting::STIFFNESS_WINDOW;
+/// Halvings of an interval in which the force changes sign: to the last place.
+const HALVINGS: u32 = 64;
+
+/// One cycle of a contact that comes back along u.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CycleFigures {
+    /// Start and end, s.
+    pub time: [f64; 2],
+    /// Whether the force comes back as well; otherwise there is no loop, and ratios say nothing.
+    pub is_closed: bool,
+    /// Amplitudes, opening, and as E_d the friction work; stiffnesses are the contact's own, of full stick.
+    pub cycle: Cycle,
+    /// Secants of the first tenth of the way back, after the maximum and after the minimum of u, N/m.
+    pub secants: [Option<f64>; 2],
+    /// Mean normal force, N.
+    pub normal: f64,
+    /// Indentation at its start, m.
+    pub depth: f64,
+}
+
+/// The moments of a contact.
+struct Track<'a> {
+    t: &'a [f64],
+    u: &'a [f64],
+    d: &'a [f64],
+    force: &'a [f64],
+    normal: &'a [f64],
+    friction: &'a [f64],
+}
+
+/// What the law is asked for in a cycle: between which moment and the next, and at which u; without one, where F_x vanishes.
+struct Question {
+    after: usize,
+    u: Option<f64>,
+    /// Extreme of u that this u is on the way back from, m.
+    extreme: f64,
+    /// u where F_x vanishes, or F_x at u.
+    answer: f64,
+}
+
+/// The cycles of contact `c` that come back along u, in order; of the periods of what drives it, or from one reversal to the next
+/// of the same kind where that is a table.
+pub fn cycles(job: &Job, c: usize, moments: &Series, end: f64) -> Vec<CycleFigures> {
+    let Some((name, law)) = job.model.contacts().nth(c) else { return Vec::new() };
+    let column = |quantity| moments.column(name, quantity);
+    let track = Track {
+        t: moments.time(),
+        u: column("u_m"),
+        d: column("d_m"),
+        force: column("fx_N"),
+        normal: column("fn_N"),
+        friction: column("friction_J"),
+    };
+    let spans: Vec<Range<usize>> =
+        track.spans(job, c, end).into_iter().filter(|span| track.comes_back(span)).collect();
+    if spans.is_empty() {
+        return Vec::new();
+    }
+    let walk = job.start.memories().get(c).filter(|_| is_walked(job, c));
+    let mut walk = walk.map(|memory| Walk { law, memory: memory.clone(), at: None });
+    let count = f64::from(job.count(c));
+    spans.iter().map(|span| track.figures(span, (law, count), walk.as_mut())).collect()
+}
+
+impl Track<'_> {
+    /// First and last moment of all whole cycles.
+    fn spans(&self, job: &Job, c: usize, end: f64) -> Vec<Range<usize>> {
+        if let Some(periods) = Periods::of_contact(job, c, end) {
+            let ends: Vec<usize> = (0..=periods.count).map_while(|k| periods.end_in(self.t, k)).collect();
+            return ends.windows(2).map(|pair| pair[0]..pair[1]).collect();
+        }
+        if !follows_table(job, c) {
+            return Vec::new();
+        }
+        let (low, high) = range(self.u);
+        let cut = Cut::Reversals { least: CLOSED * (high - low) };
+        let spans = split_cycles(self.t, self.u, self.force, cut).unwrap_or_default();
+        spans.into_iter().map(|span| span.start..span.end - 1).collect()
+    }
+
+    fn comes_back(&self, span: &Range<usize>) -> bool {
+        let u = &self.u[span.start..=span.end];
+        let (low, high) = range(u);
+        high > low && (u[u.len() - 1] - u[0]).abs() <= CLOSED * (high - low)
+    }
+
+    fn figures(
+        &self,
+        span: &Range<usize>,
+        (law, count): (&Interface, f64),
+        walk: Option<&mut Walk<'_>>,
+    ) -> CycleFigures {
+        let (a, b) = (span.start, span.end);
+        let (u, force) = (&self.u[a..=b], &self.force[a..=b]);
+        let ((low, high), (least, most)) = (range(u), range(force));
+        let mut questions = self.questions(span, (low, high));
+        match walk {
+            Some(walk) => walk.answer(self, span, count, &mut questions),
+            None => questions.iter_mut().for_each(|question| question.answer = self.chord(question)),
+        }
+        let secant = |extreme: f64| {
+            let found = questions.iter().find(|q| q.u.is_some() && q.extreme == extreme)?;
+            let (from, way) = (self.at_extreme(span, extreme)?, found.u? - extreme);
+            Some((found.answer - self.force[from]) / way)
+        };
+        let tangent = |extreme: f64| {
+            self.at_extreme(span, extreme)
+                .map(|i| count * law.stick_stiffness(self.d[i]))
+                .filter(|k| *k > 0.0)
+        };
+        let cycle = Cycle {
+            displacement_amplitude: 0.5 * (high - low),
+            force_amplitude: 0.5 * (most - least),
+            half_opening: self.half_opening(&questions),
+            dissipated: self.friction[b] - self.friction[a],
+            stiffness_after_maximum: tangent(high),
+            stiffness_after_minimum: tangent(low),
+        };
+        CycleFigures {
+            time: [self.t[a], self.t[b]],
+            is_closed: (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
+            cycle,
+            secants: [secant(high), secant(low)],
+            normal: mean_over_time(&self.t[a..=b], &self.normal[a..=b]),
+            depth: self.d[a],
+        }
+    }
+
+    /// Where F_x vanishes, and at u after a tenth of the way back from either extreme.
+    fn questions(&self, span: &Range<usize>, (low, high): (f64, f64)) -> Vec<Question> {
+        let changes = |i: &usize| (self.force[*i] < 0.0) != (self.force[*i + 1] < 0.0);
+        let zeros =
+            span.clone().filter(changes).map(|after| Question { after, u: None, extreme: 0.0, answer: 0.0 });
+        let window = WINDOW * (high - low);
+        let back = |(extreme, u): (f64, f64)| {
+            let from = self.at_extreme(span, extreme)?;
+            // Round the loop: it is closed, and the way back may lie before the extreme.
+            let mut on = (from..span.end).chain(span.start..from);
+            let after = on.find(|i| (self.u[*i + 1] - extreme).abs() >= window)?;
+            Some(Question { after, u: Some(u), extreme, answer: 0.0 })
+        };
+        let secants = [(high, high - window), (low, low + window)].into_iter().filter_map(back);
+        zeros.chain(secants).collect()
+    }
+
+    /// The last moment at an extreme before the motion turns; that at the end of the cycle is the one at its start.
+    fn at_extreme(&self, span: &Range<usize>, extreme: f64) -> Option<usize> {
+        (span.start..=span.end)
+            .rfind(|i| self.u[*i] == extreme && (*i == span.end || self.u[*i + 1] != extreme))
+    }
+
+    /// The answer along a straight line between two moments.
+    fn chord(&self, question: &Question) -> f64 {
+        let (i, j) = (question.after, question.after + 1);
+        match question.u {
+            None => {
+                let share = self.force[i] / (self.force[i] - self.force[j]);
+                self.u[i] + share * (self.u[j] - self.u[i])
+            }
+            Some(u) => {
+                let share = (u - self.u[i]) / (self.u[j] - self.u[i]);
+                self.force[i] + share * (self.force[j] - self.force[i])
+            }
+        }
+    }
+
+    /// Half the distance between the zeros of a falling force and those of a rising one.
+    fn half_opening(&self, questions: &[Question]) -> Option<f64> {
+        let zeros = questions.iter().filter(|question| question.u.is_none());
+        let (falling, rising): (Vec<&Question>, Vec<&Question>) =
+            zeros.partition(|zero| self.force[zero.after + 1] < 0.0);
+        let mean = |zeros: &[&Question]| {
+            let sum: f64 = zeros.iter().map(|zero| zero.answer).sum();
+            (!zeros.is_empty()).then(|| sum / zeros.len() as f64)
+        };
+        Some(0.5 * (mean(&falling)? - mean(&rising)?))
+    }
+}
+
+/// A contact led once more along the moments of a run.
+struct Walk<'a> {
+    law: &'a Interface,
+    memory: Memory,
+    /// The moment where it stands.
+    at: Option<usize>,
+}
+
+impl Walk<'_> {
+    /// Answers questions of a cycle that is not before the one asked about last.
+    fn answer(&mut self, track: &Track<'_>, span: &Range<usize>, count: f64, questions: &mut [Question]) {
+        let d = track.d.first().copied().unwrap_or(0.0);
+        for i in self.at.map_or(0, |at| at + 1)..=span.end {
+            if i > span.start {
+                for question in questions.iter_mut().filter(|question| question.after == i - 1) {
+                    let force = |u: f64| count * self.memory.force(self.law, Apex { d, u });
+                    question.answer = match question.u {
+                        Some(u) => force(u),
+                        None => zero(force, [track.u[i - 1], track.u[i]]),
+                    };
+                }
+            }
+            // The run has been here: its contact was not refused.
+            let _ = self.memory.commit(self.law, Segment::Straight(Apex { d, u: track.u[i] }));
+            self.at = Some(i);
+        }
+    }
+}
+
+/// Where a force that changes its sign once vanishes.
+fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
+    let falls = force(to) < 0.0;
+    for _ in 0..HALVINGS {
+        let middle = from + 0.5 * (to - from);
+        if (force(middle) < 0.0) == falls { to = middle } else { from = middle }
+    }
+    to
+}
+
+/// Whether a body of a contact follows a waveform without a period.
+fn follows_table(job: &Job, c: usize) -> bool {
+    let scene = &job.scenario.scene;
+    scene.contacts.get(c).is_some_and(|contact| {
+        contact.part.between.iter().any(|side| match side {
+            Side::Ground => false,
+            Side::Body(body) => match scene.bodies.get(*body).map(|body| body.part.x.freedom) {
+                Some(Freedom::Follows(w)) => {
+                    scene.waveforms.get(w).is_some_and(|w| w.part.period().is_none())
+                }
+                _ => false,
+            },
+        })
+    })
+}
+
+/// Least and largest value.
+fn range(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
+}
+
+/// Mean by the trapezium rule; of no time the first value.
+fn mean_over_time(t: &[f64], values: &[f64]) -> f64 {
+    let spans = t.windows(2).zip(values.windows(2));
+    let area: f64 = spans.map(|(t, v)| 0.5 * (v[0] + v[1]) * (t[1] - t[0])).sum();
+    let time = t[t.len() - 1] - t[0];
+    if time > 0.0 { area / time } else { values[0] }
+}

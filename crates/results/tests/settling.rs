@@ -1,0 +1,120 @@
+//! What the steps of drives do, named, and how long it holds.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and shows what it measured"
+)]
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use stickslip_results::{Job, Summary};
+
+fn example(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name).with_extension("json")
+}
+
+/// A stage of 100 g on three balls, a foot of 5 g on a stack: 5 N, 1 ms, 4.6 µm.
+fn stage() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/stage.json")
+}
+
+fn steps(file: &Path, cycles: usize, set: &[(&str, &str)]) -> Value {
+    let set = set.iter().copied().chain([("output.every", "1e3"), ("plots", "[]")]);
+    let set: Vec<_> = set.map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
+    let set = [vec![("run.cycles".to_owned(), cycles.to_string())], set].concat();
+    let job = Job::prepare(file, &set, Path::new("")).unwrap();
+    let outcome = job.run(&());
+    assert!(outcome.error.is_none(), "{:?}", outcome.error);
+    let summary: Value = serde_json::from_str(&Summary::new(&job, &outcome).pretty().unwrap()).unwrap();
+    summary["steps"].clone()
+}
+
+fn number(value: &Value, key: &str) -> f64 {
+    value.pointer(key).unwrap_or_else(|| panic!("no {key} in {value}")).as_f64().unwrap()
+}
+
+fn state(steps: &Value) -> &str {
+    steps["settling"]["state"].as_str().unwrap()
+}
+
+fn lengths(steps: &Value) -> Vec<f64> {
+    steps["lengths_m"].as_array().unwrap().iter().map(|length| length.as_f64().unwrap()).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The settled step is the mean of 10 000 further periods, within its error.
+#[test]
+fn settled_steps_hold_for_ten_thousand_periods() {
+    for (file, cycles) in
+        [(example("p1"), 20), (example("ruby_drive"), 8), (example("vibrated_slider"), 60), (stage(), 12)]
+    {
+        let short = steps(&file, cycles, &[]);
+        assert_eq!(state(&short), "settled", "{}", file.display());
+        let (step, error) = (number(&short, "/steady/step_m"), number(&short, "/steady/error_m"));
+        let long = lengths(&steps(&file, cycles + 10_000, &[]));
+        let off = (step - mean(&long[cycles..])).abs();
+        println!("{}: {step:e}, error {error:.1e}, off {off:.1e}", file.display());
+        assert!(off <= error, "{}: {off:e} off, error {error:e}", file.display());
+        assert!(error < 1e-3 * step);
+    }
+}
+
+/// At 20 kHz a step grows for thousands of periods; after 100 it said 259 nm. Where it goes is known long before.
+#[test]
+fn a_step_on_its_way_is_not_settled_and_its_limit_is_foreseen() {
+    let fast = [("waveforms.drive.sawtooth.period", "\"50 us\"")];
+    let short = steps(&stage(), 100, &fast);
+    assert_eq!(state(&short), "not_settled");
+    assert!(short.get("steady").is_none());
+    let last = lengths(&short)[98..].to_vec();
+    assert_eq!(number(&short, "/settling/change_m"), last[1] - last[0]);
+    let long = lengths(&steps(&stage(), 6000, &fast));
+    let limit = number(&short, "/settling/limit_m");
+    println!("limit {limit:e}, {:e} after 6 000 periods", long[5999]);
+    assert!((limit / long[5999] - 1.0).abs() < 0.01, "{limit:e}, {:e}", long[5999]);
+}
+
+/// A load of 0.5 N against 0.45 N of friction runs away; it said -13.82 µm ± 2.7 µm.
+#[test]
+fn a_load_that_runs_away_drifts() {
+    let set = [("contacts.balls.normal.force", "\"1 N\""), ("loads", r#"[{"on":"stage","x":"-0.5 N"}]"#)];
+    let found = steps(&stage(), 20, &set);
+    assert_eq!(state(&found), "drifts", "{found}");
+    assert!(found.get("steady").is_none());
+}
+
+/// Without damping the stack rings on; it said -110 nm beside a mean speed of +1.38 mm/s.
+#[test]
+fn an_undamped_stack_beats_until_friction_has_damped_it() {
+    let set = [("actuators.stack.damping", "0")];
+    let found = steps(&stage(), 20, &set);
+    assert_eq!(state(&found), "beats", "{found}");
+    assert!(number(&found, "/settling/growth") < 0.0);
+    let long = lengths(&steps(&stage(), 600, &set));
+    let about = number(&found, "/settling/about_m");
+    assert!((about / long[599] - 1.0).abs() < 0.02, "{about:e}, {:e}", long[599]);
+}
+
+/// Beats of the examples: one fades by 0.33 % a period, one grows by 0.1 %.
+#[test]
+fn beats_fade_or_grow() {
+    let impact = steps(&example("impact_drive"), 100, &[]);
+    assert_eq!(state(&impact), "beats");
+    assert!((number(&impact, "/settling/periods") - 12.0).abs() < 1.0, "{}", impact["settling"]);
+    assert!((-0.02..-0.001).contains(&number(&impact, "/settling/growth")), "{}", impact["settling"]);
+    let climber = steps(&example("vertical_climber"), 60, &[]);
+    assert_eq!(state(&climber), "beats");
+    assert!((number(&climber, "/settling/periods") - 7.5).abs() < 0.1, "{}", climber["settling"]);
+    assert!((0.0005..0.002).contains(&number(&climber, "/settling/growth")), "{}", climber["settling"]);
+}
+
+/// A slider that rocks without end.
+#[test]
+fn chaos_is_said_to_have_no_pattern() {
+    let found = steps(&example("rocking_slider"), 40, &[]);
+    assert_eq!(state(&found), "irregular", "{found}");
+}
