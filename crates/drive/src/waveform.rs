@@ -193,6 +193,12 @@ impl Waveform {
         self.period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
     }
 
+    /// From when to when it moves, s; the second is infinite where that has no end.
+    #[must_use]
+    pub fn window(&self) -> (f64, f64) {
+        self.window
+    }
+
     /// Longest step, s, that cannot overlook a wave inside a smooth piece: a quarter of the shortest one; infinite where
     /// all pieces are straight.
     #[must_use]

@@ -10,6 +10,7 @@ use crate::series::Series;
 use std::ops::Range;
 use stickslip_analysis::{Cut, Cycle, split_cycles};
 use stickslip_contact::{Apex, Interface, Memory, Segment};
+use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Freedom, Side};
 
 /// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
@@ -87,7 +88,7 @@ impl Track<'_> {
             let ends: Vec<usize> = (0..=periods.count).map_while(|k| periods.end_in(self.t, k)).collect();
             return ends.windows(2).map(|pair| pair[0]..pair[1]).collect();
         }
-        if !follows_table(job, c) {
+        if table_of(job, c).is_none() {
             return Vec::new();
         }
         let (low, high) = range(self.u);
@@ -234,20 +235,17 @@ fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
     to
 }
 
-/// Whether a body of a contact follows a waveform without a period.
-fn follows_table(job: &Job, c: usize) -> bool {
+/// The waveform without a period that a body of a contact follows.
+pub(crate) fn table_of(job: &Job, c: usize) -> Option<&Waveform> {
     let scene = &job.scenario.scene;
-    scene.contacts.get(c).is_some_and(|contact| {
-        contact.part.between.iter().any(|side| match side {
-            Side::Ground => false,
-            Side::Body(body) => match scene.bodies.get(*body).map(|body| body.part.x.freedom) {
-                Some(Freedom::Follows(w)) => {
-                    scene.waveforms.get(w).is_some_and(|w| w.part.period().is_none())
-                }
-                _ => false,
-            },
-        })
-    })
+    let mut followed = scene.contacts.get(c)?.part.between.iter().filter_map(|side| match side {
+        Side::Ground => None,
+        Side::Body(body) => match scene.bodies.get(*body)?.part.x.freedom {
+            Freedom::Follows(w) => scene.waveforms.get(w).map(|w| &w.part),
+            Freedom::Fixed | Freedom::Free => None,
+        },
+    });
+    followed.find(|waveform| waveform.period().is_none())
 }
 
 /// Least and largest value.

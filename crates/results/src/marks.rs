@@ -1,13 +1,17 @@
 //! The moments at which a run is asked for its figures: ends of periods, and parts of them.
 
 use crate::contact_path::is_walked;
+use crate::cycles::table_of;
 use crate::job::Job;
 use crate::periods::Periods;
+use stickslip_drive::Waveform;
 use stickslip_drive::scene::Freedom;
 
 /// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
 /// extremes and corners that are no events.
 const PARTS: f64 = 64.0;
+/// The same of a table, all of it.
+const TABLE_PARTS: f64 = 4096.0;
 /// A moment this near to an end, in periods, is the end.
 const SAME: f64 = 1e-9;
 
@@ -44,9 +48,14 @@ impl Marks {
         let figures = body.and_then(|_| of_figures());
         let mut grids: Vec<Grid> = figures.iter().map(|periods| Grid::of(periods, 1.0)).collect();
         for c in 0..scene.contacts.len() {
-            if let Some(periods) = Periods::of_contact(job, c, for_ever) {
-                let parts = if is_walked(job, c) { 1.0 } else { PARTS };
-                let grid = Grid::of(&periods, parts);
+            let grids_of_contact = match (Periods::of_contact(job, c, for_ever), table_of(job, c)) {
+                (Some(periods), _) => {
+                    vec![Grid::of(&periods, if is_walked(job, c) { 1.0 } else { PARTS })]
+                }
+                (None, Some(table)) => Grid::along(table, is_walked(job, c), end),
+                (None, None) => Vec::new(),
+            };
+            for grid in grids_of_contact {
                 if !grids.iter().any(|other| other.is_same(&grid)) {
                     grids.push(grid);
                 }
@@ -60,7 +69,8 @@ impl Marks {
         let next = self.grids.iter().filter_map(Grid::due).fold(f64::INFINITY, f64::min);
         for grid in &mut self.grids {
             // Those that rounding puts elsewhere are one.
-            while grid.due().is_some_and(|due| due <= next + SAME * grid.interval) {
+            let same = if grid.interval.is_finite() { SAME * grid.interval } else { 0.0 };
+            while grid.due().is_some_and(|due| due <= next + same) {
                 grid.next += 1.0;
             }
         }
@@ -84,8 +94,19 @@ impl Grid {
         Self { start: periods.start, interval: periods.length / parts, next: 0.0, last }
     }
 
+    /// Along a waveform without a period, for reversals: the beginning and the end of the run, which a reversal needs to be one,
+    /// and where the contact's law does not tell what is between events, parts of the waveform.
+    fn along(waveform: &Waveform, is_walked: bool, end: f64) -> Vec<Self> {
+        let once = |start: f64| Self { start, interval: f64::INFINITY, next: 0.0, last: 0.0 };
+        let (from, to) = waveform.window();
+        let parts = Self { start: from, interval: (to - from) / TABLE_PARTS, next: 0.0, last: TABLE_PARTS };
+        let parts = Some(parts).filter(|parts| !is_walked && parts.interval.is_finite());
+        [Some(once(0.0)), Some(once(end)), parts].into_iter().flatten().collect()
+    }
+
     fn due(&self) -> Option<f64> {
-        (self.next <= self.last).then_some(self.start + self.next * self.interval)
+        let way = if self.next > 0.0 { self.next * self.interval } else { 0.0 };
+        (self.next <= self.last).then_some(self.start + way)
     }
 
     fn is_same(&self, other: &Self) -> bool {

@@ -42,33 +42,48 @@ fn a_loop_of_a_paraboloid_has_its_closed_forms() {
     let set: Vec<(&str, &str)> = set.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
     let job = example("fretting_sphere", &set);
     for (c, amplitude) in [(0, 200e-9), (1, 400e-9)] {
-        let CycleFigures { cycle, is_closed, secants, .. } = last_cycle(&job, c);
-        let (u_c, normal) = job.contact_scale(c);
-        assert!(amplitude < u_c);
-        let limit = f64::from(job.count(c)) * job.model.contacts().nth(c).unwrap().1.friction() * normal;
-        let force = |u: f64| limit * (1.0 - (1.0 - u / u_c).powf(1.5));
-        // The branch down: F = F(δ) - 2F((δ - u)/2). It vanishes where F(v) = F(δ)/2, v = u_c(1 - (1 - F/2μF_N)^{2/3}).
-        let top = force(amplitude);
-        let half = u_c * (1.0 - (1.0 - 0.5 * top / limit).powf(2.0 / 3.0));
-        let opening = amplitude - 2.0 * half;
-        // Area: from the mean of F over the way, ∫₀^δ F dv = μF_N(δ - ⅖u_c(1 - (1 - δ/u_c)^{5/2})).
-        let under = limit * (amplitude - 0.4 * u_c * (1.0 - (1.0 - amplitude / u_c).powf(2.5)));
-        let lost = 8.0 * under - 4.0 * amplitude * top;
-        let stiffness = 1.5 * limit / u_c;
-        let window = 0.2 * amplitude;
-        let secant = 2.0 * force(0.5 * window) / window;
-        assert!(is_closed);
-        near(cycle.displacement_amplitude, amplitude, 1e-12, "amplitude");
-        near(cycle.force_amplitude, top, 1e-12, "force");
-        // Both are small differences of forces: their rounding is that of the loop's height and width.
-        near(cycle.dissipated, lost, 1e-11, "friction work");
-        near(cycle.half_opening.unwrap(), opening, 1e-11, "opening");
-        for found in [cycle.stiffness_after_maximum, cycle.stiffness_after_minimum] {
-            near(found.unwrap(), stiffness, 1e-12, "tangent");
-        }
-        for found in secants {
-            near(found.unwrap(), secant, 1e-10, "secant");
-        }
+        check_paraboloid(&job, c, amplitude, &last_cycle(&job, c));
+    }
+}
+
+/// The same of a table of points, whose cycles go from one reversal to the next of its kind: every one of them.
+#[test]
+fn the_loops_of_a_table_have_theirs() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/table_loop.json");
+    let job = prepare(&file, &[]);
+    let outcome = job.run(&());
+    let found = cycles(&job, 0, &outcome.kept.moments, outcome.state.time());
+    let times: Vec<[f64; 2]> = found.iter().map(|cycle| cycle.time).collect();
+    assert_eq!(times, [[1.0, 5.0], [5.0, 9.0]]);
+    found.iter().for_each(|cycle| check_paraboloid(&job, 0, 300e-9, cycle));
+}
+
+fn check_paraboloid(job: &Job, c: usize, amplitude: f64, found: &CycleFigures) {
+    let CycleFigures { cycle, is_closed, secants, .. } = found;
+    let (u_c, normal) = job.contact_scale(c);
+    assert!(amplitude < u_c);
+    let limit = f64::from(job.count(c)) * job.model.contacts().nth(c).unwrap().1.friction() * normal;
+    let force = |u: f64| limit * (1.0 - (1.0 - u / u_c).powf(1.5));
+    // The branch down: F = F(δ) - 2F((δ - u)/2). It vanishes where F(v) = F(δ)/2, v = u_c(1 - (1 - F/2μF_N)^{2/3}).
+    let top = force(amplitude);
+    let half = u_c * (1.0 - (1.0 - 0.5 * top / limit).powf(2.0 / 3.0));
+    let opening = amplitude - 2.0 * half;
+    // Area: from the mean of F over the way, ∫₀^δ F dv = μF_N(δ - ⅖u_c(1 - (1 - δ/u_c)^{5/2})).
+    let under = limit * (amplitude - 0.4 * u_c * (1.0 - (1.0 - amplitude / u_c).powf(2.5)));
+    let lost = 8.0 * under - 4.0 * amplitude * top;
+    let window = 0.2 * amplitude;
+    let secant = 2.0 * force(0.5 * window) / window;
+    assert!(is_closed);
+    near(cycle.displacement_amplitude, amplitude, 1e-12, "amplitude");
+    near(cycle.force_amplitude, top, 1e-12, "force");
+    // Both are small differences of forces: their rounding is that of the loop's height and width.
+    near(cycle.dissipated, lost, 1e-11, "friction work");
+    near(cycle.half_opening.unwrap(), opening, 1e-11, "opening");
+    for found in [cycle.stiffness_after_maximum, cycle.stiffness_after_minimum] {
+        near(found.unwrap(), 1.5 * limit / u_c, 1e-12, "tangent");
+    }
+    for found in secants {
+        near(found.unwrap(), secant, 1e-10, "secant");
     }
 }
 
