@@ -10,10 +10,11 @@
 //! * [`Job`], within its `limits`; [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
 //! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
 //! * what it leaves: [`Kept`] with [`Series`] and [`Tracks`] in memory, `books` (energies); `table`, `insides` and `sheet` on
-//!   disk, under the names of [`files`], in a [`folder`]; its [`fingerprint`];
+//!   disk, under the names of [`files`], in a [`folder`] on a `disk`, each table with its [`Seal`]; its [`fingerprint`];
 //! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`summary`] with
 //!   [`Real`] and [`Parts`] (numbers and things in JSON);
-//! * what is read back: `rows` and [`frame`] (tables), `replay` and [`Results`] (a folder), [`springs`] and [`curves`];
+//! * what is read back: `guard` (files of strangers), `synopsis` (a summary), `rows` and [`frame`] (tables), `replay` and
+//!   [`Results`] (a folder), [`springs`] and [`curves`];
 //! * [`checkpoint`] – runs that go on after they were ended;
 //! * [`compare`] – two folders told apart;
 //! * for those who tell of results: [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
@@ -26,10 +27,12 @@ pub mod compare;
 pub mod complaint;
 mod contact_path;
 pub mod curves;
+mod disk;
 pub mod files;
 pub mod fingerprint;
 pub mod folder;
 pub mod frame;
+mod guard;
 pub mod info;
 mod insides;
 mod job;
@@ -46,10 +49,12 @@ mod record;
 mod replay;
 mod results;
 mod rows;
+mod seal;
 mod series;
 mod sheet;
 pub mod springs;
 pub mod summary;
+mod synopsis;
 mod table;
 mod tracks;
 mod trail;
@@ -57,16 +62,18 @@ mod watcher;
 
 pub use columns::Columns;
 pub use contact_path::contact_path;
-pub use job::{Job, Refusal, hash};
+pub use job::{Job, Refusal};
 pub use kept::Kept;
 pub use outcome::Outcome;
 pub use parts::Parts;
 pub use periods::{Motion, Periods};
 pub use real::Real;
 pub use record::{Draft, Recorder};
-pub use results::{NO_RESULTS, Results, ResultsError};
+pub use results::{Results, ResultsError};
+pub use seal::{Seal, SealedTable, hash};
 pub use series::{ENERGY, Series};
 pub use summary::Summary;
+pub use synopsis::{NO_RESULTS, SynopsisError, check_published};
 pub use tracks::{Track, Tracks};
 pub use trail::Trail;
 pub use watcher::Watcher;
