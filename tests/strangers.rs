@@ -98,6 +98,16 @@ fn words_and_numbers_without_end_are_refused_at_once() {
     refused("summary.json", &"[".repeat(100_000), "recursion limit");
     refused("summary.json", &format!("[{}0]", "0,".repeat(3_000_000)), "it has more than 2500000 values");
     refused("summary.json", &format!("\"{}\"", long.repeat(7)), "it has more than 67108864 bytes");
+    refused(
+        "summary.json",
+        &format!("{{\"status\": \"{long}\"}}"),
+        "has a name or word of 10000000 bytes, expected at most 1024",
+    );
+    // Names within names, of very many values.
+    let name = "x".repeat(1000);
+    let deep =
+        format!("{}[{}0]{}", format!("{{\"{name}\":").repeat(100), "0,".repeat(100_000), "}".repeat(100));
+    refused("summary.json", &deep, "the full names of its figures have more than 134217728 bytes");
 }
 
 /// What was printed, in which there is nothing that a terminal would obey.

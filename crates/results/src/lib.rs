@@ -27,6 +27,7 @@ pub mod compare;
 pub mod complaint;
 mod contact_path;
 pub mod curves;
+mod digest;
 mod disk;
 pub mod files;
 pub mod fingerprint;

@@ -1,6 +1,7 @@
 //! CSV files being written, field by field, and sealed.
 
-use crate::seal::{Digester, Seal};
+use crate::digest::Digest;
+use crate::seal::Seal;
 use std::io::{self, Seek, SeekFrom, Write};
 use tempfile::NamedTempFile;
 
@@ -8,7 +9,7 @@ use tempfile::NamedTempFile;
 const BLOCK: usize = 1 << 16;
 
 /// A CSV file being written. Its words and numbers are what a run with rows spends most of its time on: they go straight
-/// into one block, numbers without a look at what stands in them, and a block into the file and the hash.
+/// into one block, numbers without a look at what stands in them, and a block into the file and to its hash.
 ///
 /// A file that takes no more ends with its last whole block; what came after is lost, and said at the end.
 pub(crate) struct Sheet<F = NamedTempFile> {
@@ -17,7 +18,7 @@ pub(crate) struct Sheet<F = NamedTempFile> {
     block: Vec<u8>,
     digits: zmij::Buffer,
     /// Of what is in the file.
-    digest: Digester,
+    digest: Digest,
     /// Lines below the names: in the file, and in the block.
     rows: [u64; 2],
     failure: Option<io::Error>,
@@ -41,7 +42,7 @@ impl<F: Target> Sheet<F> {
     /// A sheet with a line of column names.
     pub(crate) fn new<'a>(file: F, head: impl IntoIterator<Item = &'a str>) -> Self {
         let block = Vec::with_capacity(BLOCK + BLOCK / 8);
-        let digest = Digester::default();
+        let digest = Digest::default();
         let mut sheet =
             Self { file, block, digits: zmij::Buffer::new(), digest, rows: [0; 2], failure: None };
         head.into_iter().for_each(|name| sheet.text(name));
@@ -85,7 +86,7 @@ impl<F: Target> Sheet<F> {
         }
         self.rows[1] += 1;
         if self.block.len() >= BLOCK {
-            self.flush();
+            self.flush(false);
         }
     }
 
@@ -95,17 +96,18 @@ impl<F: Target> Sheet<F> {
     }
 
     /// Writes the block, all of it or nothing.
-    fn flush(&mut self) {
+    fn flush(&mut self, is_last: bool) {
         let rows = std::mem::take(&mut self.rows[1]);
         if self.failure.is_none() {
             match self.file.write_all(&self.block) {
                 Ok(()) => {
-                    self.digest.update(&self.block);
+                    self.block = self.digest.take(std::mem::take(&mut self.block), is_last);
                     self.rows[0] += rows;
                 }
                 Err(failure) => self.failure = Some(failure),
             }
         }
+        // What a file without room has not taken is lost.
         self.block.clear();
     }
 
@@ -114,8 +116,8 @@ impl<F: Target> Sheet<F> {
     /// # Errors
     /// A file that did not take its first block, or cannot be cut where its last whole one ends.
     pub(crate) fn finish(mut self) -> io::Result<Written<F>> {
-        self.flush();
-        let (length, sha256) = self.digest.finish();
+        self.flush(true);
+        let (length, sha256) = self.digest.finish()?;
         if let Some(failure) = self.failure.take_if(|_| length == 0) {
             return Err(failure);
         }

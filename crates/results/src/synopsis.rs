@@ -14,6 +14,11 @@ use thiserror::Error;
 /// What is said of anything else, by all who read results.
 pub const NO_RESULTS: &str = "expected a folder of results, as `stickslip run` writes one for each scenario";
 
+/// Most bytes of a name or word in a summary.
+const MOST_WORD: usize = 1024;
+/// Most bytes of the names of all its values: a million periods have 24 million, ten thousand contacts 30 million.
+const MOST_NAMES: usize = 128 << 20;
+
 /// What a summary says.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Synopsis {
@@ -50,9 +55,14 @@ pub enum SynopsisError {
         /// What it should have.
         key: &'static str,
     },
-    /// A summary that a terminal would obey.
-    #[error("{}: has control characters in its names or words", .0.display())]
-    Control(PathBuf),
+    /// A summary of words that no run has.
+    #[error("{}: {message}", .path.display())]
+    Words {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with them.
+        message: String,
+    },
     /// A summary without seals.
     #[error("{}: does not say what is in {name}: an older version of the program has written it, or it was changed\n   help: run the scenario again", .path.display())]
     NoSeal {
@@ -78,8 +88,10 @@ impl Synopsis {
     pub(crate) fn read(folder: &Path) -> Result<Self, SynopsisError> {
         let path = folder.join(SUMMARY);
         match guard::json(&path) {
-            Ok(summary) if obeys(&summary) => Err(SynopsisError::Control(path)),
-            Ok(summary) => Ok(Self { folder: folder.to_owned(), summary }),
+            Ok(summary) => match fault(&summary) {
+                None => Ok(Self { folder: folder.to_owned(), summary }),
+                Some(message) => Err(SynopsisError::Words { path, message }),
+            },
             Err(source)
                 if matches!(source.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) =>
             {
@@ -134,21 +146,53 @@ impl Synopsis {
     }
 }
 
-/// Whether a terminal would obey what is told of a summary: a version, a status, the name of a contact.
-fn obeys(summary: &Value) -> bool {
+/// What is wrong with what is told of a summary: a version, a status, the name of a contact.
+fn fault(summary: &Value) -> Option<String> {
     // Sentences of the run and its title are not told.
     const UNTOLD: [&str; 3] = ["title", "error", "notes"];
+    let mut words = Words::default();
     let entries = summary.as_object().into_iter().flatten();
-    entries.filter(|(key, _)| !UNTOLD.contains(&key.as_str())).any(|(_, value)| has_control(value))
+    entries
+        .filter(|(key, _)| !UNTOLD.contains(&key.as_str()))
+        .for_each(|(key, value)| words.read(key, value, 0));
+    if words.has_control {
+        Some("has control characters in its names or words".to_owned())
+    } else if words.longest > MOST_WORD {
+        Some(format!("has a name or word of {} bytes, expected at most {MOST_WORD}", words.longest))
+    } else if words.names > MOST_NAMES {
+        Some(format!("the full names of its figures have more than {MOST_NAMES} bytes"))
+    } else {
+        None
+    }
 }
 
-fn has_control(value: &Value) -> bool {
-    let is_in = |text: &str| text.contains(char::is_control);
-    match value {
-        Value::String(text) => is_in(text),
-        Value::Array(entries) => entries.iter().any(has_control),
-        Value::Object(entries) => entries.iter().any(|(key, value)| is_in(key) || has_control(value)),
-        _ => false,
+/// The names and words of a summary.
+#[derive(Debug, Default)]
+struct Words {
+    has_control: bool,
+    /// Bytes of the longest.
+    longest: usize,
+    /// Bytes of the names of all values, such as `steps.lengths_m[3]`.
+    names: usize,
+}
+
+impl Words {
+    /// Takes a value whose name has the name of what it is part of, so many bytes, before it.
+    fn read(&mut self, name: &str, value: &Value, before: usize) {
+        self.word(name);
+        let before = before + name.len() + 1;
+        match value {
+            Value::Object(entries) => entries.iter().for_each(|(key, value)| self.read(key, value, before)),
+            Value::Array(entries) => entries.iter().for_each(|value| self.read("[0000]", value, before)),
+            Value::String(text) => self.word(text),
+            _ => {}
+        }
+        self.names = self.names.saturating_add(before);
+    }
+
+    fn word(&mut self, text: &str) {
+        self.has_control |= text.contains(char::is_control);
+        self.longest = self.longest.max(text.len());
     }
 }
 
