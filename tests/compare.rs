@@ -1,38 +1,53 @@
 //! Two runs told apart: every sort of difference is made by hand, and must be found as what it is.
 
-use crate::program::{code, listing, run, run_example, scenario, stderr, stdout, stickslip, summary};
+use crate::program::{code, listing, reseal, run, run_example, scenario, stderr, stdout, stickslip, summary};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::{TempDir, tempdir};
 
 /// Lines of a table as words; the first has the names.
-type Lines = Vec<Vec<String>>;
+pub(crate) type Lines = Vec<Vec<String>>;
 
 /// A run, and a copy of it to be changed.
-struct Pair {
-    a: PathBuf,
-    b: PathBuf,
+pub(crate) struct Pair {
+    pub(crate) a: PathBuf,
+    pub(crate) b: PathBuf,
     _root: TempDir,
 }
 
 impl Pair {
-    fn new(name: &str, set: &[&str]) -> Self {
+    pub(crate) fn new(name: &str, set: &[&str]) -> Self {
         let root = tempdir().unwrap();
         let a = run_example(name, &root.path().join("a"), &[&["plots=[]"], set].concat());
         let b = root.path().join("b");
         std::fs::create_dir(&b).unwrap();
-        for name in ["trace.csv", "events.csv", "summary.json"] {
+        for name in ["trace.csv", "events.csv", "summary.json", "scenario.json"] {
             std::fs::copy(a.join(name), b.join(name)).unwrap();
         }
         Self { a, b, _root: root }
     }
 
-    fn quickstart() -> Self {
+    pub(crate) fn quickstart() -> Self {
         Self::new("quickstart", &["run.duration=21 ms"])
     }
 
-    /// Replaces a table of B by a changed copy of A's.
-    fn edit<T>(&self, name: &str, change: impl FnOnce(&mut Lines) -> T) -> T {
+    /// Makes B what A is.
+    pub(crate) fn restore(&self) {
+        for name in ["trace.csv", "events.csv", "summary.json", "scenario.json"] {
+            std::fs::copy(self.a.join(name), self.b.join(name)).unwrap();
+        }
+    }
+
+    /// Replaces a table of B by a changed copy of A's, and makes the summary fit.
+    pub(crate) fn edit<T>(&self, name: &str, change: impl FnOnce(&mut Lines) -> T) -> T {
+        let result = self.rewrite(name, change);
+        reseal(&self.b);
+        self.recount();
+        result
+    }
+
+    /// Replaces a table of B by a changed copy of A's, and nothing else.
+    pub(crate) fn rewrite<T>(&self, name: &str, change: impl FnOnce(&mut Lines) -> T) -> T {
         let text = std::fs::read_to_string(self.a.join(name)).unwrap();
         let mut lines: Lines =
             text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
@@ -42,11 +57,26 @@ impl Pair {
         result
     }
 
+    /// Makes the summary of B count what its tables have.
+    pub(crate) fn recount(&self) {
+        for (count, table) in [("rows", "trace.csv"), ("events", "events.csv")] {
+            let rows = summary(&self.b)["tables"][table]["rows"].clone();
+            self.edit_summary(&format!("/counts/{count}"), |_| rows);
+        }
+    }
+
     /// Changes a value in the summary of B.
-    fn edit_summary(&self, pointer: &str, change: impl FnOnce(&Value) -> Value) {
+    pub(crate) fn edit_summary(&self, pointer: &str, change: impl FnOnce(&Value) -> Value) {
         let mut summary = summary(&self.b);
         let value = summary.pointer_mut(pointer).unwrap();
         *value = change(value);
+        std::fs::write(self.b.join("summary.json"), summary.to_string()).unwrap();
+    }
+
+    /// Puts a value under a key of the summary of B.
+    pub(crate) fn edit_root(&self, key: &str, value: Value) {
+        let mut summary = summary(&self.b);
+        summary[key] = value;
         std::fs::write(self.b.join("summary.json"), summary.to_string()).unwrap();
     }
 
@@ -86,7 +116,7 @@ fn nudge(cell: &mut String) {
     *cell = format!("{:?}", cell.parse::<f64>().unwrap() * (1.0 + 1e-9));
 }
 
-fn place(lines: &Lines, name: &str) -> usize {
+pub(crate) fn place(lines: &Lines, name: &str) -> usize {
     lines[0].iter().position(|head| head == name).unwrap()
 }
 
@@ -98,6 +128,7 @@ fn the_same_run_is_the_same_to_the_bit() {
     let (code, found) = compare(&pair.a, &b, &["--tolerance", "0", "--time-tolerance", "0"]);
     assert_eq!((code, &found["same"], &found["notes"]), (0, &json!(true), &json!([])));
     assert_eq!(found["rows"], json!({ "a": 2101, "b": 2101, "common": 2101 }));
+    assert_eq!(found["coverage"], json!({ "time": 1.0, "rows": 1.0 }));
     assert_eq!(found["channels"].as_array().unwrap().len(), 18);
     assert!(found["figures"]["compared"].as_u64().unwrap() > 25);
     let text = pair.text(&[]);
@@ -416,7 +447,7 @@ fn bad_input_is_said_and_is_no_difference() {
     refused(a, b, &["--tolerance", "-1"], "expected a value of 0 or more");
     refused(a, b, &["--time-tolerance", "1 nm"], "nm is the unit of a length");
     pair.edit("trace.csv", |lines| lines.truncate(1));
-    refused(a, b, &[], "A and B have no row at a common time");
+    refused(a, b, &[], "trace.csv  has no rows");
     pair.edit("trace.csv", |lines| "x".clone_into(&mut lines[3][1]));
     refused(a, b, &[], "trace.csv:4  foot.x_m: expected a number, got \"x\"");
     pair.edit("trace.csv", |lines| "t".clone_into(&mut lines[0][0]));
@@ -426,10 +457,16 @@ fn bad_input_is_said_and_is_no_difference() {
     std::fs::write(b.join("summary.json"), "{").unwrap();
     refused(a, b, &[], "summary.json: cannot be read: ");
     std::fs::remove_file(b.join("summary.json")).unwrap();
-    refused(a, b, &[], "summary.json: cannot be read: No such file or directory\n");
-    std::fs::remove_file(b.join("trace.csv")).unwrap();
+    refused(
+        a,
+        b,
+        &[],
+        "b: incomplete: a run was ended while its results were published\n   help: run it again\n",
+    );
+    for name in ["trace.csv", "events.csv", "scenario.json"] {
+        std::fs::remove_file(b.join(name)).unwrap();
+    }
     refused(a, b, &[], "expected a folder of results");
-    std::fs::remove_file(b.join("events.csv")).unwrap();
 }
 
 /// P1: u_c = μE*d/G*, and ω² = 2G*a/m of the slider on the stuck contact.

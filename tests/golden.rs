@@ -2,7 +2,7 @@
 //!
 //! `tests/golden/README.md` tells how they are made and renewed.
 
-use crate::program::{Table, code, listing, run, stderr, stdout, stickslip, summary};
+use crate::program::{Table, code, listing, reseal, run, stderr, stdout, stickslip, summary};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -85,6 +85,9 @@ impl Goldens {
         write_lines(&golden.join("events.csv"), events.lines().map(short));
         let figures = serde_json::to_string_pretty(&figures(&summary(results))).unwrap();
         std::fs::write(golden.join("summary.json"), figures + "\n").unwrap();
+        reseal(&golden);
+        let sealed = serde_json::to_string_pretty(&summary(&golden)).unwrap();
+        std::fs::write(golden.join("summary.json"), sealed + "\n").unwrap();
     }
 
     /// Compares all scenarios; with a reason renews the goldens that differ and logs it.
@@ -162,6 +165,7 @@ fn spread(rows: usize) -> Vec<usize> {
 /// The part of a summary that is compared.
 fn figures(summary: &Value) -> Value {
     let mut figures = json!({
+        "excerpt": true,
         "program": { "version": summary["program"]["version"] },
         "counts": { "rows": summary["counts"]["rows"] },
     });
@@ -245,9 +249,12 @@ fn a_falsified_golden_is_noticed() {
     let falsify = |name: &str, change: &dyn Fn(&str) -> String, message: &str| {
         let path = specimen.golden(name);
         let text = std::fs::read_to_string(&path).unwrap();
+        let seals = std::fs::read_to_string(specimen.golden("summary.json")).unwrap();
         std::fs::write(&path, change(&text)).unwrap();
+        reseal(&specimen.goldens.root.join("p1"));
         let fault = goldens.check("p1", results).unwrap_err();
         assert!(fault.contains(message) && fault.ends_with(COMMAND), "{fault}");
+        std::fs::write(specimen.golden("summary.json"), seals).unwrap();
         std::fs::write(&path, text).unwrap();
     };
     let digit = |text: &str| {

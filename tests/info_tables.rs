@@ -88,7 +88,7 @@ fn what_is_skipped_is_told_with_its_reason() {
         "memory row",
     ];
     assert_eq!(items("used"), used);
-    assert_eq!(info["contacts"]["pressed"]["start"]["peak_pressure_Pa"], "inf");
+    assert!(info["contacts"]["pressed"]["start"]["peak_pressure_Pa"].is_null(), "no string for infinity");
     assert!(info["contacts"]["row"]["start"].get("peak_pressure_Pa").is_none());
     assert_eq!(number(&info, "/contacts/slick/start/tangential_stiffness_N_m"), 0.0);
     // In a walk there are no equations.

@@ -48,7 +48,12 @@ pub(crate) enum Command {
     /// Where a scenario asks for it, also springs.csv and memory.csv: what goes on inside its contacts.
     ///
     /// Everything about a scenario is checked before its folder is made. Exit codes: 0 done, 2 bad input, 3 a run
-    /// stopped itself, 130 interrupted; of several files the largest. What was computed is written in either case.
+    /// stopped itself, 130 interrupted; of several files the largest. What was computed is written in either case, also
+    /// what a disk had room for before it was full (exit code 3; "cut" in summary.json).
+    ///
+    /// All files of a run get their names at its end, summary.json last, with rows and SHA-256 of every table: a folder
+    /// holds the results of before, those of the run, or no summary, and without one `plot`, `compare` and `repro` read
+    /// nothing. Numbers that are not finite are null in JSON, and a note says which.
     #[command(after_long_help = run::RUN_EXAMPLES)]
     Run(RunArguments),
     /// Go on with runs that kept checkpoints, to their end or to a later one

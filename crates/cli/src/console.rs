@@ -5,3 +5,4 @@ pub(crate) mod interrupt;
 pub(crate) mod progress;
 pub(crate) mod quantity;
 pub(crate) mod verdict;
+pub(crate) mod visible;

@@ -58,12 +58,15 @@ pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryErr
     let recorder = Recorder::new(job, watcher).fingerprinted();
     let recorder = recorder.with_tables(&folder).map_err(failed)?;
     let (outcome, drafts) = job.run_recorded(recorder).map_err(failed)?;
+    if let Some(failure) = outcome.failure {
+        return Err(failed(failure));
+    }
     if let Some(source) = outcome.error {
         return Err(GalleryError::Stopped { name: job.name.clone(), source });
     }
-    drafts.into_iter().try_for_each(|(name, draft)| folder.stage(name, draft)).map_err(failed)?;
+    drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file)).map_err(failed)?;
     let (springs, memory) = (folder.place(SPRINGS), folder.place(MEMORY));
-    let sources = Sources { job, kept: &outcome.kept, springs, memory };
+    let sources = Sources { job, kept: &outcome.kept, springs: springs.into(), memory: memory.into() };
     let light = Look { formats: vec![Format::Png, Format::Svg], theme: Colours::Light, scale: 1 };
     let dark = Look { formats: vec![Format::Png], theme: Colours::Dark, scale: 1 };
     let mut pictures = Vec::new();

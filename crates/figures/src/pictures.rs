@@ -11,10 +11,10 @@ mod state;
 mod trajectory;
 
 use crate::look::{Look, Pen, Picture};
-use std::path::{Path, PathBuf};
 use stickslip_plot::PlotError;
 use stickslip_results::Job;
 use stickslip_results::Kept;
+use stickslip_results::SealedTable;
 use stickslip_results::frame::FrameError;
 use stickslip_results::provenance::provenance;
 use stickslip_scenario::PlotName;
@@ -27,9 +27,9 @@ pub struct Sources<'a> {
     /// What was kept of it.
     pub kept: &'a Kept,
     /// Where `springs.csv` lies, if it was written.
-    pub springs: PathBuf,
+    pub springs: SealedTable,
     /// Where `memory.csv` lies, if it was written.
-    pub memory: PathBuf,
+    pub memory: SealedTable,
 }
 
 /// Why a picture is not drawn.
@@ -140,8 +140,8 @@ fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<P
 }
 
 /// The place of a table that the run may have left out.
-fn written<'a>(path: &'a Path, file: &'static str) -> Result<&'a Path, Undrawn> {
-    if path.exists() { Ok(path) } else { Err(Undrawn::Absent(file)) }
+fn written<'a>(table: &'a SealedTable, file: &'static str) -> Result<&'a SealedTable, Undrawn> {
+    if table.path.exists() { Ok(table) } else { Err(Undrawn::Absent(file)) }
 }
 
 /// Columns of these quantities of all contacts.

@@ -43,6 +43,11 @@ fn place(results: &Path) -> PathBuf {
     results.join(FOLDER)
 }
 
+/// Whether there is one in a folder of results.
+pub(crate) fn exists(results: &Path) -> bool {
+    place(results).join(STATE).is_file()
+}
+
 /// Refuses what is there and no plain file: a pipe would be waited for, a device read without end.
 fn plain(path: &Path) -> io::Result<()> {
     let kind = fs::metadata(path)?.file_type();

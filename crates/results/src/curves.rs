@@ -3,7 +3,7 @@
 use crate::files::MEMORY_HEAD;
 use crate::frame::FrameError;
 use crate::rows::Rows;
-use std::path::Path;
+use crate::seal::SealedTable;
 
 /// The curve of a contact at a moment.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,18 +25,18 @@ pub struct MemoryCurve {
 ///
 /// # Errors
 /// A file that cannot be read, other columns, or a cell that is no number.
-pub fn read(path: &Path, most: usize) -> Result<Vec<MemoryCurve>, FrameError> {
-    let (times, curves) = survey(path)?;
+pub fn read(table: &SealedTable, most: usize) -> Result<Vec<MemoryCurve>, FrameError> {
+    let (times, curves) = survey(table)?;
     let each = curves.div_ceil(times.len().max(1)).max(1);
     let chosen = chosen(&times, (most / each).max(1));
-    let mut table = Corners::open(path)?;
+    let mut corners = Corners::open(table)?;
     let mut curves: Vec<MemoryCurve> = Vec::new();
-    while table.rows.advance()? {
-        let (t, [d, u, h, p]) = (table.time()?, table.corner()?);
+    while corners.rows.advance()? {
+        let (t, [d, u, h, p]) = (corners.time()?, corners.corner()?);
         if !chosen.contains(&t) {
             continue;
         }
-        let contact = table.rows.text(1);
+        let contact = corners.rows.text(1);
         if curves.last().is_none_or(|curve| curve.time != t || curve.contact != contact) {
             let (h, p) = (Vec::new(), Vec::new());
             curves.push(MemoryCurve { contact: contact.to_owned(), time: t, apex: (d, u), h, p });
@@ -50,11 +50,11 @@ pub fn read(path: &Path, most: usize) -> Result<Vec<MemoryCurve>, FrameError> {
 }
 
 /// All moments, s, and the number of curves.
-fn survey(path: &Path) -> Result<(Vec<f64>, usize), FrameError> {
-    let mut table = Corners::open(path)?;
+fn survey(table: &SealedTable) -> Result<(Vec<f64>, usize), FrameError> {
+    let mut corners = Corners::open(table)?;
     let (mut times, mut curves, mut last) = (Vec::new(), 0, (f64::NAN, String::new()));
-    while table.rows.advance()? {
-        let (t, contact) = (table.time()?, table.rows.text(1));
+    while corners.rows.advance()? {
+        let (t, contact) = (corners.time()?, corners.rows.text(1));
         if last.0 != t {
             times.push(t);
         }
@@ -82,8 +82,8 @@ struct Corners {
 }
 
 impl Corners {
-    fn open(path: &Path) -> Result<Self, FrameError> {
-        let mut rows = Rows::open(path)?;
+    fn open(table: &SealedTable) -> Result<Self, FrameError> {
+        let mut rows = Rows::open(table)?;
         rows.check_head(MEMORY_HEAD)?;
         Ok(Self { rows })
     }
@@ -124,9 +124,9 @@ mod tests {
         std::fs::write(file.path(), format!("{}\n{}", MEMORY_HEAD.join(","), lines.collect::<String>()))
             .unwrap();
         let of = |curve: &MemoryCurve| (curve.time, curve.contact.clone());
-        let some: Vec<_> = read(file.path(), 5).unwrap().iter().map(of).collect();
+        let some: Vec<_> = read(&file.path().to_owned().into(), 5).unwrap().iter().map(of).collect();
         assert_eq!(some, [(0.0, "a".into()), (0.0, "b".into()), (9.0, "a".into()), (9.0, "b".into())]);
-        let all = read(file.path(), 20).unwrap();
+        let all = read(&file.path().to_owned().into(), 20).unwrap();
         assert_eq!(all.len(), 20);
         assert_eq!((all[3].apex, &*all[3].h, &*all[3].p), ((1.0, 0.5), &[0.0, 1.0][..], &[0.0, 0.1][..]));
     }

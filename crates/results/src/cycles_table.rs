@@ -1,8 +1,14 @@
 //! `cycles.csv`: every cycle of the contacts that come back along u.
 
+use crate::files::CYCLES;
+use crate::folder::Folder;
+use crate::record::Draft;
+use crate::sheet::{Sheet, Written};
 use crate::summary::{JudgedCycle, Summary};
 use std::io;
 
+/// Place of `closed` among the values, after both times.
+const CLOSED: usize = 2;
 /// Names of the columns.
 const HEAD: [&str; 19] = [
     "contact",
@@ -26,35 +32,34 @@ const HEAD: [&str; 19] = [
     "regime",
 ];
 
-/// The table of a run; none where no contact has a cycle. Forces and work are those of all identical contacts together; what a
-/// cycle does not have is left empty.
+/// Writes the table of a run; none where no contact has a cycle. Forces and work are those of all identical contacts together;
+/// what a cycle does not have is left empty.
 ///
 /// # Errors
-/// None but what the writer may find wrong.
-pub fn cycles_table(summary: &Summary) -> io::Result<Option<Vec<u8>>> {
+/// What the system says of writing it.
+pub fn cycles_table(summary: &Summary, folder: &Folder) -> io::Result<Option<Draft>> {
     let contacts = summary.contacts.0.iter();
     let all = contacts.flat_map(|(name, contact)| contact.cycles.iter().enumerate().map(move |c| (name, c)));
     let mut all = all.peekable();
     if all.peek().is_none() {
         return Ok(None);
     }
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(HEAD)?;
-    let mut digits = zmij::Buffer::new();
+    let mut sheet = Sheet::new(folder.draft(CYCLES)?, HEAD);
     for (name, (number, cycle)) in all {
-        writer.write_field(name)?;
-        writer.write_field((number + 1).to_string())?;
-        for value in values(cycle).into_iter().enumerate() {
+        sheet.text(name);
+        sheet.word(&(number + 1).to_string());
+        for (place, value) in values(cycle).into_iter().enumerate() {
             match value {
-                (2, _) => writer.write_field(if cycle.figures.is_closed { "yes" } else { "no" })?,
-                (_, Some(value)) => writer.write_field(digits.format(value))?,
-                (_, None) => writer.write_field("")?,
+                _ if place == CLOSED => sheet.word(if cycle.figures.is_closed { "yes" } else { "no" }),
+                Some(value) => sheet.number(value),
+                None => sheet.word(""),
             }
         }
-        writer.write_field(cycle.regime.unwrap_or_default())?;
-        writer.write_record(None::<&[u8]>)?;
+        sheet.word(cycle.regime.unwrap_or_default());
+        sheet.end_line();
     }
-    writer.into_inner().map(Some).map_err(csv::IntoInnerError::into_error)
+    let Written { file, seal, failure } = sheet.finish()?;
+    failure.map_or(Ok(Some(Draft { name: CYCLES, file, seal })), Err)
 }
 
 /// The numbers of a cycle, in the order of the columns; in the place of `closed` none.

@@ -1,7 +1,13 @@
 //! The folder of a run: its files appear together, each whole.
+//!
+//! No system call gives several files their names at once, and a folder cannot take the place of one that holds other
+//! people's files. So the summary seals the rest: it goes first and comes last. At every moment a folder of results is the
+//! old one, the new one, or without a summary, and without one nobody reads it.
 
 use crate::checkpoint;
-use std::fs;
+use crate::disk::{Disk, System};
+use crate::files::SUMMARY;
+use std::fs::{self, DirEntry, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
@@ -19,6 +25,9 @@ pub struct Folder {
     stale: Vec<String>,
     /// Whether that holds of its checkpoint as well.
     stale_checkpoint: bool,
+    /// Room on the disk that is given back when there is no other.
+    reserve: Option<File>,
+    disk: Box<dyn Disk>,
 }
 
 impl Folder {
@@ -27,8 +36,30 @@ impl Folder {
     /// # Errors
     /// What the system says.
     pub fn make(path: &Path) -> io::Result<Self> {
+        Self::on(path, Box::new(System))
+    }
+
+    fn on(path: &Path, disk: Box<dyn Disk>) -> io::Result<Self> {
         fs::create_dir_all(path)?;
-        Ok(Self { path: path.to_owned(), staged: Vec::new(), stale: Vec::new(), stale_checkpoint: false })
+        let (staged, stale) = (Vec::new(), Vec::new());
+        Ok(Self { path: path.to_owned(), staged, stale, stale_checkpoint: false, reserve: None, disk })
+    }
+
+    /// Keeps so many bytes of the disk for the files that come last. The file that holds them has no name: nothing is left
+    /// of it, however the program ends.
+    ///
+    /// # Errors
+    /// What the system says, where there is no such room.
+    pub fn reserve(&mut self, bytes: usize) -> io::Result<()> {
+        let mut file = tempfile::tempfile_in(&self.path)?;
+        file.write_all(&vec![0; bytes])?;
+        self.reserve = Some(file);
+        Ok(())
+    }
+
+    /// Gives back what was reserved.
+    pub fn release(&mut self) {
+        self.reserve = None;
     }
 
     /// Files that go when the others appear, unless they are among them.
@@ -36,7 +67,7 @@ impl Folder {
         self.stale = names;
     }
 
-    /// The checkpoint of an earlier run goes, too.
+    /// The checkpoint of an earlier run goes, too, once all else is in its place.
     pub fn forget_checkpoint(&mut self) {
         self.stale_checkpoint = true;
     }
@@ -55,7 +86,7 @@ impl Folder {
     /// What the system says of writing it through.
     pub fn stage(&mut self, name: &str, mut file: NamedTempFile) -> io::Result<()> {
         file.flush()?;
-        file.as_file().sync_all()?;
+        self.disk.sync(file.as_file())?;
         self.staged.push((name.to_owned(), file));
         Ok(())
     }
@@ -66,7 +97,7 @@ impl Folder {
     /// What the system says.
     pub fn write(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let mut file = self.draft(name)?;
-        file.write_all(bytes)?;
+        self.disk.write(&mut file, bytes)?;
         self.stage(name, file)
     }
 
@@ -81,26 +112,40 @@ impl Folder {
         self.staged.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Gives all files their names, in the order they were staged.
+    /// Gives all files their names. Where there is a summary among them, the one that was there goes before the first, and
+    /// the new one comes last, when all others are on the disk under their names.
     ///
     /// # Errors
-    /// What the system says; the files before the one it says it of have their names.
-    pub fn publish(self) -> io::Result<()> {
+    /// What the system says; some of the files have their names then, but no summary says so.
+    pub fn publish(mut self) -> io::Result<()> {
+        let is_summary = |(name, _): &(String, NamedTempFile)| name == SUMMARY;
+        let summary = self.staged.iter().position(is_summary).map(|place| self.staged.remove(place).1);
+        // What a power cut leaves of the old summary must not be the whole of it beside new tables.
+        if summary.is_some() && self.remove(SUMMARY)? {
+            self.disk.sync_folder(&self.path)?;
+        }
         for stale in &self.stale {
-            if !self.staged.iter().any(|(name, _)| name == stale) {
-                match fs::remove_file(self.path.join(stale)) {
-                    Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-                    _ => {}
-                }
+            if stale != SUMMARY && !self.staged.iter().any(|(name, _)| name == stale) {
+                self.remove(stale)?;
             }
         }
-        if self.stale_checkpoint {
-            checkpoint::remove(&self.path)?;
+        for (name, file) in std::mem::take(&mut self.staged) {
+            self.disk.rename(file, &self.path.join(name))?;
         }
-        for (name, file) in self.staged {
-            file.persist(self.path.join(name)).map_err(|error| error.error)?;
+        self.disk.sync_folder(&self.path)?;
+        if let Some(file) = summary {
+            self.disk.rename(file, &self.path.join(SUMMARY))?;
+            self.disk.sync_folder(&self.path)?;
         }
-        Ok(())
+        if self.stale_checkpoint { checkpoint::remove(&self.path) } else { Ok(()) }
+    }
+
+    /// Removes a file; whether there was one.
+    fn remove(&self, name: &str) -> io::Result<bool> {
+        match self.disk.remove(&self.path.join(name)) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+            result => result.map(|()| true),
+        }
     }
 }
 
@@ -133,15 +178,22 @@ pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
 
 /// Removes what runs that were killed have left of drafts of these names. What cannot be removed stays: it is in nobody's way.
 pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let is_draft = entry
-            .file_name()
-            .to_str()
-            .is_some_and(|found| names.iter().any(|name| is_draft_of(found, name.as_ref())));
-        if is_draft && entry.file_type().is_ok_and(|kind| kind.is_file()) {
-            let _ = fs::remove_file(entry.path());
-        }
+    for entry in drafts(folder, names) {
+        let _ = fs::remove_file(entry.path());
     }
+}
+
+/// Whether there are drafts of these names.
+pub(crate) fn has_drafts(folder: &Path, names: &[impl AsRef<str>]) -> bool {
+    drafts(folder, names).next().is_some()
+}
+
+fn drafts(folder: &Path, names: &[impl AsRef<str>]) -> impl Iterator<Item = DirEntry> {
+    let is_draft = |entry: &DirEntry| {
+        let is_named = |found: &str| names.iter().any(|name| is_draft_of(found, name.as_ref()));
+        entry.file_name().to_str().is_some_and(is_named) && entry.file_type().is_ok_and(|kind| kind.is_file())
+    };
+    fs::read_dir(folder).into_iter().flatten().flatten().filter(is_draft)
 }
 
 /// Whether a name is one that [`draft`] gives.
@@ -153,6 +205,7 @@ fn is_draft_of(found: &str, name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
 
     fn listing(path: &Path) -> Vec<String> {
         let entries = fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
@@ -204,5 +257,111 @@ mod tests {
         folder.write("trace.csv", b"t\n").unwrap();
         drop(folder);
         assert!(listing(root.path()).is_empty());
+    }
+
+    /// A disk that fails at one of the things that are asked of it, and at all after it, as if there were no more power.
+    #[derive(Debug)]
+    struct Failing {
+        left: Cell<u32>,
+    }
+
+    impl Failing {
+        fn count(&self) -> io::Result<()> {
+            let left = self.left.get().checked_sub(1).ok_or(io::ErrorKind::StorageFull)?;
+            self.left.set(left);
+            Ok(())
+        }
+    }
+
+    impl Disk for Failing {
+        fn write(&self, file: &mut NamedTempFile, bytes: &[u8]) -> io::Result<()> {
+            // Half of it is there already.
+            System.write(file, &bytes[..bytes.len() / 2])?;
+            self.count()?;
+            System.write(file, &bytes[bytes.len() / 2..])
+        }
+
+        fn sync(&self, file: &File) -> io::Result<()> {
+            self.count().and_then(|()| System.sync(file))
+        }
+
+        fn sync_folder(&self, path: &Path) -> io::Result<()> {
+            self.count().and_then(|()| System.sync_folder(path))
+        }
+
+        fn rename(&self, file: NamedTempFile, path: &Path) -> io::Result<()> {
+            self.count().and_then(|()| System.rename(file, path))
+        }
+
+        fn remove(&self, path: &Path) -> io::Result<()> {
+            self.count().and_then(|()| System.remove(path))
+        }
+    }
+
+    /// Once a fault between two renames left a new trace beside an old summary.
+    #[test]
+    fn whatever_fails_a_folder_is_the_old_one_the_new_one_or_without_a_summary() {
+        let names = ["trace.csv", "events.csv", "scenario.json", SUMMARY];
+        let write = |path: &Path, text: &str, left: u32| -> io::Result<()> {
+            let mut folder = Folder::on(path, Box::new(Failing { left: Cell::new(left) }))?;
+            folder.forget(vec!["loop.png".to_owned(), "springs.csv".to_owned()]);
+            folder.forget_checkpoint();
+            names.into_iter().try_for_each(|name| folder.write(name, format!("{text} {name}").as_bytes()))?;
+            folder.publish()
+        };
+        let (mut ends, mut left) = ([0, 0, 0], 0);
+        loop {
+            let root = tempfile::tempdir().unwrap();
+            let path = root.path().join("run");
+            write(&path, "old", u32::MAX).unwrap();
+            fs::write(path.join("loop.png"), "old").unwrap();
+            fs::create_dir(path.join(checkpoint::FOLDER)).unwrap();
+            let journal = path.join(checkpoint::FOLDER).join("journal");
+            fs::write(&journal, "old").unwrap();
+            let result = write(&path, "new", left);
+            let read = |name: &str| fs::read_to_string(path.join(name)).ok();
+            let is = |text: &str| names.iter().all(|name| read(name) == Some(format!("{text} {name}")));
+            let end = match read(SUMMARY) {
+                Some(_) if is("old") => 0,
+                None => 1,
+                Some(_) if is("new") => 2,
+                found => panic!("after {left}: {found:?} beside {:?}", read("trace.csv")),
+            };
+            assert_eq!(
+                read("loop.png").is_some(),
+                end == 0 || listing(&path).contains(&"loop.png".to_owned())
+            );
+            // Until its run is published a checkpoint stays; nothing else is left of what was not.
+            assert!(end == 2 || journal.exists(), "after {left}");
+            assert!(!listing(&path).iter().any(|name| name.starts_with('.')), "{:?}", listing(&path));
+            ends[end] += 1;
+            if result.is_ok() {
+                assert!(end == 2 && !journal.exists() && read("loop.png").is_none());
+                break;
+            }
+            left += 1;
+        }
+        // Two for each of four files, the old summary and the folder, two stale files, four names, the folder twice.
+        assert_eq!((left, ends), (18, [9, 8, 2]));
+    }
+
+    #[test]
+    fn pictures_alone_leave_the_summary_where_it_is() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join(SUMMARY), "old").unwrap();
+        let mut folder = Folder::make(root.path()).unwrap();
+        folder.write("loop.png", b"new").unwrap();
+        folder.publish().unwrap();
+        assert_eq!(listing(root.path()), ["loop.png", SUMMARY]);
+    }
+
+    #[test]
+    fn what_is_reserved_has_no_name() {
+        let root = tempfile::tempdir().unwrap();
+        let mut folder = Folder::make(root.path()).unwrap();
+        folder.reserve(1 << 20).unwrap();
+        assert!(listing(root.path()).is_empty());
+        folder.release();
+        folder.publish().unwrap();
     }
 }

@@ -1,12 +1,19 @@
 //! A table of results read back from its file: columns of numbers or words.
 
 use crate::complaint::words;
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use crate::limits::MOST_VALUES;
+use crate::rows::Rows;
+use crate::seal::SealedTable;
+use std::collections::{HashMap, HashSet};
+use std::io;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Quantities whose columns hold words; all others hold numbers.
 const WORDS: [&str; 4] = ["state", "source", "kind", "contact"];
+
+/// Most different words of a column: names of contacts and waveforms.
+const MOST_WORDS: usize = 100_000;
 
 /// A table in memory.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -45,14 +52,17 @@ pub struct Words {
 /// Why a table cannot be read.
 #[derive(Debug, Error)]
 pub enum FrameError {
-    /// The file, or the form of its rows.
-    #[error("{}: {}", .path.display(), reason(.source))]
-    Csv {
+    /// The file.
+    #[error("{}: cannot be read: {}", .path.display(), words(.source))]
+    Read {
         /// Which file.
         path: PathBuf,
-        /// What the reader says.
-        source: csv::Error,
+        /// What the system says.
+        source: io::Error,
     },
+    /// Another table than the one that the summary beside it seals.
+    #[error("{}: is not the table that its run wrote: its SHA-256 is not that in summary.json\n   help: it was changed after the run, or is that of another run; run the scenario again", .0.display())]
+    Changed(PathBuf),
     /// Something that is no number.
     #[error("{}:{line}  {column}: expected a number, got \"{}\"", .path.display(), .text.escape_debug())]
     Number {
@@ -89,42 +99,37 @@ pub enum FrameError {
     },
 }
 
-/// A missing file is told in the system's words.
-fn reason(error: &csv::Error) -> String {
-    match error.kind() {
-        csv::ErrorKind::Io(error) => format!("cannot be read: {}", words(error)),
-        _ => error.to_string(),
-    }
-}
-
 impl Frame {
     /// Reads a CSV with one line of names.
     ///
     /// # Errors
-    /// A file that cannot be read, or a cell that is no number where one is expected.
-    pub fn read(path: &Path) -> Result<Self, FrameError> {
-        let csv = |source| FrameError::Csv { path: path.to_owned(), source };
-        let mut reader = csv::Reader::from_path(path).map_err(csv)?;
-        let names = reader.headers().map_err(csv)?.clone();
-        let mut columns: Vec<Filling> = names.iter().map(Filling::new).collect();
-        let mut record = csv::StringRecord::new();
-        let mut rows = 0;
-        while reader.read_record(&mut record).map_err(csv)? {
-            for (column, text) in columns.iter_mut().zip(&record) {
-                if !column.push(text) {
-                    let line = record.position().map_or(0, csv::Position::line);
-                    let column = column.name.clone();
-                    return Err(FrameError::Number {
-                        path: path.to_owned(),
-                        line,
-                        column,
-                        text: text.to_owned(),
-                    });
+    /// A file that cannot be read or is not the sealed one, two columns of one name, a cell that is no number where one is
+    /// expected, more numbers or different words than a run writes.
+    pub fn read(table: &SealedTable) -> Result<Self, FrameError> {
+        let mut rows = Rows::open(table)?;
+        let mut columns: Vec<Filling> = rows.head().iter().map(|name| Filling::new(name)).collect();
+        let mut names = HashSet::new();
+        if let Some(twice) = rows.head().iter().find(|name| !names.insert(name.as_str())) {
+            return Err(rows.fault(format!("there are two columns \"{}\"", twice.escape_debug())));
+        }
+        let mut count = 0;
+        while rows.advance()? {
+            for (place, column) in columns.iter_mut().enumerate() {
+                match &mut column.values {
+                    Values::Numbers(values) => values.push(rows.number(place, &column.name)?),
+                    Values::Words(words) => {
+                        if !words.push(rows.text(place), &mut column.known) {
+                            return Err(rows.fault(format!("expected at most {MOST_WORDS} different words")));
+                        }
+                    }
                 }
             }
-            rows += 1;
+            count += 1;
+            if (count * columns.len()) as u64 > MOST_VALUES {
+                return Err(rows.fault(format!("expected at most {MOST_VALUES} values")));
+            }
         }
-        Ok(Self { columns: columns.into_iter().map(Filling::into_column).collect(), rows })
+        Ok(Self { columns: columns.into_iter().map(Filling::into_column).collect(), rows: count })
     }
 
     /// Number of rows.
@@ -155,6 +160,18 @@ impl Frame {
 }
 
 impl Words {
+    /// Takes the word of the next row; `false` where it is one too many.
+    fn push(&mut self, word: &str, known: &mut HashMap<String, u32>) -> bool {
+        let code = known.get(word).copied().unwrap_or_else(|| {
+            let code = self.dictionary.len() as u32;
+            known.insert(word.to_owned(), code);
+            self.dictionary.push(word.to_owned());
+            code
+        });
+        self.codes.push(code);
+        self.dictionary.len() <= MOST_WORDS
+    }
+
     /// The word of a row.
     pub fn get(&self, row: usize) -> Option<&str> {
         let code = *self.codes.get(row)?;
@@ -177,24 +194,6 @@ impl Filling {
         Self { name: name.to_owned(), values, known: HashMap::new() }
     }
 
-    /// Takes the next cell; `false` where it should be a number and is none.
-    fn push(&mut self, text: &str) -> bool {
-        match &mut self.values {
-            Values::Numbers(values) => match text.parse() {
-                Ok(value) => values.push(value),
-                Err(_) => return false,
-            },
-            Values::Words(words) => {
-                let code = *self.known.entry(text.to_owned()).or_insert_with(|| {
-                    words.dictionary.push(text.to_owned());
-                    words.dictionary.len() as u32 - 1
-                });
-                words.codes.push(code);
-            }
-        }
-        true
-    }
-
     fn into_column(self) -> Column {
         Column { name: self.name, values: self.values }
     }
@@ -207,7 +206,7 @@ mod tests {
     fn read(text: &str) -> Result<Frame, FrameError> {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), text).unwrap();
-        Frame::read(file.path())
+        Frame::read(&file.path().to_owned().into())
     }
 
     #[test]
@@ -225,8 +224,14 @@ mod tests {
     fn what_is_no_number_is_named_with_its_place() {
         let error = read("time_s,ball.u_m\n0,1\n1,one\n").unwrap_err().to_string();
         assert!(error.ends_with(":3  ball.u_m: expected a number, got \"one\""), "{error}");
-        assert!(read("time_s,ball.u_m\n0\n").unwrap_err().to_string().contains("line: 2"));
-        let missing = Frame::read(Path::new("no/such.csv")).unwrap_err().to_string();
+        let short = read("time_s,ball.u_m\n0\n").unwrap_err().to_string();
+        assert!(short.ends_with(":2  expected 2 cells like the first line, got 1"), "{short}");
+        let missing = Frame::read(&PathBuf::from("no/such.csv").into()).unwrap_err().to_string();
         assert!(missing.starts_with("no/such.csv: cannot be read: "), "{missing}");
+        let twice = read("time_s,a.x_m,a.x_m\n").unwrap_err().to_string();
+        assert!(twice.ends_with(":1  there are two columns \"a.x_m\""), "{twice}");
+        let lines: String = (0..=MOST_WORDS).map(|word| format!("{word}\n")).collect();
+        let many = read(&format!("source\n{lines}")).unwrap_err().to_string();
+        assert!(many.ends_with(":100002  expected at most 100000 different words"), "{many}");
     }
 }

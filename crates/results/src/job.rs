@@ -3,10 +3,9 @@
 use crate::columns::Columns;
 use crate::limits;
 use crate::program::this_program;
-use sha2::{Digest, Sha256};
+use crate::seal::hash;
 use std::collections::{HashMap, HashSet};
-use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use stickslip_contact::Springs;
 use stickslip_drive::facts::{Setup, has_constant_load};
@@ -48,6 +47,14 @@ pub enum Refusal {
     /// A file without a name to call the results by.
     #[error("{}: expected the name of a file", .0.display())]
     NoName(PathBuf),
+    /// A file whose name, without its ending, is no name of a folder.
+    #[error("{}: its results would go to \"{name}\", which is no folder of its own\n   help: give the file another name, such as drive.json", .file.display())]
+    NoFolder {
+        /// The file.
+        file: PathBuf,
+        /// Its name without ending.
+        name: String,
+    },
     /// Two files of one name.
     #[error("{}: its results would go to {}, like those of {}\n   help: give one of the files another name, or run them apart", .file.display(), .folder.display(), .other.display())]
     SameFolder {
@@ -70,6 +77,13 @@ impl Job {
         let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();
         let scenario = Scenario::load_with(file, &overrides)?;
         let stem = file.file_stem().ok_or_else(|| Refusal::NoName(file.to_owned()))?;
+        // That of "...json" is "..": its results would go, and their old pictures be removed, outside of the folder.
+        if !matches!(Path::new(stem).components().collect::<Vec<_>>()[..], [Component::Normal(_)]) {
+            return Err(Refusal::NoFolder {
+                file: file.to_owned(),
+                name: stem.to_string_lossy().into_owned(),
+            });
+        }
         Ok(Self::new(scenario, stem.to_string_lossy().into_owned(), out.join(stem))?)
     }
 
@@ -172,22 +186,4 @@ fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, Scenari
         places.push(place);
     }
     Ok(Columns::chosen(channels, &places))
-}
-
-/// SHA-256 of a text, in hexadecimal digits.
-pub fn hash(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
-        // Writing to a string cannot fail.
-        let _ = write!(digits, "{byte:02x}");
-        digits
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_hash_is_sha_256() {
-        // FIPS 180-2, appendix B.1.
-        assert_eq!(super::hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    }
 }

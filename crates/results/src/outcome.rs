@@ -23,6 +23,8 @@ pub struct Outcome {
     pub rows: u64,
     /// Wall-clock time of the run alone, s.
     pub wall: f64,
+    /// Why something could not be written any further: the run has ended for that, and its tables may have ended before it.
+    pub failure: Option<io::Error>,
 }
 
 impl Job {
@@ -35,7 +37,7 @@ impl Job {
     /// Runs the job with a recorder that may write tables; returns those it wrote as well.
     ///
     /// # Errors
-    /// A table that cannot be written.
+    /// A table of which nothing can be written.
     pub fn run_recorded(&self, recorder: Recorder<'_>) -> io::Result<(Outcome, Vec<Draft>)> {
         let (ended, recorder) = Ended::of(self, recorder);
         Ok(ended.outcome(recorder.finish()?))
@@ -61,7 +63,7 @@ impl Ended {
     /// With what was recorded.
     pub(crate) fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
         let Self { error, state, wall } = self;
-        let Recorded { kept, books, rows, drafts } = recorded;
-        (Outcome { error, state, kept, books, rows, wall }, drafts)
+        let Recorded { kept, books, rows, drafts, failure } = recorded;
+        (Outcome { error, state, kept, books, rows, wall, failure }, drafts)
     }
 }

@@ -7,6 +7,8 @@ use crate::insides::Insides;
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::marks::Marks;
+use crate::seal::Seal;
+use crate::sheet::Written;
 use crate::table::Table;
 use crate::watcher::Watcher;
 use std::io;
@@ -26,7 +28,6 @@ pub struct Recorder<'a> {
     marks: Marks,
     /// A look that was asked for already, s.
     asked: Option<f64>,
-    failure: Option<io::Error>,
 }
 
 /// Tables under construction.
@@ -36,8 +37,16 @@ struct Tables<'a> {
     insides: Insides<'a>,
 }
 
-/// A written table: its name and its draft.
-pub type Draft = (&'static str, NamedTempFile);
+/// A written table, still without its name.
+#[derive(Debug)]
+pub struct Draft {
+    /// The name that is meant for it.
+    pub name: &'static str,
+    /// The file.
+    pub file: NamedTempFile,
+    /// What a summary says of it.
+    pub seal: Seal,
+}
 
 /// What was recorded, beside the tables.
 pub(crate) struct Recorded {
@@ -48,6 +57,8 @@ pub(crate) struct Recorded {
     pub rows: u64,
     /// The tables, where there are any.
     pub drafts: Vec<Draft>,
+    /// Why something could not be written any further.
+    pub failure: Option<io::Error>,
 }
 
 impl<'a> Recorder<'a> {
@@ -55,9 +66,9 @@ impl<'a> Recorder<'a> {
     pub fn new(job: &'a Job, watcher: &'a dyn Watcher) -> Self {
         let channels = job.model.channels();
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
-        let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new() };
+        let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new(), failure: None };
         let marks = Marks::of(job);
-        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, marks, asked: None, failure: None }
+        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, marks, asked: None }
     }
 
     /// The same with tables in a folder.
@@ -66,8 +77,8 @@ impl<'a> Recorder<'a> {
     /// A table that cannot be begun.
     pub fn with_tables(self, folder: &Folder) -> io::Result<Self> {
         let columns = &self.job.columns;
-        let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[])?;
-        let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"])?;
+        let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[]);
+        let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"]);
         let insides = Insides::new(self.job, folder)?;
         Ok(Self { tables: Some(Tables { trace, events, insides }), ..self })
     }
@@ -99,20 +110,28 @@ impl<'a> Recorder<'a> {
         let waveform = |w: usize| self.job.scenario.scene.waveforms.get(w).map(|w| w.name.clone());
         let source = self.job.model.source_name(source, |w| waveform(w).unwrap_or_default());
         if let Some(tables) = &mut self.tables {
-            let written = tables.events.write(&[&source, kind], values);
-            self.note(written);
+            tables.events.write(&[&source, kind], values);
         }
         self.recorded.kept.event([&source, kind], values);
     }
 
-    /// Closes the tables.
+    /// Ends the run, for something beside its tables cannot be written.
+    pub(crate) fn fail(&mut self, failure: io::Error) {
+        self.recorded.failure.get_or_insert(failure);
+    }
+
+    /// Closes the tables. One that could not be written any further ends with its last whole block, and the failure is
+    /// told with what was recorded.
+    ///
+    /// # Errors
+    /// A table of which nothing could be written.
     pub(crate) fn finish(mut self) -> io::Result<Recorded> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
         if let Some(Tables { trace, events, insides }) = self.tables {
-            self.recorded.drafts = vec![(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
-            self.recorded.drafts.extend(insides.finish()?);
+            let written = [(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
+            for (name, Written { file, seal, failure }) in written.into_iter().chain(insides.finish()?) {
+                self.recorded.drafts.push(Draft { name, file, seal });
+                self.recorded.failure = self.recorded.failure.or(failure);
+            }
         }
         Ok(self.recorded)
     }
@@ -122,18 +141,22 @@ impl<'a> Recorder<'a> {
         self.recorded
     }
 
-    fn note(&mut self, result: io::Result<()>) {
-        if let Err(failure) = result {
-            self.failure.get_or_insert(failure);
-        }
+    /// Whether something cannot be written any further.
+    fn has_failed(&self) -> bool {
+        self.recorded.failure.is_some() || self.tables.as_ref().is_some_and(Tables::has_failed)
+    }
+}
+
+impl Tables<'_> {
+    fn has_failed(&self) -> bool {
+        self.trace.has_failed() || self.events.has_failed() || self.insides.has_failed()
     }
 }
 
 impl Record for Recorder<'_> {
     fn row(&mut self, values: &[f64]) {
         if let Some(tables) = &mut self.tables {
-            let written = tables.trace.write(&[], values);
-            self.note(written);
+            tables.trace.write(&[], values);
         }
         self.recorded.rows += 1;
         self.recorded.kept.row(values);
@@ -151,8 +174,7 @@ impl Record for Recorder<'_> {
 
     fn look(&mut self, _: f64, memories: &[Memory]) {
         if let Some(tables) = &mut self.tables {
-            let written = tables.insides.look(memories);
-            self.note(written);
+            tables.insides.look(memories);
         }
     }
 
@@ -177,6 +199,6 @@ impl Record for Recorder<'_> {
 
     fn goes_on(&mut self, t: f64) -> bool {
         self.watcher.reached(t);
-        self.failure.is_none() && t < self.until && self.watcher.goes_on()
+        !self.has_failed() && t < self.until && self.watcher.goes_on()
     }
 }

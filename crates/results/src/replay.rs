@@ -5,7 +5,7 @@ use crate::frame::FrameError;
 use crate::kept::Kept;
 use crate::results::ResultsError;
 use crate::rows::Rows;
-use std::path::Path;
+use crate::seal::SealedTable;
 use stickslip_drive::{Channel, state_name};
 use stickslip_scenario::PlotName;
 
@@ -24,7 +24,7 @@ pub(crate) enum LastRow {
 /// Reads the trace and the events as they were recorded: a row comes before the events of its own moment, for events end
 /// a step that has written its rows.
 pub(crate) fn read(
-    (trace, events): (&Path, &Path),
+    (trace, events): (&SealedTable, &SealedTable),
     columns: &Columns,
     (plots, last): (&[PlotName], LastRow),
 ) -> Result<Kept, ResultsError> {
@@ -34,7 +34,7 @@ pub(crate) fn read(
     let mut events = Replay::open(events, &channels, &["source", "kind"])?;
     let (mut row, mut next) = (Vec::new(), Vec::new());
     if !rows.advance(&mut row)? {
-        return Err(ResultsError::Empty(trace.to_owned()));
+        return Err(ResultsError::Empty(trace.path.clone()));
     }
     let mut event = Vec::new();
     let mut has_event = events.advance(&mut event)?;
@@ -71,8 +71,8 @@ struct Replay<'a> {
 }
 
 impl<'a> Replay<'a> {
-    fn open(path: &Path, channels: &'a [Channel], words: &[&str]) -> Result<Self, ResultsError> {
-        let mut rows = Rows::open(path)?;
+    fn open(table: &SealedTable, channels: &'a [Channel], words: &[&str]) -> Result<Self, ResultsError> {
+        let mut rows = Rows::open(table)?;
         let mut names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
         names.splice(1..1, words.iter().copied());
         rows.check_head(&names)?;
@@ -120,6 +120,7 @@ mod tests {
     use crate::folder::Folder;
     use crate::job::Job;
     use crate::record::Recorder;
+    use std::path::Path;
 
     /// A scenario of the examples with overrides: what is kept of its run, and what is read back.
     fn kept_and_read(name: &str, set: &[(&str, &str)]) -> (Kept, Kept) {
@@ -131,11 +132,11 @@ mod tests {
         let mut folder = Folder::make(&job.folder).unwrap();
         let recorder = Recorder::new(&job, &()).fingerprinted().with_tables(&folder).unwrap();
         let (outcome, drafts) = job.run_recorded(recorder).unwrap();
-        drafts.into_iter().for_each(|(name, draft)| folder.stage(name, draft).unwrap());
+        drafts.into_iter().for_each(|draft| folder.stage(draft.name, draft.file).unwrap());
         folder.publish().unwrap();
         let last = if outcome.error.is_some() { LastRow::Stop } else { LastRow::End };
-        let tables = (&*job.folder.join(TRACE), &*job.folder.join(EVENTS));
-        let read = read(tables, &job.columns, (&PlotName::ALL, last)).unwrap();
+        let [trace, events] = [TRACE, EVENTS].map(|name| job.folder.join(name).into());
+        let read = read((&trace, &events), &job.columns, (&PlotName::ALL, last)).unwrap();
         (outcome.kept, read)
     }
 

@@ -1,14 +1,15 @@
 //! A folder of results read back: the job that was run, and what was kept of it.
 
 use crate::complaint::words;
-use crate::files::{EVENTS, SCENARIO, SUMMARY, TRACE};
+use crate::files::{EVENTS, MEMORY, SCENARIO, SPRINGS, TRACE};
 use crate::frame::FrameError;
-use crate::job::{Job, hash};
+use crate::guard;
+use crate::job::Job;
 use crate::kept::Kept;
 use crate::program::this_program;
 use crate::replay::{self, LastRow};
-use serde::Deserialize;
-use std::fs;
+use crate::seal::{SealedTable, hash};
+use crate::synopsis::{Synopsis, SynopsisError};
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_scenario::{PlotName, Scenario, ScenarioError};
@@ -20,10 +21,11 @@ pub struct Results {
     pub job: Job,
     /// What came of it.
     pub kept: Kept,
+    /// Where `springs.csv` lies, if it was written.
+    pub springs: SealedTable,
+    /// Where `memory.csv` lies, if it was written.
+    pub memory: SealedTable,
 }
-
-/// What is said of anything else, by all who read results.
-pub const NO_RESULTS: &str = "expected a folder of results, as `stickslip run` writes one for each scenario";
 
 /// Why a folder cannot be read as results.
 #[derive(Debug, Error)]
@@ -36,9 +38,9 @@ pub enum ResultsError {
         /// The program that wrote it.
         program: String,
     },
-    /// Not what a run writes.
-    #[error("{}: {NO_RESULTS}", .0.display())]
-    NoResults(PathBuf),
+    /// Its summary.
+    #[error(transparent)]
+    Synopsis(#[from] SynopsisError),
     /// A file that cannot be read at all.
     #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read {
@@ -46,14 +48,6 @@ pub enum ResultsError {
         path: PathBuf,
         /// What the system says.
         source: io::Error,
-    },
-    /// A summary that is none.
-    #[error("{}: expected the summary of a run: {source}", .path.display())]
-    Summary {
-        /// Which file.
-        path: PathBuf,
-        /// What the reader says.
-        source: serde_json::Error,
     },
     /// A scenario that is not the one of the results.
     #[error("{}: was changed after the run: its SHA-256 is not that of the summary beside it\n   help: run it again, or draw other pictures with --plots", .0.display())]
@@ -69,21 +63,6 @@ pub enum ResultsError {
     Empty(PathBuf),
 }
 
-/// What of the summary is read back.
-#[derive(Debug, Deserialize)]
-struct Origin {
-    program: Program,
-    scenario_sha256: String,
-    #[serde(default)]
-    status: Option<String>,
-}
-
-#[derive(Debug, Deserialize)]
-struct Program {
-    name: String,
-    version: String,
-}
-
 impl Results {
     /// Reads the results that a run wrote into a folder, with what pictures need: these, or where there are
     /// none those of the scenario.
@@ -91,13 +70,21 @@ impl Results {
     /// # Errors
     /// A folder of something else, a file that cannot be read or was changed, a damaged table.
     pub fn read(folder: &Path, plots: &[PlotName]) -> Result<Self, ResultsError> {
-        let (mut job, last) = job(folder)?;
+        let synopsis = Synopsis::read(folder)?;
+        let mut job = job(folder, &synopsis)?;
         if !plots.is_empty() {
             job.scenario.plots = plots.to_vec();
         }
-        let tables = (&*folder.join(TRACE), &*folder.join(EVENTS));
+        let tables = (&synopsis.table(TRACE)?, &synopsis.table(EVENTS)?);
+        let last = if synopsis.text("/status") == "done" { LastRow::End } else { LastRow::Stop };
         let kept = replay::read(tables, &job.columns, (&job.scenario.plots, last))?;
-        Ok(Self { job, kept })
+        // What was not written is not there; what is there must be sealed.
+        let optional = |name: &str| match folder.join(name) {
+            path if path.exists() => synopsis.table(name),
+            path => Ok(path.into()),
+        };
+        let (springs, memory) = (optional(SPRINGS)?, optional(MEMORY)?);
+        Ok(Self { job, kept, springs, memory })
     }
 
     /// The program that computed the results, where it is another one.
@@ -106,44 +93,27 @@ impl Results {
     }
 }
 
-/// The job that was run, under the folder's name, and what its last row shows.
-fn job(folder: &Path) -> Result<(Job, LastRow), ResultsError> {
-    if ![SUMMARY, SCENARIO].iter().any(|name| folder.join(name).is_file()) {
-        return Err(ResultsError::NoResults(folder.to_owned()));
-    }
-    let origin = origin(&folder.join(SUMMARY))?;
-    let program = match &origin {
-        Some(Origin { program, .. }) => format!("{} {}", program.name, program.version),
-        None => this_program(),
+/// The job that was run, under the folder's name.
+fn job(folder: &Path, synopsis: &Synopsis) -> Result<Job, ResultsError> {
+    let of = |pointer: &str, key| match synopsis.text(pointer) {
+        "" => Err(synopsis.lacks(key)),
+        text => Ok(text),
     };
-    let is_done = origin.as_ref().and_then(|origin| origin.status.as_deref()).is_none_or(|s| s == "done");
-    let last = if is_done { LastRow::End } else { LastRow::Stop };
+    let (name, version) = (of("/program/name", "program.name")?, of("/program/version", "program.version")?);
+    let (program, sealed) = (format!("{name} {version}"), of("/scenario_sha256", "scenario_sha256")?);
     let path = folder.join(SCENARIO);
     let refused =
         |error: ScenarioError| ResultsError::Scenario { error: Box::new(error), program: program.clone() };
     let scenario = Scenario::load(&path).map_err(refused)?;
-    let text =
-        fs::read_to_string(&path).map_err(|source| ResultsError::Read { path: path.clone(), source })?;
-    if origin.is_some_and(|origin| origin.scenario_sha256 != hash(&text)) {
+    let text = guard::text(&path).map_err(|source| ResultsError::Read { path: path.clone(), source })?;
+    if sealed != hash(&text) {
         return Err(ResultsError::Changed(path));
     }
     // "." has a name, too.
     let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     let name = place.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let job = Job::new(scenario, name, folder.to_owned()).map_err(refused)?;
-    Ok((job.with_origin(text, program), last))
-}
-
-/// Where results come from; none without a summary.
-fn origin(path: &Path) -> Result<Option<Origin>, ResultsError> {
-    match fs::read(path) {
-        Ok(bytes) => match serde_json::from_slice(&bytes) {
-            Ok(origin) => Ok(Some(origin)),
-            Err(source) => Err(ResultsError::Summary { path: path.to_owned(), source }),
-        },
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(source) => Err(ResultsError::Read { path: path.to_owned(), source }),
-    }
+    Ok(job.with_origin(text, program))
 }
 
 /// What to try with a table of other columns.

@@ -3,8 +3,8 @@
 use crate::files::SPRING_HEAD;
 use crate::frame::FrameError;
 use crate::rows::Rows;
+use crate::seal::SealedTable;
 use std::collections::HashMap;
-use std::path::Path;
 use stickslip_contact::SpringState;
 
 /// The springs of a contact.
@@ -24,8 +24,8 @@ pub struct Springs {
 ///
 /// # Errors
 /// A file that cannot be read, other columns, or a line that does not fit those before it.
-pub fn read(path: &Path) -> Result<Vec<Springs>, FrameError> {
-    let mut rows = Rows::open(path)?;
+pub fn read(table: &SealedTable) -> Result<Vec<Springs>, FrameError> {
+    let mut rows = Rows::open(table)?;
     rows.check_head(SPRING_HEAD)?;
     let mut contacts: Vec<Springs> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();

@@ -5,18 +5,26 @@ mod fretting;
 mod steps;
 
 use crate::books::Balance;
+use crate::complaint::words;
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
 use crate::program;
 use crate::real::Real;
+use crate::seal::Seal;
 use serde::Serialize;
+use serde_json::Value;
 use std::io;
 use stickslip_drive::RunError;
 
 pub use contacts::ContactSummary;
 pub use fretting::{Fretting, JudgedCycle};
 pub use steps::{DriveSummary, SettlingSummary, Steady};
+
+/// Most numbers that are not finite of which a note gives the names.
+const NAMED: usize = 5;
+/// What to try where there is no room for the results.
+const UNWRITTEN_ADVICE: &str = "make room, choose another place with --out, or write fewer rows";
 
 /// The summary of a run. Everything but `timing` is the same whenever the same scenario is run.
 #[derive(Debug, Serialize)]
@@ -50,6 +58,12 @@ pub struct Summary {
     notes: Vec<String>,
     /// Files beside the summary.
     files: Vec<String>,
+    /// What the tables among them hold, by their names: readers refuse others.
+    #[serde(skip_serializing_if = "Parts::is_empty")]
+    tables: Parts<Seal>,
+    /// Whether the tables end before the run did, for they could not be written any further.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    cut: bool,
     /// What differs from run to run.
     timing: Timing,
 }
@@ -85,6 +99,18 @@ struct Stepper {
 struct Stop {
     message: String,
     advice: &'static str,
+}
+
+impl Stop {
+    /// A disk without room ends a run in whatever words it is told to stop.
+    fn of(outcome: &Outcome) -> Option<Self> {
+        let unwritten = |failure: &io::Error| Self {
+            message: format!("the results could not be written any further: {}", words(failure)),
+            advice: UNWRITTEN_ADVICE,
+        };
+        let stopped = |error: &RunError| Self { message: error.to_string(), advice: error.advice() };
+        outcome.failure.as_ref().map(unwritten).or_else(|| outcome.error.as_ref().map(stopped))
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -129,8 +155,8 @@ impl Summary {
             program: Program { name: program::NAME, version: program::VERSION },
             scenario_sha256: job.hash.clone(),
             stepper: Stepper { name, tolerance: value_if("tolerance"), step: value_if("step_s") },
-            status: Status::of(outcome.error.as_ref()),
-            error: outcome.error.as_ref().map(|e| Stop { message: e.to_string(), advice: e.advice() }),
+            status: Status::of(outcome),
+            error: Stop::of(outcome),
             simulated: Real(simulated),
             steady_after: steps::steady_after(job, outcome),
             counts: Counts {
@@ -146,6 +172,8 @@ impl Summary {
             energy: outcome.books.balance(),
             notes,
             files: Vec::new(),
+            tables: Parts(Vec::new()),
+            cut: outcome.failure.is_some(),
             timing: Timing { wall: Real(outcome.wall), simulated_s_per_s: Real(simulated / outcome.wall) },
         }
     }
@@ -160,6 +188,16 @@ impl Summary {
         self.files = files;
     }
 
+    /// Says what the tables hold.
+    pub fn set_tables(&mut self, seals: Vec<(String, Seal)>) {
+        self.tables = Parts(seals);
+    }
+
+    /// Why the run did not come to its end, and what to try.
+    pub fn stop(&self) -> Option<(&str, &'static str)> {
+        self.error.as_ref().map(|stop| (stop.message.as_str(), stop.advice))
+    }
+
     /// The files beside the summary.
     pub fn files(&self) -> &[String] {
         &self.files
@@ -167,21 +205,63 @@ impl Summary {
 
     /// As JSON for people and machines.
     pub fn pretty(&self) -> io::Result<String> {
-        Ok(serde_json::to_string_pretty(self)? + "\n")
+        let text = serde_json::to_string_pretty(self)?;
+        Ok(match self.noted(&text)? {
+            Some(noted) => serde_json::to_string_pretty(&noted)?,
+            None => text,
+        } + "\n")
     }
 
     /// As JSON in one line.
     pub fn line(&self) -> io::Result<String> {
-        Ok(serde_json::to_string(self)?)
+        let text = serde_json::to_string(self)?;
+        Ok(self.noted(&text)?.map_or(text, |noted| noted.to_string()))
+    }
+
+    /// The same with a note where numbers are not finite; none where all are.
+    fn noted(&self, text: &str) -> io::Result<Option<Value>> {
+        // A name may have the word as well.
+        if !text.contains("null") {
+            return Ok(None);
+        }
+        let mut value = serde_json::to_value(self)?;
+        let mut names = Vec::new();
+        nulls(String::new(), &value, &mut names);
+        let (count, some) = (names.len(), names.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", "));
+        if count == 0 {
+            return Ok(None);
+        }
+        let more = if count > NAMED { format!(" and {} more", count - NAMED) } else { String::new() };
+        let note = Value::String(format!("null stands for a number that is not finite: {some}{more}"));
+        match value.get_mut("notes").and_then(Value::as_array_mut) {
+            Some(notes) => notes.push(note),
+            None => value["notes"] = Value::Array(vec![note]),
+        }
+        Ok(Some(value))
+    }
+}
+
+/// Names of all that is null, such as `steps.lengths_m[3]`.
+fn nulls(name: String, value: &Value, names: &mut Vec<String>) {
+    let dot = if name.is_empty() { "" } else { "." };
+    match value {
+        Value::Null => names.push(name),
+        Value::Object(entries) => {
+            entries.iter().for_each(|(key, value)| nulls(format!("{name}{dot}{key}"), value, names));
+        }
+        Value::Array(entries) => {
+            entries.iter().enumerate().for_each(|(i, value)| nulls(format!("{name}[{i}]"), value, names));
+        }
+        _ => {}
     }
 }
 
 impl Status {
-    fn of(error: Option<&RunError>) -> Self {
-        match error {
-            None => Self::Done,
-            Some(RunError::Interrupted { .. }) => Self::Interrupted,
-            Some(_) => Self::Stopped,
+    fn of(outcome: &Outcome) -> Self {
+        match (&outcome.failure, &outcome.error) {
+            (None, None) => Self::Done,
+            (None, Some(RunError::Interrupted { .. })) => Self::Interrupted,
+            _ => Self::Stopped,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Tables as CSV: `trace.csv` and `events.csv`.
 
 use crate::columns::Columns;
-use crate::sheet::Sheet;
+use crate::sheet::{Sheet, Written};
 use std::io;
 use stickslip_drive::state_name;
 use tempfile::NamedTempFile;
@@ -14,31 +14,36 @@ pub(crate) struct Table {
 
 impl Table {
     /// A table with `extra` columns of text after the time.
-    pub(crate) fn new(file: NamedTempFile, columns: Columns, extra: &[&str]) -> io::Result<Self> {
+    pub(crate) fn new(file: NamedTempFile, columns: Columns, extra: &[&str]) -> Self {
         let mut names = columns.names();
         let time = names.next();
-        let sheet = Sheet::new(file, time.into_iter().chain(extra.iter().copied()).chain(names))?;
-        Ok(Self { sheet, columns })
+        let sheet = Sheet::new(file, time.into_iter().chain(extra.iter().copied()).chain(names));
+        Self { sheet, columns }
     }
 
     /// Writes a row: the chosen of all channels' `values`, with the texts after the time.
-    pub(crate) fn write(&mut self, extra: &[&str], values: &[f64]) -> io::Result<()> {
+    pub(crate) fn write(&mut self, extra: &[&str], values: &[f64]) {
         for (i, (place, channel)) in self.columns.places().iter().enumerate() {
             let value = values.get(*place).copied().unwrap_or(f64::NAN);
             if channel.is_state {
-                self.sheet.text(state_name(value))?;
+                self.sheet.word(state_name(value));
             } else {
-                self.sheet.number(value)?;
+                self.sheet.number(value);
             }
             if i == 0 {
-                extra.iter().try_for_each(|text| self.sheet.text(text))?;
+                extra.iter().for_each(|text| self.sheet.text(text));
             }
         }
-        self.sheet.end_line()
+        self.sheet.end_line();
+    }
+
+    /// Whether its file takes no more.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.sheet.has_failed()
     }
 
     /// The written file.
-    pub(crate) fn finish(self) -> io::Result<NamedTempFile> {
+    pub(crate) fn finish(self) -> io::Result<Written> {
         self.sheet.finish()
     }
 }
@@ -55,9 +60,9 @@ mod tests {
 
     fn written(columns: Columns, extra: &[&str], values: &[f64]) -> String {
         let head: Vec<&str> = extra.iter().map(|_| "kind").collect();
-        let mut table = Table::new(NamedTempFile::new().unwrap(), columns, &head).unwrap();
-        table.write(extra, values).unwrap();
-        std::fs::read_to_string(table.finish().unwrap().path()).unwrap()
+        let mut table = Table::new(NamedTempFile::new().unwrap(), columns, &head);
+        table.write(extra, values);
+        std::fs::read_to_string(table.finish().unwrap().file.path()).unwrap()
     }
 
     #[test]

@@ -29,10 +29,18 @@ A number may differ by max(absolute, relative × nominal):
 
 The same stepper does the same arithmetic in every build.
 
+Before anything is compared each folder must be whole: its tables those that summary.json has rows and hashes of, its \
+scenario.json that of the run; as many rows and events as were counted, times that rise from 0 to the time reached, a row \
+wherever output.every asks for one, the stepper and the contacts of the scenario. What is not so is damaged: bad input, with \
+file and line. Results of versions without hashes are refused: run them again. What share of A's time and rows was compared \
+is said. Where \"excerpt\" in A's summary.json says that its tables hold some of a run's rows, B must have all of these.
+
 Rows on different grids are compared at common times; nothing is interpolated. Runs of different length, such as an \
 interrupted one, are compared until the shorter ends, without figures of the whole. Rows on an event are left out \
 where they may be before it in one run and after it in the other: where the steppers differ, where the times are \
 rounded apart, and at the end of the shorter run.
+
+With --json a number that is not finite, such as the distance from NaN, is null.
 
 Exit codes: 0 no difference, 1 a difference, 2 bad input.";
 

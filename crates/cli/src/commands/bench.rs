@@ -1,11 +1,10 @@
 //! `stickslip bench`: what accuracy costs.
 
 use crate::arguments::BenchArguments;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
-use std::io::{self, Write};
 use stickslip_bench::{BenchError, Known, ProblemError, TABLE, growth, picture};
 use stickslip_drive::RunError;
 use stickslip_results::{Job, Refusal};
@@ -30,7 +29,7 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Verdict {
     match measure_all(arguments) {
         Ok(()) => Verdict::Done,
         Err(failure) => {
-            let _ = writeln!(io::stderr(), "{failure}");
+            complain(format_args!("{failure}"));
             failure.verdict()
         }
     }
@@ -39,7 +38,7 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Verdict {
 fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     if cfg!(debug_assertions) && !arguments.quiet {
-        let _ = writeln!(io::stderr(), "this program was built without --release: its times tell little");
+        complain(format_args!("this program was built without --release: its times tell little"));
     }
     let request = arguments.request();
     let jobs = prepare(arguments)?;

@@ -1,11 +1,10 @@
 //! `stickslip check`: everything that a run would refuse, and no run.
 
 use crate::arguments::CheckArguments;
-use crate::console::answer::say;
 use crate::console::answer::warn;
+use crate::console::answer::{complain, say, say_json};
 use crate::console::verdict::Verdict;
 use serde::Serialize;
-use std::io::Write;
 use std::path::Path;
 use stickslip_results::{Job, Refusal};
 use stickslip_scenario::Report;
@@ -69,12 +68,12 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
         };
         // A path that is not Unicode is the only thing that JSON has no words for.
         let line = serde_json::to_string(&finding);
-        say(format_args!("{}", line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", job.is_ok()))));
+        say_json(&line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", job.is_ok())));
         return;
     }
     match job {
         Err(refusal) => {
-            let _ = writeln!(std::io::stderr(), "{refusal}");
+            complain(format_args!("{refusal}"));
         }
         Ok(_) if arguments.quiet => {}
         Ok(job) => {

@@ -3,14 +3,15 @@
 mod account;
 
 use crate::arguments::CompareArguments;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say, say_json};
 use crate::console::verdict::Verdict;
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 use stickslip_figures::comparison::{self, Form};
 use stickslip_plot::PlotError;
 use stickslip_results::compare::{CompareError, Comparison, Results};
 use stickslip_results::complaint::words;
+use stickslip_results::folder::sweep;
 use thiserror::Error;
 
 /// Why two folders are not compared, or not drawn.
@@ -34,18 +35,17 @@ enum CompareFailure {
 pub(crate) fn run(arguments: &CompareArguments) -> Verdict {
     match compare(arguments) {
         Ok(comparison) => {
-            let text = match arguments {
-                CompareArguments { json: true, .. } => serde_json::to_string(&comparison).unwrap_or_default(),
-                CompareArguments { quiet: true, .. } => String::new(),
-                _ => account::text(&comparison),
-            };
-            if !text.is_empty() {
-                say(format_args!("{text}"));
+            match arguments {
+                CompareArguments { json: true, .. } => {
+                    say_json(&serde_json::to_string(&comparison).unwrap_or_default());
+                }
+                CompareArguments { quiet: true, .. } => {}
+                _ => say(format_args!("{}", account::text(&comparison))),
             }
             if comparison.same { Verdict::Done } else { Verdict::Differs }
         }
         Err(error) => {
-            let _ = writeln!(io::stderr(), "{error}");
+            complain(format_args!("{error}"));
             Verdict::BadInput
         }
     }
@@ -67,6 +67,9 @@ fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
     let (mut comparison, rows) = Comparison::new(&a, &b, &arguments.terms())?;
     if let (Some(file), Some(form)) = (&arguments.plot, form) {
         let (bytes, names) = comparison::draw((&a, &b), &comparison, &rows, form)?;
+        // A command that was killed has left its draft.
+        let (folder, name) = (file.parent().unwrap_or(Path::new("")), file.file_name().unwrap_or_default());
+        sweep(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }, &[name.to_string_lossy()]);
         stickslip_results::folder::write(file, &bytes)
             .map_err(|source| CompareFailure::NotWritten { path: file.clone(), source })?;
         comparison.notes.push(format!("drawn in {}: {}", file.display(), names.join(", ")));
@@ -78,6 +81,6 @@ fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
 fn dashes(error: &CompareError) -> &'static str {
     match error {
         CompareError::UnknownName { .. } | CompareError::Absolute { .. } => "--",
-        CompareError::Results(_) | CompareError::NoCommonRow => "",
+        CompareError::Results(_) | CompareError::JudgedExcerpt(_) | CompareError::NoCommonRow => "",
     }
 }

@@ -1,12 +1,12 @@
 //! `stickslip gallery`: all pictures of all scenarios of a folder, and the page that shows them.
 
 use crate::arguments::GalleryArguments;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_drive::RunError;
 use stickslip_figures::gallery::{self, Exhibit, GalleryError};
@@ -47,7 +47,7 @@ pub(crate) fn gallery(arguments: &GalleryArguments) -> Verdict {
             Verdict::Done
         }
         Err(failure) => {
-            let _ = writeln!(io::stderr(), "{failure}");
+            complain(format_args!("{failure}"));
             failure.verdict()
         }
     }

@@ -5,10 +5,9 @@ mod digits;
 mod tables;
 
 use crate::arguments::InfoArguments;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say, say_json};
 use crate::console::verdict::Verdict;
 use serde::Serialize;
-use std::io::Write;
 use std::path::Path;
 use stickslip_results::Job;
 use stickslip_results::Parts;
@@ -39,14 +38,17 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
     let job = match Job::prepare(&arguments.file, &arguments.set, Path::new("")) {
         Ok(job) => job,
         Err(refusal) => {
-            let _ = writeln!(std::io::stderr(), "{refusal}");
+            complain(format_args!("{refusal}"));
             return Verdict::BadInput;
         }
     };
     let info = Info::of(&job);
     // Numbers and strings only: there is nothing that JSON could refuse.
-    let text = if arguments.json { serde_json::to_string(&info).unwrap_or_default() } else { info.text() };
-    say(format_args!("{text}"));
+    if arguments.json {
+        say_json(&serde_json::to_string(&info).unwrap_or_default());
+    } else {
+        say(format_args!("{}", info.text()));
+    }
     Verdict::Done
 }
 

@@ -1,7 +1,7 @@
 //! `stickslip new`: a scenario that runs at once, and a schema by which an editor completes it.
 
 use crate::arguments::NewArguments;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say};
 use crate::console::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Verdict {
             Verdict::Done
         }
         Err(error) => {
-            let _ = writeln!(io::stderr(), "{error}");
+            complain(format_args!("{error}"));
             Verdict::BadInput
         }
     }

@@ -1,14 +1,13 @@
 //! Pictures drawn again from results on disk.
 
 use crate::arguments::PlotArguments;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say};
 use crate::console::verdict::Verdict;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
-use stickslip_figures::{FigureError, Sources};
+use stickslip_figures::{FigureError, Look, Sources};
 use stickslip_results::complaint::words;
-use stickslip_results::files::{MEMORY, SPRINGS};
-use stickslip_results::folder::Folder;
+use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Results, ResultsError};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
@@ -35,7 +34,7 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Verdict {
     let mut worst = Verdict::Done;
     for folder in &arguments.folders {
         for failure in plot_folder(folder, arguments) {
-            let _ = writeln!(io::stderr(), "{failure}");
+            complain(format_args!("{failure}"));
             worst = worst.max(failure.verdict());
         }
     }
@@ -48,16 +47,16 @@ fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
         Ok(results) => results,
         Err(error) => return vec![error.into()],
     };
-    let Results { job, kept } = &results;
+    let Results { job, kept, springs, memory } = &results;
     if job.scenario.plots.is_empty() {
         return vec![PlotFailure::NoPlots(folder.to_owned())];
     }
     if let (Some(program), false) = (results.other_program(), arguments.quiet) {
-        let _ = writeln!(io::stderr(), "{}: note: computed by {program}", folder.display());
+        complain(format_args!("{}: note: computed by {program}", folder.display()));
     }
     let (mut pictures, mut failures) = (Vec::new(), Vec::new());
-    let (springs, memory) = (folder.join(SPRINGS), folder.join(MEMORY));
-    for drawn in stickslip_figures::draw(&Sources { job, kept, springs, memory }, &arguments.look.look()) {
+    let sources = Sources { job, kept, springs: springs.clone(), memory: memory.clone() };
+    for drawn in stickslip_figures::draw(&sources, &arguments.look.look()) {
         match drawn {
             Ok(files) => pictures.extend(files),
             Err(source) => failures.push(PlotFailure::Figure { folder: folder.to_owned(), source }),
@@ -80,6 +79,8 @@ fn write(out: &Path, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> 
         return Ok(Vec::new());
     }
     let mut folder = Folder::make(out)?;
+    // A command that was killed has left its drafts.
+    sweep(out, &Look::all_files());
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let names = folder.names();
     folder.publish()?;

@@ -2,18 +2,18 @@
 
 use crate::arguments::ReproArguments;
 use crate::commands::run;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 use stickslip_figures::{Origin, OriginError};
-use stickslip_results::Recorder;
 use stickslip_results::complaint::words;
 use stickslip_results::fingerprint::{Difference, Differing, Fingerprint};
 use stickslip_results::folder::Folder;
 use stickslip_results::program::this_program;
+use stickslip_results::{Recorder, SynopsisError, check_published};
 use thiserror::Error;
 
 /// Most differences of a table that are shown.
@@ -25,6 +25,9 @@ enum ReproFailure {
     /// The picture.
     #[error(transparent)]
     Origin(#[from] OriginError),
+    /// The folder where it lies.
+    #[error(transparent)]
+    Folder(#[from] SynopsisError),
     /// The results cannot be written.
     #[error("{}: the results cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
@@ -39,9 +42,9 @@ pub(crate) fn repro(arguments: &ReproArguments) -> Verdict {
         Ok(true) => Verdict::Done,
         Ok(false) => Verdict::Differs,
         Err(failure) => {
-            let _ = writeln!(io::stderr(), "{failure}");
+            complain(format_args!("{failure}"));
             match failure {
-                ReproFailure::Origin(_) => Verdict::BadInput,
+                ReproFailure::Origin(_) | ReproFailure::Folder(_) => Verdict::BadInput,
                 ReproFailure::Write { .. } => Verdict::Stopped,
                 ReproFailure::Interrupted(_) => Verdict::Interrupted,
             }
@@ -51,15 +54,12 @@ pub(crate) fn repro(arguments: &ReproArguments) -> Verdict {
 
 fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
     let file = &arguments.file;
+    // Beside results that were not published whole it may be of this run or of one before.
+    check_published(file.parent().unwrap_or(Path::new("")))?;
     let origin = Origin::read(file, arguments.out.as_deref())?;
     let this = this_program();
     if origin.program != this {
-        let _ = writeln!(
-            io::stderr(),
-            "{}: note: computed by {}, this is {this}",
-            file.display(),
-            origin.program
-        );
+        complain(format_args!("{}: note: computed by {}, this is {this}", file.display(), origin.program));
     }
     let again = run_again(&origin, arguments)?;
     let (trace, events) = (&origin.fingerprint.trace, &origin.fingerprint.events);
@@ -97,6 +97,9 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     if let Some(mut folder) = folder {
         folder.forget_checkpoint();
         run::write(job, &arguments.look.look(), folder, (&outcome, drafts)).map_err(written)?;
+    }
+    if let Some(source) = outcome.failure {
+        return Err(written(source));
     }
     if interrupt.is_raised() {
         return Err(ReproFailure::Interrupted(arguments.file.clone()));

@@ -4,7 +4,7 @@ mod report;
 mod scenario;
 
 use crate::arguments::{ConductArguments, RunArguments};
-use crate::console::answer::{say, warn};
+use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
@@ -12,7 +12,6 @@ use rayon::prelude::*;
 use report::Report;
 use std::collections::HashMap;
 use std::fmt::Display;
-use std::io::Write;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use stickslip_results::{Job, Refusal};
@@ -114,16 +113,14 @@ impl Console<'_> {
     }
 
     fn write(&self, report: &Report) {
-        let result = match self.arguments {
-            ConductArguments { json: true, .. } => &report.json,
-            ConductArguments { quiet: true, .. } => "",
-            _ => &report.result,
-        };
         if !report.error.is_empty() {
-            let _ = writeln!(std::io::stderr(), "{}", report.error);
+            complain(format_args!("{}", report.error));
         }
-        if !result.is_empty() {
-            say(format_args!("{result}"));
+        match self.arguments {
+            ConductArguments { json: true, .. } if !report.json.is_empty() => say_json(&report.json),
+            ConductArguments { json: true, .. } | ConductArguments { quiet: true, .. } => {}
+            _ if !report.result.is_empty() => say(format_args!("{}", report.result)),
+            _ => {}
         }
     }
 }

@@ -1,12 +1,12 @@
 //! `stickslip soak`: scenes drawn from seeds, run and judged.
 
 use crate::arguments::SoakArguments;
-use crate::console::answer::say;
+use crate::console::answer::{complain, say};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_bench::BenchError;
 use stickslip_bench::soak::{self, Finding, Seeds, hostile};
@@ -38,7 +38,7 @@ pub(crate) fn soak(arguments: &SoakArguments) -> Verdict {
         None => judge(arguments),
     };
     done.unwrap_or_else(|failure| {
-        let _ = writeln!(io::stderr(), "{failure}");
+        complain(format_args!("{failure}"));
         if matches!(failure, SoakFailure::NoCell(..)) { Verdict::BadInput } else { Verdict::Stopped }
     })
 }

@@ -1,6 +1,7 @@
 //! The answer of a command, on stdout.
 
 use crate::console::verdict::Verdict;
+use crate::console::visible::{Spelling, visible};
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
@@ -12,13 +13,23 @@ static LOST: OnceLock<io::Error> = OnceLock::new();
 
 /// Prints a line.
 pub(crate) fn say(line: Arguments<'_>) {
-    keep(writeln!(io::stdout(), "{line}"));
+    keep(writeln!(io::stdout(), "{}", visible(&line.to_string(), Spelling::Text)));
+}
+
+/// Prints a line of JSON.
+pub(crate) fn say_json(line: &str) {
+    keep(writeln!(io::stdout(), "{}", visible(line, Spelling::Json)));
+}
+
+/// Says a line on stderr. Nobody listening is no reason to stop.
+pub(crate) fn complain(line: Arguments<'_>) {
+    let _ = writeln!(io::stderr(), "{}", visible(&line.to_string(), Spelling::Text));
 }
 
 /// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
 pub(crate) fn warn(scenario: &Scenario) {
     for warning in &scenario.warnings {
-        let _ = writeln!(io::stderr(), "warning: {warning}");
+        complain(format_args!("warning: {warning}"));
     }
 }
 
@@ -27,7 +38,7 @@ pub(crate) fn warn(scenario: &Scenario) {
 pub(crate) fn verdict() -> Verdict {
     keep(io::stdout().flush());
     LOST.get().map_or(Verdict::Done, |error| {
-        let _ = writeln!(io::stderr(), "the output cannot be written: {}", words(error));
+        complain(format_args!("the output cannot be written: {}", words(error)));
         Verdict::Stopped
     })
 }

@@ -1,6 +1,7 @@
 //! Progress of the runs, on a terminal only.
 
 use crate::console::interrupt::Interrupt;
+use crate::console::visible::{Spelling, visible};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -46,7 +47,7 @@ impl Progress {
             let _ = write!(text, "{:.3} s/s", simulated / state.elapsed().as_secs_f64().max(1e-9));
         };
         bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left, {rate}").with_key("rate", rate));
-        bar.set_prefix(name.to_owned());
+        bar.set_prefix(visible(name, Spelling::Text).into_owned());
         Bar { bar, from, duration, interrupt }
     }
 
@@ -54,7 +55,7 @@ impl Progress {
     pub(crate) fn budget<'a>(&self, name: &str, wall: f64, interrupt: &'a Interrupt) -> Bar<'a> {
         let bar = self.bars.add(ProgressBar::new(TICKS));
         bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left"));
-        bar.set_prefix(name.to_owned());
+        bar.set_prefix(visible(name, Spelling::Text).into_owned());
         Bar { bar, from: 0.0, duration: wall, interrupt }
     }
 

@@ -15,8 +15,10 @@ impl Job {
     /// can go on to a later one. A run that is halted, by an interrupt or a limit, keeps the moment at which it was, one
     /// that stops itself the last one before.
     ///
+    /// A checkpoint that cannot be written ends the run: what was computed is in its tables.
+    ///
     /// # Errors
-    /// A table or a checkpoint that cannot be written.
+    /// A table of which nothing can be written.
     pub fn run_kept(&self, recorder: Recorder<'_>, mut keeper: Keeper) -> io::Result<(Outcome, Vec<Draft>)> {
         let plan = &self.scenario.plan;
         let begun = match keeper.from.take() {
@@ -26,7 +28,7 @@ impl Job {
         let mut record = Journalled { recorder, keeper, pauses: false };
         let ended = match begun {
             Err(error) => Ended { error: Some(error), state: self.start.clone(), wall: record.keeper.wall() },
-            Ok(run) => record.follow(self, run)?,
+            Ok(run) => record.follow(self, run),
         };
         Ok(ended.outcome(record.recorder.finish()?))
     }
@@ -41,11 +43,14 @@ struct Journalled<'r> {
 
 impl Journalled<'_> {
     /// Follows a run to its end.
-    fn follow(&mut self, job: &Job, mut run: Run<'_>) -> io::Result<Ended> {
+    fn follow(&mut self, job: &Job, mut run: Run<'_>) -> Ended {
         let ended = loop {
             let ended = run.approach(self);
-            if ended.as_ref().err().is_none_or(RunError::is_halt) {
-                self.keeper.save(job, run.state())?;
+            if ended.as_ref().err().is_none_or(RunError::is_halt)
+                && let Err(failure) = self.keeper.save(job, run.state())
+            {
+                self.recorder.fail(failure);
+                break ended;
             }
             // Only a pause is no end.
             if ended.is_ok() || !std::mem::take(&mut self.pauses) {
@@ -60,7 +65,7 @@ impl Journalled<'_> {
                 Some(error)
             }
         };
-        Ok(Ended { error, state: run.into_state(), wall: self.keeper.wall() })
+        Ended { error, state: run.into_state(), wall: self.keeper.wall() }
     }
 }
 

@@ -4,12 +4,13 @@ use super::journal::Journal;
 use super::key::{model_key, run_key};
 use super::stub::Stub;
 use super::{JOURNAL, STATE, place, remove};
+use crate::disk::{Disk, System};
 use crate::files::SCENARIO;
 use crate::folder::{self, sweep};
 use crate::job::Job;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use stickslip_drive::{State, Stepper};
 use stickslip_scenario::ScenarioError;
@@ -85,16 +86,11 @@ impl Keeper {
         self.stub.wall = self.wall();
         self.stub.state = state.to_bytes(&job.model, &self.stub.model_key);
         folder::write(&self.place.join(STATE), &self.stub.to_bytes())?;
-        sync(&self.place)?;
+        System.sync_folder(&self.place)?;
         // From its end: writing may take longer than the interval.
         self.saved = Instant::now();
         Ok(())
     }
-}
-
-/// Writes a folder's names through.
-fn sync(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) { fs::File::open(folder)?.sync_all() } else { Ok(()) }
 }
 
 impl Job {

@@ -65,7 +65,7 @@ type Left = (Vec<(&'static str, Vec<u8>)>, Kept, u64);
 
 fn left(recorder: Recorder<'_>) -> Left {
     let recorded = recorder.finish().unwrap();
-    let tables = recorded.drafts.iter().map(|(name, draft)| (*name, fs::read(draft.path()).unwrap()));
+    let tables = recorded.drafts.iter().map(|draft| (draft.name, fs::read(draft.file.path()).unwrap()));
     (tables.collect(), recorded.kept, recorded.rows)
 }
 

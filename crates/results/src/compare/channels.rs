@@ -84,6 +84,12 @@ impl CommonRows {
         self.at_events = before - self.pairs.len();
         self
     }
+
+    /// Number of rows of A, with the times `a`, until `end`, s, that B has not.
+    pub(super) fn lone(&self, a: &[f64], end: f64) -> usize {
+        let until = a.partition_point(|t| *t <= end * (1.0 + SAME_TIME));
+        until.saturating_sub(self.pairs.len() + self.at_events)
+    }
 }
 
 impl ChannelDifference {

@@ -2,6 +2,7 @@
 
 use super::allowance::Allowance;
 use super::channels::{self, ChannelDifference, CommonRows};
+use super::coverage::{Coverage, extents};
 use super::error::CompareError;
 use super::events::{self, EventDifferences};
 use super::figures::{self, FigureDifferences};
@@ -26,6 +27,8 @@ pub struct Comparison {
     pub until: Real,
     /// Numbers of rows.
     pub rows: Rows,
+    /// How much of A that is.
+    pub coverage: Coverage,
     /// Channels of both, in the order of A.
     pub channels: Vec<ChannelDifference>,
     /// Channels of A that B has not.
@@ -82,6 +85,15 @@ pub struct Rows {
     pub b: usize,
     /// Compared: at times that both have.
     pub common: usize,
+    /// Rows of A that B lacks, where A is an excerpt, all of whose rows B must have.
+    #[serde(skip_serializing_if = "is_none")]
+    pub missing: usize,
+}
+
+/// Whether there is nothing of a kind.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
+fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 /// Where two runs part.
@@ -100,6 +112,9 @@ impl Comparison {
     /// # Errors
     /// Runs without a row at a common time; a name or a tolerance in `terms` that is none.
     pub fn new(a: &Results, b: &Results, terms: &Terms) -> Result<(Self, CommonRows), CompareError> {
+        if b.is_excerpt() {
+            return Err(CompareError::JudgedExcerpt(b.folder.clone()));
+        }
         let until = a.end.min(b.end);
         let mut allowance = Allowance::new(a, b, until, terms);
         allowance.refine(terms, &known(a, b))?;
@@ -119,7 +134,13 @@ impl Comparison {
                 same_stepper: allowance.is_same_run,
             },
             until: Real(until),
-            rows: Rows { a: a.trace.rows(), b: b.trace.rows(), common: rows.pairs.len() },
+            rows: Rows {
+                a: a.trace.rows(),
+                b: b.trace.rows(),
+                common: rows.pairs.len(),
+                missing: if a.is_excerpt() { rows.lone(a.time(), until) } else { 0 },
+            },
+            coverage: Coverage::new(a, &rows),
             channels,
             channels_missing: wanted(channels::missing(a, b)),
             channels_extra: wanted(channels::missing(b, a)),
@@ -128,17 +149,23 @@ impl Comparison {
             first: None,
             notes: Vec::new(),
         };
-        comparison.conclude(&rows, &allowance);
+        comparison.conclude((a, b), &rows, &allowance);
         Ok((comparison, rows))
     }
 
-    fn conclude(&mut self, rows: &CommonRows, allowance: &Allowance) {
+    fn conclude(&mut self, (a, b): (&Results, &Results), rows: &CommonRows, allowance: &Allowance) {
         let has_same_values =
             self.channels.iter().all(ChannelDifference::is_same) && self.channels_missing.is_empty();
         let has_same_figures = self.figures.differ.is_empty() && self.figures.missing.is_empty();
-        self.same = has_same_values && self.events.is_same() && has_same_figures && !self.one_stopped();
+        let has_same_rows = self.rows.missing == 0;
+        self.same = has_same_values
+            && has_same_rows
+            && self.events.is_same()
+            && has_same_figures
+            && !self.one_stopped();
         self.first = self.first_difference();
-        self.notes = self.notes(rows, allowance);
+        self.notes = extents(a, b);
+        self.notes.extend(self.notes(rows, allowance));
     }
 
     /// The outcome in one line.
@@ -181,7 +208,7 @@ impl Comparison {
                 "compared until t = {until:?} s, where the shorter run ends; figures of the whole run are not compared"
             ));
         }
-        let Rows { a, b, common } = self.rows;
+        let Rows { a, b, common, missing } = self.rows;
         if a != common || b != common {
             let at_events = match rows.at_events {
                 0 => String::new(),
@@ -190,6 +217,9 @@ impl Comparison {
             notes.push(format!(
                 "rows: {a} in A and {b} in B, compared at {common} common times{at_events}; nothing is interpolated"
             ));
+        }
+        if missing > 0 {
+            notes.push(format!("rows: {missing} of A are missing in B"));
         }
         if !self.channels_extra.is_empty() {
             notes.push(format!("only in B: {}", self.channels_extra.join(", ")));

@@ -1,6 +1,7 @@
 //! Why two folders cannot be compared.
 
 use super::results::ResultsError;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Something in the input of a comparison.
@@ -9,6 +10,9 @@ pub enum CompareError {
     /// A folder.
     #[error(transparent)]
     Results(#[from] ResultsError),
+    /// An excerpt in the place of the run that is judged.
+    #[error("{}: is an excerpt of a run: it can be compared with as A, and not be judged as B", .0.display())]
+    JudgedExcerpt(PathBuf),
     /// Nothing was written at the same time.
     #[error(
         "A and B have no row at a common time\n   help: run one of them again with the other's output.every"

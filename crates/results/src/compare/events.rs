@@ -5,6 +5,7 @@ use super::allowance::Allowance;
 use super::results::{EventRow, Results};
 use crate::real::Real;
 use serde::Serialize;
+use std::collections::HashMap;
 
 /// How the lists of events differ. Events are told apart by source and kind; those of one source and kind keep their
 /// order.
@@ -77,10 +78,10 @@ pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance)
 fn tracks<'a>(a: &'a Results, b: &'a Results, end: f64, allowance: &Allowance) -> Vec<Track<'a>> {
     let last = if a.end == b.end { f64::INFINITY } else { end - allowance.time };
     let mut tracks: Vec<Track<'a>> = Vec::new();
+    let mut places: HashMap<(&'a str, &'a str), usize> = HashMap::new();
     let wanted = |event: &EventRow<'_>| event.time <= last && !allowance.ignores(event.source);
     let mut file = |event: EventRow<'a>, is_first: bool| {
-        let known = tracks.iter().position(|track| (track.source, track.kind) == (event.source, event.kind));
-        let place = known.unwrap_or_else(|| {
+        let place = *places.entry((event.source, event.kind)).or_insert_with(|| {
             tracks.push(Track { source: event.source, kind: event.kind, a: Vec::new(), b: Vec::new() });
             tracks.len() - 1
         });

@@ -1,9 +1,11 @@
 //! A folder of results, read back.
 
+use super::soundness::{Extent, Soundness};
 use crate::complaint::words;
-use crate::files::{EVENTS, SUMMARY, TRACE};
+use crate::files::{EVENTS, TRACE};
 use crate::frame::{Frame, FrameError};
-use crate::results::NO_RESULTS;
+use crate::rows::Rows;
+use crate::synopsis::{Synopsis, SynopsisError};
 use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -22,6 +24,10 @@ pub struct Results {
     pub end: f64,
     /// The stepper that ran.
     pub stepper: Stepper,
+    /// What the tables are to the run.
+    extent: Extent,
+    /// Tables that the run wrote, which are not compared and not there.
+    pub absent: Vec<String>,
 }
 
 /// The stepper that ran.
@@ -52,9 +58,9 @@ pub struct EventRow<'a> {
 /// Why a folder holds no results.
 #[derive(Debug, Error)]
 pub enum ResultsError {
-    /// It is no folder, or of something else.
-    #[error("{}: {NO_RESULTS}", .0.display())]
-    NoFolder(PathBuf),
+    /// Its summary.
+    #[error(transparent)]
+    Synopsis(#[from] SynopsisError),
     /// One of its tables.
     #[error(transparent)]
     Table(#[from] FrameError),
@@ -66,21 +72,23 @@ pub enum ResultsError {
         /// What it should have.
         column: &'static str,
     },
-    /// The summary cannot be read.
-    #[error("{}: cannot be read: {}", .path.display(), words(.source))]
-    Summary {
+    /// Files that do not fit together.
+    #[error("{}{}  {message}", .path.display(), .line.map(|line| format!(":{line}")).unwrap_or_default())]
+    Unsound {
         /// Which file.
         path: PathBuf,
-        /// What the system or the reader says.
-        source: io::Error,
+        /// Which line, from 1.
+        line: Option<usize>,
+        /// What is wrong with it.
+        message: String,
     },
-    /// The summary is of something else.
-    #[error("{}: is no summary of a run: there is no {key}", .path.display())]
-    NoSummary {
+    /// A file that cannot be read at all.
+    #[error("{}: cannot be read: {}", .path.display(), words(.source))]
+    Read {
         /// Which file.
         path: PathBuf,
-        /// What it should have.
-        key: &'static str,
+        /// What the system says.
+        source: io::Error,
     },
 }
 
@@ -88,33 +96,56 @@ impl Results {
     /// Reads a folder.
     ///
     /// # Errors
-    /// A folder of something else, a table or a summary that cannot be read or lacks what every run writes.
+    /// A folder of something else, a table or a summary that cannot be read or lacks what every run writes, files that do
+    /// not fit together.
     pub fn read(folder: &Path) -> Result<Self, ResultsError> {
-        let path = folder.join(SUMMARY);
-        if !path.is_file() && !folder.join(TRACE).is_file() {
-            return Err(ResultsError::NoFolder(folder.to_owned()));
+        let synopsis = Synopsis::read(folder)?;
+        let end = synopsis.number("/simulated_s").ok_or_else(|| synopsis.lacks("simulated_s"))?;
+        let stepper = Stepper::of(&synopsis.summary).ok_or_else(|| synopsis.lacks("stepper"))?;
+        let extent = Extent::of(&synopsis);
+        let (trace, events) = (Frame::read(&synopsis.table(TRACE)?)?, Frame::read(&synopsis.table(EVENTS)?)?);
+        let soundness = Soundness { folder: folder.to_owned(), synopsis: &synopsis, extent, end };
+        soundness.check(&trace, &events)?;
+        let others = synopsis.tables().filter(|name| ![TRACE, EVENTS].contains(name));
+        let mut absent = Vec::new();
+        for name in others {
+            let table = synopsis.table(name)?;
+            // They are not compared: whoever has sent the rest may have left them out. One that is there is the run's.
+            if table.path.symlink_metadata().is_ok() {
+                let mut rows = Rows::open(&table)?;
+                while rows.advance()? {}
+            } else {
+                absent.push(name.to_owned());
+            }
         }
-        let summary =
-            read_summary(&path).map_err(|source| ResultsError::Summary { path: path.clone(), source })?;
-        let missing = |key| ResultsError::NoSummary { path: path.clone(), key };
-        let end = summary.get("simulated_s").and_then(Value::as_f64).ok_or_else(|| missing("simulated_s"))?;
-        let stepper = Stepper::of(&summary).ok_or_else(|| missing("stepper"))?;
-        let (trace, events) = (Frame::read(&folder.join(TRACE))?, Frame::read(&folder.join(EVENTS))?);
-        let results = Self { folder: folder.to_owned(), trace, summary, events, end, stepper };
-        results.check()?;
-        Ok(results)
+        let summary = synopsis.summary;
+        let mut results =
+            Self { folder: folder.to_owned(), trace, summary, events, end, stepper, extent, absent };
+        if extent == Extent::Cut {
+            results.end = results.last_written();
+        }
+        let word = ["source", "kind"].into_iter().find(|column| results.events.words(column).is_none());
+        let lacks = |column| ResultsError::NoColumn { path: folder.join(EVENTS), column };
+        word.map_or(Ok(results), |column| Err(lacks(column)))
     }
 
-    fn check(&self) -> Result<(), ResultsError> {
-        let lacks = |name: &str, column| ResultsError::NoColumn { path: self.folder.join(name), column };
-        if self.trace.numbers("time_s").is_none() {
-            return Err(lacks(TRACE, "time_s"));
-        }
-        if self.events.numbers("time_s").is_none() {
-            return Err(lacks(EVENTS, "time_s"));
-        }
-        let word = ["source", "kind"].into_iter().find(|column| self.events.words(column).is_none());
-        word.map_or(Ok(()), |column| Err(lacks(EVENTS, column)))
+    /// Until when both tables hold all that happened, s.
+    fn last_written(&self) -> f64 {
+        let counted = self.summary.pointer("/counts/events").and_then(Value::as_u64);
+        let events = self.events.numbers("time_s").and_then(|times| times.last());
+        let is_cut = counted.is_some_and(|counted| counted > self.events.rows() as u64);
+        let ends = [self.time().last(), events.filter(|_| is_cut)];
+        ends.into_iter().flatten().copied().fold(self.end, f64::min)
+    }
+
+    /// Whether the tables are some rows of a run, kept to be compared with.
+    pub fn is_excerpt(&self) -> bool {
+        self.extent == Extent::Excerpt
+    }
+
+    /// Whether the tables end before the run did.
+    pub fn is_cut(&self) -> bool {
+        self.extent == Extent::Cut
     }
 
     /// Times of the rows, s.
@@ -142,10 +173,6 @@ impl Results {
     pub fn status(&self) -> &str {
         self.text("/status")
     }
-}
-
-fn read_summary(path: &Path) -> io::Result<Value> {
-    Ok(serde_json::from_slice(&std::fs::read(path)?)?)
 }
 
 impl Stepper {

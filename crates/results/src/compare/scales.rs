@@ -25,7 +25,7 @@ struct Scale {
 }
 
 impl Scales {
-    /// The larger scales of two runs.
+    /// The larger scales of two runs; of a contact those of the first, which is what the second is measured by.
     pub(super) fn new(a: &Value, b: &Value) -> Self {
         let mut scales = Self::default();
         for summary in [a, b] {
@@ -36,9 +36,8 @@ impl Scales {
                 steps.filter_map(Value::as_f64).fold(scales.step, |most, step| most.max(step.abs()));
             for (name, contact) in summary.get("contacts").and_then(Value::as_object).into_iter().flatten() {
                 let scale = Scale::of(contact);
-                match scales.contacts.iter_mut().find(|(known, _)| known == name) {
-                    Some((_, known)) => *known = known.with(scale, f64::max),
-                    None => scales.contacts.push((name.clone(), scale)),
+                if !scales.contacts.iter().any(|(known, _)| known == name) {
+                    scales.contacts.push((name.clone(), scale));
                 }
             }
         }

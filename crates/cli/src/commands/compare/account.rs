@@ -33,9 +33,19 @@ fn heading(comparison: &Comparison) -> String {
     };
     let (relative, moment) = (tolerance.relative.0, tolerance.time.0);
     format!(
-        "A {}\nB {}\n  {steppers}; allowed: {relative:e} relative, {moment:.1e} s for events",
-        a.folder, b.folder
+        "A {}\nB {}\n  {steppers}; allowed: {relative:e} relative, {moment:.1e} s for events\n  compared: {} of A's time, \
+         {} of its rows",
+        a.folder,
+        b.folder,
+        share(comparison.coverage.time.0),
+        share(comparison.coverage.rows.0)
     )
+}
+
+/// In per cent; what is not all does not look like it.
+fn share(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent < 100.0 { format!("{:.1} %", percent.min(99.9)) } else { "all".to_owned() }
 }
 
 fn channels(comparison: &Comparison) -> Vec<String> {

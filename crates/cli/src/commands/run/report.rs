@@ -73,15 +73,32 @@ impl Report {
         self
     }
 
+    /// The same of a run whose pictures could not all be written.
+    pub(crate) fn without_pictures(mut self, job: &Job, failure: Option<io::Error>) -> Self {
+        if let Some(failure) = failure {
+            let lines = [
+                format!("{}: not all pictures could be written: {}", job.name, words(&failure)),
+                format!("   help: make room, then `stickslip plot {}`", job.folder.display()),
+            ];
+            self.error = [std::mem::take(&mut self.error)]
+                .into_iter()
+                .filter(|said| !said.is_empty())
+                .chain(lines)
+                .collect::<Vec<_>>()
+                .join("\n");
+            self.verdict = self.verdict.max(Verdict::Stopped);
+        }
+        self
+    }
+
     /// A run that has written its results.
     pub(crate) fn ended(job: &Job, outcome: &Outcome, summary: &Summary) -> io::Result<Self> {
         let folder = job.folder.display();
-        let (verdict, error) = match (&outcome.error, summary.status) {
-            (Some(error), Status::Interrupted) => {
+        let (verdict, error) = match (summary.stop(), summary.status) {
+            (Some((error, _)), Status::Interrupted) => {
                 (Verdict::Interrupted, format!("{}: {error}; the results so far are in {folder}", job.name))
             }
-            (Some(error), _) => {
-                let help = error.advice();
+            (Some((error, help)), _) => {
                 let message = format!("{}: stopped: {error}\n   help: {help}", job.name);
                 (Verdict::Stopped, format!("{message}\n   the results so far are in {folder}"))
             }

@@ -6,9 +6,13 @@ use crate::console::progress::Progress;
 use std::io;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
+use stickslip_results::complaint::words;
 use stickslip_results::files::{CYCLES, EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, cycles_table};
+
+/// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.
+const RESERVE: usize = 1 << 16;
 
 /// How a run begins.
 pub(crate) enum Beginning {
@@ -32,6 +36,9 @@ pub(crate) fn run(
         Ok(folder) => folder,
         Err(error) => return Report::no_folder(job, &error),
     };
+    if let Err(error) = folder.reserve(RESERVE + 8 * job.resolved.len()) {
+        return Report::not_written(job, &error);
+    }
     // A run that was killed has left its drafts.
     let names = [TRACE, EVENTS, SPRINGS, MEMORY, CYCLES, SCENARIO, SUMMARY].map(str::to_owned);
     sweep(&job.folder, &[&names[..], &Look::all_files()].concat());
@@ -67,24 +74,55 @@ pub(crate) fn write(
     mut folder: Folder,
     (outcome, drafts): (&Outcome, Vec<Draft>),
 ) -> io::Result<Report> {
-    drafts.into_iter().try_for_each(|(name, draft)| folder.stage(name, draft))?;
-    folder.write(SCENARIO, job.resolved.as_bytes())?;
     let mut summary = Summary::new(job, outcome);
-    let (springs, memory) = (folder.place(SPRINGS), folder.place(MEMORY));
-    for pictures in stickslip_figures::draw(&Sources { job, kept: &outcome.kept, springs, memory }, look) {
-        match pictures {
-            Ok(pictures) => pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?,
-            Err(error) => summary.note(error.to_string()),
-        }
+    let cycles = cycles_table(&summary, &folder).unwrap_or_else(|error| {
+        summary.note(format!("{CYCLES} could not be written: {}", words(&error)));
+        None
+    });
+    let drafts: Vec<Draft> = drafts.into_iter().chain(cycles).collect();
+    summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
+    drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;
+    if outcome.failure.is_some() {
+        folder.release();
     }
-    if let Some(cycles) = cycles_table(&summary)? {
-        folder.write(CYCLES, &cycles)?;
-    }
+    folder.write(SCENARIO, job.resolved.as_bytes())?;
+    let undrawn = if outcome.failure.is_none() {
+        draw(job, look, &mut folder, (outcome, &mut summary))
+    } else {
+        summary.note("no pictures: the results could not be written any further".to_owned());
+        None
+    };
+    folder.release();
     let optional = [SPRINGS, MEMORY, CYCLES].map(str::to_owned);
     folder.forget(optional.into_iter().chain(Look::all_files()).collect());
     let names = folder.names().into_iter().chain([SUMMARY.to_owned()]).collect();
     summary.set_files(names);
     folder.write(SUMMARY, summary.pretty()?.as_bytes())?;
     folder.publish()?;
-    Report::ended(job, outcome, &summary)
+    Ok(Report::ended(job, outcome, &summary)?.without_pictures(job, undrawn))
+}
+
+/// Draws the pictures; returns why some of them could not be written, which costs the run nothing else.
+fn draw(
+    job: &Job,
+    look: &Look,
+    folder: &mut Folder,
+    (outcome, summary): (&Outcome, &mut Summary),
+) -> Option<io::Error> {
+    let (springs, memory) = (folder.place(SPRINGS).into(), folder.place(MEMORY).into());
+    let mut failure = None;
+    for pictures in stickslip_figures::draw(&Sources { job, kept: &outcome.kept, springs, memory }, look) {
+        match pictures {
+            Ok(pictures) => {
+                for (name, bytes) in pictures {
+                    if let Err(error) = folder.write(&name, &bytes) {
+                        summary.note(format!("{name} could not be written: {}", words(&error)));
+                        failure.get_or_insert(error);
+                    }
+                }
+            }
+            Err(error) => summary.note(error.to_string()),
+        }
+    }
+    failure
 }
