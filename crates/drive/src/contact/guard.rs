@@ -68,9 +68,9 @@ impl Guard {
         match (mode, contact.is_constant()) {
             // Nothing that it does ends a step: nobody looks at it.
             _ if contact.unguarded => &[],
-            (Mode::Lull { .. }, true) => &[Self::Drag, Self::Edge, Self::Forward, Self::Backward],
-            (Mode::Lull { .. }, false) if contact.inert => &[Self::Rise, Self::Sink, Self::Contact],
-            (Mode::Lull { .. }, false) => &[
+            // A row under a constant normal has no lulls.
+            (Mode::Lull { .. }, _) if contact.inert => &[Self::Rise, Self::Sink, Self::Contact],
+            (Mode::Lull { .. }, _) => &[
                 Self::Drag,
                 Self::Edge,
                 Self::Forward,
