@@ -218,8 +218,9 @@ fn a_beginning_does_not_pass_for_the_whole() {
             pair.restore();
             for table in ["trace.csv", "events.csv"] {
                 pair.edit(table, |lines| {
-                    lines
-                        .retain(|line| line[0].parse::<f64>().is_ok_and(|t| t <= 1e-3) || line[0] == "time_s")
+                    lines.retain(|line| {
+                        line[0].parse::<f64>().is_ok_and(|t| t <= 1e-3) || line[0] == "time_s"
+                    });
                 });
             }
             pair.edit_summary("/simulated_s", |_| json!(1e-3));

@@ -147,7 +147,7 @@ pub(crate) struct InfoArguments {
     /// Put a value into the scenario, such as run.duration="20 ms"
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Print one line of JSON instead of tables
+    /// Print one line of JSON instead of tables; a number that is not finite, such as the pressure under an edge, is null
     #[arg(long)]
     pub(crate) json: bool,
 }
