@@ -203,6 +203,39 @@ fn damaged_summaries_and_scenarios_are_found() {
     changed("/contacts", json!({}), 2, "its contacts are not those of summary.json");
 }
 
+/// A beginning that passes for the whole: its end, its counts and its hashes are those of the beginning.
+#[test]
+fn a_beginning_does_not_pass_for_the_whole() {
+    for (name, set) in [("quickstart", "run.duration=21 ms"), ("p1", "run.cycles=3")] {
+        let pair = Pair::new(name, &[set]);
+        for (key, value, expected, message) in [
+            ("status", json!("done"), 2, "b/scenario.json  the run ends at 0.0"),
+            ("steady_after_periods", json!(1), 2, "has no run.until_steady"),
+            ("cut", json!(true), 2, "cut: only a run that was stopped"),
+            // A run that was interrupted there is one like any other, and said to be.
+            ("status", json!("interrupted"), 0, "B: the run was interrupted at t = 0.001 s"),
+        ] {
+            pair.restore();
+            for table in ["trace.csv", "events.csv"] {
+                pair.edit(table, |lines| {
+                    lines.retain(|line| {
+                        line[0].parse::<f64>().is_ok_and(|t| t <= 1e-3) || line[0] == "time_s"
+                    });
+                });
+            }
+            pair.edit_summary("/simulated_s", |_| json!(1e-3));
+            pair.edit_root(key, value);
+            let (codes, said) = judged(&pair);
+            assert!(codes == [expected; 2] && said.contains(message), "{name} {key}: {codes:?} {said}");
+            assert!(
+                expected != 0
+                    || (said.contains("% of A's time") && said.contains("where the shorter run ends")),
+                "{said}"
+            );
+        }
+    }
+}
+
 /// Scales of the scene say what is at rest.
 #[test]
 fn scales_that_somebody_made_large_hide_nothing() {
@@ -222,7 +255,11 @@ fn scales_that_somebody_made_large_hide_nothing() {
 fn a_scenario_of_another_run_is_found_also_with_its_hash_forged() {
     let pair = Pair::quickstart();
     for (from, to, message) in [
-        ("\"duration\": 0.021", "\"duration\": 0.02", "run.duration is 0.02 s, and summary.json says"),
+        (
+            "\"duration\": 0.021",
+            "\"duration\": 0.02",
+            "the run ends at 0.02 s, and summary.json says that it was done at 0.021 s",
+        ),
         (
             "\"every\": 0.00001",
             "\"every\": 0.00002",

@@ -88,8 +88,10 @@ pub(crate) enum Command {
     /// Draw pictures from results on disk
     ///
     /// Reads scenario.json, trace.csv, events.csv and, where they are needed, springs.csv and memory.csv of each folder and
-    /// draws what `run` draws, to the same bits, or other pictures of the same results. Exit codes: 0 done, 2 a folder that is no result of a run, or that lacks what
-    /// a picture needs, 3 the pictures cannot be written.
+    /// draws what `run` draws, to the same bits, or other pictures of the same results. Files that are not those that
+    /// summary.json has the hashes of are refused, as is a folder without it: its run was ended while it published them.
+    /// Exit codes: 0 done, 2 a folder that is no result of a run, or that lacks what a picture needs, 3 the pictures cannot
+    /// be written.
     #[command(after_long_help = pictures::PLOT_EXAMPLES)]
     Plot(PlotArguments),
     /// Run again what a picture carries, and tell whether the same comes out
@@ -145,7 +147,7 @@ pub(crate) struct InfoArguments {
     /// Put a value into the scenario, such as run.duration="20 ms"
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Print one line of JSON instead of tables
+    /// Print one line of JSON instead of tables; a number that is not finite, such as the pressure under an edge, is null
     #[arg(long)]
     pub(crate) json: bool,
 }

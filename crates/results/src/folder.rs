@@ -10,10 +10,14 @@ use crate::files::SUMMARY;
 use std::fs::{self, DirEntry, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use tempfile::{Builder, NamedTempFile};
 
 /// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
 const DRAWN: usize = 6;
+
+/// How long a draft was not touched that is taken for one of a command that was killed.
+const LEFT: Duration = Duration::from_secs(60);
 
 /// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
 /// the end: after a crash there is the old file or the whole new one.
@@ -180,6 +184,17 @@ pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
 pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
     for entry in drafts(folder, names) {
         let _ = fs::remove_file(entry.path());
+    }
+}
+
+/// The same for those who only add to a folder, whose run may be about to give its drafts their names: what nobody has touched
+/// for a minute.
+pub fn sweep_left(folder: &Path, names: &[impl AsRef<str>]) {
+    for entry in drafts(folder, names) {
+        let touched = entry.metadata().and_then(|found| found.modified());
+        if touched.is_ok_and(|touched| touched.elapsed().is_ok_and(|age| age >= LEFT)) {
+            let _ = fs::remove_file(entry.path());
+        }
     }
 }
 

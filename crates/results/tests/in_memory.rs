@@ -4,7 +4,7 @@
 use std::cell::{Cell, RefCell};
 use stickslip_drive::RunError;
 use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Recorder, Summary, Watcher};
+use stickslip_results::{Job, Real, Recorder, Summary, Watcher};
 use stickslip_scenario::Scenario;
 
 const QUICKSTART: &str = include_str!("../../../scenarios/quickstart.json");
@@ -36,6 +36,23 @@ fn a_run_in_memory_is_the_run_that_writes_tables() {
     // The folder is still without a name for any of it, and the working directory has nothing new.
     drop(drafts);
     assert_eq!(std::fs::read_dir(root.path()).unwrap().count(), 0);
+}
+
+/// JSON has no such numbers, and strings once stood in their place.
+#[test]
+fn a_summary_notes_which_numbers_are_not_finite() {
+    let job = quickstart(&[("run.duration", "30 ms")]);
+    let mut summary = Summary::new(&job, &job.run(&()));
+    assert!(!summary.pretty().unwrap().contains("null") && !summary.line().unwrap().contains("null"));
+    summary.simulated = Real(f64::NAN);
+    summary.steps.as_mut().unwrap().mean_speed = Real(f64::INFINITY);
+    for text in [summary.pretty().unwrap(), summary.line().unwrap()] {
+        let read: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert!(read["simulated_s"].is_null() && read["steps"]["mean_speed_m_s"].is_null());
+        let note = "null stands for a number that is not finite: simulated_s, steps.mean_speed_m_s";
+        assert_eq!(read["notes"], serde_json::json!([note]));
+        assert!(!text.contains("\"inf\"") && !text.contains("\"NaN\""));
+    }
 }
 
 #[test]

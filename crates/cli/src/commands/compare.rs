@@ -11,7 +11,7 @@ use stickslip_figures::comparison::{self, Form};
 use stickslip_plot::PlotError;
 use stickslip_results::compare::{CompareError, Comparison, Results};
 use stickslip_results::complaint::words;
-use stickslip_results::folder::sweep;
+use stickslip_results::folder::sweep_left;
 use thiserror::Error;
 
 /// Why two folders are not compared, or not drawn.
@@ -69,7 +69,10 @@ fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
         let (bytes, names) = comparison::draw((&a, &b), &comparison, &rows, form)?;
         // A command that was killed has left its draft.
         let (folder, name) = (file.parent().unwrap_or(Path::new("")), file.file_name().unwrap_or_default());
-        sweep(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }, &[name.to_string_lossy()]);
+        sweep_left(
+            if folder.as_os_str().is_empty() { Path::new(".") } else { folder },
+            &[name.to_string_lossy()],
+        );
         stickslip_results::folder::write(file, &bytes)
             .map_err(|source| CompareFailure::NotWritten { path: file.clone(), source })?;
         comparison.notes.push(format!("drawn in {}: {}", file.display(), names.join(", ")));

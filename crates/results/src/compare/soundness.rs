@@ -54,6 +54,11 @@ impl Soundness<'_> {
         if self.end < 0.0 {
             return Err(self.summary(format!("simulated_s: expected a time of 0 or more, got {}", self.end)));
         }
+        if self.extent == Extent::Cut && self.synopsis.text("/status") != "stopped" {
+            return Err(
+                self.summary("cut: only a run that was stopped has tables that end before it".to_owned())
+            );
+        }
         self.check_counts(trace.rows(), events.rows())?;
         let rows = self.times(TRACE, trace)?;
         self.times(EVENTS, events)?;
@@ -165,15 +170,19 @@ impl Soundness<'_> {
     /// The summary is of a run of this scenario: its end, its contacts, and the stepper that says what may differ.
     fn check_plan(&self, scenario: &Value) -> Result<(), String> {
         let number = |pointer: &str| scenario.pointer(pointer).and_then(Value::as_f64);
+        let status = self.synopsis.text("/status");
         let ends_early = self.synopsis.summary.get("steady_after_periods").is_some();
-        if let Some(duration) = number("/run/duration")
-            && self.synopsis.text("/status") == "done"
+        if ends_early && scenario.pointer("/run/until_steady").is_none() {
+            return Err("has no run.until_steady, and summary.json says that the run ended by it".to_owned());
+        }
+        if let Some(planned) = planned(scenario)
+            && status == "done"
             && !ends_early
-            && (duration - self.end).abs() > ROUNDING * duration
+            && (planned - self.end).abs() > ROUNDING * planned
         {
             let end = self.end;
             return Err(format!(
-                "run.duration is {duration:?} s, and summary.json says that the run was done at {end:?} s"
+                "the run ends at {planned:?} s, and summary.json says that it was done at {end:?} s"
             ));
         }
         if keys(scenario.get("contacts")) != keys(self.synopsis.summary.get("contacts")) {
@@ -224,6 +233,24 @@ impl Soundness<'_> {
     fn table(&self, name: &str, row: usize, message: String) -> ResultsError {
         ResultsError::Unsound { path: self.folder.join(name), line: Some(row + 2), message }
     }
+}
+
+/// When a run was to end, s, as the resolved scenario has it; none where that does not follow from a number or two.
+fn planned(scenario: &Value) -> Option<f64> {
+    let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_f64);
+    let run = scenario.get("run")?;
+    if let Some(duration) = number(run, "duration") {
+        return Some(duration);
+    }
+    let waveforms = scenario.get("waveforms")?.as_object()?;
+    let waveform = match scenario.pointer("/figures/waveform").and_then(Value::as_str) {
+        Some(name) => waveforms.get(name)?,
+        None if waveforms.len() == 1 => waveforms.values().next()?,
+        None => return None,
+    };
+    let waveform = waveform.as_object()?.values().next()?;
+    let period = number(waveform, "period").or_else(|| Some(1.0 / number(waveform, "frequency")?))?;
+    Some(number(waveform, "delay").unwrap_or(0.0) + number(run, "cycles")? * period)
 }
 
 /// Names of the parts of an object, sorted.
