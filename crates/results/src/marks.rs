@@ -5,10 +5,10 @@ use crate::cycles::table_of;
 use crate::job::Job;
 use crate::periods::Periods;
 use stickslip_drive::Waveform;
-use stickslip_drive::scene::Freedom;
+use stickslip_drive::scene::{Freedom, Side};
 
 /// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
-/// extremes and corners that are no events.
+/// extremes and corners that are no events. Those of the body that steps have no loops.
 const PARTS: f64 = 64.0;
 /// The same of a table, all of it.
 const TABLE_PARTS: f64 = 4096.0;
@@ -50,7 +50,8 @@ impl Marks {
         for c in 0..scene.contacts.len() {
             let grids_of_contact = match (Periods::of_contact(job, c, for_ever), table_of(job, c)) {
                 (Some(periods), _) => {
-                    vec![Grid::of(&periods, if is_walked(job, c) { 1.0 } else { PARTS })]
+                    let steps = body.is_some_and(|body| touches(job, c, body));
+                    vec![Grid::of(&periods, if steps || is_walked(job, c) { 1.0 } else { PARTS })]
                 }
                 (None, Some(table)) => Grid::along(table, is_walked(job, c), end),
                 (None, None) => Vec::new(),
@@ -86,6 +87,12 @@ impl Marks {
             place > 0.5 && (place - place.round()).abs() <= SAME
         })
     }
+}
+
+/// Whether a contact is one of a body.
+fn touches(job: &Job, c: usize, body: usize) -> bool {
+    let contact = job.scenario.scene.contacts.get(c);
+    contact.is_some_and(|contact| contact.part.between.contains(&Side::Body(body)))
 }
 
 impl Grid {

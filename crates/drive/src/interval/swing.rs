@@ -153,6 +153,12 @@ impl Swing {
         self.slips.is_empty()
     }
 
+    /// Whether a velocity of the coordinate, m/s, is of the sign against which the slide goes: in the middle of an arc, where the
+    /// slide is fastest, it may be another.
+    pub(crate) fn leads_back(&self, velocity: f64) -> bool {
+        self.sense * velocity < 0.0
+    }
+
     /// Speed of the slide at the start, m/s.
     fn speed(&self) -> f64 {
         self.sense * (self.start.v + self.drift)

@@ -18,9 +18,10 @@ use crate::run::horizon::Progress;
 use crate::state::{Books, State};
 use stickslip_stepper::Attempt;
 
-/// Parts of an arc, from one turning point of a slide to the next, whose extremes are those of cubics.
-// In eight the range of a period of P1 is right to 1e-6 of the step.
-const PARTS: u32 = 8;
+/// Velocity, relative to those around, at which a body counts as turned: its place is off by the square of that.
+const SLOW: f64 = 1e-6;
+/// Most secants to a turn.
+const SECANTS: u32 = 20;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves to the next event, corner or end in one go; none, with nothing done, where the interval has no closed form.
@@ -145,7 +146,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.components = y;
     }
 
-    /// The way of the watched body, and the marks on it: an arc in so many parts that each is a cubic.
+    /// The way of the watched body, and the marks on it.
     fn pass_leap(
         &mut self,
         eq: &Equations<'_>,
@@ -153,18 +154,56 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         to: PhasePoint,
         (y, record): (&mut [f64], &mut dyn Record),
     ) {
-        let (from, shift) = (state.t, state.shifts[0]);
-        for part in 1..=PARTS {
-            let t =
-                if part == PARTS { to.t } else { from + (to.t - from) * f64::from(part) / f64::from(PARTS) };
-            while let Some(due) = self.output.marks.due(t) {
-                self.fill(state, due, to, y);
-                self.output.marks.write(eq, state, due, &|i| y[i], record);
-            }
-            let place = if t < to.t { self.swing.at(t) } else { to };
-            self.output.marks.pass(state, [t, shift + place.x, place.v]);
+        let mut from = PhasePoint { t: state.t, x: state.y[0], v: state.y[1] };
+        while let Some(due) = self.output.marks.due(to.t) {
+            let place = if due < to.t { self.swing.at(due) } else { to };
+            self.pass_arc(state, from, place);
+            self.fill(state, due, to, y);
+            self.output.marks.write(eq, state, due, &|i| y[i], record);
+            from = place;
         }
+        self.pass_arc(state, from, to);
         self.output.marks.end_step();
+    }
+
+    /// A part of an arc: it turns once between velocities of two signs, and twice or never between those of one, for the slide
+    /// rises and falls once at most.
+    fn pass_arc(&mut self, state: &State, from: PhasePoint, to: PhasePoint) {
+        let shift = state.shifts[0];
+        let point = |place: PhasePoint| [place.t, shift + place.x, place.v];
+        // A parabola is its own cubic.
+        if !self.swing.is_free() && to.t > from.t {
+            let mut turns = [None, None];
+            if from.v * to.v < 0.0 {
+                turns[0] = Some(self.turn_between(from, to));
+            } else if self.swing.leads_back(from.v) {
+                // In the middle the slide may be faster than what carries the body back.
+                let middle = self.swing.at(0.5 * (from.t + to.t));
+                if middle.v * from.v < 0.0 {
+                    turns = [(from, middle), (middle, to)].map(|(a, b)| Some(self.turn_between(a, b)));
+                }
+            }
+            turns.into_iter().flatten().for_each(|turn| self.output.marks.pass(state, point(turn)));
+        }
+        self.output.marks.pass(state, point(to));
+    }
+
+    /// Where the velocity changes its sign, by secants that keep it between (Illinois).
+    fn turn_between(&mut self, mut a: PhasePoint, mut b: PhasePoint) -> PhasePoint {
+        let slow = SLOW * a.v.abs().max(b.v.abs());
+        let (mut va, mut vb) = (a.v, b.v);
+        for _ in 0..SECANTS {
+            let middle = self.swing.at(a.t + va / (va - vb) * (b.t - a.t));
+            if middle.v.abs() <= slow || !(middle.t > a.t && middle.t < b.t) {
+                return middle;
+            }
+            if middle.v * va < 0.0 {
+                (b, vb, va) = (middle, middle.v, 0.5 * va);
+            } else {
+                (a, va, vb) = (middle, middle.v, 0.5 * vb);
+            }
+        }
+        a
     }
 
     /// Components at a time on the way.

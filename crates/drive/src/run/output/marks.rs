@@ -138,6 +138,14 @@ fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> [f64; 2] {
     if h.is_nan() || h <= 0.0 {
         return ends;
     }
+    // Slopes of one sign, none above thrice the mean one: it rises or falls all the way (Fritsch and Carlson 1980).
+    let mean = (x1 - x0) / h;
+    if mean != 0.0
+        && (0.0..=3.0 * mean.abs()).contains(&(v0 * mean.signum()))
+        && (0.0..=3.0 * mean.abs()).contains(&(v1 * mean.signum()))
+    {
+        return ends;
+    }
     // x(s) = x₀ + hv₀s + bs² + cs³, s from 0 to 1; its slope vanishes where hv₀ + 2bs + 3cs² = 0.
     let (slope, rise) = (h * v0, x1 - x0);
     let (b, c) = (3.0 * rise - 2.0 * slope - h * v1, slope + h * v1 - 2.0 * rise);
