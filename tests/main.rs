@@ -24,3 +24,4 @@ mod reproducibility;
 mod results;
 mod scenarios;
 mod soak;
+mod warnings;

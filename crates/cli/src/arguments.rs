@@ -24,7 +24,8 @@ Exit codes:
   0    done
   1    a comparison found a difference
   2    bad input: a scenario, an override, an argument; nothing was written for it
-  3    a run stopped itself (its results so far are written), or something could not be written
+  3    a run stopped itself (its results so far are written), or something could not be written; with
+       --strict also a run whose results are warned of
   130  interrupted; what was computed is written
 Of several files the largest counts.
 

@@ -12,11 +12,11 @@
 //! * what it leaves: [`Kept`] with [`Series`] and [`Tracks`] in memory, `books` (energies); `table`, `insides` and `sheet` on
 //!   disk, under the names of [`files`], in a [`folder`]; its [`fingerprint`];
 //! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`summary`] with
-//!   [`Real`] and [`Parts`] (numbers and things in JSON);
+//!   [`Real`] and [`Parts`] (numbers and things in JSON); [`Warning`] (what it is not worth);
 //! * what is read back: `rows` and [`frame`] (tables), `replay` and [`Results`] (a folder), [`springs`] and [`curves`];
 //! * [`checkpoint`] – runs that go on after they were ended;
 //! * [`compare`] – two folders told apart;
-//! * for those who tell of results: [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
+//! * for those who tell of results: [`quantity()`] (numbers with units), [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
 //!   the operating system).
 
 mod books;
@@ -41,6 +41,7 @@ mod parts;
 mod periods;
 pub mod program;
 pub mod provenance;
+mod quantity;
 mod real;
 mod record;
 mod replay;
@@ -53,6 +54,7 @@ pub mod summary;
 mod table;
 mod tracks;
 mod trail;
+mod warning;
 mod watcher;
 
 pub use columns::Columns;
@@ -62,6 +64,7 @@ pub use kept::Kept;
 pub use outcome::Outcome;
 pub use parts::Parts;
 pub use periods::{Motion, Periods};
+pub use quantity::quantity;
 pub use real::Real;
 pub use record::{Draft, Recorder};
 pub use results::{NO_RESULTS, Results, ResultsError};
@@ -69,4 +72,5 @@ pub use series::{ENERGY, Series};
 pub use summary::Summary;
 pub use tracks::{Track, Tracks};
 pub use trail::Trail;
+pub use warning::Warning;
 pub use watcher::Watcher;

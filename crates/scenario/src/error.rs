@@ -25,6 +25,34 @@ pub struct Report {
     pub help: Option<String>,
 }
 
+/// What is allowed and probably not meant, with its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warning {
+    /// What it is about, as one word for machines, such as `unused`; it never changes its meaning.
+    pub kind: &'static str,
+    /// Where, why and what to try.
+    pub report: Report,
+}
+
+impl Warning {
+    /// The word of what is said about the wording of the file alone: a scenario written out in full says it no more.
+    pub const WORDING: &'static str = "wording";
+}
+
+impl Deref for Warning {
+    type Target = Report;
+
+    fn deref(&self) -> &Report {
+        &self.report
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.report.fmt(f)
+    }
+}
+
 impl From<Report> for ScenarioError {
     fn from(report: Report) -> Self {
         Self(Box::new(report))

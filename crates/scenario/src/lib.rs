@@ -44,7 +44,7 @@ mod tables;
 mod text;
 mod units;
 
-pub use error::{Report, ScenarioError};
+pub use error::{Report, ScenarioError, Warning};
 pub use excerpt::Excerpt;
 pub use meaning::{Figures, MemoryOutput, SpringsOutput};
 pub use quantity::quantity;

@@ -4,8 +4,8 @@ use crate::console::verdict::Verdict;
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
+use stickslip_results::Job;
 use stickslip_results::complaint::words;
-use stickslip_scenario::Scenario;
 
 /// Why some of the answer was lost.
 static LOST: OnceLock<io::Error> = OnceLock::new();
@@ -16,8 +16,8 @@ pub(crate) fn say(line: Arguments<'_>) {
 }
 
 /// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
-pub(crate) fn warn(scenario: &Scenario) {
-    for warning in &scenario.warnings {
+pub(crate) fn warn(job: &Job) {
+    for warning in job.warnings() {
         let _ = writeln!(io::stderr(), "warning: {warning}");
     }
 }
