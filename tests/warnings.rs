@@ -166,3 +166,43 @@ fn what_is_odd_about_the_scenario_is_in_the_list_and_passes_strictly() {
     let kinds = line["warnings"].as_array().unwrap().iter().map(|warning| warning["kind"].as_str().unwrap());
     assert_eq!(kinds.collect::<Vec<_>>(), ["unused", "unused"]);
 }
+
+/// `check`, `info` and `run` say the same, and none refuses.
+#[test]
+fn what_is_implausible_is_said_by_every_command_and_refused_by_none() {
+    let out = tempdir().unwrap();
+    let file = scenario("quickstart");
+    let set = "loads[0].x=-1 N";
+    let said = |command: &str, more: &[&str]| {
+        let mut call = stickslip();
+        call.arg(command).arg(&file).args(["--set", set]).args(more);
+        let output = call.output().unwrap();
+        assert_eq!(code(&output), 0, "{command}: {}", stderr(&output));
+        (stderr(&output), stdout(&output))
+    };
+    let (checked, _) = said("check", &[]);
+    let words = "loads[0].x: a load of 1.000 N on slider is more than its contacts hold, 180.0 mN (μF_N)";
+    assert!(checked.starts_with("warning: --set loads[0].x=-1 N  ") && checked.contains(words), "{checked}");
+    let folder = out.path().join("quickstart");
+    assert_eq!(said("info", &[]).0, checked);
+    assert_eq!(said("run", &["--out", out.path().to_str().unwrap(), "--set", "plots=[]"]).0, checked);
+    assert_eq!(kinds(&folder), ["load"]);
+    let info: Value = serde_json::from_str(&said("info", &["--json"]).1).unwrap();
+    assert_eq!(info["warnings"], summary(&folder)["warnings"]);
+}
+
+#[test]
+fn no_template_is_warned_of() {
+    let folder = tempdir().unwrap();
+    let listed = stickslip().args(["new", "--list"]).output().unwrap();
+    let names: Vec<String> =
+        stdout(&listed).lines().filter_map(|line| line.split(' ').next().map(str::to_owned)).collect();
+    assert!(names.len() >= 5, "{names:?}");
+    for name in names {
+        let call =
+            |arguments: &[&str]| stickslip().args(arguments).current_dir(folder.path()).output().unwrap();
+        assert_eq!(code(&call(&["new", &name, "--template", &name])), 0);
+        let checked = call(&["check", &format!("{name}.json")]);
+        assert_eq!((code(&checked), stderr(&checked)), (0, String::new()), "{name}");
+    }
+}

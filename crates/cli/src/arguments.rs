@@ -62,7 +62,9 @@ pub(crate) enum Command {
     Resume(ResumeArguments),
     /// Check scenarios: all that a run would refuse; runs and writes nothing
     ///
-    /// Says "ok" of each good file on stdout, and of each bad one what is wrong, where and what would be right on stderr.
+    /// Says "ok" of each good file on stdout, and of each bad one what is wrong, where and what would be right on stderr. What is
+    /// allowed and hardly meant is warned of with its number: loads that nothing holds, stacks without damping, pressures that the
+    /// named material does not bear, moduli far from its kind, odd masses, strokes, resonances and tolerances.
     /// Exit codes: 0 all are good, 2 one is not.
     #[command(after_long_help = CHECK_EXAMPLES)]
     Check(CheckArguments),

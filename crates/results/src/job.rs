@@ -2,6 +2,7 @@
 
 use crate::columns::Columns;
 use crate::limits;
+use crate::plausibility;
 use crate::program::this_program;
 use sha2::{Digest, Sha256};
 use std::collections::{HashMap, HashSet};
@@ -140,9 +141,11 @@ impl Job {
         })
     }
 
-    /// Everything odd about the scenario.
+    /// Everything odd about the scenario: what its file alone tells, then what its scene comes to.
     pub fn warnings(&self) -> Vec<Warning> {
-        self.scenario.warnings.clone()
+        let mut warnings = self.scenario.warnings.clone();
+        warnings.extend(plausibility::of(self));
+        warnings
     }
 
     /// Natural scale of work, J: μF_N u_c of the smallest contact; 0 where none has friction.

@@ -7,7 +7,7 @@
 //!
 //! In reading order:
 //!
-//! * [`Job`], within its `limits`; [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
+//! * [`Job`], within its `limits`; `plausibility` (what is odd about it); [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
 //! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
 //! * what it leaves: [`Kept`] with [`Series`] and [`Tracks`] in memory, `books` (energies); `table`, `insides` and `sheet` on
 //!   disk, under the names of [`files`], in a [`folder`]; its [`fingerprint`];
@@ -39,6 +39,7 @@ pub mod markdown;
 mod outcome;
 mod parts;
 mod periods;
+mod plausibility;
 pub mod program;
 pub mod provenance;
 mod quantity;

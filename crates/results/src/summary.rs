@@ -124,7 +124,7 @@ impl Summary {
             let left_out = outcome.kept.left_out;
             notes.push(format!("{left_out} events are in events.csv only: loops and steps are without them"));
         }
-        let mut warnings = warning::of_scenario(job);
+        let mut warnings = Warning::of_scenario(job);
         warnings.extend(warning::of_run(job, outcome));
         let simulated = outcome.state.time();
         let (name, word, value) = job.stepper();

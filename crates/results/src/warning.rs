@@ -36,6 +36,23 @@ impl Warning {
         Self { help: Some(help.into()), ..self }
     }
 
+    /// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
+    /// resumed run reads.
+    pub fn of_scenario(job: &Job) -> Vec<Self> {
+        let odd = job.warnings();
+        let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
+        let mut warnings: Vec<Self> = told
+            .map(|odd| Self {
+                kind: odd.kind,
+                path: Some(odd.path.clone()),
+                message: odd.message.clone(),
+                help: None,
+            })
+            .collect();
+        warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
+        warnings
+    }
+
     /// Whether it is about what came out in the run, and not about its scenario, which `stickslip check` tells beforehand.
     pub fn is_of_results(&self) -> bool {
         self.path.is_none()
@@ -47,23 +64,6 @@ impl fmt::Display for Warning {
         write!(f, "{}", self.message)?;
         self.help.iter().try_for_each(|help| write!(f, "\n   help: {help}"))
     }
-}
-
-/// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
-/// resumed run reads.
-pub(crate) fn of_scenario(job: &Job) -> Vec<Warning> {
-    let odd = job.warnings();
-    let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
-    let mut warnings: Vec<Warning> = told
-        .map(|odd| Warning {
-            kind: odd.kind,
-            path: Some(odd.path.clone()),
-            message: odd.message.clone(),
-            help: None,
-        })
-        .collect();
-    warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
-    warnings
 }
 
 /// What came out in the run itself: energy books that do not close, steps whose error is not known.

@@ -6,7 +6,7 @@ use std::ops::Deref;
 
 /// What is wrong with a scenario, where, and what would be right. The values are in [`Report`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct ScenarioError(Box<Report>);
+pub struct ScenarioError(pub(crate) Box<Report>);
 
 /// What there is to say about a place of a scenario: the parts of a [`ScenarioError`], or a warning.
 #[derive(Debug, Clone, PartialEq)]

@@ -213,6 +213,12 @@ impl Scenario {
         self.document.report(meaning::refused::fault(&self.scene, self.plan, error)).into()
     }
 
+    /// Something odd that a later check finds, pointed into the file; `path` as in the file, such as `contacts.ball.normal`.
+    pub fn warning(&self, kind: &'static str, path: &str, message: String, help: &str) -> Warning {
+        let ScenarioError(report) = self.locate(path, message, Some(help.to_owned()));
+        Warning { kind, report: *report }
+    }
+
     /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.
     pub fn locate(&self, path: &str, message: impl Into<String>, help: Option<String>) -> ScenarioError {
         let steps = KeyPath::parse(path).unwrap_or_default();

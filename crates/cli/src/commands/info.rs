@@ -5,13 +5,14 @@ mod digits;
 mod tables;
 
 use crate::arguments::InfoArguments;
-use crate::console::answer::say;
+use crate::console::answer::{say, warn};
 use crate::console::verdict::Verdict;
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
 use stickslip_results::Job;
 use stickslip_results::Parts;
+use stickslip_results::Warning;
 use stickslip_results::info::{
     self, BodyInfo, ContactInfo, Expectation, ModeInfo, Stepping, Usage, WaveformInfo,
 };
@@ -32,6 +33,8 @@ struct Info {
     stepping: Stepping,
     expected: Expectation,
     usage: Usage,
+    /// What is odd about the scenario, as in the summary of a run.
+    warnings: Vec<Warning>,
 }
 
 /// Reads and builds a scenario and prints what it means.
@@ -43,6 +46,7 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
             return Verdict::BadInput;
         }
     };
+    warn(&job);
     let info = Info::of(&job);
     // Numbers and strings only: there is nothing that JSON could refuse.
     let text = if arguments.json { serde_json::to_string(&info).unwrap_or_default() } else { info.text() };
@@ -63,6 +67,7 @@ impl Info {
             stepping: Stepping::of(job),
             expected: Expectation::of(job),
             usage: Usage::of(job),
+            warnings: Warning::of_scenario(job),
             modes,
         }
     }

@@ -238,7 +238,7 @@ fn copies(scene: &Scene, count: usize) -> Scene {
             all.contacts.push(named(&format!("{} {copy}", contact.name), part));
         }
         for spring in &scene.springs {
-            let part = Spring { between: spring.part.between.map(side), ..spring.part.clone() };
+            let part = Spring { between: spring.part.between.map(side), ..spring.part };
             all.springs.push(named(&format!("{} {copy}", spring.name), part));
         }
     }
