@@ -27,3 +27,4 @@ mod results;
 mod scenarios;
 mod soak;
 mod strangers;
+mod warnings;

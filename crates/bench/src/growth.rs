@@ -108,6 +108,7 @@ impl Point {
                 evaluations: now.evaluations - then.evaluations,
                 events: now.events - then.events,
                 detours: now.detours - then.detours,
+                missed: now.missed - then.missed,
             };
             self.times = (TURN / self.cost.wall).clamp(1.0, 100.0) as u32;
         }

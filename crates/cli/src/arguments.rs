@@ -24,7 +24,8 @@ Exit codes:
   0    done
   1    a comparison found a difference
   2    bad input: a scenario, an override, an argument; nothing was written for it
-  3    a run stopped itself (its results so far are written), or something could not be written
+  3    a run stopped itself (its results so far are written), or something could not be written; with
+       --strict also a run whose results are warned of
   130  interrupted; what was computed is written
 Of several files the largest counts.
 
@@ -66,7 +67,9 @@ pub(crate) enum Command {
     Resume(ResumeArguments),
     /// Check scenarios: all that a run would refuse; runs and writes nothing
     ///
-    /// Says "ok" of each good file on stdout, and of each bad one what is wrong, where and what would be right on stderr.
+    /// Says "ok" of each good file on stdout, and of each bad one what is wrong, where and what would be right on stderr. What is
+    /// allowed and hardly meant is warned of with its number: loads that nothing holds, stacks without damping, pressures that the
+    /// named material does not bear, moduli far from its kind, odd masses, strokes, resonances and tolerances.
     /// Exit codes: 0 all are good, 2 one is not.
     #[command(after_long_help = CHECK_EXAMPLES)]
     Check(CheckArguments),

@@ -8,6 +8,8 @@
 //!
 //! `size CONTACTS COORDINATES PERIODS` runs one scene once and prints its counts: for a counter of instructions, which
 //! is the steadier measure. The difference of two numbers of periods leaves building and start out.
+//!
+//! `size start` times the equilibrium before a run of 100 to 10 000 contacts instead: it must grow as their number does.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
@@ -122,7 +124,28 @@ impl Cell {
     }
 }
 
+/// Prints the time of building and of the equilibrium per contact.
+fn starts() {
+    println!("contacts × coordinates   µs/contact to build   and to settle");
+    for (contacts, coordinates) in [1, 2, 3].into_iter().flat_map(|n| [100, 1000, 10_000].map(|c| (c, n))) {
+        let scene = scene(contacts, coordinates);
+        let begun = Instant::now();
+        let model = Model::new(&scene).unwrap();
+        let built = begun.elapsed();
+        let stepper = Stepper::Event { tolerance: 1e-6 };
+        let plan =
+            Plan { duration: PERIOD, stepper, limits: Limits::default(), every: None, until_steady: None };
+        black_box(model.start(&plan).unwrap());
+        let settled = begun.elapsed() - built;
+        let each = [built, settled].map(|time| time.as_secs_f64() * 1e6 / contacts as f64);
+        println!("{contacts:8} × {coordinates:<11} {:20.2} {:15.2}", each[0], each[1]);
+    }
+}
+
 fn main() {
+    if std::env::args().any(|argument| argument == "start") {
+        return starts();
+    }
     let numbers: Vec<u32> = std::env::args().filter_map(|a| a.parse().ok()).collect();
     if let [contacts, coordinates, periods] = numbers[..] {
         let model = Model::new(&scene(contacts as usize, coordinates as usize)).unwrap();

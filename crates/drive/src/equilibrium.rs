@@ -8,6 +8,7 @@
 //! the books: what is stored then is where energies count from.
 
 mod balance;
+mod elimination;
 mod statics;
 
 use crate::equations::Equations;
@@ -18,7 +19,10 @@ use crate::state::State;
 use crate::{Accuracy, Field, Part, Plan, SceneError, SceneFault, Stepper};
 use balance::{Balance, Search};
 use nalgebra::DVector;
-use stickslip_contact::Segment;
+use statics::Answer;
+use std::cell::RefCell;
+use std::rc::Rc;
+use stickslip_contact::{Apex, Memory, Segment};
 
 /// Parts in which the loads are put on where several coordinates share them.
 // Each part leaves a knot, whose loop closes later: with 640 a climber has 2 528 events in ten cycles instead of 1 370 and ends
@@ -45,7 +49,11 @@ impl Model {
         self.check_step(plan.stepper)?;
         let mut state = self.rest();
         if self.equilibrium && !self.free.is_empty() {
-            self.settle(&mut state)?;
+            // Copies hold what they must and no more: the room that a run needs lies so far apart that looking through ten
+            // thousand of them took seven times as long.
+            state.memories = state.memories.clone();
+            Settling::new(self, &state).settle(&mut state)?;
+            state.memories.iter_mut().for_each(Memory::make_room);
         }
         // What pressed and lifted before the start is no work of the run: it is read off the present state,
         // and taken off here.
@@ -73,21 +81,42 @@ impl Model {
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
         Equations::on(self, state, self.layout(), false)
     }
+}
+
+/// A model on its way to an equilibrium at t = 0.
+struct Settling<'m> {
+    model: &'m Model,
+    /// Indentations that bodies do not set, m: no place changes them, and one that follows a force takes a search each time.
+    depths: Vec<f64>,
+    /// What each contact answered last: of many sliders most stand still while the others find their place.
+    answers: RefCell<Vec<Answer>>,
+}
+
+impl<'m> Settling<'m> {
+    fn new(model: &'m Model, state: &State) -> Self {
+        let eq = model.equations(state);
+        let depth = |contact| eq.motion(contact, 0.0, |i| state.y[i]).d;
+        Self {
+            model,
+            depths: model.contacts.iter().map(depth).collect(),
+            answers: RefCell::new(vec![Answer::NONE; model.contacts.len()]),
+        }
+    }
 
     /// Puts the loads on in proportion and follows the equilibrium.
     fn settle(&self, state: &mut State) -> Result<(), SceneError> {
-        let n = self.free.len();
+        let n = self.model.free.len();
         if n > MOST {
             return Err(SceneFault::TooManyFree { most: MOST, count: n }.of(Part::Run, Field::Start));
         }
         // In equilibrium nothing moves; velocities that the scene names are of a start that is given.
         for i in 0..n {
-            state.y[self.layout().velocity(i)] = 0.0;
+            state.y[self.model.layout().velocity(i)] = 0.0;
         }
         let initial = self.statics(state, &state.y).net;
         // One coordinate and no contact pressed by it: the way under a growing load is one chord, whatever
         // its parts.
-        let alone = n == 1 && self.contacts.iter().all(|c| c.coupling().is_none());
+        let alone = n == 1 && self.model.contacts.iter().all(|c| c.coupling().is_none());
         let parts = if alone { 1 } else { PARTS };
         let landing = (!alone).then_some(LANDING);
         let mut reached = false;
@@ -113,14 +142,16 @@ impl Model {
     }
 
     /// The balance nearest to y with some forces still missing and some coordinates held.
-    fn balance(&self, state: &State, missing: &DVector<f64>, y: &[f64], held: &[bool]) -> Balance {
-        Search { model: self, state, missing, held }.from(y)
+    fn balance(&self, state: &State, missing: &DVector<f64>, y: &[f64], held: &[bool]) -> Rc<Balance> {
+        Search::new(self, state, (missing, held)).from(y)
     }
 
     /// Takes over a balance: the contacts go there on straight paths.
     fn stand(&self, state: &mut State, balance: &Balance) -> Result<(), SceneError> {
-        let apexes = self.apexes(state, &balance.y);
-        let memories = self.contacts.iter().zip(&mut state.memories);
+        // With their memories their answers change.
+        self.answers.borrow_mut().fill(Answer::NONE);
+        let apexes: Vec<Apex> = self.apexes(state, &balance.y).collect();
+        let memories = self.model.contacts.iter().zip(&mut state.memories);
         for (i, ((contact, memory), to)) in memories.zip(apexes).enumerate() {
             memory
                 .commit(&contact.interface, Segment::Straight(to))
@@ -132,12 +163,12 @@ impl Model {
 
     /// The balance under all loads, found by letting go of one coordinate after the other: first those along z, which
     /// set the normal forces, then those along x, which live on friction, then pitch.
-    fn released(&self, state: &State) -> Result<Balance, SceneError> {
-        let n = self.free.len();
+    fn released(&self, state: &State) -> Result<Rc<Balance>, SceneError> {
+        let n = self.model.free.len();
         let (nothing, mut held) = (DVector::zeros(n), vec![true; n]);
         let mut balance = self.balance(state, &nothing, &state.y, &held);
         for axis in [Axis::Z, Axis::X, Axis::Pitch] {
-            let along: Vec<usize> = (0..n).filter(|i| self.free[*i].axis == axis).collect();
+            let along: Vec<usize> = (0..n).filter(|i| self.model.free[*i].axis == axis).collect();
             for &i in &along {
                 held[i] = false;
                 let next = self.balance(state, &nothing, &balance.y, &held);
@@ -171,8 +202,8 @@ impl Model {
         let place = along.iter().copied().find(|i| without(*i, y).holds).unwrap_or(first);
         // Held where it went when nothing held it.
         let unbalanced = without(place, &gone.y).residual[place];
-        let Free { body, axis, .. } = self.free[place];
-        let body = self.bodies[body].name.clone();
+        let Free { body, axis, .. } = self.model.free[place];
+        let body = self.model.bodies[body].name.clone();
         SceneFault::NoEquilibrium { body, axis, unbalanced }.of(Part::Run, Field::Start)
     }
 }

@@ -4,6 +4,8 @@
 //! has 2G\*a along the slide and, where bodies press it, 2E\*a along the normal; one that slips only has less. So the
 //! fastest motion here bounds what a step must resolve, and its stability that of a fixed step.
 
+mod parts;
+
 use crate::{Model, Sample, State, Stepper};
 use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};
 use std::f64::consts::SQRT_2;
@@ -58,7 +60,12 @@ impl Model {
     /// Indentations of contact `index` over all time, from a state at t = 0 on; a table's beyond the end of the run count,
     /// too. Of a coupled contact the largest is an expectation: what the loads and motions at the start can press.
     pub fn indentations(&self, state: &State, index: usize) -> Option<Indentations> {
-        let (contact, start) = (self.contacts.get(index)?, state.memories().get(index)?.apex().d);
+        self.indentations_from(state.memories().get(index)?.apex().d, index)
+    }
+
+    /// The same where it is `start` at t = 0.
+    fn indentations_from(&self, start: f64, index: usize) -> Option<Indentations> {
+        let contact = self.contacts.get(index)?;
         let Some(waveform) = contact.press.waveform() else {
             // A coupled contact leaves its bodies, or goes as deep as its natural scale expects.
             let coupled = contact.coupling().is_some();
@@ -73,36 +80,7 @@ impl Model {
 
     /// The motions about a `state` in which all contacts stick, each at the indentation (m) that `depth` picks.
     pub fn linearised(&self, state: &State, depth: impl Fn(&Indentations) -> f64) -> Linearised {
-        let n = self.free.len();
-        let name = |i: usize| format!("{}.{}", self.bodies[self.free[i].body].name, self.free[i].axis.key());
-        let mut linearised = Linearised {
-            coordinates: (0..n).map(name).collect(),
-            contacts: self.contacts.iter().map(|c| c.u.free.to_vec()).collect(),
-            mass: DVector::from_iterator(n, self.free.iter().map(|f| f.mass)),
-            damping: DMatrix::zeros(n, n),
-            stiffness: DMatrix::zeros(n, n),
-        };
-        for link in &self.links {
-            let row = &link.elongation.free;
-            add(&mut linearised.stiffness, row, link.stiffness);
-            add(&mut linearised.damping, row, link.damping);
-        }
-        for (c, contact) in self.contacts.iter().enumerate() {
-            let d = self.indentations(state, c).map_or(0.0, |d| depth(&d));
-            if !contact.inert {
-                let stiffness = contact.count * contact.interface.stick_stiffness(d);
-                add(&mut linearised.stiffness, &linearised.contacts[c], stiffness);
-                add(&mut linearised.damping, &linearised.contacts[c], contact.interface.viscosity(stiffness));
-            }
-            if let Some(normal) = contact.coupling() {
-                add(
-                    &mut linearised.stiffness,
-                    &normal.free,
-                    contact.count * contact.interface.normal_stiffness(d),
-                );
-            }
-        }
-        linearised
+        self.whole(|c| self.indentations(state, c).map_or(0.0, |d| depth(&d)))
     }
 
     /// Angular frequency, rad/s, of contact `index` alone, all its members stuck at indentation d (m), between its two
@@ -120,20 +98,14 @@ impl Model {
     pub(super) fn largest_rate(&self) -> f64 {
         // As deep as they get: stiffness grows with the indentation, and a bound must hold throughout the
         // run.
-        let stiffest = self.linearised(&self.rest(), |d| d.most);
-        let frequency = stiffest.highest_frequency();
-        // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
-        if stiffest.damping.amax() == 0.0 {
-            return frequency;
-        }
-        let rates = stiffest.rates(if frequency > 0.0 { frequency } else { 1.0 });
-        rates.iter().map(|rate| rate.norm()).fold(frequency, f64::max)
+        self.parts(|d| d.most).iter().map(Linearised::largest_rate).fold(0.0, f64::max)
     }
 
     /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get; infinite where
     /// nothing swings. None for steppers that choose their steps.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
-        stepper.longest_step(|| self.linearised(&self.rest(), |d| d.most))
+        let limit = stepper.longest_stable()?;
+        Some(self.parts(|d| d.most).iter().map(limit).fold(f64::INFINITY, f64::min))
     }
 }
 
@@ -207,6 +179,17 @@ impl Linearised {
     fn by_mass(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let root = self.mass.map(f64::sqrt);
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
+    }
+
+    /// Largest |λ|, 1/s, of the motions e^{λt}.
+    fn largest_rate(&self) -> f64 {
+        let frequency = self.highest_frequency();
+        // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
+        if self.damping.amax() == 0.0 {
+            return frequency;
+        }
+        let rates = self.rates(if frequency > 0.0 { frequency } else { 1.0 });
+        rates.iter().map(|rate| rate.norm()).fold(frequency, f64::max)
     }
 
     /// ω of the fastest mode, rad/s; 0 without any.

@@ -139,11 +139,9 @@ impl Stepper {
         self.facts().locates_events
     }
 
-    /// Longest stable step, s, for motions about a state; none where it chooses its steps.
-    ///
-    /// `motions` is asked only where it is needed: eigenvalues of many coordinates take their time.
-    pub(crate) fn longest_step(self, motions: impl FnOnce() -> Linearised) -> Option<f64> {
-        self.facts().longest_step.map(|longest| longest(&motions()))
+    /// What tells the longest step, s, with which small motions do not grow; none of steppers that choose their steps.
+    pub(crate) fn longest_stable(self) -> Option<fn(&Linearised) -> f64> {
+        self.facts().longest_step
     }
 }
 

@@ -77,6 +77,9 @@ pub struct Counts {
     pub events: u64,
     /// Stretches by the whole law, where events accumulated.
     pub detours: u64,
+    /// Steps of such stretches taken although their estimate missed what is allowed: where damped springs stick and slip by
+    /// turns the law itself jumps, and no shorter step would do better.
+    pub missed: u64,
 }
 
 impl Model {

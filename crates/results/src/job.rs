@@ -2,6 +2,7 @@
 
 use crate::columns::Columns;
 use crate::limits;
+use crate::plausibility;
 use crate::program::this_program;
 use crate::seal::hash;
 use std::collections::{HashMap, HashSet};
@@ -11,7 +12,7 @@ use stickslip_contact::Springs;
 use stickslip_drive::facts::{Setup, has_constant_load};
 use stickslip_drive::scene::Normal;
 use stickslip_drive::{Accuracy, Channel, Model, SceneError, State};
-use stickslip_scenario::{Scenario, ScenarioError, suggestion};
+use stickslip_scenario::{Scenario, ScenarioError, Warning, suggestion};
 use thiserror::Error;
 
 /// A checked scenario: no input can be wrong any more.
@@ -152,6 +153,21 @@ impl Job {
             let d = memory.apex().d;
             (law.gross_slip_displacement(d), law.normal_force(d))
         })
+    }
+
+    /// Everything odd about the scenario: what its file alone tells, then what its scene comes to.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let mut warnings = self.scenario.warnings.clone();
+        warnings.extend(plausibility::of(self));
+        warnings
+    }
+
+    /// Natural scale of work, J: μF_N u_c of the smallest contact; 0 where none has friction.
+    pub(crate) fn work(&self) -> f64 {
+        let contacts = 0..self.scenario.scene.contacts.len();
+        let scales = contacts.filter_map(|c| self.model.contact_natural(c));
+        let works = scales.map(|scale| scale.force * scale.displacement).filter(|work| *work > 0.0);
+        works.reduce(f64::min).unwrap_or(0.0)
     }
 
     /// Name of the stepper that the run takes and its tolerance or step with that word.

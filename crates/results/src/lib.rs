@@ -7,17 +7,17 @@
 //!
 //! In reading order:
 //!
-//! * [`Job`], within its `limits`; [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
+//! * [`Job`], within its `limits`; `plausibility` (what is odd about it); [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
 //! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
 //! * what it leaves: [`Kept`] with [`Series`] and [`Tracks`] in memory, `books` (energies); `table`, `insides` and `sheet` on
 //!   disk, under the names of [`files`], in a [`folder`] on a `disk`, each table with its [`Seal`]; its [`fingerprint`];
 //! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`summary`] with
-//!   [`Real`] and [`Parts`] (numbers and things in JSON);
+//!   [`Real`] and [`Parts`] (numbers and things in JSON); [`Warning`] (what it is not worth);
 //! * what is read back: `guard` (files of strangers), `synopsis` (a summary), `rows` and [`frame`] (tables), `replay` and
 //!   [`Results`] (a folder), [`springs`] and [`curves`];
 //! * [`checkpoint`] – runs that go on after they were ended;
 //! * [`compare`] – two folders told apart;
-//! * for those who tell of results: [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
+//! * for those who tell of results: [`quantity()`] (numbers with units), [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
 //!   the operating system).
 
 mod books;
@@ -46,8 +46,10 @@ mod marks;
 mod outcome;
 mod parts;
 mod periods;
+mod plausibility;
 pub mod program;
 pub mod provenance;
+mod quantity;
 mod real;
 mod record;
 mod replay;
@@ -62,6 +64,7 @@ mod synopsis;
 mod table;
 mod tracks;
 mod trail;
+mod warning;
 mod watcher;
 
 pub use columns::Columns;
@@ -72,6 +75,7 @@ pub use kept::Kept;
 pub use outcome::Outcome;
 pub use parts::Parts;
 pub use periods::Periods;
+pub use quantity::quantity;
 pub use real::Real;
 pub use record::{Draft, Recorder};
 pub use results::{Results, ResultsError};
@@ -81,4 +85,5 @@ pub use summary::Summary;
 pub use synopsis::{NO_RESULTS, SynopsisError, check_published};
 pub use tracks::{Track, Tracks};
 pub use trail::Trail;
+pub use warning::Warning;
 pub use watcher::Watcher;

@@ -101,7 +101,7 @@ impl<'a> Recorder<'a> {
 
     /// Takes an event whose kind is given by its word.
     pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) {
-        self.recorded.books.read(values);
+        self.recorded.books.read_event(values);
         // Names are for those who want them: of a hundred thousand runs in memory nobody reads one.
         if self.tables.is_none() && !self.recorded.kept.wants_words() {
             self.recorded.kept.event(["", ""], values);

@@ -12,6 +12,7 @@ use crate::parts::Parts;
 use crate::program;
 use crate::real::Real;
 use crate::seal::Seal;
+use crate::warning::{self, Warning};
 use serde::Serialize;
 use serde_json::Value;
 use std::io;
@@ -53,6 +54,8 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<DriveSummary>,
     energy: Balance,
+    /// What the results are not worth, and what is odd about their scenario; empty where there is nothing to say.
+    pub warnings: Vec<Warning>,
     /// What is missing, and why.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
@@ -122,6 +125,9 @@ struct Counts {
     /// Stretches by the whole law where events accumulated; told only where there are any.
     #[serde(skip_serializing_if = "is_none")]
     detours: u64,
+    /// Steps of these taken although their estimate missed the tolerance; told only where there are any.
+    #[serde(skip_serializing_if = "is_none")]
+    missed: u64,
     rows: u64,
 }
 
@@ -146,6 +152,8 @@ impl Summary {
             let left_out = outcome.kept.left_out;
             notes.push(format!("{left_out} events are in events.csv only: loops and steps are without them"));
         }
+        let mut warnings = Warning::of_scenario(job);
+        warnings.extend(warning::of_run(job, outcome));
         let simulated = outcome.state.time();
         let (name, word, value) = job.stepper();
         let value_if = |wanted| (word == wanted).then_some(Real(value));
@@ -165,11 +173,13 @@ impl Summary {
                 evaluations: counts.evaluations,
                 events: counts.events,
                 detours: counts.detours,
+                missed: counts.missed,
                 rows: outcome.rows,
             },
             contacts: contacts::of(job, outcome),
             steps: steps::of(job, outcome, &mut notes),
             energy: outcome.books.balance(),
+            warnings,
             notes,
             files: Vec::new(),
             tables: Parts(Vec::new()),

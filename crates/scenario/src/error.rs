@@ -6,7 +6,7 @@ use std::ops::Deref;
 
 /// What is wrong with a scenario, where, and what would be right. The values are in [`Report`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct ScenarioError(Box<Report>);
+pub struct ScenarioError(pub(crate) Box<Report>);
 
 /// What there is to say about a place of a scenario: the parts of a [`ScenarioError`], or a warning.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +23,34 @@ pub struct Report {
     pub message: String,
     /// What to try.
     pub help: Option<String>,
+}
+
+/// What is allowed and probably not meant, with its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warning {
+    /// What it is about, as one word for machines, such as `unused`; it never changes its meaning.
+    pub kind: &'static str,
+    /// Where, why and what to try.
+    pub report: Report,
+}
+
+impl Warning {
+    /// The word of what is said about the wording of the file alone: a scenario written out in full says it no more.
+    pub const WORDING: &'static str = "wording";
+}
+
+impl Deref for Warning {
+    type Target = Report;
+
+    fn deref(&self) -> &Report {
+        &self.report
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.report.fmt(f)
+    }
 }
 
 impl From<Report> for ScenarioError {

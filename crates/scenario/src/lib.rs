@@ -15,7 +15,7 @@
 //! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
 //! fit, as data and in words); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
 //! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
-//! `schema`, and `guide`, which answers from it.
+//! `schema`, and `guide`, which answers from it; `substance` (what a material's name means).
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
 mod address;
@@ -38,16 +38,18 @@ mod refusal;
 mod resolved;
 mod scenario;
 mod schema;
+mod substance;
 mod suggest;
 mod syntax;
 mod tables;
 mod text;
 mod units;
 
-pub use error::{Report, ScenarioError};
+pub use error::{Report, ScenarioError, Warning};
 pub use excerpt::Excerpt;
 pub use meaning::{Figures, MemoryOutput, SpringsOutput};
 pub use quantity::quantity;
 pub use scenario::{PlotName, Scenario};
 pub use schema::schema;
+pub use substance::{Substance, substance};
 pub use suggest::help as suggestion;

@@ -1,6 +1,7 @@
 //! What contacts are made of, in the file's own words: a scene has moduli and a profile, but no names of them.
 
 use crate::Scenario;
+use crate::form::ProfileForm;
 
 impl Scenario {
     /// Names of the materials of contact `index`, first and second.
@@ -14,6 +15,31 @@ impl Scenario {
         let (_, contact) = self.form.contacts.0.get(index)?;
         let profile = serde_json::to_value(&contact.profile).ok()?;
         profile.as_object()?.keys().next().cloned()
+    }
+
+    /// Radius of curvature R of the ball of contact `index`, m, and whether it is a paraboloid in its place; none of other
+    /// profiles.
+    pub fn ball_of(&self, index: usize) -> Option<(f64, bool)> {
+        match &self.form.contacts.0.get(index)?.1.profile {
+            ProfileForm::Paraboloid(ball) => Some((ball.radius.si, true)),
+            ProfileForm::Sphere(ball) => Some((ball.radius.si, false)),
+            _ => None,
+        }
+    }
+
+    /// Materials and their Young's moduli, Pa, in the order of the file.
+    pub fn materials(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.form.materials.iter().map(|(name, material)| (name, material.youngs_modulus.si))
+    }
+
+    /// The key path of waveform `index`: it has a name, or stands where it is used and is named by its path.
+    pub fn waveform_path(&self, index: usize) -> Option<String> {
+        let name = &self.scene.waveforms.get(index)?.name;
+        Some(if self.form.waveforms.find(name).is_some() {
+            format!("waveforms.{name}")
+        } else {
+            name.clone()
+        })
     }
 
     /// Materials of which no contact is made, in the order of the file.

@@ -3,7 +3,7 @@
 mod pattern;
 mod reading;
 
-pub(crate) use reading::{number_help, out_of_reach};
+pub(crate) use reading::{convert, number_help, out_of_reach};
 
 use crate::document::shown;
 use crate::units::{self, Kind};

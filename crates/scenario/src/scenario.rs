@@ -1,9 +1,10 @@
 //! A scenario: the only door from a file to a scene and a plan.
 
 use crate::document::Document;
-use crate::error::{Report, ScenarioError};
+use crate::error::{Report, ScenarioError, Warning};
 use crate::fault::Fault;
 use crate::form::Form;
+use crate::meaning::warnings::Oddity;
 use crate::meaning::{self, Figures, MemoryOutput, SpringsOutput};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
@@ -90,7 +91,7 @@ pub struct Scenario {
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
     /// What is allowed and probably not meant, with its place.
-    pub warnings: Vec<Report>,
+    pub warnings: Vec<Warning>,
     pub(crate) form: Form,
     document: Document,
 }
@@ -212,6 +213,12 @@ impl Scenario {
         self.document.report(meaning::refused::fault(&self.scene, self.plan, error)).into()
     }
 
+    /// Something odd that a later check finds, pointed into the file; `path` as in the file, such as `contacts.ball.normal`.
+    pub fn warning(&self, kind: &'static str, path: &str, message: String, help: &str) -> Warning {
+        let ScenarioError(report) = self.locate(path, message, Some(help.to_owned()));
+        Warning { kind, report: *report }
+    }
+
     /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.
     pub fn locate(&self, path: &str, message: impl Into<String>, help: Option<String>) -> ScenarioError {
         let steps = KeyPath::parse(path).unwrap_or_default();
@@ -221,15 +228,15 @@ impl Scenario {
 }
 
 /// Each warning looks up its line; a file full of oddities is told of the first.
-fn warnings(document: &Document, odd: Vec<Fault>) -> Vec<Report> {
+fn warnings(document: &Document, odd: Vec<Oddity>) -> Vec<Warning> {
     let rest = odd.len().saturating_sub(MAX_WARNINGS);
-    let mut warnings: Vec<Report> =
-        odd.into_iter().take(MAX_WARNINGS).map(|fault| document.report(fault)).collect();
+    let told = |odd: Oddity| Warning { kind: odd.kind, report: document.report(odd.fault) };
+    let mut warnings: Vec<Warning> = odd.into_iter().take(MAX_WARNINGS).map(told).collect();
     let place = |report: &Report| report.excerpt.as_ref().map(|excerpt| (excerpt.line, excerpt.column));
-    warnings.sort_by_key(|report| (report.is_override, place(report)));
+    warnings.sort_by_key(|warning| (warning.is_override, place(warning)));
     if let (Some(last), 1..) = (warnings.last_mut(), rest) {
-        let more = format!("{rest} more warnings are not shown");
-        last.help = Some(last.help.take().map_or(more.clone(), |help| format!("{help}; {more}")));
+        let (more, help) = (format!("{rest} more warnings are not shown"), &mut last.report.help);
+        *help = Some(help.take().map_or(more.clone(), |help| format!("{help}; {more}")));
     }
     warnings
 }

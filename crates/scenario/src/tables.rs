@@ -1,5 +1,6 @@
 //! Tables in files: read once, and from then on points of the scenario.
 
+mod head;
 mod sheet;
 
 use crate::document::{Document, Source, SourceKind, shown};
@@ -10,6 +11,7 @@ use crate::path::{At, KeyPath, Step};
 use crate::place::Span;
 use crate::quantity::{AnyQuantity, Time};
 use crate::{suggest, syntax, text};
+use head::{Column, Head};
 use std::io;
 use std::ops::Range;
 use std::path::Path;
@@ -152,14 +154,23 @@ impl Shelf<'_> {
         let slipped =
             |slip: sheet::Slip| file_at.fault(slip.message).at_span(span(slip.range)).maybe_help(slip.help);
         let text = self.document.add(name, text, kind);
-        let header = sheet::header(text).map_err(slipped)?;
+        let header: Vec<Head> =
+            sheet::header(text).map_err(slipped)?.iter().map(|head| Head::new(head)).collect();
         let columns = [
             column(at, "time", table.time.as_deref(), &header)?,
             column(at, "value", table.value.as_deref(), &header)?,
         ];
-        let numbers = sheet::numbers(text, columns, header.len()).map_err(slipped)?;
+        let measure = |place: usize, column: Column| {
+            header[place].measure(column).map_err(|odd| {
+                let fault = file_at.fault(odd.message).at_span(span(sheet::head(text, place)));
+                fault.help(odd.help)
+            })
+        };
+        let (time, value) = (measure(columns[0], Column::Time)?, measure(columns[1], Column::Value)?);
+        let scaled = [(columns[0], time.scale), (columns[1], value.scale)];
+        let numbers = sheet::numbers(text, scaled, header.len()).map_err(slipped)?;
         self.document.tables.push(TableFile { path: at.path(), source, columns });
-        let point = |[time, value]: [f64; 2]| Point(Time::new(time), AnyQuantity { si: value, kind: None });
+        let point = |[time, si]: [f64; 2]| Point(Time::new(time), AnyQuantity { si, kind: value.kind });
         Ok(numbers.into_iter().map(point).collect())
     }
 
@@ -198,25 +209,33 @@ impl Shelf<'_> {
     }
 }
 
-fn column(at: &At<'_>, key: &str, name: Option<&str>, header: &[String]) -> Result<usize, Fault> {
+/// The place of a column by its head, or by its head without the unit where no head is that.
+fn column(at: &At<'_>, key: &str, name: Option<&str>, header: &[Head]) -> Result<usize, Fault> {
     let Some(name) = name else {
         return Err(at.missing(key));
     };
-    let mut columns = header.iter().enumerate().filter(|(_, head)| *head == name).map(|(i, _)| i);
+    let places = |is: fn(&Head, &str) -> bool| -> Vec<usize> {
+        header.iter().enumerate().filter(|(_, head)| is(head, name)).map(|(i, _)| i).collect()
+    };
+    let mut columns = places(Head::is);
+    if columns.is_empty() {
+        columns = places(Head::is_bare);
+    }
     let at = at.key(key);
-    match (columns.next(), columns.next(), header) {
-        (Some(only), None, _) => Ok(only),
-        (Some(_), Some(_), _) => {
+    match (&columns[..], header) {
+        ([only], _) => Ok(*only),
+        ([_, _, ..], _) => {
             let fault = at.fault(format!("the file has more than one column \"{}\"", shown(name)));
             Err(fault.help("give its columns different names"))
         }
-        (None, _, header) => {
+        ([], header) => {
             let fault = at.fault(format!("the file has no column \"{}\"", shown(name)));
             let help = match header {
-                [only] if only.contains([';', '\t']) => {
-                    Some(format!("its first line is \"{}\": put commas between the fields", shown(only)))
-                }
-                _ => suggest::help(name, header.iter().map(String::as_str)),
+                [only] if only.full.contains([';', '\t']) => Some(format!(
+                    "its first line is \"{}\": put commas between the fields",
+                    shown(&only.full)
+                )),
+                _ => suggest::help(name, header.iter().map(|head| head.full.as_str())),
             };
             Err(fault.maybe_help(help))
         }

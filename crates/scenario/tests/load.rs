@@ -431,3 +431,38 @@ fn value() -> impl Strategy<Value = String> {
     ]);
     value.prop_map(str::to_owned)
 }
+
+/// Today's data loggers write micrometres and say so; 1.3 m of motion were taken without a word.
+#[test]
+fn units_in_the_heads_of_a_table_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let points = |head: &str, time: &str, value: &str| {
+        fs::write(folder.path().join("t.csv"), format!("{head}\n0,0\n10,1.3\n20,-0.7e-1\n")).unwrap();
+        let text = format!(
+            r#"{{"stickslip":1,"waveforms":{{"w":{{"table":{{"file":"t.csv","time":"{time}","value":"{value}"}}}}}},
+                "bodies":{{"foot":{{"x":{{"follows":"w"}}}}}},"run":{{"duration":1}}}}"#
+        );
+        let scenario =
+            Scenario::from_str(&text, "t", folder.path()).unwrap_or_else(|error| panic!("{error}"));
+        match scenario.scene.waveforms[0].part.shape() {
+            Shape::Table { points } => points.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let micro = [(0.0, 0.0), (10e-3, 1.3e-6), (20e-3, -0.7e-7)];
+    for (head, time, value) in [
+        ("t [ms],disp (µm)", "t [ms]", "disp (µm)"),
+        ("t [ms],disp (µm)", "t", "disp"),
+        ("time/ms,disp_um", "time/ms", "disp_um"),
+        ("time / ms,disp [um]", "time", "disp"),
+    ] {
+        assert_eq!(points(head, time, value), micro, "{head}");
+    }
+    let si = [(0.0, 0.0), (10.0, 1.3), (20.0, -0.07)];
+    for head in ["t,disp", "time_s,disp_m", "t (s),disp (m)"] {
+        let (time, value) = head.split_once(',').unwrap();
+        assert_eq!(points(head, time, value), si, "{head}");
+    }
+    // A column that goes by its whole head is meant before one that goes by a part of it.
+    assert_eq!(points("t [ms],t", "t [ms]", "t")[1], (10e-3, 1.3));
+}

@@ -64,6 +64,10 @@ pub(crate) struct ConductArguments {
     /// No progress, no warnings, no result for people; errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
+    /// Exit code 3 where a run is warned of, such as energy books that do not close; its results are written all the same. What
+    /// is odd about a scenario, which `check` tells, does not count
+    #[arg(long)]
+    pub(crate) strict: bool,
     #[command(flatten)]
     pub(crate) look: LookArguments,
 }

@@ -24,6 +24,9 @@ struct Finding<'a> {
 /// What is wrong, and where. Lines and columns count from 1, columns in characters.
 #[derive(Debug, Default, Serialize)]
 struct Fault {
+    /// What a warning is about, in one word.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kind: Option<&'static str>,
     /// The table that line and column count in, where one is to blame that the scenario names.
     #[serde(skip_serializing_if = "Option::is_none")]
     table: Option<String>,
@@ -59,12 +62,12 @@ pub(crate) fn check(arguments: &CheckArguments) -> Verdict {
 
 fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
     if arguments.json {
-        let odd = job.as_ref().map_or(&[][..], |job| &job.scenario.warnings);
+        let odd = job.as_ref().map_or_else(|_| Vec::new(), Job::warnings);
         let finding = Finding {
             file,
             ok: job.is_ok(),
             error: job.as_ref().err().map(|refusal| Fault::of(refusal, file)),
-            warnings: odd.iter().map(|warning| Fault::at(warning, file)).collect(),
+            warnings: odd.iter().map(|odd| Fault { kind: Some(odd.kind), ..Fault::at(odd, file) }).collect(),
         };
         // A path that is not Unicode is the only thing that JSON has no words for.
         let line = serde_json::to_string(&finding);
@@ -77,7 +80,7 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
         }
         Ok(_) if arguments.quiet => {}
         Ok(job) => {
-            warn(&job.scenario);
+            warn(job);
             say(format_args!("{}: ok", file.display()));
         }
     }
@@ -95,6 +98,7 @@ impl Fault {
         let excerpt = report.excerpt.as_ref();
         let elsewhere = !report.is_override && Path::new(&report.file) != file;
         Self {
+            kind: None,
             table: elsewhere.then(|| report.file.clone()),
             assignment: report.is_override.then(|| report.file.clone()),
             line: excerpt.map(|e| e.line),

@@ -5,12 +5,13 @@ mod digits;
 mod tables;
 
 use crate::arguments::InfoArguments;
-use crate::console::answer::{complain, say, say_json};
+use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::verdict::Verdict;
 use serde::Serialize;
 use std::path::Path;
 use stickslip_results::Job;
 use stickslip_results::Parts;
+use stickslip_results::Warning;
 use stickslip_results::info::{
     self, BodyInfo, ContactInfo, Expectation, ModeInfo, Stepping, Usage, WaveformInfo,
 };
@@ -31,6 +32,8 @@ struct Info {
     stepping: Stepping,
     expected: Expectation,
     usage: Usage,
+    /// What is odd about the scenario, as in the summary of a run.
+    warnings: Vec<Warning>,
 }
 
 /// Reads and builds a scenario and prints what it means.
@@ -42,6 +45,7 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
             return Verdict::BadInput;
         }
     };
+    warn(&job);
     let info = Info::of(&job);
     // Numbers and strings only: there is nothing that JSON could refuse.
     if arguments.json {
@@ -65,6 +69,7 @@ impl Info {
             stepping: Stepping::of(job),
             expected: Expectation::of(job),
             usage: Usage::of(job),
+            warnings: Warning::of_scenario(job),
             modes,
         }
     }

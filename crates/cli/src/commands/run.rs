@@ -43,6 +43,7 @@ pub(crate) fn conduct<E: Display + Send>(
             Ok((job, _)) if interrupt.is_raised() => Report::skipped(&job),
             Ok((job, beginning)) => scenario::run(&job, beginning, &look, &interrupt, &progress),
         };
+        let report = if arguments.strict { report.judged_strictly() } else { report };
         let verdict = report.verdict;
         console.print(place, report);
         verdict
@@ -72,7 +73,7 @@ fn prepare(arguments: &RunArguments) -> Vec<Result<Task, Refusal>> {
         let job = Job::prepare(file, &arguments.set, &arguments.out)?;
         let beginning = beginning(&job)?;
         if !arguments.conduct.quiet {
-            warn(&job.scenario);
+            warn(&job);
         }
         match taken.insert(job.folder.clone(), file.clone()) {
             None => Ok((job, beginning)),
@@ -113,6 +114,9 @@ impl Console<'_> {
     }
 
     fn write(&self, report: &Report) {
+        if !report.warning.is_empty() && (self.arguments.strict || !self.arguments.quiet) {
+            complain(format_args!("{}", report.warning));
+        }
         if !report.error.is_empty() {
             complain(format_args!("{}", report.error));
         }

@@ -5,8 +5,8 @@ use crate::console::visible::{Spelling, visible};
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
+use stickslip_results::Job;
 use stickslip_results::complaint::words;
-use stickslip_scenario::Scenario;
 
 /// Why some of the answer was lost.
 static LOST: OnceLock<io::Error> = OnceLock::new();
@@ -27,8 +27,8 @@ pub(crate) fn complain(line: Arguments<'_>) {
 }
 
 /// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
-pub(crate) fn warn(scenario: &Scenario) {
-    for warning in &scenario.warnings {
+pub(crate) fn warn(job: &Job) {
+    for warning in job.warnings() {
         complain(format_args!("warning: {warning}"));
     }
 }

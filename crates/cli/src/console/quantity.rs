@@ -1,29 +1,3 @@
 //! Numbers with their units, as people read them.
 
-use stickslip_analysis::Prefix;
-use stickslip_results::Real;
-
-/// Four digits with an SI prefix.
-pub(crate) fn quantity(value: Real, unit: &str) -> String {
-    let prefix = Prefix::of_magnitude(value.0);
-    let shown = prefix.apply(value.0);
-    let digits = match shown.abs() {
-        x if x >= 100.0 => 1,
-        x if x >= 10.0 => 2,
-        _ => 3,
-    };
-    if shown == 0.0 { format!("0 {unit}") } else { format!("{shown:.digits$} {}{unit}", prefix.symbol) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn four_digits_are_shown() {
-        assert_eq!(quantity(Real(161.847e-9), "m"), "161.8 nm");
-        assert_eq!(quantity(Real(-1.5e-5), "m/s"), "-15.00 µm/s");
-        assert_eq!(quantity(Real(0.0), "J"), "0 J");
-        assert_eq!(quantity(Real(2.0), "s"), "2.000 s");
-    }
-}
+pub(crate) use stickslip_results::quantity;

@@ -1,6 +1,6 @@
 //! The static forces on the free coordinates, and how they change.
 
-use crate::Model;
+use super::Settling;
 use crate::contact::Contact;
 use crate::equations::Components;
 use crate::model::Measure;
@@ -40,33 +40,40 @@ impl Statics {
     }
 }
 
-impl Model {
+impl Settling<'_> {
     /// The forces with the free coordinates at y, the contacts on straight paths from where they stand.
     ///
     /// Loads, contacts (normal and tangential), links and waveforms at t = 0; nothing is committed. The
     /// stiffness has the sign of springs: positive where a force falls with the way.
     pub(super) fn statics(&self, state: &State, y: &[f64]) -> Statics {
-        let (n, eq) = (self.free.len(), self.equations(state));
-        let loads = DVector::from_iterator(n, self.free.iter().map(|f| f.force));
+        let (model, eq) = (self.model, self.model.equations(state));
+        let n = model.free.len();
+        let loads = DVector::from_iterator(n, model.free.iter().map(|f| f.force));
         let (acting, noise) = (loads.abs(), DVector::zeros(n));
         let mut statics = Statics { net: loads, acting, noise, stiffness: DMatrix::zeros(n, n) };
-        for ((contact, memory), to) in self.contacts.iter().zip(&state.memories).zip(self.apexes(state, y)) {
-            let (count, tangents) = (contact.count, tangents(contact, memory, to));
+        let mut answers = self.answers.borrow_mut();
+        let contacts = model.contacts.iter().zip(&state.memories).zip(self.apexes(state, y));
+        for (((contact, memory), to), answer) in contacts.zip(answers.iter_mut()) {
+            if !answer.is_at(to) {
+                *answer = Answer::of(contact, memory, to);
+            }
+            let Answer { tangents, pressing, .. } = *answer;
+            let count = contact.count;
             // What could act counts, not what does: near F_x = 0 a contact would else ask for a balance to
             // more digits than there are. A coefficient above 1 makes no force that its load does not.
-            let limit = contact.interface.friction().min(1.0) * contact.interface.normal_force(to.d);
+            let limit = contact.interface.friction().min(1.0) * pressing;
             statics.push(&contact.u, -count * tangents.force, count * tangents.force.abs().max(limit));
             statics.stiffen(&contact.u, &contact.u, count * tangents.along, y);
             if let Some(normal) = contact.coupling() {
-                let force = count * contact.interface.normal_force(to.d);
+                let force = count * pressing;
                 statics.push(normal, -force, force);
-                statics.stiffen(normal, normal, count * contact.interface.normal_stiffness(to.d), y);
+                statics.stiffen(normal, normal, count * answer.stiffness, y);
                 // Deeper contacts hold harder: F_x depends on d, but F_N not on u, and the matrix is not
                 // symmetric.
                 statics.stiffen(&contact.u, normal, count * tangents.across, y);
             }
         }
-        for link in &self.links {
+        for link in &model.links {
             let elongation = eq.read(&link.elongation, &Components { t: 0.0, y: |i: usize| y[i] }).value;
             let stroke = eq.stroke(link, &Components { t: 0.0, y: |i: usize| y[i] }).value;
             let stretch = stroke - elongation;
@@ -75,7 +82,7 @@ impl Model {
             statics.push(&link.elongation, force + link.preload, force.abs() + link.preload.abs());
             statics.stiffen(&link.elongation, &link.elongation, link.stiffness, y);
         }
-        for load in &self.loads {
+        for load in &model.loads {
             let force = load.arm * eq.sample(load.waveform, 0.0).value;
             statics.net[load.free] += force;
             statics.acting[load.free] += force.abs();
@@ -84,14 +91,49 @@ impl Model {
     }
 
     /// Where the contacts are with the free coordinates at y.
-    pub(super) fn apexes(&self, state: &State, y: &[f64]) -> Vec<Apex> {
-        let eq = self.equations(state);
-        self.contacts.iter().map(|c| eq.motion(c, 0.0, |i| y[i]).apex()).collect()
+    pub(super) fn apexes<'a>(&'a self, state: &'a State, y: &'a [f64]) -> impl Iterator<Item = Apex> + 'a {
+        let eq = self.model.equations(state);
+        self.model.contacts.iter().zip(&self.depths).map(move |(contact, depth)| {
+            let at = Components { t: 0.0, y: |i: usize| y[i] };
+            let d = contact.coupling().map_or(*depth, |measure| eq.read(measure, &at).value);
+            Apex { d, u: eq.read(&contact.u, &at).value }
+        })
+    }
+}
+
+/// What one contact answers at the end of a chord; the same as long as its memory stays and the end is the same to the last bit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Answer {
+    to: Apex,
+    tangents: Tangents,
+    /// F_N, N.
+    pressing: f64,
+    /// dF_N/dd, N/m; 0 where no body presses.
+    stiffness: f64,
+}
+
+impl Answer {
+    /// None yet: no end is not a number.
+    pub(super) const NONE: Self = Self {
+        to: Apex { d: f64::NAN, u: f64::NAN },
+        tangents: Tangents { force: 0.0, along: 0.0, across: 0.0 },
+        pressing: 0.0,
+        stiffness: 0.0,
+    };
+
+    fn of(contact: &Contact, memory: &Memory, to: Apex) -> Self {
+        let law = &contact.interface;
+        let stiffness = contact.coupling().map_or(0.0, |_| law.normal_stiffness(to.d));
+        Self { to, tangents: tangents(contact, memory, to), pressing: law.normal_force(to.d), stiffness }
+    }
+
+    fn is_at(&self, to: Apex) -> bool {
+        self.to.d.to_bits() == to.d.to_bits() && self.to.u.to_bits() == to.u.to_bits()
     }
 }
 
 /// F_x of one contact at the end of a chord (N) and its derivatives with respect to that end (N/m).
-#[derive(Default)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Tangents {
     force: f64,
     /// With u at constant d.

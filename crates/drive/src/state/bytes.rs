@@ -21,8 +21,8 @@ use stickslip_contact::Words;
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"stickslp";
-/// Version of the format.
-const VERSION: u64 = 1;
+/// Version of the format: 2 counts the steps whose estimate missed.
+const VERSION: u64 = 2;
 /// Bytes before the words.
 const HEAD: usize = 56;
 /// Bytes of a word.
@@ -37,6 +37,9 @@ pub enum BytesError {
     /// Of a later program.
     #[error("the state has format {0}, this program reads up to {VERSION}")]
     Newer(u64),
+    /// Of an earlier program.
+    #[error("the state has format {0}, this program reads format {VERSION}")]
+    Older(u64),
     /// Of another model.
     #[error("the state of a run of another scenario")]
     OtherModel,
@@ -80,7 +83,7 @@ impl State {
     ///
     /// # Errors
     ///
-    /// Bytes of something else, of a later format, of another model; too few, too many, damaged.
+    /// Bytes of something else, of another format, of another model; too few, too many, damaged.
     pub fn from_bytes(model: &Model, key: &[u8; 32], bytes: &[u8]) -> Result<Self, BytesError> {
         let words = words(key, bytes)?;
         let mut reader = Words::new(&words);
@@ -107,8 +110,11 @@ fn words(key: &[u8; 32], bytes: &[u8]) -> Result<Vec<u64>, BytesError> {
         return Err(BytesError::Length { expected, got });
     }
     let (body, sum) = (&rest[..rest.len() - WORD], word(bytes, bytes.len() / WORD - 1));
-    if sum != Some(u64::from(crc32fast::hash(&bytes[..bytes.len() - WORD]))) || version != VERSION {
+    if sum != Some(u64::from(crc32fast::hash(&bytes[..bytes.len() - WORD]))) || version == 0 {
         return Err(BytesError::Damaged);
+    }
+    if version < VERSION {
+        return Err(BytesError::Older(version));
     }
     if bytes[2 * WORD..6 * WORD] != key[..] {
         return Err(BytesError::OtherModel);

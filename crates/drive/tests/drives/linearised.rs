@@ -220,3 +220,40 @@ fn a_step_beyond_the_longest_is_refused_before_the_run() {
     assert_eq!((error.part, error.field), (Part::Run, Field::Step));
     assert!(model.start(&event(1e-8, 1.0)).is_ok());
 }
+
+/// Copies of a scene of [`chain`] side by side.
+fn copies(scene: &Scene, count: usize) -> Scene {
+    let mut all = Scene::default();
+    for copy in 0..count {
+        let side = |side| match side {
+            Side::Body(body) => Side::Body(2 * copy + body),
+            Side::Ground => Side::Ground,
+        };
+        all.bodies.extend(
+            scene.bodies.iter().map(|body| named(&format!("{} {copy}", body.name), body.part.clone())),
+        );
+        for contact in &scene.contacts {
+            let mut part = contact.part.clone();
+            part.between = part.between.map(side);
+            all.contacts.push(named(&format!("{} {copy}", contact.name), part));
+        }
+        for spring in &scene.springs {
+            let part = Spring { between: spring.part.between.map(side), ..spring.part };
+            all.springs.push(named(&format!("{} {copy}", spring.name), part));
+        }
+    }
+    all
+}
+
+/// What nothing joins is parted: as one matrix these 6 000 coordinates would have 3.6e7 entries, and eigenvalues for days.
+#[test]
+fn scenes_side_by_side_have_the_longest_steps_of_one() {
+    for (damping, count) in [(0.0, 3_000), (7.0, 300)] {
+        let one = chain(20e6, damping);
+        let (one, many) = (Model::new(&one).unwrap(), Model::new(&copies(&one, count)).unwrap());
+        for stepper in [Stepper::Verlet { step: 0.0 }, Stepper::Rk4 { step: 0.0 }] {
+            let longest = |model: &Model| model.longest_step(stepper).unwrap();
+            close(longest(&many), longest(&one), 1e-12);
+        }
+    }
+}

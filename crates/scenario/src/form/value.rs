@@ -10,12 +10,13 @@ use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::json;
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Named parts in the order of the file.
+/// Named parts in the order of the file, and the place of each name: references are looked up by the thousand.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Parts<T>(pub(crate) Vec<(String, T)>);
+pub(crate) struct Parts<T>(pub(crate) Vec<(String, T)>, HashMap<String, usize>);
 
 impl<T> Parts<T> {
     pub(crate) fn is_empty(&self) -> bool {
@@ -31,13 +32,13 @@ impl<T> Parts<T> {
     }
 
     pub(crate) fn find(&self, name: &str) -> Option<usize> {
-        self.0.iter().position(|(known, _)| known == name)
+        self.1.get(name).copied()
     }
 }
 
 impl<T> Default for Parts<T> {
     fn default() -> Self {
-        Self(Vec::new())
+        Self(Vec::new(), HashMap::new())
     }
 }
 
@@ -58,11 +59,13 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Parts<T> {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Parts<T>, A::Error> {
-                let mut parts = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    parts.push(entry);
+                let (mut parts, mut places) = (Vec::new(), HashMap::new());
+                while let Some((name, part)) = map.next_entry::<String, T>()? {
+                    // A name that is there twice was refused with the text.
+                    places.entry(name.clone()).or_insert(parts.len());
+                    parts.push((name, part));
                 }
-                Ok(Parts(parts))
+                Ok(Parts(parts, places))
             }
         }
         deserializer.deserialize_map(PartsVisitor(PhantomData))

@@ -11,7 +11,7 @@ use stickslip_drive::scene::Side;
 pub(super) const GROUND: &str = "ground";
 /// Longest name, characters: it heads columns and legends.
 const MAX_LENGTH: usize = 64;
-/// Most parts of one kind: references are looked up by name, one after the other.
+/// Most parts of one kind.
 const MAX_PARTS: usize = 10_000;
 
 /// All names of a form.

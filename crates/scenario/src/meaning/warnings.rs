@@ -1,6 +1,7 @@
 //! What is allowed and probably not meant.
 
 use super::{Meaning, motion};
+use crate::Warning;
 use crate::fault::Fault;
 use crate::form::{Form, FreedomForm, Parts, RunStartForm};
 use crate::path::{At, KeyPath};
@@ -16,8 +17,15 @@ const TURN: f64 = TAU * (1.0 + 1e-9);
 /// More than the coefficient of friction of rubber on clean glass.
 const FRICTION: f64 = 4.0;
 
+/// Something odd: what it is about, as the word of a [`Warning`](crate::Warning), and what there is to say.
+#[derive(Debug)]
+pub(crate) struct Oddity {
+    pub(crate) kind: &'static str,
+    pub(crate) fault: Fault,
+}
+
 /// Everything odd about a scenario. `is_written` says whether a value stands in the file.
-pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -> bool) -> Vec<Fault> {
+pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -> bool) -> Vec<Oddity> {
     let mut odd = Oddities { form, meaning, scene: &meaning.scene, found: Vec::new() };
     odd.unused();
     odd.materials();
@@ -34,10 +42,14 @@ struct Oddities<'a> {
     form: &'a Form,
     meaning: &'a Meaning,
     scene: &'a Scene,
-    found: Vec<Fault>,
+    found: Vec<Oddity>,
 }
 
 impl Oddities<'_> {
+    fn find(&mut self, kind: &'static str, fault: Fault) {
+        self.found.push(Oddity { kind, fault });
+    }
+
     /// Names that nothing refers to.
     fn unused(&mut self) {
         let (form, scene) = (self.form, self.scene);
@@ -60,9 +72,10 @@ impl Oddities<'_> {
         let root = At::ROOT;
         let at = root.key(key);
         let unused = parts.names().zip(used).filter(|(_, used)| !used);
-        self.found.extend(unused.map(|(name, _)| {
-            at.key(name).fault(message).on_key().help("remove it, or is another name misspelt?")
-        }));
+        for (name, _) in unused {
+            let fault = at.key(name).fault(message).on_key();
+            self.find("unused", fault.help("remove it, or is another name misspelt?"));
+        }
     }
 
     /// Numbers that suggest a forgotten unit.
@@ -74,10 +87,10 @@ impl Oddities<'_> {
             let at = at.key("youngs_modulus");
             if value < MODULUS.0 {
                 let fault = at.fault(format!("{value} Pa is softer than any solid"));
-                self.found.push(fault.help("a bare number is in Pa; steel has \"210 GPa\""));
+                self.find("modulus", fault.help("a bare number is in Pa; steel has \"210 GPa\""));
             } else if value > MODULUS.1 {
                 let fault = at.fault(format!("{value:e} Pa is stiffer than diamond"));
-                self.found.push(fault.help("steel has \"210 GPa\""));
+                self.find("modulus", fault.help("steel has \"210 GPa\""));
             }
         }
     }
@@ -92,7 +105,8 @@ impl Oddities<'_> {
                 && !is_written(&at.key("x").path())
             {
                 let fault = at.key("mass").fault("this body has a mass, but x is fixed: it does not move");
-                self.found.push(fault.on_key().help("write \"x\": \"free\""));
+                // A scenario written out in full says so on purpose.
+                self.find(Warning::WORDING, fault.on_key().help("write \"x\": \"free\""));
             }
         }
         let at = root.key("loads");
@@ -100,7 +114,7 @@ impl Oddities<'_> {
             let on = &self.scene.bodies[load.on];
             if !on.part.is_free() {
                 let message = format!("this load moves nothing: \"{}\" is not free", on.name);
-                self.found.push(at.index(i).key("on").fault(message).help("load a body that is free"));
+                self.find("no_effect", at.index(i).key("on").fault(message).help("load a body that is free"));
             }
         }
     }
@@ -114,7 +128,7 @@ impl Oddities<'_> {
             let friction = contact.part.interface.friction();
             if friction > FRICTION {
                 let fault = at.key("friction").fault(format!("{friction} is more than any dry pair has"));
-                self.found.push(fault.help("twenty per cent are 0.2; typical 0.05 to 0.6"));
+                self.find("friction", fault.help("twenty per cent are 0.2; typical 0.05 to 0.6"));
             }
             let (key, value) = match contact.part.normal {
                 Normal::Force(value) => ("force", value),
@@ -129,7 +143,7 @@ impl Oddities<'_> {
             if highest <= 0.0 {
                 let at = at.key("normal");
                 let fault = at.key(key).fault("this contact is never pressed: it carries no force");
-                self.found.push(fault.help("press it with a value above 0"));
+                self.find("no_effect", fault.help("press it with a value above 0"));
             }
         }
     }
@@ -146,7 +160,7 @@ impl Oddities<'_> {
                 let at = root.key(key);
                 let fault =
                     at.key(name).key("between").fault("neither of the two is free: this moves nothing");
-                self.found.push(fault.help("give one of them a mass and \"x\": \"free\""));
+                self.find("no_effect", fault.help("give one of them a mass and \"x\": \"free\""));
             }
         }
     }
@@ -156,29 +170,29 @@ impl Oddities<'_> {
         let (root, scene, plan) = (At::ROOT, self.scene, self.meaning.plan);
         if is_at_rest(scene) {
             let fault = root.key("run").fault("nothing sets this scene in motion").on_key();
-            self.found
-                .push(fault.help("let a body or a load follow a waveform, or let a body start off its rest"));
+            let help = "let a body or a load follow a waveform, or let a body start off its rest";
+            self.find("no_effect", fault.help(help));
         }
         let is_free = scene.bodies.iter().any(|body| body.part.is_free());
         if self.form.run.start == RunStartForm::Equilibrium && !is_free {
             let fault =
                 root.key("run").key("start").fault("nothing is free: there is no equilibrium to find");
-            self.found.push(fault.help("leave it out"));
+            self.find("no_effect", fault.help("leave it out"));
         }
         let lifted = scene.bodies.iter().any(|body| body.part.z.freedom == Freedom::Free);
         if scene.gravity.acceleration > 0.0 && scene.gravity.incline.sin() == 0.0 && !lifted {
             let fault = root.key("gravity").fault("on a level slide gravity has no part along x").on_key();
             let help = "give an \"incline\"; what presses the contacts is given in their \"normal\"";
-            self.found.push(fault.help(help));
+            self.find("no_effect", fault.help(help));
         }
         if plan.every.is_some_and(|every| every > plan.duration) {
             let at = root.key("output");
             let fault = at.key("every").fault(format!("longer than the run of {} s", plan.duration));
-            self.found.push(fault.help("only the first and the last row are written"));
+            self.find("output", fault.help("only the first and the last row are written"));
         }
         let plots = &self.form.plots;
         if let Some(i) = (0..plots.len()).find(|&i| plots[..i].contains(&plots[i])) {
-            self.found.push(root.key("plots").index(i).fault("this picture is in the list already"));
+            self.find("output", root.key("plots").index(i).fault("this picture is in the list already"));
         }
     }
 
@@ -191,8 +205,8 @@ impl Oddities<'_> {
             let delay = self.scene.waveforms[i].part.timing().delay;
             if used[i] && delay >= self.meaning.plan.duration {
                 let message = format!("this waveform starts at {delay} s, when the run is over");
-                self.found
-                    .push(at.key(name).fault(message).on_key().help("run longer, or shorten its delay"));
+                let fault = at.key(name).fault(message).on_key();
+                self.find("no_effect", fault.help("run longer, or shorten its delay"));
             }
         }
     }
@@ -207,7 +221,7 @@ impl Oddities<'_> {
             if phase.abs() > TURN {
                 let at = at.key(kind);
                 let fault = at.key("phase").fault(format!("{phase} rad is more than a whole turn"));
-                self.found.push(fault.help("a bare number is in rad; for degrees write \"90 deg\""));
+                self.find("unit", fault.help("a bare number is in rad; for degrees write \"90 deg\""));
             }
         }
     }

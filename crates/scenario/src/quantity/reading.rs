@@ -90,7 +90,7 @@ fn number_length(text: &str) -> usize {
 }
 
 /// A power of ten goes into the exponent of the string: "5 um" is 5e-6 to the last bit.
-fn convert(digits: &str, scale: Scale) -> f64 {
+pub(crate) fn convert(digits: &str, scale: Scale) -> f64 {
     // Whatever `number_length` counts is a number.
     let number = |text: &str| text.parse().unwrap_or(f64::NAN);
     match scale {

@@ -1,7 +1,8 @@
 //! A CSV file: its columns, its numbers, and the place of each cell.
 
 use crate::document::shown;
-use crate::quantity::number_help;
+use crate::quantity::{convert, number_help};
+use crate::units::Scale;
 use std::ops::Range;
 
 /// Something wrong in a CSV text.
@@ -24,8 +25,8 @@ pub(super) fn header(text: &str) -> Result<Vec<String>, Slip> {
     }
 }
 
-/// The numbers of two columns of a table that is `width` columns wide.
-pub(super) fn numbers(text: &str, columns: [usize; 2], width: usize) -> Result<Vec<[f64; 2]>, Slip> {
+/// The numbers of two columns of a table that is `width` columns wide, in SI by the scale of each.
+pub(super) fn numbers(text: &str, columns: [(usize, Scale); 2], width: usize) -> Result<Vec<[f64; 2]>, Slip> {
     let mut pairs = Vec::new();
     for record in reader(text).records() {
         // A text in memory can be read, and any text is a flexible table.
@@ -40,20 +41,33 @@ pub(super) fn numbers(text: &str, columns: [usize; 2], width: usize) -> Result<V
                 help: Some("fields stand between commas; decimals stand after a point".to_owned()),
             });
         }
-        let number = |column: usize| {
+        let number = |(column, scale): (usize, Scale)| {
             let field = record.get(column).unwrap_or("");
-            match field.parse::<f64>() {
-                Ok(value) if value.is_finite() => Ok(value),
-                _ => Err(Slip {
+            let value = field.parse::<f64>().ok().filter(|value| value.is_finite());
+            match value.map(|_| convert(field, scale)).filter(|value| value.is_finite()) {
+                Some(value) => Ok(value),
+                None => Err(Slip {
                     range: field_at(text, start, column),
                     message: format!("expected a number, got \"{}\"", shown(field)),
-                    help: Some(number_help(field).unwrap_or("numbers in SI without units").to_owned()),
+                    help: Some(
+                        number_help(field)
+                            .unwrap_or(
+                                "numbers without units; their unit may stand in the head of their column",
+                            )
+                            .to_owned(),
+                    ),
                 }),
             }
         };
         pairs.push([number(columns[0])?, number(columns[1])?]);
     }
     Ok(pairs)
+}
+
+/// The place of the head of a column.
+pub(super) fn head(text: &str, column: usize) -> Range<usize> {
+    // The first record is where the header stands.
+    field_at(text, start_of(text, &csv::StringRecord::new()), column)
 }
 
 /// The place of a cell, by the row of numbers and the column.
@@ -110,10 +124,24 @@ mod tests {
     const TEXT: &str =
         "# measured\n time ,\"x, m\",note\r\n\r\n# more\n 0, 1e-6 ,\"a \"\"b\"\"\nc\"\n1 ,2, d\n";
 
+    const SI: [(usize, Scale); 2] = [(0, Scale::Ten(0)), (1, Scale::Ten(0))];
+
+    #[test]
+    fn numbers_have_the_bits_of_their_literals_in_any_unit() {
+        let columns = [(0, Scale::Ten(-3)), (1, Scale::Ten(-6))];
+        assert_eq!(
+            numbers("t,x\n.5,1.7E2\n+3,-1e-2\n", columns, 2).unwrap(),
+            [[0.5e-3, 1.7e-4], [3e-3, -1e-8]]
+        );
+        assert!(numbers("t,x\n1,1e308\n", [(0, Scale::Ten(0)), (1, Scale::Ten(6))], 2).is_err());
+        assert_eq!(&TEXT[head(TEXT, 0)], "time");
+        assert_eq!(&TEXT[head(TEXT, 1)], "\"x, m\"");
+    }
+
     #[test]
     fn cells_are_read_and_found() {
         assert_eq!(header(TEXT).unwrap(), ["time", "x, m", "note"]);
-        assert_eq!(numbers(TEXT, [0, 1], 3).unwrap(), [[0.0, 1e-6], [1.0, 2.0]]);
+        assert_eq!(numbers(TEXT, SI, 3).unwrap(), [[0.0, 1e-6], [1.0, 2.0]]);
         let found = |row, column| &TEXT[cell(TEXT, row, column).unwrap()];
         assert_eq!([found(0, 0), found(0, 1), found(0, 2)], ["0", "1e-6", "\"a \"\"b\"\"\nc\""]);
         assert_eq!([found(1, 0), found(1, 1), found(1, 2)], ["1", "2", "d"]);
@@ -123,7 +151,7 @@ mod tests {
     #[test]
     fn what_is_no_number_is_pointed_at() {
         let slip = |text: &str, width| {
-            let slip = numbers(text, [0, 1], width).unwrap_err();
+            let slip = numbers(text, SI, width).unwrap_err();
             (text[slip.range].to_owned(), slip.message)
         };
         let number = |got: &str| (got.to_owned(), format!("expected a number, got \"{got}\""));

@@ -22,13 +22,15 @@ pub(crate) struct Report {
     pub(crate) result: String,
     /// For machines, on stdout.
     pub(crate) json: String,
-    /// On stderr.
+    /// On stderr: what the results are not worth …
+    pub(crate) warning: String,
+    /// … and what went wrong.
     pub(crate) error: String,
 }
 
 impl Report {
     fn failed(verdict: Verdict, error: String) -> Self {
-        Self { verdict, result: String::new(), json: String::new(), error }
+        Self { verdict, result: String::new(), json: String::new(), warning: String::new(), error }
     }
 
     /// A scenario that is not run.
@@ -105,7 +107,15 @@ impl Report {
             (None, _) => (Verdict::Done, String::new()),
         };
         let result = if verdict == Verdict::Done { result(job, outcome, summary) } else { String::new() };
-        Ok(Self { verdict, result, json: summary.line()?, error })
+        let own = summary.warnings.iter().filter(|warning| warning.is_of_results());
+        let warnings: Vec<String> = own.map(|warning| format!("warning: {}: {warning}", job.name)).collect();
+        Ok(Self { verdict, result, json: summary.line()?, warning: warnings.join("\n"), error })
+    }
+
+    /// The same where results that are warned of are not good enough.
+    pub(crate) fn judged_strictly(self) -> Self {
+        let verdict = if self.warning.is_empty() { self.verdict } else { self.verdict.max(Verdict::Stopped) };
+        Self { verdict, ..self }
     }
 }
 

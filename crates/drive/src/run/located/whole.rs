@@ -88,6 +88,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let error = self.try_halves(&mut halves, state, times)?;
         let slides = self.slides && error.is_finite() && h <= SLIDING * detour.length;
         let outcome = if error <= 1.0 || slides {
+            state.counts.missed += u64::from(error > 1.0);
             detour.step = h * (SAFETY * error.max(1e-6).powf(-1.0 / 3.0)).clamp(1.0, 4.0);
             self.take_halves(&mut halves, state, times, record)
         } else {

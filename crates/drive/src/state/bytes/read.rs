@@ -121,6 +121,7 @@ fn counts(words: &mut Words<'_>) -> Option<Counts> {
         evaluations: next()?,
         events: next()?,
         detours: next()?,
+        missed: next()?,
     })
 }
 

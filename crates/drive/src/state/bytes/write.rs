@@ -33,7 +33,8 @@ pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
         }
     }
     let counts = state.counts;
-    page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events, counts.detours]);
+    page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events]);
+    page.0.extend([counts.detours, counts.missed]);
     state.tally.write(page.0);
     page.option(state.underway.as_ref(), Page::underway);
 }

@@ -1,0 +1,95 @@
+//! Materials, pressures, shapes.
+
+use super::{Implausible, told};
+use std::f64::consts::PI;
+use stickslip_contact::Interface;
+use stickslip_scenario::substance;
+
+/// How far outside the range of its kind a modulus may lie: porous, rolled and alloyed varieties do not lie further.
+const APART: f64 = 3.0;
+/// Mean pressure in yield stresses at which a ball begins to yield below its surface: p_max = 1.6 Y, p = ⅔ p_max (Johnson, *Contact
+/// Mechanics*, section 6.1).
+const ONSET: f64 = 1.07;
+/// Largest pressure that anything but diamond bears in use, Pa.
+const PRESSURE: f64 = 10e9;
+/// Contact radius in radii of the ball beyond which neither is the ball a paraboloid nor the body a half-space: at 0.2 the height
+/// of a sphere is 1 % more than that of its paraboloid, at 0.4 4 %.
+const FLAT: f64 = 0.2;
+
+impl Implausible<'_> {
+    /// Moduli far from what the names beside them mean.
+    pub(super) fn materials(&mut self) {
+        let job = self.job;
+        for (name, modulus) in job.scenario.materials() {
+            let Some(kind) = substance(name) else { continue };
+            let (low, high) = kind.modulus;
+            if (low / APART..=high * APART).contains(&modulus) {
+                continue;
+            }
+            // Whether the name is wrong or the number: what it bears is not known either.
+            self.misnamed.push(name);
+            let path = format!("materials.{name}.youngs_modulus");
+            // Softer than any solid it is already.
+            if job.scenario.warnings.iter().any(|odd| odd.kind == "modulus" && odd.path == path) {
+                continue;
+            }
+            let [own, low, high] = [modulus, low, high].map(|e| told(e, "Pa"));
+            let message = format!("{own} is far from {}, which has {low} to {high}", kind.name);
+            self.find("modulus", &path, message, "a bare number is in Pa; is its prefix right, or its name?");
+        }
+    }
+
+    /// Pressures that nothing bears, and balls pressed in too far.
+    pub(super) fn contacts(&mut self) {
+        let job = self.job;
+        for (c, (name, law)) in job.model.contacts().enumerate() {
+            let d = self.depth(c);
+            if d > 0.0 {
+                self.pressures(c, (name, law), d);
+                self.ball(c, (name, law), d);
+            }
+        }
+    }
+
+    fn pressures(&mut self, c: usize, (name, law): (&str, &Interface), d: f64) {
+        // A list of heights has no area to press on.
+        let Some(peak) = law.peak_pressure(d) else { return };
+        let mean = law.normal_force(d) / (PI * law.profile().radius(d).powi(2));
+        let job = self.job;
+        let materials = job.scenario.materials_of(c).unwrap_or_default();
+        let weaker = materials
+            .into_iter()
+            .filter(|name| !self.misnamed.contains(name))
+            .filter_map(substance)
+            .min_by(|a, b| a.strength.total_cmp(&b.strength));
+        let path = format!("contacts.{name}.normal");
+        let help = "press it less, or with a larger radius: the theory is elastic";
+        if let Some(kind) = weaker.filter(|kind| mean > ONSET * kind.strength) {
+            let [mean, onset] = [mean, ONSET * kind.strength].map(|p| told(p, "Pa"));
+            let message =
+                format!("a mean pressure of {mean}, and {} begins to yield at about {onset}", kind.name);
+            self.find("pressure", &path, message, help);
+        } else if peak.is_finite() && peak > PRESSURE {
+            let message = format!("a largest pressure of {}, more than hard ceramics bear", told(peak, "Pa"));
+            self.find("pressure", &path, message, help);
+        }
+    }
+
+    fn ball(&mut self, c: usize, (name, law): (&str, &Interface), d: f64) {
+        let job = self.job;
+        let Some((radius, is_paraboloid)) = job.scenario.ball_of(c) else { return };
+        let share = law.profile().radius(d) / radius;
+        if share > FLAT {
+            let (theory, word) = if is_paraboloid {
+                ("no ball is a paraboloid so far out", "paraboloid")
+            } else {
+                ("so near to its size no body is a half-space", "sphere")
+            };
+            let a = told(law.profile().radius(d), "m");
+            let message =
+                format!("the contact radius, {a}, is {share:.2} of the radius of the ball: {theory}");
+            let path = format!("contacts.{name}.profile.{word}.radius");
+            self.find("geometry", &path, message, "is the radius in the unit that was meant?");
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Loads that nothing holds, stacks that ring, masses out of all proportion.
+
+use super::{Implausible, told};
+use std::f64::consts::TAU;
+use stickslip_drive::scene::{Freedom, Side, Varying};
+
+/// Masses of bodies that drives of this kind move, kg: from a grain of dust to what takes a crane.
+const MASSES: (f64, f64) = (1e-9, 100.0);
+/// Quality factor of a piezo stack in its mount, which sets the damping that is proposed.
+const QUALITY: f64 = 30.0;
+
+/// What pulls at a body along x and what holds it.
+#[derive(Clone)]
+struct Pull {
+    /// Smallest and largest force, N.
+    range: (f64, f64),
+    /// Σ μF_N of its contacts, N; none where nothing holds it, or something besides them does.
+    holds: Option<f64>,
+    /// What pulls most, N, and its place among the loads; none for gravity.
+    cause: (f64, Option<usize>),
+}
+
+impl Implausible<'_> {
+    /// Loads beyond what all contacts of a body hold together.
+    pub(super) fn loads(&mut self) {
+        for (body, pull) in self.pulls().into_iter().enumerate() {
+            let (low, high) = pull.range;
+            // What changes its sign may hold on average.
+            let least = if low <= 0.0 && high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+            let Some(holds) = pull.holds.filter(|holds| least > *holds) else { continue };
+            let name = self.job.scenario.scene.bodies[body].name.clone();
+            let path = pull.cause.1.map_or("gravity".to_owned(), |i| format!("loads[{i}].x"));
+            let [pull, holds] = [least, holds].map(|force| told(force, "N"));
+            let message = format!(
+                "a load of {pull} on {name} is more than its contacts hold, {holds} (μF_N): it slides away"
+            );
+            self.find(
+                "load",
+                &path,
+                message,
+                "less load, more normal force, or a spring that holds the body",
+            );
+        }
+    }
+
+    fn pulls(&self) -> Vec<Pull> {
+        let scene = &self.job.scenario.scene;
+        let down = scene.gravity.acceleration * scene.gravity.incline.sin();
+        let mut pulls: Vec<Pull> = scene
+            .bodies
+            .iter()
+            .map(|body| {
+                let weight = -body.part.mass.unwrap_or(0.0) * down;
+                Pull { range: (weight, weight), holds: None, cause: (weight.abs(), None) }
+            })
+            .collect();
+        for (i, load) in scene.loads.iter().enumerate() {
+            let Some(pull) = pulls.get_mut(load.on) else { continue };
+            let (low, high) = match load.x {
+                Varying::Constant(force) => (force, force),
+                Varying::Follows(w) => scene.waveforms.get(w).map_or((0.0, 0.0), |w| w.part.range()),
+            };
+            let most = low.abs().max(high.abs());
+            if most > pull.cause.0 {
+                pull.cause = (most, Some(i));
+            }
+            pull.range = (pull.range.0 + low, pull.range.1 + high);
+        }
+        for (c, contact) in scene.contacts.iter().enumerate() {
+            let law = &contact.part.interface;
+            let d = self.depth(c);
+            // Where bodies press and are apart at the start nobody knows how hard they will.
+            let unknown = d <= 0.0 && self.job.is_coupled(c);
+            let limit = f64::from(contact.part.count) * law.friction() * law.normal_force(d);
+            let limit = if unknown { f64::INFINITY } else { limit };
+            for side in contact.part.between {
+                if let Side::Body(body) = side
+                    && let Some(pull) = pulls.get_mut(body)
+                {
+                    pull.holds = Some(pull.holds.unwrap_or(0.0) + limit);
+                }
+            }
+        }
+        let springs = scene.springs.iter().filter(|spring| spring.part.stiffness > 0.0);
+        let links = springs.map(|spring| spring.part.between);
+        let links = links.chain(scene.actuators.iter().map(|actuator| actuator.part.between));
+        for side in links.flatten() {
+            if let Side::Body(body) = side
+                && let Some(pull) = pulls.get_mut(body)
+            {
+                pull.holds = None;
+            }
+        }
+        for (pull, body) in pulls.iter_mut().zip(&scene.bodies) {
+            if body.part.x.freedom != Freedom::Free {
+                pull.holds = None;
+            }
+        }
+        pulls
+    }
+
+    /// Stacks that nothing damps.
+    pub(super) fn actuators(&mut self) {
+        let job = self.job;
+        let scene = &job.scenario.scene;
+        for actuator in &scene.actuators {
+            let (part, name) = (&actuator.part, &actuator.name);
+            let mobility: f64 =
+                part.between.iter().filter_map(|side| self.free_mass(*side)).map(f64::recip).sum();
+            let touches = |between: [Side; 2]| {
+                between.iter().any(|side| self.is_free(*side) && part.between.contains(side))
+            };
+            let damped =
+                scene.springs.iter().any(|spring| spring.part.damping > 0.0 && touches(spring.part.between))
+                    || scene
+                        .actuators
+                        .iter()
+                        .any(|other| other.part.damping > 0.0 && touches(other.part.between))
+                    || scene.contacts.iter().any(|contact| {
+                        contact.part.interface.damping() > 0.0 && touches(contact.part.between)
+                    });
+            if mobility == 0.0 || damped {
+                continue;
+            }
+            let frequency = told((part.stiffness * mobility).sqrt() / TAU, "Hz");
+            let proposed = (part.stiffness / mobility).sqrt() / QUALITY;
+            let message =
+                format!("nothing damps this stack: it rings for ever, at about {frequency} by itself");
+            let help = format!("a quality factor of {QUALITY} has \"damping\": {proposed:.2}, in N s/m");
+            self.find("damping", &format!("actuators.{name}"), message, &help);
+        }
+    }
+
+    /// Masses that suggest a forgotten unit.
+    pub(super) fn masses(&mut self) {
+        let job = self.job;
+        for (i, body) in job.scenario.scene.bodies.iter().enumerate() {
+            let Some(mass) = self.free_mass(Side::Body(i)) else { continue };
+            let path = format!("bodies.{}.mass", body.name);
+            let said = told(1e3 * mass, "g");
+            if mass > MASSES.1 {
+                let message = format!("{said} are more than a stick-slip drive moves");
+                self.find("mass", &path, message, "a bare number is in kg; ten grams are \"10 g\"");
+            } else if mass < MASSES.0 {
+                let message = format!("{said} are less than a grain of dust has");
+                self.find("mass", &path, message, "a bare number is in kg; ten grams are \"10 g\"");
+            }
+        }
+    }
+}

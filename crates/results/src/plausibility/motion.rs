@@ -1,0 +1,173 @@
+//! Strokes out of all proportion, resonances that a drive meets, tolerances that hide a step.
+
+use super::{ASKED, Implausible, told};
+use std::f64::consts::TAU;
+use stickslip_drive::facts::zero_step_stroke;
+use stickslip_drive::scene::{Freedom, Side, Varying};
+use stickslip_drive::{Accuracy, Waveform};
+
+/// Strokes of piezo drives, m: below the first the noise of any amplifier is larger, and above the second there is no flexure.
+const STROKES: (f64, f64) = (1e-12, 1e-3);
+/// Harmonics of a drive that are looked at: higher ones lie so close that a resonance is always near one.
+const HARMONICS: u32 = 5;
+/// Share of the resonance within which a harmonic meets it.
+// P1 has its resonance at 2.12 times its frequency, which is 6 % from the second harmonic: it does not resonate.
+const NEAR: f64 = 0.02;
+/// Amplitude in parts of the largest harmonic's that is worth a word.
+const NOTICEABLE: f64 = 0.05;
+/// Moments of a period by which its harmonics are summed.
+const MOMENTS: u32 = 4096;
+/// Coordinates up to which modes are looked for: of more of them one always lies near a harmonic.
+const COORDINATES: usize = 8;
+/// Displacement of a contact, as a share of the largest in its mode, from which on the mode is the contact's.
+const MOVED: f64 = 0.05;
+
+impl Implausible<'_> {
+    /// Waveforms that lengths follow, with the bodies that feel them.
+    fn lengths(&self) -> Vec<(usize, Vec<Side>)> {
+        let scene = &self.job.scenario.scene;
+        let mut driven: Vec<Vec<Side>> = vec![Vec::new(); scene.waveforms.len()];
+        for (i, body) in scene.bodies.iter().enumerate() {
+            for coordinate in [body.part.x, body.part.z] {
+                if let Freedom::Follows(w) = coordinate.freedom
+                    && let Some(sides) = driven.get_mut(w)
+                {
+                    sides.push(Side::Body(i));
+                }
+            }
+        }
+        for actuator in &scene.actuators {
+            if let Varying::Follows(w) = actuator.part.stroke
+                && let Some(sides) = driven.get_mut(w)
+            {
+                sides.extend(actuator.part.between);
+            }
+        }
+        driven.into_iter().enumerate().filter(|(_, sides)| !sides.is_empty()).collect()
+    }
+
+    /// Strokes that suggest a forgotten unit.
+    pub(super) fn strokes(&mut self) {
+        for (w, _) in self.lengths() {
+            let (low, high) = self.job.scenario.scene.waveforms[w].part.range();
+            let (stroke, path) = (high - low, self.job.scenario.waveform_path(w).unwrap_or_default());
+            let said = told(stroke, "m");
+            let help = "a bare number is in m; in a table the head of a column may say its unit, as in \"disp (µm)\"";
+            if stroke > STROKES.1 {
+                self.find(
+                    "stroke",
+                    &path,
+                    format!("a stroke of {said}, more than any piezo drive has"),
+                    help,
+                );
+            } else if stroke > 0.0 && stroke < STROKES.0 {
+                self.find(
+                    "stroke",
+                    &path,
+                    format!("a stroke of {said}, less than an atom's hundredth"),
+                    help,
+                );
+            }
+        }
+    }
+
+    /// Low harmonics of a drive that meet a resonance of contacts whose load is constant.
+    pub(super) fn resonances(&mut self) {
+        let job = self.job;
+        let scene = &job.scenario.scene;
+        let free: usize = scene
+            .bodies
+            .iter()
+            .map(|body| body.part.coordinates().iter().filter(|(_, c)| c.freedom == Freedom::Free).count())
+            .sum();
+        if free == 0 || free > COORDINATES || scene.contacts.len() > ASKED {
+            return;
+        }
+        let modes = job.model.linearised(&job.start, |d| d.start).modes();
+        for (w, sides) in self.lengths() {
+            let waveform = &scene.waveforms[w].part;
+            let Some(period) = waveform.period() else { continue };
+            for mode in &modes {
+                let frequency = mode.frequency / TAU;
+                let order = (frequency * period).round();
+                let near = (frequency * period / order - 1.0).abs() <= NEAR;
+                if !(1.0..=f64::from(HARMONICS)).contains(&order) || !near {
+                    continue;
+                }
+                let largest = mode.contacts.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+                let rings = |c: &usize| {
+                    let touches = scene.contacts[*c].part.between.iter().any(|side| sides.contains(side));
+                    touches && job.has_constant_load(*c) && mode.contacts[*c].abs() > MOVED * largest
+                };
+                let Some(c) = (0..scene.contacts.len()).find(rings) else { continue };
+                let share = share(waveform, period, order as u32);
+                if share < NOTICEABLE {
+                    continue;
+                }
+                let (name, at) = (&scene.contacts[c].name, told(frequency, "Hz"));
+                let message = format!(
+                    "harmonic {order} of this drive, {share:.2} of its largest, meets the resonance of {name} at {at}"
+                );
+                let path = job.scenario.waveform_path(w).unwrap_or_default();
+                self.find(
+                    "resonance",
+                    &path,
+                    message,
+                    "what comes out changes much with the period: vary it by some per cent",
+                );
+                break;
+            }
+        }
+    }
+
+    /// Tolerances coarser than what is to be seen.
+    pub(super) fn tolerance(&mut self) {
+        let job = self.job;
+        let stepper = job.model.effective(job.scenario.plan.stepper);
+        let Accuracy::Tolerance(tolerance) = stepper.accuracy() else { return };
+        let lengths = self.lengths();
+        for (c, (name, law)) in job.model.contacts().enumerate().take(ASKED) {
+            let d = self.depth(c);
+            let between = job.scenario.scene.contacts[c].part.between;
+            let unit = law.gross_slip_displacement(d.max(0.0));
+            if unit <= 0.0 || !between.iter().any(|side| self.is_free(*side)) {
+                continue;
+            }
+            let strokes = lengths.iter().filter(|(_, sides)| between.iter().any(|side| sides.contains(side)));
+            let widest = strokes
+                .map(|(w, _)| job.scenario.scene.waveforms[*w].part.range())
+                .fold(0.0, |most: f64, (low, high)| most.max(high - low));
+            let idle = zero_step_stroke(law, d, 0.0).unwrap_or(0.0);
+            // Below the zero-step stroke all there is to see is the way to and fro.
+            let expected = if widest > idle { widest - idle } else { widest };
+            if expected > 0.0 && tolerance * unit > expected {
+                let [expected, unit] = [expected, unit].map(|length| told(length, "m"));
+                let message = format!(
+                    "{tolerance:e} of u_c, {unit} at {name}, is more than the step to be expected, {expected}"
+                );
+                let path = format!("run.stepper.{}.tolerance", stepper.name());
+                return self.find("tolerance", &path, message, "take a smaller one");
+            }
+        }
+    }
+}
+
+/// Amplitude of a harmonic in parts of the largest of the first ones.
+fn share(waveform: &Waveform, period: f64, order: u32) -> f64 {
+    let delay = waveform.timing().delay;
+    let values: Vec<f64> = (0..MOMENTS)
+        .map(|k| {
+            let t = delay + period * f64::from(k) / f64::from(MOMENTS);
+            waveform.sample(&waveform.piece_at(t), t).value
+        })
+        .collect();
+    let amplitude = |order: u32| {
+        let sums = values.iter().zip(0_u32..).fold((0.0, 0.0), |(a, b), (value, k)| {
+            let angle = TAU * f64::from(order) * f64::from(k) / f64::from(MOMENTS);
+            (a + value * angle.cos(), b + value * angle.sin())
+        });
+        f64::hypot(sums.0, sums.1)
+    };
+    let largest = (1..=HARMONICS).map(amplitude).fold(0.0, f64::max);
+    if largest > 0.0 { amplitude(order) / largest } else { 0.0 }
+}

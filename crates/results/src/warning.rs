@@ -1,0 +1,100 @@
+//! What a run or its scenario is not worth: said on stderr and in the `warnings` of `summary.json`.
+//!
+//! Whoever finds something pushes a [`Warning`] into the list that [`Summary::new`](crate::Summary::new) collects; the program
+//! prints the list and, with `--strict`, lets no result pass that has one of its own.
+
+use crate::books;
+use crate::job::Job;
+use crate::outcome::Outcome;
+use serde::Serialize;
+use std::fmt;
+
+/// Something that makes results worth less than they look.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Warning {
+    /// What it is about, as one word for machines, such as `energy_books`; it never changes its meaning.
+    pub kind: &'static str,
+    /// Key path in the scenario of what is odd about it; none of what came out in the run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+    /// What there is to say, with its number.
+    pub message: String,
+    /// What to try.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub help: Option<String>,
+}
+
+impl Warning {
+    /// One about what came out in a run.
+    pub fn new(kind: &'static str, message: impl Into<String>) -> Self {
+        Self { kind, path: None, message: message.into(), help: None }
+    }
+
+    /// The same with what to try.
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+
+    /// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
+    /// resumed run reads.
+    pub fn of_scenario(job: &Job) -> Vec<Self> {
+        let odd = job.warnings();
+        let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
+        let mut warnings: Vec<Self> = told
+            .map(|odd| Self {
+                kind: odd.kind,
+                path: Some(odd.path.clone()),
+                message: odd.message.clone(),
+                help: None,
+            })
+            .collect();
+        warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
+        warnings
+    }
+
+    /// Whether it is about what came out in the run, and not about its scenario, which `stickslip check` tells beforehand.
+    pub fn is_of_results(&self) -> bool {
+        self.path.is_none()
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.message)?;
+        self.help.iter().try_for_each(|help| write!(f, "\n   help: {help}"))
+    }
+}
+
+/// What came out in the run itself: energy books that do not close, steps whose error is not known.
+pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
+    let stepper = job.model.effective(job.scenario.plan.stepper);
+    let mut warnings: Vec<Warning> =
+        books::warning(&outcome.books, stepper, job.work()).into_iter().collect();
+    let missed = outcome.state.counts().missed;
+    if missed > 0 {
+        let all = outcome.state.counts().steps;
+        let message = format!(
+            "{missed} of {all} steps miss their tolerance: damped springs stick and slip by turns there, and \
+             no shorter step is any better"
+        );
+        warnings.push(
+            Warning::new("error_estimate", message)
+                .help("compare with a run at another tolerance, or with less contact damping"),
+        );
+    }
+    warnings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_warning_is_words_for_people_and_a_kind_for_machines() {
+        let warning = Warning::new("energy_books", "20 % are missing").help("shorter steps");
+        assert_eq!(warning.to_string(), "20 % are missing\n   help: shorter steps");
+        let json = serde_json::to_string(&warning).unwrap();
+        assert_eq!(json, r#"{"kind":"energy_books","message":"20 % are missing","help":"shorter steps"}"#);
+    }
+}

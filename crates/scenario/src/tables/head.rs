@@ -1,0 +1,177 @@
+//! What heads a column of a table: a name and, perhaps, the unit of its numbers.
+
+use crate::units::{self, Kind, Scale, advice, of_another};
+
+/// What a column is read for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Column {
+    Time,
+    /// Of whatever follows the waveform.
+    Value,
+}
+
+/// The head of a column, such as `disp (µm)`, `t [ms]`, `disp_um` or `time/ms`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Head {
+    /// As it stands in the file.
+    pub(super) full: String,
+    /// Without its unit.
+    bare: String,
+    unit: Option<Unit>,
+}
+
+/// A unit, and how sure it is that it is one.
+#[derive(Debug, Clone, PartialEq)]
+struct Unit {
+    text: String,
+    /// Brackets hold nothing else; behind a slash or an underscore many names end like units.
+    bracketed: bool,
+}
+
+/// How numbers of a column become SI, and their dimension where the head tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Measure {
+    pub(super) kind: Option<Kind>,
+    pub(super) scale: Scale,
+}
+
+/// Why a head cannot be read, and what to do.
+#[derive(Debug, PartialEq)]
+pub(super) struct Unreadable {
+    pub(super) message: String,
+    pub(super) help: String,
+}
+
+impl Head {
+    /// Reads the head of a column, without blanks around it.
+    pub(super) fn new(full: &str) -> Self {
+        let bracketed = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
+            let (bare, unit) = full.strip_suffix(close)?.rsplit_once(open)?;
+            Some((bare, unit, true))
+        });
+        let of =
+            |(bare, text): (&str, &str)| Some((bare.to_owned(), text.to_owned())).filter(|_| is_unit(text));
+        // What is a unit as a whole, such as N/m, is its own name.
+        let apart = if is_unit(full) { None } else { full.split_once('/').and_then(of) };
+        let apart = apart.or_else(|| full.rsplit_once('_').and_then(of));
+        let apart = apart.map(|(bare, text)| (bare, Unit { text, bracketed: false }));
+        let found = match bracketed {
+            Some((bare, text, bracketed)) => {
+                Some((bare.to_owned(), Unit { text: text.to_owned(), bracketed }))
+            }
+            None => apart,
+        };
+        let found =
+            found.map(|(bare, unit)| (bare.trim().to_owned(), unit)).filter(|(bare, _)| !bare.is_empty());
+        match found {
+            Some((bare, unit)) => Self { full: full.to_owned(), bare, unit: Some(unit) },
+            None => Self { full: full.to_owned(), bare: full.to_owned(), unit: None },
+        }
+    }
+
+    /// Whether the column goes by this name: as it stands, …
+    pub(super) fn is(&self, name: &str) -> bool {
+        self.full == name
+    }
+
+    /// … or without its unit.
+    pub(super) fn is_bare(&self, name: &str) -> bool {
+        self.bare == name
+    }
+
+    /// What its numbers mean as times or values. Without a unit they are in SI.
+    ///
+    /// A unit that stands in brackets must be one, and of times if times it is to be. Behind a slash or an underscore it counts
+    /// where it fits, and is a part of the name elsewhere.
+    pub(super) fn measure(&self, column: Column) -> Result<Measure, Unreadable> {
+        let si = Measure { kind: None, scale: Scale::Ten(0) };
+        let Some(unit) = &self.unit else { return Ok(si) };
+        let wanted = (column == Column::Time).then_some(Kind::Time);
+        let Some((kind, scale)) = units::find(&unit.text) else {
+            let message = format!("\"{}\" is no unit", crate::document::shown(&unit.text));
+            return Err(Unreadable { message, help: advice(&unit.text, wanted) });
+        };
+        let fits = match column {
+            Column::Time => kind == Kind::Time,
+            Column::Value => matches!(kind, Kind::Length | Kind::Force | Kind::Moment | Kind::Angle),
+        };
+        match (fits, unit.bracketed) {
+            (true, _) => Ok(Measure { kind: Some(kind), scale }),
+            (false, false) => Ok(si),
+            (false, true) => Err(Unreadable {
+                message: match column {
+                    Column::Time => "expected a column of times".to_owned(),
+                    Column::Value => "expected a column of lengths, forces, moments or angles".to_owned(),
+                },
+                help: match wanted {
+                    Some(wanted) => of_another(&unit.text, kind, wanted),
+                    None => {
+                        format!("{} is the unit of {}, which no waveform drives", unit.text, kind.article())
+                    }
+                },
+            }),
+        }
+    }
+}
+
+/// Whether a text behind a slash or an underscore is a unit beyond doubt.
+fn is_unit(text: &str) -> bool {
+    // The least of something far more often than its minutes.
+    text.trim() != "min" && units::find(text).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(head: &str, column: Column) -> Option<(String, Option<Kind>, Scale)> {
+        let head = Head::new(head);
+        head.measure(column).ok().map(|measure| (head.bare.clone(), measure.kind, measure.scale))
+    }
+
+    #[test]
+    fn units_are_read_wherever_people_write_them() {
+        let length = |bare: &str, shift| Some((bare.to_owned(), Some(Kind::Length), Scale::Ten(shift)));
+        for head in ["disp (µm)", "disp [um]", "disp(μm)", "disp_um", "disp/µm", "disp / um"] {
+            assert_eq!(read(head, Column::Value), length("disp", -6), "{head}");
+        }
+        assert_eq!(read("stage x (fine) [nm]", Column::Value), length("stage x (fine)", -9));
+        let time = |bare: &str, shift| Some((bare.to_owned(), Some(Kind::Time), Scale::Ten(shift)));
+        assert_eq!(read("t [ms]", Column::Time), time("t", -3));
+        assert_eq!(read("time/ms", Column::Time), time("time", -3));
+        assert_eq!(read("time_s", Column::Time), time("time", 0));
+        assert_eq!(read("t (min)", Column::Time).map(|t| t.2), Some(Scale::Factor(60.0)));
+        assert_eq!(read("F [mN]", Column::Value).map(|f| f.1), Some(Some(Kind::Force)));
+    }
+
+    #[test]
+    fn names_that_end_like_units_are_names() {
+        for (head, column) in [
+            ("t_min", Column::Time),
+            ("index_s", Column::Value),
+            ("channel_V", Column::Value),
+            ("mass_g", Column::Value),
+            ("run_um", Column::Time),
+            ("N/m", Column::Value),
+            ("_um", Column::Value),
+            ("disp", Column::Value),
+            ("left/right", Column::Value),
+            ("", Column::Value),
+        ] {
+            assert_eq!(
+                read(head, column).map(|read| (read.1, read.2)),
+                Some((None, Scale::Ten(0))),
+                "{head}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_stands_in_brackets_must_be_a_unit_that_fits() {
+        let refused = |head: &str, column| Head::new(head).measure(column).unwrap_err();
+        assert_eq!(refused("disp (microns)", Column::Value).message, "\"microns\" is no unit");
+        assert!(refused("disp (microns)", Column::Value).help.starts_with("did you mean \"um\"?"));
+        assert_eq!(refused("t (um)", Column::Time).message, "expected a column of times");
+        assert!(refused("v [mm/s]", Column::Value).help.contains("a velocity"));
+    }
+}
