@@ -9,7 +9,7 @@
 //! Source: de Prony, *J. École Polytechnique* 1 (1795) 24; Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289, is its order 1.
 
 use crate::series::{mean, sum};
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector, Schur};
 use std::f64::consts::TAU;
 
 /// How near to its limit every later value must be, relative to the limit or to the least length that counts.
@@ -23,6 +23,8 @@ const EXACT: f64 = 1e-5;
 const PATTERN: f64 = 0.2;
 /// What it may leave where growth is to be read off it.
 const CLEAN: f64 = 0.03;
+/// Most iterations of a decomposition: a shift of exactly four values never comes to an end.
+const MOST_TURNS: usize = 1000;
 /// Most values that are fitted.
 const MOST: usize = 4096;
 /// No drive grows by that much in a period: a recurrence with such a root fits rounding.
@@ -172,7 +174,7 @@ impl Fit {
         };
         let mut best: Option<Self> = None;
         for order in ORDERS {
-            let Some(fit) = Self::of(end, order) else { break };
+            let Some(fit) = Self::of(end, order) else { continue };
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.rest);
             let apart = best.as_ref().map_or(f64::INFINITY, |best| (best.limit - fit.limit).abs());
             if before <= EXACT {
@@ -187,15 +189,19 @@ impl Fit {
         best
     }
 
-    /// Of one order; none where there are too few values, or all are equal.
+    /// Of one order; none where there are too few values, all are equal, or a root says that it fits rounding. The roots are the
+    /// eigenvalues of the companion matrix, whose first row is a.
     fn of(values: &[f64], order: usize) -> Option<Self> {
         let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let largest = steps.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
-        let rows = steps.len().checked_sub(order).filter(|rows| *rows >= 2 * order && largest > 0.0)?;
+        let rows = steps
+            .len()
+            .checked_sub(order)
+            .filter(|rows| *rows >= 2 * order && largest > 0.0 && largest.is_finite())?;
         let e = |k: usize| steps[k] / largest;
         let matrix = DMatrix::from_fn(rows, order, |i, j| e(i + order - 1 - j));
         let after = DVector::from_fn(rows, |i, _| e(i + order));
-        let a = matrix.clone().svd(true, true).solve(&after, 1e-13).ok()?;
+        let a = matrix.clone().try_svd(true, true, f64::EPSILON, MOST_TURNS)?.solve(&after, 1e-13).ok()?;
         if a.iter().any(|a| !a.is_finite()) {
             return None;
         }
@@ -204,7 +210,7 @@ impl Fit {
             0 => a[j],
             _ => f64::from(u8::from(i == j + 1)),
         });
-        let roots = companion.complex_eigenvalues();
+        let roots = Schur::try_new(companion, f64::EPSILON, MOST_TURNS)?.complex_eigenvalues();
         let largest_root = roots.iter().max_by(|p, q| p.norm().total_cmp(&q.norm()))?;
         // A swing and its overtones grow alike: it is the slowest of them.
         let alike = |root: &&Complex<f64>| root.norm() >= 0.995 * largest_root.norm() && root.arg() != 0.0;
@@ -355,6 +361,16 @@ mod tests {
         let noise: Vec<f64> = chaos.iter().map(|x| 1.0 + 1e-4 * (x - 0.5)).collect();
         let found = settled(&noise);
         assert!((found.value - 1.0).abs() <= found.error && found.error < 1e-3, "{found:?}");
+    }
+
+    #[test]
+    fn values_held_for_four_periods_come_to_an_end() {
+        // The companion of eₖ = eₖ₋₄ is a permutation, on which an unshifted iteration turns for ever.
+        for start in 0..8 {
+            let values = values(64, |k| 1.0 + f64::from((k as u32 + start) / 4 % 2));
+            let found = Settling::of(&values, BOUNDS);
+            assert!(!matches!(found, Settling::Settled(_)), "{start}: {found:?}");
+        }
     }
 
     #[test]

@@ -46,10 +46,11 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Run scenarios; write trace.csv, events.csv, summary.json, scenario.json and pictures
     ///
-    /// Where a scenario asks for it, also springs.csv and memory.csv: what goes on inside its contacts.
+    /// Where contacts go to and fro, also cycles.csv: every cycle's loop. Where a scenario asks for it, springs.csv and memory.csv:
+    /// what goes on inside its contacts.
     ///
     /// Everything about a scenario is checked before its folder is made. Exit codes: 0 done, 2 bad input, 3 a run
-    /// stopped itself, 130 interrupted; of several files the largest. What was computed is written in either case, also
+    /// stopped itself or, with --strict, its results are warned of, 130 interrupted; of several files the largest. What was computed is written in either case, also
     /// what a disk had room for before it was full (exit code 3; "cut" in summary.json).
     ///
     /// All files of a run get their names at its end, summary.json last, with rows and SHA-256 of every table: a folder

@@ -151,6 +151,10 @@ pub(crate) fn warning(books: &Books, stepper: Stepper, work: f64) -> Option<Warn
         Some(Warning::new("energy_books", said).help(advice(stepper)))
     };
     let share = missing / through;
+    if is_open(OPEN * through) && !share.is_finite() {
+        let said = format!("the energy books do not close: {missed} is missing");
+        return Some(Warning::new("energy_books", said).help(advice(stepper)));
+    }
     if is_open(OPEN * through) {
         let share =
             if share < 10.0 { format!("{:.2} %", 100.0 * share) } else { format!("{share:.0e} times") };

@@ -159,7 +159,9 @@ impl Track<'_> {
             Some(Question { after, u: Some(u), extreme, answer: 0.0 })
         };
         let secants = [(high, high - window), (low, low + window)].into_iter().filter_map(back);
-        zeros.chain(secants).collect()
+        let mut questions: Vec<Question> = zeros.chain(secants).collect();
+        questions.sort_by_key(|question| question.after);
+        questions
     }
 
     /// The last moment at an extreme before the motion turns; that at the end of the cycle is the one at its start.
@@ -208,9 +210,13 @@ impl Walk<'_> {
     /// Answers questions of a cycle that is not before the one asked about last.
     fn answer(&mut self, track: &Track<'_>, span: &Range<usize>, count: f64, questions: &mut [Question]) {
         let d = track.d.first().copied().unwrap_or(0.0);
+        // In order of their moments.
+        let mut next = 0;
         for i in self.at.map_or(0, |at| at + 1)..=span.end {
             if i > span.start {
-                for question in questions.iter_mut().filter(|question| question.after == i - 1) {
+                let first = next;
+                next += questions[next..].iter().take_while(|question| question.after == i - 1).count();
+                for question in &mut questions[first..next] {
                     let force = |u: f64| count * self.memory.force(self.law, Apex { d, u });
                     question.answer = match question.u {
                         Some(u) => force(u),

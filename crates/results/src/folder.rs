@@ -55,10 +55,15 @@ impl Folder {
     /// # Errors
     /// What the system says, where there is no such room.
     pub fn reserve(&mut self, bytes: usize) -> io::Result<()> {
+        self.reserve = Some(self.spare(bytes)?);
+        Ok(())
+    }
+
+    /// The same for whoever holds the file: the room is there again when it is dropped.
+    pub(crate) fn spare(&self, bytes: usize) -> io::Result<File> {
         let mut file = tempfile::tempfile_in(&self.path)?;
         file.write_all(&vec![0; bytes])?;
-        self.reserve = Some(file);
-        Ok(())
+        Ok(file)
     }
 
     /// Gives back what was reserved.

@@ -23,7 +23,7 @@ pub struct Kept {
     range: [f64; 2],
     /// Moments of the events, where a picture shows them.
     pub tracks: Option<Tracks>,
-    /// Events left out of the series for want of room.
+    /// Events and marks left out for want of room.
     pub left_out: u64,
     /// For a fingerprint, where one is wanted.
     sketch: Option<Sketch>,
@@ -70,14 +70,26 @@ impl Kept {
 
     /// Takes the row of a mark.
     pub fn mark(&mut self, values: &[f64]) {
-        if self.moments.size() < MOST_VALUES {
+        if self.has_room() {
             self.moments.push(values);
+        } else {
+            self.left_out += 1;
         }
+    }
+
+    /// Rows are bounded before the run starts; events and marks are not.
+    fn has_room(&self) -> bool {
+        self.series.size() + self.moments.size() < 2 * MOST_VALUES
     }
 
     /// Takes where the body of the figures has been, m.
     pub fn range(&mut self, [least, most]: [f64; 2]) {
         self.range = [self.range[0].min(least), self.range[1].max(most)];
+    }
+
+    /// Begins the first period of the figures: what was before it is none of theirs.
+    pub fn begin_range(&mut self) {
+        self.range = NOWHERE;
     }
 
     /// Ends a period of the figures.
@@ -90,8 +102,7 @@ impl Kept {
         if let Some(sketch) = &mut self.sketch {
             sketch.event(words, values);
         }
-        // Rows are bounded before the run starts; events are not.
-        if self.series.size() < 2 * MOST_VALUES {
+        if self.has_room() {
             self.series.push(values);
             self.moments.push(values);
             if let (Some(tracks), Some(time)) = (&mut self.tracks, values.first()) {

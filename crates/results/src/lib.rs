@@ -7,18 +7,20 @@
 //!
 //! In reading order:
 //!
-//! * [`Job`], within its `limits`; `plausibility` (what is odd about it); [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
+//! * [`Job`], within its `limits`; `plausibility` (what is odd about it); [`info`], what it means and will take; [`Columns`];
+//!   [`program`], which computes;
 //! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
-//! * what it leaves: [`Kept`] with [`Series`] and [`Tracks`] in memory, `books` (energies); `table`, `insides` and `sheet` on
-//!   disk, under the names of [`files`], in a [`folder`] on a `disk`, each table with its [`Seal`]; its [`fingerprint`];
-//! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`summary`] with
+//! * what it leaves: [`Kept`] with [`Series`], the moments of its `marks` and [`Tracks`] in memory, `books` (energies); `table`,
+//!   `insides` and `sheet` with its `digest` on disk, under the names of [`files`], in a [`folder`] on a `disk`, each table with its [`Seal`]; its [`fingerprint`];
+//! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`cycles`] and their
+//!   table, [`summary`] with
 //!   [`Real`] and [`Parts`] (numbers and things in JSON); [`Warning`] (what it is not worth);
 //! * what is read back: `guard` (files of strangers), `synopsis` (a summary), `rows` and [`frame`] (tables), `replay` and
 //!   [`Results`] (a folder), [`springs`] and [`curves`];
 //! * [`checkpoint`] – runs that go on after they were ended;
 //! * [`compare`] – two folders told apart;
-//! * for those who tell of results: [`quantity()`] (numbers with units), [`provenance`] (where they come from), [`markdown`] (pages), [`complaint`] (the words of
-//!   the operating system).
+//! * for those who tell of results: [`quantity()`] (numbers with units), [`provenance`] (where they come from), [`markdown`]
+//!   (pages), [`complaint`] (the words of the operating system).
 
 mod books;
 pub mod checkpoint;

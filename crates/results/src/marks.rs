@@ -80,12 +80,13 @@ impl Marks {
         (next < f64::INFINITY).then_some(if next > end && next < end * (1.0 + SAME) { end } else { next })
     }
 
-    /// Whether a moment ends a period of the figures; their beginning ends none.
-    pub(crate) fn ends_period(&self, t: f64) -> bool {
-        self.figures.is_some_and(|periods| {
-            let place = (t - periods.start) / periods.length;
-            place > 0.5 && (place - place.round()).abs() <= SAME
-        })
+    /// Which period of the figures a moment ends, from 1; 0 for their beginning.
+    pub(crate) fn period_ended(&self, t: f64) -> Option<u64> {
+        let periods = self.figures?;
+        let place = (t - periods.start) / periods.length;
+        // Of many periods rounding of t is more.
+        let same = SAME.max(4.0 * f64::EPSILON * place.abs());
+        ((place - place.round()).abs() <= same && place > -0.5).then(|| place.round() as u64)
     }
 }
 

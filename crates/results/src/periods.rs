@@ -24,7 +24,7 @@ impl Periods {
         let (length, timing) = (waveform.period()?, waveform.timing());
         let cycles = timing.cycles.unwrap_or(f64::INFINITY);
         let count = ((end - timing.delay) / length).min(cycles) + SAME;
-        // What has more periods than samples has no use for them either.
+        // More than any run comes to.
         let count = count.floor().min(1e9);
         (count >= 1.0).then_some(Self { start: timing.delay, length, count: count as usize })
     }
@@ -65,7 +65,9 @@ impl Periods {
 
     /// Place of a moment of a rising sequence that is the end of period k; none where there is none.
     pub fn end_in(&self, t: &[f64], k: usize) -> Option<usize> {
-        let (end, hair) = (self.end_of(k), SAME * self.length);
+        let end = self.end_of(k);
+        // Of many periods rounding of t is more.
+        let hair = (SAME * self.length).max(4.0 * f64::EPSILON * end.abs());
         let place = t.partition_point(|t| *t < end - hair);
         (*t.get(place)? <= end + hair).then_some(place)
     }

@@ -8,14 +8,17 @@ use crate::job::Job;
 use crate::kept::Kept;
 use crate::marks::Marks;
 use crate::seal::Seal;
-use crate::sheet::Written;
+use crate::sheet::{LAST_BLOCK, Written};
 use crate::table::Table;
 use crate::watcher::Watcher;
+use std::fs::File;
 use std::io;
 use stickslip_contact::Memory;
 use stickslip_drive::{Event, Record, Source};
 use tempfile::NamedTempFile;
 
+/// Most tables of a run that are written as it goes on.
+const TABLES: usize = 4;
 /// Writes rows, events and looks into the contacts as they come.
 pub struct Recorder<'a> {
     job: &'a Job,
@@ -26,6 +29,8 @@ pub struct Recorder<'a> {
     until: f64,
     /// Where the figures are taken.
     marks: Marks,
+    /// Room on the disk for the last blocks of the tables.
+    reserve: Option<File>,
     /// A look that was asked for already, s.
     asked: Option<f64>,
 }
@@ -68,7 +73,7 @@ impl<'a> Recorder<'a> {
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
         let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new(), failure: None };
         let marks = Marks::of(job);
-        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, marks, asked: None }
+        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, marks, reserve: None, asked: None }
     }
 
     /// The same with tables in a folder.
@@ -80,7 +85,8 @@ impl<'a> Recorder<'a> {
         let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[]);
         let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"]);
         let insides = Insides::new(self.job, folder)?;
-        Ok(Self { tables: Some(Tables { trace, events, insides }), ..self })
+        let reserve = Some(folder.spare(TABLES * LAST_BLOCK)?);
+        Ok(Self { tables: Some(Tables { trace, events, insides }), reserve, ..self })
     }
 
     /// The same with a fingerprint of the tables, written or not.
@@ -126,6 +132,8 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// A table of which nothing could be written.
     pub(crate) fn finish(mut self) -> io::Result<Recorded> {
+        // Their last blocks have room, whatever else is full.
+        drop(self.reserve.take());
         if let Some(Tables { trace, events, insides }) = self.tables {
             let written = [(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
             for (name, Written { file, seal, failure }) in written.into_iter().chain(insides.finish()?) {
@@ -184,8 +192,10 @@ impl Record for Recorder<'_> {
 
     fn mark(&mut self, values: &[f64]) {
         self.recorded.kept.mark(values);
-        if self.marks.ends_period(values.first().copied().unwrap_or(0.0)) {
-            self.recorded.kept.end_range();
+        match self.marks.period_ended(values.first().copied().unwrap_or(0.0)) {
+            Some(0) => self.recorded.kept.begin_range(),
+            Some(_) => self.recorded.kept.end_range(),
+            None => {}
         }
     }
 

@@ -106,6 +106,11 @@ impl Rows {
         if line.bytes().any(|byte| byte.is_ascii_control()) {
             return Err("has a control character".to_owned());
         }
+        // Before there is room for the ends of so many.
+        let cells = 1 + line.bytes().filter(|byte| *byte == b',').count();
+        if cells > MOST_COLUMNS && !line.contains('"') {
+            return Err(format!("expected at most {MOST_COLUMNS} cells, got {cells}"));
+        }
         if line.contains('"') {
             unquote(line, &mut self.text, &mut self.ends)?;
         } else {

@@ -8,6 +8,9 @@ use tempfile::NamedTempFile;
 /// Bytes that are written, and hashed, at once.
 const BLOCK: usize = 1 << 16;
 
+/// Most bytes that are left for the end of a file, but for a last line that is longer than usual.
+pub(crate) const LAST_BLOCK: usize = BLOCK + BLOCK / 8;
+
 /// A CSV file being written. Its words and numbers are what a run with rows spends most of its time on: they go straight
 /// into one block, numbers without a look at what stands in them, and a block into the file and to its hash.
 ///
@@ -41,7 +44,7 @@ pub(crate) struct Written<F = NamedTempFile> {
 impl<F: Target> Sheet<F> {
     /// A sheet with a line of column names.
     pub(crate) fn new<'a>(file: F, head: impl IntoIterator<Item = &'a str>) -> Self {
-        let block = Vec::with_capacity(BLOCK + BLOCK / 8);
+        let block = Vec::with_capacity(LAST_BLOCK);
         let digest = Digest::default();
         let mut sheet =
             Self { file, block, digits: zmij::Buffer::new(), digest, rows: [0; 2], failure: None };

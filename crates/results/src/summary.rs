@@ -150,7 +150,7 @@ impl Summary {
         let mut notes = Vec::new();
         if outcome.kept.left_out > 0 {
             let left_out = outcome.kept.left_out;
-            notes.push(format!("{left_out} events are in events.csv only: loops and steps are without them"));
+            notes.push(format!("{left_out} events and ends of periods found no room in memory: loops and steps are without them"));
         }
         let mut warnings = Warning::of_scenario(job);
         warnings.extend(warning::of_run(job, outcome));

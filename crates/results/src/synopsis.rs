@@ -2,7 +2,7 @@
 
 use crate::checkpoint;
 use crate::complaint::words;
-use crate::files::{EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
+use crate::files::{CYCLES, EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
 use crate::folder;
 use crate::guard;
 use crate::seal::{Seal, SealedTable};
@@ -146,6 +146,9 @@ impl Synopsis {
     }
 }
 
+/// Tables that runs write.
+const SEALED: [&str; 5] = [TRACE, EVENTS, SPRINGS, MEMORY, CYCLES];
+
 /// What is wrong with what is told of a summary: a version, a status, the name of a contact.
 fn fault(summary: &Value) -> Option<String> {
     // Sentences of the run and its title are not told.
@@ -155,6 +158,9 @@ fn fault(summary: &Value) -> Option<String> {
     entries
         .filter(|(key, _)| !UNTOLD.contains(&key.as_str()))
         .for_each(|(key, value)| words.read(key, value, 0));
+    let tables = summary.get("tables").and_then(Value::as_object).into_iter().flatten();
+    // Files anywhere else are none of a stranger's business.
+    let unknown = tables.map(|(name, _)| name).find(|name| !SEALED.contains(&name.as_str()));
     if words.has_control {
         Some("has control characters in its names or words".to_owned())
     } else if words.longest > MOST_WORD {
@@ -162,7 +168,7 @@ fn fault(summary: &Value) -> Option<String> {
     } else if words.names > MOST_NAMES {
         Some(format!("the full names of its figures have more than {MOST_NAMES} bytes"))
     } else {
-        None
+        unknown.map(|name| format!("seals a table \"{}\" that no run writes", name.escape_debug()))
     }
 }
 
@@ -200,7 +206,8 @@ impl Words {
 fn absent(folder: &Path) -> SynopsisError {
     let names = [TRACE, EVENTS, SPRINGS, MEMORY, SCENARIO];
     let folder = folder.to_owned();
-    if names.iter().any(|name| folder.join(name).exists()) {
+    // A scenario may lie beside anything.
+    if [TRACE, EVENTS].iter().any(|name| folder.join(name).exists()) {
         SynopsisError::Incomplete(folder)
     } else if folder::has_drafts(&folder, &names) || checkpoint::exists(&folder) {
         SynopsisError::Unpublished(folder)

@@ -61,7 +61,7 @@ pub(crate) struct ConductArguments {
     /// Print the summaries to stdout, one line of JSON per scenario
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress, no warnings, no result for people; errors only
+    /// No progress, no warnings (but with --strict), no result for people; errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
     /// Exit code 3 where a run is warned of, such as energy books that do not close; its results are written all the same. What

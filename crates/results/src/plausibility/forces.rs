@@ -103,22 +103,22 @@ impl Implausible<'_> {
     pub(super) fn actuators(&mut self) {
         let job = self.job;
         let scene = &job.scenario.scene;
+        let mut damped = vec![false; scene.bodies.len()];
+        let dampers = scene.springs.iter().map(|spring| (spring.part.damping, spring.part.between));
+        let dampers = dampers.chain(scene.actuators.iter().map(|a| (a.part.damping, a.part.between)));
+        let contacts = scene.contacts.iter().map(|c| (c.part.interface.damping(), c.part.between));
+        for (_, between) in dampers.chain(contacts).filter(|(damping, _)| *damping > 0.0) {
+            for side in between.iter().filter(|side| self.is_free(**side)) {
+                if let Side::Body(body) = side {
+                    damped[*body] = true;
+                }
+            }
+        }
         for actuator in &scene.actuators {
             let (part, name) = (&actuator.part, &actuator.name);
             let mobility: f64 =
                 part.between.iter().filter_map(|side| self.free_mass(*side)).map(f64::recip).sum();
-            let touches = |between: [Side; 2]| {
-                between.iter().any(|side| self.is_free(*side) && part.between.contains(side))
-            };
-            let damped =
-                scene.springs.iter().any(|spring| spring.part.damping > 0.0 && touches(spring.part.between))
-                    || scene
-                        .actuators
-                        .iter()
-                        .any(|other| other.part.damping > 0.0 && touches(other.part.between))
-                    || scene.contacts.iter().any(|contact| {
-                        contact.part.interface.damping() > 0.0 && touches(contact.part.between)
-                    });
+            let damped = part.between.iter().any(|side| matches!(side, Side::Body(body) if damped[*body]));
             if mobility == 0.0 || damped {
                 continue;
             }

@@ -78,8 +78,11 @@ pub struct Fretting {
 /// Where gross slip begins.
 #[derive(Debug, Serialize)]
 struct Limits {
+    #[serde(skip_serializing_if = "Option::is_none")]
     energy_ratio: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     system_free_ratio: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     slip_ratio: Option<Real>,
 }
 

@@ -9,10 +9,23 @@ use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
 use stickslip_results::files::{CYCLES, EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, cycles_table};
+use stickslip_results::{Draft, Job, Outcome, Periods, Recorder, Summary, cycles_table};
 
 /// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.
 const RESERVE: usize = 1 << 16;
+
+/// Bytes of the summary that a period takes.
+const OF_PERIOD: usize = 48;
+/// Most periods that room is kept for.
+const MOST_PERIODS: usize = 1_000_000;
+
+/// Bytes that the files need that come last, the pictures apart.
+fn reserve(job: &Job) -> usize {
+    let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
+    let periods = waveform.and_then(|w| Periods::until(&w.part, job.scenario.plan.duration));
+    let periods = periods.map_or(0, |periods| periods.count.min(MOST_PERIODS));
+    RESERVE + 8 * job.resolved.len() + OF_PERIOD * periods
+}
 
 /// How a run begins.
 pub(crate) enum Beginning {
@@ -36,7 +49,7 @@ pub(crate) fn run(
         Ok(folder) => folder,
         Err(error) => return Report::no_folder(job, &error),
     };
-    if let Err(error) = folder.reserve(RESERVE + 8 * job.resolved.len()) {
+    if let Err(error) = folder.reserve(reserve(job)) {
         return Report::not_written(job, &error);
     }
     // A run that was killed has left its drafts.

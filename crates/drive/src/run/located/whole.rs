@@ -247,7 +247,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Whether anything is read of a half that ends at t before its end.
     fn is_read_inside(&self, t: f64) -> bool {
-        self.output.due(t) || t > self.horizon.end || self.horizon.steps.due(t).is_some()
+        self.output.reads(t) || t > self.horizon.end || self.horizon.steps.due(t).is_some()
     }
 
     /// The slopes at both ends of a half, whose memories are those of its start.
