@@ -27,6 +27,8 @@ const CLEAN: f64 = 0.03;
 const MOST_TURNS: usize = 1000;
 /// Most values that are fitted.
 const MOST: usize = 4096;
+/// Swings of which the growth is told.
+const MANY: f64 = 3.0;
 /// No drive grows by that much in a period: a recurrence with such a root fits rounding.
 const WILD: f64 = 1.25;
 /// Deviations below this share of the scale are rounding: nothing is read off them.
@@ -46,9 +48,10 @@ pub enum Settling {
     Settled(Settled),
     /// It is on its way, or there are too few values to tell.
     NotSettled {
-        /// The last change from one value to the next.
-        change: f64,
-        /// Where that leads, and how far two fits of it are apart; none where they do not say.
+        /// The last change from one value to the next; none of one value.
+        change: Option<f64>,
+        /// Where that leads, and how far off that may be: by what two fits of it are apart, and a tenth of the way. None where they
+        /// do not say, or where it is farther than all that the values have gone: nothing is foreseen so far.
         limit: Option<(f64, f64)>,
     },
     /// It changes without a pattern.
@@ -103,15 +106,18 @@ impl Settling {
     pub fn of(values: &[f64], bounds: Bounds) -> Self {
         let Bounds { least, .. } = bounds;
         let Some(last) = values.last().copied().filter(|_| values.iter().all(|v| v.is_finite())) else {
-            return Self::NotSettled { change: 0.0, limit: None };
+            return Self::NotSettled { change: None, limit: None };
         };
         let scale = |limit: f64| limit.abs().max(least);
         let quarter = &values[values.len() - (values.len() / 4).clamp(3.min(values.len()), values.len())..];
-        let change = if values.len() > 1 { last - values[values.len() - 2] } else { 0.0 };
+        let change = (values.len() > 1).then(|| last - values[values.len() - 2]);
         if values.len() >= FEWEST && half_range(quarter) <= ROUNDING * scale(last) {
             return Self::settled(values, (mean(quarter), half_range(quarter)), bounds.error, scale(last));
         }
         let half = &values[values.len() / 2..];
+        if values.len() >= FEWEST && half.iter().all(|value| value.abs() <= least) {
+            return Self::settled(values, (mean(half), half_range(half)), bounds.error, scale(last));
+        }
         let (middle, spread) = (mean(half), half_range(half));
         let is_shown = spread > FAINT * scale(middle);
         let fit = Fit::best(values).filter(|fit| fit.rest <= PATTERN && is_shown);
@@ -231,7 +237,7 @@ impl Fit {
         let half = &values[values.len() / 2..];
         let swings = (0.5 * half.len() as f64 / period).floor();
         let span = (swings * period).round() as usize;
-        if swings < 1.0 || span >= half.len() {
+        if swings < 1.0 || span >= half.len() || (half.len() as f64) < MANY * period {
             return None;
         }
         let square = |part: &[f64]| sum(part.iter().map(|value| (value - self.limit).powi(2)));
@@ -243,7 +249,7 @@ impl Fit {
     }
 
     /// What it makes of the values.
-    fn judge(&self, values: &[f64], (change, scale, bounds): (f64, f64, Bounds)) -> Settling {
+    fn judge(&self, values: &[f64], (change, scale, bounds): (Option<f64>, f64, Bounds)) -> Settling {
         let (growth, angle) = self.root;
         // One swing in the whole sequence or less is none: it could as well be a bend.
         let swings = angle * values.len() as f64 > TAU;
@@ -261,14 +267,19 @@ impl Fit {
             return Settling::settled(values, (self.limit, near), apart + bounds.error, scale);
         }
         let last = values.last().copied().unwrap_or(0.0);
-        if swings {
+        let half = &values[values.len() / 2..];
+        let above = |value: &f64| *value > self.limit;
+        let crossings = half.windows(2).filter(|pair| above(&pair[0]) != above(&pair[1])).count();
+        if swings && crossings >= 2 {
             let growth = self.growth(values, period);
             return Settling::Beats { period, growth, about: self.limit, amplitude: near };
         }
         if last.abs() > bounds.most || !fades && self.rest <= CLEAN {
-            return Settling::Drifts { change };
+            return Settling::Drifts { change: change.unwrap_or(0.0) };
         }
-        Settling::NotSettled { change, limit: fades.then_some((self.limit, apart)) }
+        let (gone, to_go) = (2.0 * half_range(values), (self.limit - last).abs());
+        let is_foreseen = fades && to_go <= gone;
+        Settling::NotSettled { change, limit: is_foreseen.then_some((self.limit, apart + 0.1 * to_go)) }
     }
 }
 
@@ -293,7 +304,8 @@ mod tests {
     fn a_geometric_way_to_a_limit_is_told_from_its_end() {
         // sₖ = 5 - 4·0.9ᵏ: a change of 0.4·0.9ᵏ⁻¹, and 4·0.9ᵏ still to come.
         let of = |k: f64| 5.0 - 4.0 * 0.9_f64.powf(k);
-        let Settling::NotSettled { change, limit: Some((limit, _)) } = Settling::of(&values(30, of), BOUNDS)
+        let Settling::NotSettled { change: Some(change), limit: Some((limit, _)) } =
+            Settling::of(&values(30, of), BOUNDS)
         else {
             panic!("not on its way")
         };

@@ -140,7 +140,7 @@ impl Books {
 ///
 /// Each of the six energies is booked for itself: work put in by what drives, the rest from places, speeds, memories and
 /// integrals. Nothing makes the books close but steps that are exact, and no stepper's error estimate comes into them.
-pub(crate) fn warning(books: &Books, stepper: Stepper, work: f64) -> Option<Warning> {
+pub(crate) fn warning(books: &Books, stepper: Stepper, (work, is_asked): (f64, bool)) -> Option<Warning> {
     let has_dense_output = matches!(stepper, Stepper::Event { .. });
     let missing = if has_dense_output { books.worst } else { books.worst_at_steps() };
     let (through, rounding) = (books.throughput, ROUNDING * books.largest);
@@ -161,6 +161,8 @@ pub(crate) fn warning(books: &Books, stepper: Stepper, work: f64) -> Option<Warn
         return warning(share, String::new());
     }
     let (tolerance, most) = match stepper.accuracy() {
+        // Nobody has asked for the tolerance of a walk under the name of another stepper.
+        _ if !is_asked => return None,
         Accuracy::Tolerance(tolerance) if has_dense_output => (tolerance, TOLERANCES),
         Accuracy::Tolerance(tolerance) => (tolerance, TOLERANCES_OF_A_REFERENCE),
         Accuracy::Step(_) => return None,
@@ -205,7 +207,7 @@ mod tests {
         assert_eq!(balance.largest_error_relative, Some(Real(5e-10)));
         books.read(&[f64::NAN; 6]);
         assert!(books.balance().largest_error.0.is_nan());
-        assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, 0.0).is_some());
+        assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, (0.0, true)).is_some());
     }
 
     /// What is said of a throughput of 1 J, an elastic energy of `stored` and errors in a row, at an event and at the end, all in J.
@@ -217,7 +219,7 @@ mod tests {
         books.read(&row);
         books.read_event(&event);
         books.read(&end);
-        warning(&books, stepper, work).map(|warning| warning.message)
+        warning(&books, stepper, (work, true)).map(|warning| warning.message)
     }
 
     #[test]

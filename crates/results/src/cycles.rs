@@ -47,13 +47,14 @@ struct Track<'a> {
     friction: &'a [f64],
 }
 
-/// What the law is asked for in a cycle: between which moment and the next, and at which u; without one, where F_x vanishes.
+/// What the law is asked for in a cycle: between which moment and the next, and at which u; without one, where F_x passes the
+/// middle of its range.
 struct Question {
     after: usize,
     u: Option<f64>,
     /// Extreme of u that this u is on the way back from, m.
     extreme: f64,
-    /// u where F_x vanishes, or F_x at u.
+    /// u where F_x passes the middle, or F_x at u.
     answer: f64,
 }
 
@@ -112,10 +113,11 @@ impl Track<'_> {
         let (a, b) = (span.start, span.end);
         let (u, force) = (&self.u[a..=b], &self.force[a..=b]);
         let ((low, high), (least, most)) = (range(u), range(force));
-        let mut questions = self.questions(span, (low, high));
+        let middle = least + 0.5 * (most - least);
+        let mut questions = self.questions(span, (low, high), middle);
         match walk {
-            Some(walk) => walk.answer(self, span, count, &mut questions),
-            None => questions.iter_mut().for_each(|question| question.answer = self.chord(question)),
+            Some(walk) => walk.answer(self, span, (count, middle), &mut questions),
+            None => questions.iter_mut().for_each(|question| question.answer = self.chord(question, middle)),
         }
         let secant = |extreme: f64| {
             let found = questions.iter().find(|q| q.u.is_some() && q.extreme == extreme)?;
@@ -130,7 +132,7 @@ impl Track<'_> {
         let cycle = Cycle {
             displacement_amplitude: 0.5 * (high - low),
             force_amplitude: 0.5 * (most - least),
-            half_opening: self.half_opening(&questions),
+            half_opening: self.half_opening(&questions, middle),
             dissipated: self.friction[b] - self.friction[a],
             stiffness_after_maximum: tangent(high),
             stiffness_after_minimum: tangent(low),
@@ -145,9 +147,9 @@ impl Track<'_> {
         }
     }
 
-    /// Where F_x vanishes, and at u after a tenth of the way back from either extreme.
-    fn questions(&self, span: &Range<usize>, (low, high): (f64, f64)) -> Vec<Question> {
-        let changes = |i: &usize| (self.force[*i] < 0.0) != (self.force[*i + 1] < 0.0);
+    /// Where F_x passes the middle of its range, and at u after a tenth of the way back from either extreme.
+    fn questions(&self, span: &Range<usize>, (low, high): (f64, f64), middle: f64) -> Vec<Question> {
+        let changes = |i: &usize| (self.force[*i] < middle) != (self.force[*i + 1] < middle);
         let zeros =
             span.clone().filter(changes).map(|after| Question { after, u: None, extreme: 0.0, answer: 0.0 });
         let window = WINDOW * (high - low);
@@ -171,11 +173,11 @@ impl Track<'_> {
     }
 
     /// The answer along a straight line between two moments.
-    fn chord(&self, question: &Question) -> f64 {
+    fn chord(&self, question: &Question, middle: f64) -> f64 {
         let (i, j) = (question.after, question.after + 1);
         match question.u {
             None => {
-                let share = self.force[i] / (self.force[i] - self.force[j]);
+                let share = (self.force[i] - middle) / (self.force[i] - self.force[j]);
                 self.u[i] + share * (self.u[j] - self.u[i])
             }
             Some(u) => {
@@ -185,16 +187,16 @@ impl Track<'_> {
         }
     }
 
-    /// Half the distance between the zeros of a falling force and those of a rising one.
-    fn half_opening(&self, questions: &[Question]) -> Option<f64> {
+    /// Half the distance between the places where a falling force and a rising one pass the middle of their range; none where
+    /// they pass it more than once.
+    fn half_opening(&self, questions: &[Question], middle: f64) -> Option<f64> {
         let zeros = questions.iter().filter(|question| question.u.is_none());
         let (falling, rising): (Vec<&Question>, Vec<&Question>) =
-            zeros.partition(|zero| self.force[zero.after + 1] < 0.0);
-        let mean = |zeros: &[&Question]| {
-            let sum: f64 = zeros.iter().map(|zero| zero.answer).sum();
-            (!zeros.is_empty()).then(|| sum / zeros.len() as f64)
-        };
-        Some(0.5 * (mean(&falling)? - mean(&rising)?))
+            zeros.partition(|zero| self.force[zero.after + 1] < middle);
+        match (falling.as_slice(), rising.as_slice()) {
+            ([falling], [rising]) => Some(0.5 * (falling.answer - rising.answer)),
+            _ => None,
+        }
     }
 }
 
@@ -208,7 +210,13 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// Answers questions of a cycle that is not before the one asked about last.
-    fn answer(&mut self, track: &Track<'_>, span: &Range<usize>, count: f64, questions: &mut [Question]) {
+    fn answer(
+        &mut self,
+        track: &Track<'_>,
+        span: &Range<usize>,
+        (count, middle): (f64, f64),
+        questions: &mut [Question],
+    ) {
         let d = track.d.first().copied().unwrap_or(0.0);
         // In order of their moments.
         let mut next = 0;
@@ -220,7 +228,7 @@ impl Walk<'_> {
                     let force = |u: f64| count * self.memory.force(self.law, Apex { d, u });
                     question.answer = match question.u {
                         Some(u) => force(u),
-                        None => zero(force, [track.u[i - 1], track.u[i]]),
+                        None => zero(|u| force(u) - middle, [track.u[i - 1], track.u[i]]),
                     };
                 }
             }

@@ -9,7 +9,7 @@ use stickslip_drive::scene::{Freedom, Side};
 
 /// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
 /// extremes and corners that are no events. Those of the body that steps have no loops.
-const PARTS: f64 = 64.0;
+const PARTS: f64 = 512.0;
 /// The same of a table, all of it.
 const TABLE_PARTS: f64 = 4096.0;
 /// A moment this near to an end, in periods, is the end.

@@ -68,9 +68,10 @@ impl fmt::Display for Warning {
 
 /// What came out in the run itself: energy books that do not close, steps whose error is not known.
 pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
-    let stepper = job.model.effective(job.scenario.plan.stepper);
-    let mut warnings: Vec<Warning> =
-        books::warning(&outcome.books, stepper, job.work()).into_iter().collect();
+    let asked = job.scenario.plan.stepper;
+    let stepper = job.model.effective(asked);
+    let of_books = books::warning(&outcome.books, stepper, (job.work(), stepper.name() == asked.name()));
+    let mut warnings: Vec<Warning> = of_books.into_iter().collect();
     let missed = outcome.state.counts().missed;
     if missed > 0 {
         let all = outcome.state.counts().steps;

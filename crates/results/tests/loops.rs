@@ -58,6 +58,29 @@ fn the_loops_of_a_table_have_theirs() {
     found.iter().for_each(|cycle| check_paraboloid(&job, 0, 300e-9, cycle));
 }
 
+/// A triangle from 0 to its stroke and back: the same loop about another middle. Its opening was taken at F_x = 0, and partial slip
+/// called mixed.
+#[test]
+fn a_loop_about_another_middle_is_the_same_loop() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/table_loop.json");
+    let triangle = r#"{"triangle": {"stroke": "600 nm", "period": "2 s"}}"#;
+    let job = prepare(&file, &[("waveforms.t", triangle)]);
+    check_paraboloid(&job, 0, 300e-9, &last_cycle(&job, 0));
+    let summary = Summary::new(&job, &job.run(&()));
+    let contact = &summary.contacts.0[0].1;
+    assert_eq!(contact.fretting.as_ref().and_then(|fretting| fretting.regime), Some("partial"));
+}
+
+/// Nothing is free and nothing swings: 100 000 steps of a walk were called a crawl after 2 037 s.
+#[test]
+fn a_walk_of_many_periods_comes_to_its_end() {
+    let job =
+        example("fretting_sphere", &[("run.duration", "\"5000 s\""), ("output", "{}"), ("plots", "[]")]);
+    let outcome = job.run(&());
+    assert!(outcome.error.is_none(), "{:?}", outcome.error);
+    assert_eq!(cycles(&job, 0, &outcome.kept.moments, outcome.state.time()).len(), 5000);
+}
+
 fn check_paraboloid(job: &Job, c: usize, amplitude: f64, found: &CycleFigures) {
     let CycleFigures { cycle, is_closed, secants, .. } = found;
     let (u_c, normal) = job.contact_scale(c);

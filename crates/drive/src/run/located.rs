@@ -138,7 +138,12 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             ledger: Ledger::new(model, MOST_PIECES as usize),
             turning: Turning::new(model),
             output: Output::new(plan.every, setting.layout),
-            bounds: Bounds::new(model, plan.limits, std::f64::consts::TAU / model.fastest),
+            // Where nothing is free nothing swings, and a walk has no pace.
+            bounds: Bounds::new(
+                model,
+                plan.limits,
+                if model.fastest > 0.0 { std::f64::consts::TAU / model.fastest } else { 0.0 },
+            ),
             setting,
         }
     }

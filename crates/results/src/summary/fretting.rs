@@ -36,7 +36,7 @@ pub struct Fretting {
     /// Q*, half of peak to peak.
     #[serde(rename = "force_amplitude_N")]
     force_amplitude: Real,
-    /// δ₀, half opening at F_x = 0.
+    /// δ₀, half opening at the middle of the force's range: at F_x = 0 of a loop about that.
     #[serde(rename = "half_opening_m", skip_serializing_if = "Option::is_none")]
     half_opening: Option<Real>,
     /// E_d, the friction work of the cycle.

@@ -51,12 +51,13 @@ pub enum SettlingSummary {
     Settled,
     /// They are on their way, or too few to tell.
     NotSettled {
-        /// Last change.
-        change_m: Real,
-        /// Where it leads, if it goes on to fall as it does.
+        /// Last change; none of one step.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        change_m: Option<Real>,
+        /// Where it leads, if it goes on to fall as it does; none where that is farther than the steps have gone.
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_m: Option<Real>,
-        /// How far two fits of that are apart.
+        /// How far off that may be: by what two fits are apart, and a tenth of the way.
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_error_m: Option<Real>,
     },
@@ -194,7 +195,7 @@ fn settling(settling: &Settling) -> SettlingSummary {
     match *settling {
         Settling::Settled(_) => SettlingSummary::Settled,
         Settling::NotSettled { change, limit } => SettlingSummary::NotSettled {
-            change_m: Real(change),
+            change_m: change.map(Real),
             limit_m: limit.map(|(limit, _)| Real(limit)),
             limit_error_m: limit.map(|(_, error)| Real(error)),
         },

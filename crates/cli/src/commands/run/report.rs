@@ -132,9 +132,14 @@ fn settling(steps: &DriveSummary) -> String {
             let step = length(steady.step);
             format!("steady step {step}{error}, settled from period {}{back}", steady.from + 1)
         }
-        (SettlingSummary::NotSettled { change_m, limit_m, .. }, _) => {
-            let limit = limit_m.map(|limit| format!(", on its way to {}", length(limit))).unwrap_or_default();
-            format!("not settled: the step of {last} changes by {} per period{limit}", length(*change_m))
+        (SettlingSummary::NotSettled { change_m: None, .. }, _) => {
+            format!("not settled: one step, of {last}")
+        }
+        (SettlingSummary::NotSettled { change_m: Some(change), limit_m, limit_error_m }, _) => {
+            let limit = limit_m.zip(*limit_error_m);
+            let limit = limit.map(|(l, e)| format!(", on its way to {} ± {}", length(l), length(e)));
+            let limit = limit.unwrap_or_default();
+            format!("not settled: the step of {last} changes by {} per period{limit}", length(*change))
         }
         (SettlingSummary::Irregular { spread_m }, _) => {
             format!("not settled: steps vary by ± {} without a pattern", length(*spread_m))
