@@ -15,6 +15,8 @@ use stickslip_drive::scene::{Freedom, Side};
 
 /// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
 const CLOSED: f64 = 0.01;
+/// Change of a force below this share of the limit of friction is rounding.
+const ROUNDING: f64 = 1e-9;
 /// Share of the displacement range over which a secant is taken.
 const WINDOW: f64 = stickslip_analysis::fretting::STIFFNESS_WINDOW;
 /// Halvings of an interval in which the force changes sign: to the last place.
@@ -129,10 +131,13 @@ impl Track<'_> {
                 .map(|i| count * law.stick_stiffness(self.d[i]))
                 .filter(|k| *k > 0.0)
         };
+        let normal = mean_over_time(&self.t[a..=b], &self.normal[a..=b]);
+        // What moves in the last digits has no loop.
+        let moves = most - least > ROUNDING * law.friction() * normal;
         let cycle = Cycle {
             displacement_amplitude: 0.5 * (high - low),
             force_amplitude: 0.5 * (most - least),
-            half_opening: self.half_opening(&questions, middle),
+            half_opening: self.half_opening(&questions, middle).filter(|_| moves),
             dissipated: self.friction[b] - self.friction[a],
             stiffness_after_maximum: tangent(high),
             stiffness_after_minimum: tangent(low),
@@ -142,7 +147,7 @@ impl Track<'_> {
             is_closed: (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
             cycle,
             secants: [secant(high), secant(low)],
-            normal: mean_over_time(&self.t[a..=b], &self.normal[a..=b]),
+            normal,
             depth: self.d[a],
         }
     }
