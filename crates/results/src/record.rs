@@ -29,8 +29,8 @@ pub struct Recorder<'a> {
     until: f64,
     /// Where the figures are taken.
     marks: Marks,
-    /// Room on the disk for the last blocks of the tables.
-    reserve: Option<File>,
+    /// Room on the disk for the last blocks of the tables, each for itself.
+    reserve: Vec<File>,
     /// A look that was asked for already, s.
     asked: Option<f64>,
 }
@@ -73,7 +73,16 @@ impl<'a> Recorder<'a> {
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
         let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new(), failure: None };
         let marks = Marks::of(job);
-        Self { job, watcher, tables: None, recorded, until: f64::INFINITY, marks, reserve: None, asked: None }
+        Self {
+            job,
+            watcher,
+            tables: None,
+            recorded,
+            until: f64::INFINITY,
+            marks,
+            reserve: Vec::new(),
+            asked: None,
+        }
     }
 
     /// The same with tables in a folder.
@@ -85,7 +94,7 @@ impl<'a> Recorder<'a> {
         let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[]);
         let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"]);
         let insides = Insides::new(self.job, folder)?;
-        let reserve = Some(folder.spare(TABLES * LAST_BLOCK)?);
+        let reserve = (0..TABLES).map(|_| folder.spare(LAST_BLOCK)).collect::<io::Result<_>>()?;
         Ok(Self { tables: Some(Tables { trace, events, insides }), reserve, ..self })
     }
 
@@ -133,7 +142,7 @@ impl<'a> Recorder<'a> {
     /// A table of which nothing could be written.
     pub(crate) fn finish(mut self) -> io::Result<Recorded> {
         // Their last blocks have room, whatever else is full.
-        drop(self.reserve.take());
+        self.reserve.clear();
         if let Some(Tables { trace, events, insides }) = self.tables {
             let written = [(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
             for (name, Written { file, seal, failure }) in written.into_iter().chain(insides.finish()?) {
