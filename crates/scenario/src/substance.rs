@@ -15,10 +15,10 @@ pub struct Substance {
     words: &'static [&'static str],
 }
 
-/// Moduli: ranges of M. F. Ashby, *Materials Selection in Mechanical Design*, 4th ed., appendix A. Strengths: the upper ends of the
-/// same tables; bearing steel after T. A. Harris, *Rolling Bearing Analysis*; ceramics and glasses a third of the hardness in the
-/// same tables, for H ≈ 3Y (D. Tabor, *The Hardness of Metals*, 1951). Two digits at best: they tell orders of magnitude.
-/// What has several words comes first.
+/// Everyday orders of magnitude, put together by hand and taken from no single table: moduli as handbooks give their ranges (for
+/// comparison M. F. Ashby, *Materials Selection in Mechanical Design*, appendix A), strengths of strong varieties, of ceramics
+/// and glasses a third of the hardness, for H ≈ 3Y (D. Tabor, *The Hardness of Metals*, 1951). Two digits at best: what they are
+/// for is a forgotten prefix. What has several words comes first.
 const SUBSTANCES: &[Substance] = &[
     of("silicon nitride", (280.0, 320.0), 5.0, &["silicon nitride", "si3n4"]),
     of("silicon carbide", (400.0, 460.0), 8.0, &["silicon carbide", "sic"]),
