@@ -3,6 +3,5 @@
 pub(crate) mod answer;
 pub(crate) mod interrupt;
 pub(crate) mod progress;
-pub(crate) mod quantity;
 pub(crate) mod verdict;
 pub(crate) mod visible;

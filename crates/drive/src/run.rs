@@ -42,4 +42,4 @@ impl Model {
 }
 
 /// Tolerance of a quasi-static walk where its scenario names a stepper without one.
-const WALK_TOLERANCE: f64 = 1e-10;
+pub const WALK_TOLERANCE: f64 = 1e-10;

@@ -5,13 +5,12 @@
 
 use crate::contact_path::is_walked;
 use crate::job::Job;
-use crate::periods::Periods;
+use crate::periods::{Periods, followed};
 use crate::series::Series;
 use std::ops::Range;
 use stickslip_analysis::{Cut, Cycle, split_cycles};
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 use stickslip_drive::Waveform;
-use stickslip_drive::scene::{Freedom, Side};
 
 /// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
 const CLOSED: f64 = 0.01;
@@ -256,15 +255,8 @@ fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
 
 /// The waveform without a period that a body of a contact follows.
 pub(crate) fn table_of(job: &Job, c: usize) -> Option<&Waveform> {
-    let scene = &job.scenario.scene;
-    let mut followed = scene.contacts.get(c)?.part.between.iter().filter_map(|side| match side {
-        Side::Ground => None,
-        Side::Body(body) => match scene.bodies.get(*body)?.part.x.freedom {
-            Freedom::Follows(w) => scene.waveforms.get(w).map(|w| &w.part),
-            Freedom::Fixed | Freedom::Free => None,
-        },
-    });
-    followed.find(|waveform| waveform.period().is_none())
+    let waveforms = followed(job, c).filter_map(|w| job.scenario.scene.waveforms.get(w));
+    waveforms.map(|waveform| &waveform.part).find(|waveform| waveform.period().is_none())
 }
 
 /// Least and largest value.

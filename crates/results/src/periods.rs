@@ -32,20 +32,12 @@ impl Periods {
     /// The periods of whatever drives contact `c`: the one waveform that its bodies follow, or else the waveform of the
     /// scenario's `figures`; until time `end`, s.
     pub fn of_contact(job: &Job, c: usize, end: f64) -> Option<Self> {
-        let scene = &job.scenario.scene;
-        let followed = scene.contacts.get(c)?.part.between.iter().filter_map(|side| match side {
-            Side::Body(body) => match scene.bodies.get(*body)?.part.x.freedom {
-                Freedom::Follows(waveform) => Some(waveform),
-                Freedom::Fixed | Freedom::Free => None,
-            },
-            Side::Ground => None,
-        });
-        let followed: Vec<usize> = followed.collect();
-        let waveform = match followed.as_slice() {
-            [only] => *only,
+        let mut followed = followed(job, c);
+        let waveform = match (followed.next(), followed.next()) {
+            (Some(only), None) => only,
             _ => job.scenario.figures.waveform?,
         };
-        Self::until(&scene.waveforms.get(waveform)?.part, end)
+        Self::until(&job.scenario.scene.waveforms.get(waveform)?.part, end)
     }
 
     /// End of period k, and start of the next, s; 0: start of the first.
@@ -71,6 +63,19 @@ impl Periods {
         let place = t.partition_point(|t| *t < end - hair);
         (*t.get(place)? <= end + hair).then_some(place)
     }
+}
+
+/// Places of the waveforms that the bodies of contact `c` follow along the slide.
+pub(crate) fn followed(job: &Job, c: usize) -> impl Iterator<Item = usize> {
+    let scene = &job.scenario.scene;
+    let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between.iter());
+    sides.filter_map(|side| match side {
+        Side::Body(body) => match scene.bodies.get(*body)?.part.x.freedom {
+            Freedom::Follows(waveform) => Some(waveform),
+            Freedom::Fixed | Freedom::Free => None,
+        },
+        Side::Ground => None,
+    })
 }
 
 #[cfg(test)]

@@ -11,12 +11,10 @@ use crate::seal::hash;
 use crate::synopsis::Synopsis;
 use serde_json::Value;
 use std::path::PathBuf;
+use stickslip_drive::WALK_TOLERANCE;
 
 /// How far a row may lie from its place on the grid, in intervals, and a duration from another, of itself: rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// Tolerance of a walk whose scenario names a stepper without one (`stickslip_drive`).
-const WALK_TOLERANCE: f64 = 1e-10;
 
 /// What the tables of a run are to its summary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

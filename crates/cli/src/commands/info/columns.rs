@@ -2,9 +2,9 @@
 
 use super::digits::digits;
 use super::tables::{WIDTH, grid, unbroken};
-use crate::console::quantity::quantity;
 use stickslip_results::Real;
 use stickslip_results::info::{ContactInfo, Loaded, Pressed};
+use stickslip_results::quantity;
 
 /// Space that a column takes beside its text.
 const PADDING: usize = 2;

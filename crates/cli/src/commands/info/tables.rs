@@ -3,11 +3,11 @@
 use super::Info;
 use super::columns::{self, span};
 use super::digits::{bytes, digits, mass, two_digits, whole};
-use crate::console::quantity::quantity;
 use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
 use stickslip_results::Real;
 use stickslip_results::info::Item;
 use stickslip_results::info::{BodyInfo, Freed, ModeInfo, WaveformInfo};
+use stickslip_results::quantity;
 
 /// Widest line.
 pub(super) const WIDTH: u16 = 100;

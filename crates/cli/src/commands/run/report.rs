@@ -1,6 +1,5 @@
 //! What a run tells people, and how it ended.
 
-use crate::console::quantity::quantity;
 use crate::console::verdict::Verdict;
 use std::fmt::Display;
 use std::io;
@@ -9,6 +8,7 @@ use stickslip_results::Job;
 use stickslip_results::Outcome;
 use stickslip_results::Real;
 use stickslip_results::complaint::words;
+use stickslip_results::quantity;
 use stickslip_results::summary::{DriveSummary, SettlingSummary, Status, Summary};
 
 /// An error below this share of the step does not show in its digits.

@@ -1,3 +1,0 @@
-//! Numbers with their units, as people read them.
-
-pub(crate) use stickslip_results::quantity;
