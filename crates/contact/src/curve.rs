@@ -130,6 +130,11 @@ impl Curve {
         self.knots.iter().map(|k| (k.h, k.p))
     }
 
+    /// The straight pieces from the centre to the apex: heights of their ends, m, slope dp/dh and force per ΔM over G\*.
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
+        self.knots.windows(2).map(|pair| [pair[0].h, pair[1].h, pair[1].slope, pair[1].gain])
+    }
+
     /// What bounding the stack has cost so far.
     pub fn merged(&self) -> Merged {
         self.merged

@@ -8,7 +8,7 @@
 //!
 //! In reading order: [`Material`] and [`Pair`]; [`Profile`]; [`Interface`]; [`Move`], [`Segment`] and what
 //! comes back; [`Curve`] with its [`Branch`]es; [`Row`]; [`Engine`]; [`FirstLoading`] for a designer's
-//! questions; [`Words`] of those who keep memories.
+//! questions; [`Fields`] of a moment; [`Words`] of those who keep memories.
 //!
 //! Forces are those of half-spaces in contact over a small round area, without adhesion, under Coulomb's law at every point;
 //! between elastically similar bodies they are exact, between others as good as the similarity ([`Pair::dundurs_beta`]).
@@ -18,6 +18,7 @@
 
 mod curve;
 mod engine;
+mod fields;
 mod first_loading;
 mod interface;
 mod material;
@@ -30,6 +31,7 @@ mod words;
 
 pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Merged};
 pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
+pub use fields::{Field, Fields, FrictionMap, Zone, ZoneKind};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};
 pub use material::{Material, MaterialError, Pair};

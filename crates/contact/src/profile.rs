@@ -190,6 +190,16 @@ impl Profile {
         width * GAUSS.iter().map(node).sum::<f64>()
     }
 
+    /// Positions x > 0 where g or one of its derivatives is not smooth, m, ascending: where quadratures over g are to be split.
+    pub(crate) fn borders(&self) -> &[f64] {
+        of_kind!(self, kind => kind.borders())
+    }
+
+    /// Radius of a flat punch, m; none for every other profile.
+    pub(crate) fn punch(&self) -> Option<f64> {
+        of_kind!(self, kind => kind.punch())
+    }
+
     /// The foundation, where it is given spring by spring.
     pub(crate) fn as_foundation(&self) -> Option<&Foundation> {
         of_kind!(self, kind => kind.as_foundation())

@@ -197,6 +197,16 @@ impl Row {
         springs.ranks().iter().map(move |&rank| self.stretch(springs, law, rank))
     }
 
+    /// Height and anchor of every distinct spring that touches, m, from the lowest one on.
+    pub(crate) fn anchors<'a>(
+        &'a self,
+        springs: &'a Springs,
+        law: &'a Interface,
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let touching = springs.heights().iter().enumerate().take(self.touching);
+        touching.map(move |(rank, &h)| (h, self.apex.u - self.stretch(springs, law, rank)))
+    }
+
     /// State of every spring, in the order of [`Springs::positions`].
     pub fn states<'a>(
         &'a self,

@@ -58,4 +58,8 @@ impl Kind for Flat {
     fn is_strictly_convex(&self) -> bool {
         false
     }
+
+    fn punch(&self) -> Option<f64> {
+        Some(self.radius)
+    }
 }

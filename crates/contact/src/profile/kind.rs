@@ -52,6 +52,16 @@ pub(super) trait Kind {
         None
     }
 
+    /// Positions x > 0 where g or one of its derivatives is not smooth, m, ascending.
+    fn borders(&self) -> &[f64] {
+        &[]
+    }
+
+    /// Radius of a flat punch, m.
+    fn punch(&self) -> Option<f64> {
+        None
+    }
+
     /// Its springs, where it is given by them.
     fn as_foundation(&self) -> Option<&Foundation> {
         None

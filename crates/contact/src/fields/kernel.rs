@@ -1,0 +1,90 @@
+//! What a frictionless contact does to the surface, per indentation: of it every field of a contact with friction is a sum.
+
+use super::power::PowerField;
+use super::smooth::{self, Estimate};
+use crate::Profile;
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
+
+/// A height h of the foundation and the radius x that is reached there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rim {
+    /// h, m.
+    pub(super) h: f64,
+    /// x with g(x) = h, m.
+    pub(super) x: f64,
+}
+
+/// How the integrals over a profile are taken.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Kernel<'a> {
+    /// A flat punch: every height has its radius, m.
+    Flat(f64),
+    /// A power law: closed forms.
+    Power(PowerField),
+    /// Any other: quadrature.
+    Any(&'a Profile),
+}
+
+impl<'a> Kernel<'a> {
+    /// Of a profile; none for a list of springs, which has no shape in three dimensions.
+    pub(super) fn of(profile: &'a Profile) -> Option<Self> {
+        if profile.as_foundation().is_some() {
+            return None;
+        }
+        Some(match (profile.exponent(), profile.punch()) {
+            (Some(n), _) => Self::Power(PowerField::new(n)),
+            (None, Some(radius)) => Self::Flat(radius),
+            (None, None) => Self::Any(profile),
+        })
+    }
+
+    /// Pressure over E\* at r of a contact pressed to a rim: (1/π) ∫ᵣˣ g'/√(ξ²-r²) dξ (4.34); 0 beyond the rim.
+    pub(super) fn pressure(&self, rim: Rim, r: f64) -> Estimate {
+        if r >= rim.x || rim.h <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let (value, error) = match self {
+            Self::Flat(b) => (rim.h / ((b - r) * (b + r)).sqrt(), 0.0),
+            Self::Power(power) => (power.slope_integral(rim.h, rim.x, r), 0.0),
+            Self::Any(profile) => smooth::slope_integral(profile, rim.x, r),
+        };
+        (FRAC_1_PI * value, FRAC_1_PI * error)
+    }
+
+    /// The same of one rim less that of a lower one, both above r, where each for itself may be infinite.
+    pub(super) fn pressure_between(&self, low: Rim, high: Rim, r: f64) -> Estimate {
+        if let Self::Power(power) = self
+            && low.h > 0.0
+            && low.x > r
+        {
+            return (FRAC_1_PI * power.slope_between((low.h, low.x), (high.h, high.x), r), 0.0);
+        }
+        let (upper, lower) = (self.pressure(high, r), self.pressure(low, r));
+        (upper.0 - lower.0, upper.1 + lower.1)
+    }
+
+    /// w(r), m: displacement of the surface by a contact pressed to a rim: h - f(r) inside,
+    /// (2/π) ∫₀ˣ arcsin(ξ/r) dg outside (4.36).
+    pub(super) fn deflection(&self, profile: &Profile, rim: Rim, r: f64) -> Estimate {
+        if rim.h <= 0.0 {
+            return (0.0, 0.0);
+        }
+        if r <= rim.x {
+            return match profile.gap(r) {
+                Some(gap) => (rim.h - gap, 0.0),
+                None => {
+                    let (gap, error) = smooth::gap(profile, r);
+                    (rim.h - gap, error)
+                }
+            };
+        }
+        match self {
+            Self::Flat(b) => (FRAC_2_PI * rim.h * (b / r).asin(), 0.0),
+            Self::Power(power) => (rim.h * power.outside(rim.x / r), 0.0),
+            Self::Any(profile) => {
+                let (value, error) = smooth::arc_integral(profile, rim.x, r);
+                (FRAC_2_PI * value, FRAC_2_PI * error)
+            }
+        }
+    }
+}
