@@ -1,5 +1,7 @@
 //! Fields against closed forms and independent quadrature: handbook (4.34)–(4.38).
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
 use stickslip_contact::{
@@ -454,5 +456,6 @@ fn the_map_of_any_history_sums_to_its_friction_work() {
         worst = worst.max(off);
         assert!(off < 1e-8, "{k}: n {n}, {from:?} to {to:?}: {total}, {work}: {off:e}");
     }
-    println!("largest difference {worst:e} of μF_N u_c");
+    // Nothing slips in a few of them, all of it in a few others.
+    assert!(worst > 0.0);
 }
