@@ -69,6 +69,7 @@ pub(crate) fn assert_same(first: &Path, second: &Path, what: &str) {
 
 pub(crate) const INSIDES: [&str; 2] =
     [r#"output.springs={"every": "300 us", "count": 16}"#, r#"output.memory={"every": "300 us"}"#];
+const FIELDS: &str = r#"output.fields={"every": "300 us", "radii": 9}"#;
 pub(crate) const ROW: &str = r#"contacts.ball.engine={"springs": {"count": 64}}"#;
 pub(crate) const VERLET: &str = r#"run.stepper={"verlet": {"step": "1 us"}}"#;
 const RK4: &str = r#"run.stepper={"rk4": {"step": "2 us"}}"#;
@@ -77,11 +78,11 @@ const RK4: &str = r#"run.stepper={"rk4": {"step": "2 us"}}"#;
 fn checkpoints_change_no_bit() {
     let cases: [(&str, &[&str]); 9] = [
         ("p1", &["run.cycles=40", INSIDES[0], INSIDES[1]]),
-        ("quickstart", &["run.duration=100 ms", INSIDES[0], ROW]),
+        ("quickstart", &["run.duration=100 ms", INSIDES[0], ROW, FIELDS]),
         ("quickstart", &["run.duration=30 ms", VERLET]),
         ("quickstart", &["run.duration=30 ms", RK4, INSIDES[1]]),
         ("three_ball_stage", &["output.springs={\"every\": \"1 ms\", \"count\": 8}"]),
-        ("rocking_slider", &[]),
+        ("rocking_slider", &[FIELDS]),
         ("fretting_sphere", &[]),
         ("bouncing_ball", &[]),
         ("walking_drive", &["run.until_steady=1e-3"]),
@@ -117,8 +118,11 @@ fn half_a_run_and_its_other_half_are_one_run() {
     for name in names {
         let (whole, half) = (tempdir().unwrap(), tempdir().unwrap());
         // Its list of moments goes to the end of the run.
-        let set: &[&str] =
-            if name == "oblique_loading" { &[r#"output.memory={"every": "1 s"}"#] } else { &[] };
+        let set: &[&str] = match name.as_str() {
+            "oblique_loading" => &[r#"output.memory={"every": "1 s"}"#],
+            "quickstart" | "rocking_slider" | "three_ball_stage" => &[FIELDS],
+            _ => &[],
+        };
         let output = run(&scenario(&name), whole.path(), set);
         assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
         let whole = whole.path().join(&name);

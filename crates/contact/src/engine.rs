@@ -105,6 +105,22 @@ pub struct Spring {
     pub stretch: f64,
     /// State after the last move that was not zero.
     pub state: SpringState,
+    /// Height g(x), m: the indentation at which it touches.
+    pub height: f64,
+    /// Its share Δx of the foundation, m.
+    pub length: f64,
+}
+
+impl Spring {
+    /// Normal force E\*Δx(d-g) at the indentation d (m), N (4.23); 0 while it does not touch.
+    pub fn normal_force(&self, law: &Interface, d: f64) -> f64 {
+        law.normal_modulus() * self.length * (d - self.height).max(0.0)
+    }
+
+    /// Tangential force G\*Δx u, N (4.23).
+    pub fn tangential_force(&self, law: &Interface) -> f64 {
+        law.tangential_modulus() * self.length * self.stretch
+    }
 }
 
 impl Tangential for Curve {
@@ -244,6 +260,14 @@ impl Memory {
         either!(self, engine => Tangential::commit(engine, law, segment))
     }
 
+    /// Contact radius at an indentation d (m), m: a(d), of a row of springs half the length of those that touch.
+    pub fn radius(&self, law: &Interface, d: f64) -> f64 {
+        match self {
+            Self::Curve(_) => law.profile().radius(d),
+            Self::Row(SpringRow { springs, .. }) => 0.5 * springs.reduced_stiffness(d),
+        }
+    }
+
     /// The smooth branches of an engine that has them.
     #[inline]
     pub fn branching(&self) -> Option<&dyn Branching> {
@@ -268,18 +292,22 @@ impl Memory {
         grid: &'a Springs,
     ) -> Box<dyn Iterator<Item = Spring> + 'a> {
         match self {
-            Self::Curve(curve) => {
-                let positions = grid.positions().iter().zip(grid.heights_by_position());
-                Box::new(positions.map(|(&x, h)| Spring {
-                    x,
-                    stretch: curve.stretch(h),
-                    state: curve.spring_state(h),
-                }))
-            }
+            Self::Curve(curve) => Box::new(grid.cells().map(|(x, height, length)| Spring {
+                x,
+                stretch: curve.stretch(height),
+                state: curve.spring_state(height),
+                height,
+                length,
+            })),
             Self::Row(SpringRow { row, springs }) => {
-                let positions = springs.positions().iter();
                 let insides = row.stretches(springs, law).zip(row.states(springs, law));
-                Box::new(positions.zip(insides).map(|(&x, (stretch, state))| Spring { x, stretch, state }))
+                Box::new(springs.cells().zip(insides).map(|((x, height, length), (stretch, state))| Spring {
+                    x,
+                    stretch,
+                    state,
+                    height,
+                    length,
+                }))
             }
         }
     }

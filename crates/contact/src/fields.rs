@@ -36,8 +36,6 @@ pub struct Fields<'a> {
     /// From the centre to the edge; none while the contact is open.
     pieces: Vec<Piece>,
     apex: Apex,
-    /// Anchor in the centre, m.
-    centre: f64,
     /// Radius of the contact, m.
     radius: f64,
     /// Of the zone inside which no spring is at its limit, m.
@@ -73,10 +71,10 @@ impl<'a> Fields<'a> {
     pub fn of(law: &'a Interface, memory: &Memory) -> Option<Self> {
         let kernel = Kernel::of(law.profile())?;
         let apex = memory.apex();
-        let (pieces, centre) = pieces::of(law, memory);
+        let (pieces, _) = pieces::of(law, memory);
         let Outcome { state, stick_radius, .. } = memory.preview(law, apex);
         let radius = law.profile().radius(apex.d);
-        Some(Self { law, kernel, pieces, apex, centre, radius, stick_radius, state })
+        Some(Self { law, kernel, pieces, apex, radius, stick_radius, state })
     }
 
     /// Contact radius a, m; 0 while open.
@@ -103,14 +101,14 @@ impl<'a> Fields<'a> {
     pub fn at(&self, r: f64) -> Field {
         let (pressure, pressure_error) = self.pressure(r);
         let (shear, shear_error) = self.shear(r, pressure);
-        let (stretch, error) = self.stretch(r);
+        let ([displacement, slip], error) = self.displacement(r);
         let deflection = self.kernel.deflection(self.law.profile(), self.edge(), r).0;
         Field {
             r,
             pressure,
             shear,
-            displacement: stretch,
-            slip: self.apex.u - self.centre - stretch,
+            displacement,
+            slip,
             deflection,
             state: self.state_at(r),
             error: [pressure_error.max(shear_error), error],
@@ -129,6 +127,8 @@ impl<'a> Fields<'a> {
     fn shear(&self, r: f64, pressure: f64) -> (f64, f64) {
         let limit = self.law.friction() * self.law.normal_modulus();
         let (mut sum, mut error) = (0.0, 0.0);
+        // Of the rim last asked for: every other one is the outer rim of one piece and the inner one of the next.
+        let mut outer = None;
         for piece in self.pieces.iter().rev() {
             if piece.to.x <= r {
                 break;
@@ -137,38 +137,50 @@ impl<'a> Fields<'a> {
             if outermost && piece.from.x <= r {
                 return (self.law.friction() * piece.share * pressure, 0.0);
             }
-            let (p, off) = self.kernel.pressure_between(piece.from, piece.to, r);
             // Nothing times an infinite pressure is nothing: springs that were never moved carry nothing.
-            if piece.share != 0.0 {
-                sum += piece.share * p;
-                error += (piece.share * off).abs();
+            if piece.share == 0.0 {
+                outer = None;
+                continue;
             }
+            let upper = outer.unwrap_or_else(|| self.kernel.pressure(piece.to, r));
+            let lower = self.kernel.pressure(piece.from, r);
+            let (p, off) = if upper.0 < f64::INFINITY {
+                (upper.0 - lower.0, upper.1 + lower.1)
+            } else {
+                self.kernel.pressure_between(piece.from, piece.to, r)
+            };
+            sum += piece.share * p;
+            error += (piece.share * off).abs();
+            outer = Some(lower);
         }
         (limit * sum, limit * error)
     }
 
-    /// Displacement of the surface at r, m, and its error.
-    fn stretch(&self, r: f64) -> (f64, f64) {
+    /// Displacement of the surface at r and slip there, m, and their error.
+    fn displacement(&self, r: f64) -> ([f64; 2], f64) {
         let profile = self.law.profile();
-        let (mut sum, mut error) = (0.0, 0.0);
+        let (mut sum, mut slip, mut error) = (0.0, 0.0, 0.0);
+        let mut inner = None;
         for piece in &self.pieces {
             if piece.slope == 0.0 {
+                inner = None;
                 continue;
             }
             // Inside both rims the gap drops out.
             let (step, off) = if r <= piece.from.x {
                 (piece.to.h - piece.from.h, 0.0)
             } else {
-                let (to, from) = (
-                    self.kernel.deflection(profile, piece.to, r),
-                    self.kernel.deflection(profile, piece.from, r),
-                );
+                let to = self.kernel.deflection(profile, piece.to, r);
+                let from = inner.unwrap_or_else(|| self.kernel.deflection(profile, piece.from, r));
+                inner = Some(to);
                 (to.0 - from.0, to.1 + from.1)
             };
             sum += piece.slope * step;
+            // Not as the rest of u: where nothing has slipped it is nothing to the last bit.
+            slip += piece.slope * (piece.to.h - piece.from.h - step);
             error += (piece.slope * off).abs();
         }
-        (sum, error)
+        ([sum, slip], error)
     }
 
     /// Whether the place at r is open, sticks or slips.

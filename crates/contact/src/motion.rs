@@ -100,6 +100,17 @@ impl Move {
 }
 
 impl Segment {
+    /// The same path with displacements counted from another origin, `by` (m) further back.
+    #[must_use]
+    pub fn shifted(self, by: f64) -> Self {
+        let shifted = |to: Apex| Apex { u: to.u + by, ..to };
+        match self {
+            Self::Straight(to) => Self::Straight(shifted(to)),
+            Self::Jump(to) => Self::Jump(shifted(to)),
+            Self::Grown { to, force, energy, joins } => Self::Grown { to: shifted(to), force, energy, joins },
+        }
+    }
+
     /// Where the segment ends.
     pub fn end(&self) -> Apex {
         match *self {

@@ -10,6 +10,7 @@ mod sphere;
 
 pub use error::ProfileError;
 pub(crate) use foundation::{Foundation, Sums};
+pub(crate) use kappa::kappa;
 pub(crate) use kind::Peak;
 
 use crate::quadrature::GAUSS;
@@ -198,6 +199,11 @@ impl Profile {
     /// Radius of a flat punch, m; none for every other profile.
     pub(crate) fn punch(&self) -> Option<f64> {
         of_kind!(self, kind => kind.punch())
+    }
+
+    /// Whether it is a list of springs, which has no shape in three dimensions.
+    pub fn is_list(&self) -> bool {
+        self.as_foundation().is_some()
     }
 
     /// The foundation, where it is given spring by spring.

@@ -12,7 +12,7 @@ use crate::event::{Event, Source};
 use crate::model::{Binding, Body, Link};
 use crate::scene::Axis;
 use crate::state::State;
-use stickslip_contact::{ContactState, Memory, Outcome};
+use stickslip_contact::{ContactState, Memory, Outcome, Segment};
 
 /// Receiver of a run's output. Whatever it does, the trajectory stays the same.
 ///
@@ -35,6 +35,17 @@ pub trait Record {
     /// there. A moment to which a contact cannot be followed, because it outgrows its row or is not finite, is left out.
     fn look(&mut self, t: f64, memories: &[Memory]) {
         let _ = (t, memories);
+    }
+
+    /// Whether the record wants every path that a contact's memory takes; asked where a run begins. They come by [`Self::path`].
+    fn follows(&self) -> bool {
+        false
+    }
+
+    /// What the memory of contact `c`, by its place in the scene, has committed: in order, all of a step before the next look.
+    /// Displacements are counted from where the bodies started. What the end of a run leaves uncommitted is in its last look.
+    fn path(&mut self, c: usize, segment: Segment) {
+        let _ = (c, segment);
     }
 
     /// The next moment at which the record wants a row for itself, s; none for never again. Asked as looks are. A moment within
@@ -118,6 +129,7 @@ impl Model {
     /// | `BODY.x_m`, `.vx_m_s`, … | displacement from the position drawn and its rate, of every coordinate that is not fixed |
     /// | `CONTACT.u_m`, `.d_m` | displacement of the first body against the second, indentation |
     /// | `CONTACT.fx_N`, `.fn_N` | forces of all identical contacts together; that of damped stuck springs is in `fx_N` |
+    /// | `CONTACT.a_m` | contact radius |
     /// | `CONTACT.stick_m`, `.state` | radius inside which no spring is at its limit, and the word for it, [`state_name`] |
     /// | `CONTACT.elastic_J`, `.friction_J` | tangential energy stored and lost, of all identical contacts together |
     /// | `BLOCK.…` | whatever the block says of itself |
@@ -295,6 +307,7 @@ fn contact_columns(
         motion.d,
         count * (outcome.force + damping),
         count * contact.interface.normal_force(motion.d),
+        equations.memories[c].radius(&contact.interface, motion.d),
         outcome.stick_radius,
         state_code(outcome.state),
         count * outcome.elastic,

@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_drive::RunError;
 use stickslip_results::complaint::words;
-use stickslip_results::files::{MEMORY, SPRINGS};
+use stickslip_results::files::InsideTables;
 use stickslip_results::folder::Folder;
 use stickslip_results::{Job, Recorder, Watcher};
 use thiserror::Error;
@@ -65,8 +65,7 @@ pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryErr
         return Err(GalleryError::Stopped { name: job.name.clone(), source });
     }
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file)).map_err(failed)?;
-    let (springs, memory) = (folder.place(SPRINGS), folder.place(MEMORY));
-    let sources = Sources { job, kept: &outcome.kept, springs: springs.into(), memory: memory.into() };
+    let sources = Sources { job, kept: &outcome.kept, insides: InsideTables::drafted(&folder) };
     let light = Look { formats: vec![Format::Png, Format::Svg], theme: Colours::Light, scale: 1 };
     let dark = Look { formats: vec![Format::Png], theme: Colours::Dark, scale: 1 };
     let mut pictures = Vec::new();

@@ -15,6 +15,7 @@ use stickslip_plot::PlotError;
 use stickslip_results::Job;
 use stickslip_results::Kept;
 use stickslip_results::SealedTable;
+use stickslip_results::files::InsideTables;
 use stickslip_results::frame::FrameError;
 use stickslip_results::provenance::provenance;
 use stickslip_scenario::PlotName;
@@ -26,10 +27,8 @@ pub struct Sources<'a> {
     pub job: &'a Job,
     /// What was kept of it.
     pub kept: &'a Kept,
-    /// Where `springs.csv` lies, if it was written.
-    pub springs: SealedTable,
-    /// Where `memory.csv` lies, if it was written.
-    pub memory: SealedTable,
+    /// Where the tables of the contacts' insides lie, if they were written.
+    pub insides: InsideTables,
 }
 
 /// Why a picture is not drawn.

@@ -1,11 +1,14 @@
-//! What goes on inside the contacts: `springs.csv` and `memory.csv`.
+//! What goes on inside the contacts: `springs.csv`, `memory.csv`, `fields.csv` and `friction.csv`.
+
+mod fields;
 
 use crate::files::{MEMORY, MEMORY_HEAD, SPRING_HEAD, SPRINGS};
 use crate::folder::Folder;
 use crate::job::Job;
 use crate::sheet::{Sheet, Written};
+use fields::FieldTables;
 use std::io;
-use stickslip_contact::{Memory, SpringState};
+use stickslip_contact::{Memory, Segment, SpringState};
 use stickslip_drive::{Moments, Schedule};
 
 /// Writes what the scenario asks for.
@@ -13,6 +16,7 @@ pub(crate) struct Insides<'a> {
     job: &'a Job,
     springs: Option<Looks>,
     memory: Option<Looks>,
+    fields: Option<(FieldTables<'a>, Schedule)>,
     /// The moment asked for last, s.
     now: f64,
 }
@@ -26,24 +30,36 @@ struct Looks {
 impl<'a> Insides<'a> {
     /// Opens the tables that the scenario asks for.
     pub(crate) fn new(job: &'a Job, folder: &Folder) -> io::Result<Self> {
+        let schedule =
+            |moments: &Moments| Schedule::new(moments.clone(), job.start.time(), job.scenario.plan.duration);
         let open = |name: &str, moments: &Moments, head: &[&str]| {
             let sheet = Sheet::new(folder.draft(name)?, head.iter().copied());
-            let schedule = Schedule::new(moments.clone(), job.start.time(), job.scenario.plan.duration);
-            Ok::<_, io::Error>(Looks { sheet, schedule })
+            Ok::<_, io::Error>(Looks { sheet, schedule: schedule(moments) })
         };
         let springs = job.scenario.springs.as_ref().map(|asked| open(SPRINGS, &asked.moments, SPRING_HEAD));
         let memory = job.scenario.memory.as_ref().map(|asked| open(MEMORY, &asked.moments, MEMORY_HEAD));
-        Ok(Self { job, springs: springs.transpose()?, memory: memory.transpose()?, now: f64::NEG_INFINITY })
+        let fields = job.scenario.fields.as_ref().map(|asked| {
+            Ok::<_, io::Error>((FieldTables::new(job, asked, folder)?, schedule(&asked.moments)))
+        });
+        Ok(Self {
+            job,
+            springs: springs.transpose()?,
+            memory: memory.transpose()?,
+            fields: fields.transpose()?,
+            now: f64::NEG_INFINITY,
+        })
     }
 
     /// The next moment that one of the tables wants, s.
     pub(crate) fn next_look(&mut self) -> Option<f64> {
         let mut next = f64::INFINITY;
-        for looks in [&mut self.springs, &mut self.memory].into_iter().flatten() {
-            if looks.schedule.due() <= self.now {
-                looks.schedule.advance();
+        let looks = [&mut self.springs, &mut self.memory].into_iter().flatten();
+        let fields = self.fields.iter_mut().map(|(_, schedule)| schedule);
+        for schedule in looks.map(|looks| &mut looks.schedule).chain(fields) {
+            if schedule.due() <= self.now {
+                schedule.advance();
             }
-            next = next.min(looks.schedule.due());
+            next = next.min(schedule.due());
         }
         self.now = next;
         next.is_finite().then_some(next)
@@ -58,30 +74,56 @@ impl<'a> Insides<'a> {
         if let Some(looks) = self.memory.as_mut().filter(|looks| looks.schedule.due() <= now) {
             curves(&mut looks.sheet, self.job, now, memories);
         }
+        if let Some((tables, _)) = self.fields.as_mut().filter(|(_, schedule)| schedule.due() <= now) {
+            tables.look(now, memories);
+        }
+    }
+
+    /// Whether the paths of the contacts are wanted.
+    pub(crate) fn follows(&self) -> bool {
+        self.fields.is_some()
+    }
+
+    /// Takes a path of contact `c`.
+    pub(crate) fn path(&mut self, c: usize, segment: Segment) {
+        if let Some((tables, _)) = &mut self.fields {
+            tables.path(c, segment);
+        }
     }
 
     /// Whether one of the files takes no more.
     pub(crate) fn has_failed(&self) -> bool {
-        [&self.springs, &self.memory].into_iter().flatten().any(|looks| looks.sheet.has_failed())
+        let looks = [&self.springs, &self.memory].into_iter().flatten();
+        looks.map(|looks| &looks.sheet).any(Sheet::has_failed)
+            || self.fields.as_ref().is_some_and(|(tables, _)| tables.has_failed())
     }
 
     /// Closes the tables.
     pub(crate) fn finish(self) -> io::Result<Vec<(&'static str, Written)>> {
         let looks = [(SPRINGS, self.springs), (MEMORY, self.memory)];
         let looks = looks.into_iter().filter_map(|(name, looks)| Some((name, looks?)));
-        looks.map(|(name, looks)| Ok((name, looks.sheet.finish()?))).collect()
+        let mut written =
+            looks.map(|(name, looks)| Ok((name, looks.sheet.finish()?))).collect::<io::Result<Vec<_>>>()?;
+        if let Some((tables, _)) = self.fields {
+            written.extend(tables.finish()?);
+        }
+        Ok(written)
     }
 }
 
 /// One line per spring. A contact that is never pressed has none.
 fn springs(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     for (((name, law), memory), grid) in job.model.contacts().zip(memories).zip(&job.grids) {
+        let d = memory.apex().d;
         for spring in grid.iter().flat_map(|grid| memory.springs(law, grid)) {
             sheet.number(t);
             sheet.text(name);
             sheet.number(spring.x);
             sheet.number(spring.stretch);
             sheet.word(state_name(spring.state));
+            let normal = spring.normal_force(law, d);
+            let forces = [spring.tangential_force(law), normal, law.friction() * normal];
+            [spring.height].into_iter().chain(forces).for_each(|value| sheet.number(value));
             sheet.end_line();
         }
     }

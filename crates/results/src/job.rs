@@ -101,6 +101,7 @@ impl Job {
         let columns = columns(&scenario, &channels)?;
         limits::check_rows(&scenario, channels.len())?;
         limits::check_curves(&scenario)?;
+        limits::check_fields(&scenario)?;
         let grids = limits::grids(&scenario, &model, &start)?;
         let resolved = scenario.resolved();
         let hash = hash(&resolved);

@@ -1,6 +1,6 @@
 //! What a run would leave behind, estimated before it starts.
 
-use crate::files::{MEMORY_HEAD, SPRING_HEAD};
+use crate::files::{FIELD_HEAD, MEMORY_HEAD, SPRING_HEAD};
 use std::sync::Arc;
 use stickslip_contact::{Curve, Interface, Memory, Springs};
 use stickslip_drive::{Model, State};
@@ -52,6 +52,24 @@ pub(crate) fn grids(
         "{springs} springs at {moments:.3e} moments make {lines:.3e} lines, expected at most {most:.3e}"
     );
     let help = "give output.springs a larger interval \"every\", or a smaller \"count\"";
+    Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
+}
+
+/// Refuses a run whose fields might not fit on a disk.
+pub(crate) fn check_fields(scenario: &Scenario) -> Result<(), ScenarioError> {
+    let Some(asked) = &scenario.fields else { return Ok(()) };
+    let moments = asked.moments.count(scenario.plan.duration);
+    let lines = moments * (asked.radii * scenario.scene.contacts.len()) as f64;
+    let most = MOST_VALUES as f64 / FIELD_HEAD.len() as f64;
+    if lines <= most {
+        return Ok(());
+    }
+    let message = format!(
+        "{} radii of {} contacts at {moments:.3e} moments make {lines:.3e} lines, expected at most {most:.3e}",
+        asked.radii,
+        scenario.scene.contacts.len()
+    );
+    let help = "give output.fields a larger interval \"every\", a list \"at\", or fewer \"radii\"";
     Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
 }
 

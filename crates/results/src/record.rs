@@ -13,12 +13,12 @@ use crate::table::Table;
 use crate::watcher::Watcher;
 use std::fs::File;
 use std::io;
-use stickslip_contact::Memory;
+use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, Record, Source};
 use tempfile::NamedTempFile;
 
 /// Most tables of a run that are written as it goes on.
-const TABLES: usize = 4;
+const TABLES: usize = 6;
 /// Writes rows, events and looks into the contacts as they come.
 pub struct Recorder<'a> {
     job: &'a Job,
@@ -192,6 +192,16 @@ impl Record for Recorder<'_> {
     fn look(&mut self, _: f64, memories: &[Memory]) {
         if let Some(tables) = &mut self.tables {
             tables.insides.look(memories);
+        }
+    }
+
+    fn follows(&self) -> bool {
+        self.tables.as_ref().is_some_and(|tables| tables.insides.follows())
+    }
+
+    fn path(&mut self, c: usize, segment: Segment) {
+        if let Some(tables) = &mut self.tables {
+            tables.insides.path(c, segment);
         }
     }
 

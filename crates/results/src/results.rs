@@ -1,14 +1,14 @@
 //! A folder of results read back: the job that was run, and what was kept of it.
 
 use crate::complaint::words;
-use crate::files::{EVENTS, MEMORY, SCENARIO, SPRINGS, TRACE};
+use crate::files::{EVENTS, InsideTables, SCENARIO, TRACE};
 use crate::frame::FrameError;
 use crate::guard;
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::program::this_program;
 use crate::replay::{self, LastRow};
-use crate::seal::{SealedTable, hash};
+use crate::seal::hash;
 use crate::synopsis::{Synopsis, SynopsisError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -21,10 +21,8 @@ pub struct Results {
     pub job: Job,
     /// What came of it.
     pub kept: Kept,
-    /// Where `springs.csv` lies, if it was written.
-    pub springs: SealedTable,
-    /// Where `memory.csv` lies, if it was written.
-    pub memory: SealedTable,
+    /// Where the tables of the contacts' insides lie, if they were written.
+    pub insides: InsideTables,
 }
 
 /// Why a folder cannot be read as results.
@@ -83,8 +81,7 @@ impl Results {
             path if path.exists() => synopsis.table(name),
             path => Ok(path.into()),
         };
-        let (springs, memory) = (optional(SPRINGS)?, optional(MEMORY)?);
-        Ok(Self { job, kept, springs, memory })
+        Ok(Self { job, kept, insides: InsideTables::find(optional)? })
     }
 
     /// The program that computed the results, where it is another one.

@@ -2,7 +2,7 @@
 
 use crate::checkpoint;
 use crate::complaint::words;
-use crate::files::{CYCLES, EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
+use crate::files::{CYCLES, EVENTS, INSIDES, SCENARIO, SUMMARY, TRACE};
 use crate::folder;
 use crate::guard;
 use crate::seal::{Seal, SealedTable};
@@ -146,8 +146,8 @@ impl Synopsis {
     }
 }
 
-/// Tables that runs write.
-const SEALED: [&str; 5] = [TRACE, EVENTS, SPRINGS, MEMORY, CYCLES];
+/// Tables that runs write, beside those of the insides.
+const SEALED: [&str; 3] = [TRACE, EVENTS, CYCLES];
 
 /// What is wrong with what is told of a summary: a version, a status, the name of a contact.
 fn fault(summary: &Value) -> Option<String> {
@@ -160,7 +160,8 @@ fn fault(summary: &Value) -> Option<String> {
         .for_each(|(key, value)| words.read(key, value, 0));
     let tables = summary.get("tables").and_then(Value::as_object).into_iter().flatten();
     // Files anywhere else are none of a stranger's business.
-    let unknown = tables.map(|(name, _)| name).find(|name| !SEALED.contains(&name.as_str()));
+    let unknown =
+        tables.map(|(name, _)| name).find(|name| !SEALED.iter().chain(&INSIDES).any(|known| known == name));
     if words.has_control {
         Some("has control characters in its names or words".to_owned())
     } else if words.longest > MOST_WORD {
@@ -204,7 +205,7 @@ impl Words {
 
 /// What there is instead.
 fn absent(folder: &Path) -> SynopsisError {
-    let names = [TRACE, EVENTS, SPRINGS, MEMORY, SCENARIO];
+    let names = [&[TRACE, EVENTS, SCENARIO][..], &INSIDES].concat();
     let folder = folder.to_owned();
     // A scenario may lie beside anything.
     if [TRACE, EVENTS].iter().any(|name| folder.join(name).exists()) {

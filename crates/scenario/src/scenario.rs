@@ -5,7 +5,7 @@ use crate::error::{Report, ScenarioError, Warning};
 use crate::fault::Fault;
 use crate::form::Form;
 use crate::meaning::warnings::Oddity;
-use crate::meaning::{self, Figures, MemoryOutput, SpringsOutput};
+use crate::meaning::{self, FieldsOutput, Figures, MemoryOutput, SpringsOutput};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
 use crate::reader::Reader;
@@ -88,6 +88,8 @@ pub struct Scenario {
     pub springs: Option<SpringsOutput>,
     /// The memory curves, if asked for.
     pub memory: Option<MemoryOutput>,
+    /// Stress and displacement under the contacts, if asked for.
+    pub fields: Option<FieldsOutput>,
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
     /// What is allowed and probably not meant, with its place.
@@ -175,6 +177,7 @@ impl Scenario {
             channels: meaning.channels,
             springs: meaning.springs,
             memory: meaning.memory,
+            fields: meaning.fields,
             plots: meaning.plots,
             warnings: warnings(&document, odd),
             form,

@@ -47,7 +47,7 @@ fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
         Ok(results) => results,
         Err(error) => return vec![error.into()],
     };
-    let Results { job, kept, springs, memory } = &results;
+    let Results { job, kept, insides } = &results;
     if job.scenario.plots.is_empty() {
         return vec![PlotFailure::NoPlots(folder.to_owned())];
     }
@@ -55,7 +55,7 @@ fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
         complain(format_args!("{}: note: computed by {program}", folder.display()));
     }
     let (mut pictures, mut failures) = (Vec::new(), Vec::new());
-    let sources = Sources { job, kept, springs: springs.clone(), memory: memory.clone() };
+    let sources = Sources { job, kept, insides: insides.clone() };
     for drawn in stickslip_figures::draw(&sources, &arguments.look.look()) {
         match drawn {
             Ok(files) => pictures.extend(files),

@@ -70,6 +70,9 @@ impl<'a> Kernel<'a> {
             return (0.0, 0.0);
         }
         if r <= rim.x {
+            if let Self::Power(power) = self {
+                return (rim.h - power.gap(profile.depth(r)), 0.0);
+            }
             return match profile.gap(r) {
                 Some(gap) => (rim.h - gap, 0.0),
                 None => {

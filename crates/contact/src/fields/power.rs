@@ -6,6 +6,7 @@
 //!   (n-1) jₙ = √(1-ρ²) + (n-2)ρ² jₙ₋₂, j₁ = artanh √(1-ρ²), j₂ = √(1-ρ²);
 //! * w = h ωₙ(a/r) beyond the contact, ωₙ(s) = (2/π) ∫₀ˢ (1-(x/s)ⁿ)/√(1-x²) dx (4.36).
 
+use crate::profile::kappa;
 use crate::quadrature::kronrod;
 use std::f64::consts::FRAC_2_PI;
 
@@ -17,10 +18,12 @@ const WHOLE: f64 = 64.0;
 const MIDDLE: f64 = 0.5;
 /// Exponent that one panel of the quadrature is good for, to 1e-14.
 const STEEP: f64 = 10.0;
+/// The recurrence for ωₙ loses 1/sⁿ in digits: the least sⁿ for it.
+const LEAST: f64 = 1e-2;
 /// Most panels.
 const MOST: f64 = 100.0;
 /// Terms of the series at [`MIDDLE`]: 4⁻²⁶ = 2e-16.
-const TERMS: u32 = 26;
+const TERMS: usize = 26;
 
 /// One power law g = B|x|ⁿ, with what its integrals have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,17 +34,32 @@ pub(super) struct PowerField {
     inner: f64,
     /// The exponent, where it is whole and not too large.
     whole: Option<u32>,
+    /// κₙ of f = g/κₙ (4.20).
+    kappa: f64,
+    /// Coefficients of (π/2) ωₙ(s)/s in s².
+    far: [f64; TERMS],
 }
 
 impl PowerField {
     /// Of the exponent n > 0.
     pub(super) fn new(exponent: f64) -> Self {
         let whole = (exponent.fract() == 0.0 && exponent <= WHOLE).then_some(exponent as u32);
-        let mut field = Self { exponent, inner: 0.0, whole };
+        let (mut far, mut term) = ([0.0; TERMS], 1.0);
+        for (k, coefficient) in far.iter_mut().enumerate() {
+            let odd = 2.0 * k as f64 + 1.0;
+            *coefficient = term * exponent / (odd * (exponent + odd));
+            term *= odd / (odd + 1.0);
+        }
+        let mut field = Self { exponent, inner: 0.0, whole, kappa: kappa(exponent), far };
         if whole.is_none() {
             field.inner = field.outer(MIDDLE);
         }
         field
+    }
+
+    /// f = g/κₙ, m.
+    pub(super) fn gap(&self, depth: f64) -> f64 {
+        depth / self.kappa
     }
 
     /// ∫ g'/√(x²-r²) dx from r to x > r ≥ 0, dimensionless; `h` = g(x), m. At r = 0 infinite for n ≤ 1.
@@ -104,15 +122,15 @@ impl PowerField {
         let mut sum = fade * self.inner;
         // cₖρ²ᵏ, and cₖρ²ᵏ(2ρ)ᵉ: the latter falls by 1/4 from term to term.
         let (mut term, mut lower) = (1.0, fade);
-        for k in 0..TERMS {
-            let e = n - 1.0 - 2.0 * f64::from(k);
+        for k in (0..TERMS).map(|k| k as f64) {
+            let e = n - 1.0 - 2.0 * k;
             sum += match e.abs() {
                 // Where e is next to nothing both ends are nearly the same.
                 0.0 => -term * log,
                 tiny if tiny < 0.1 => -term * (e * log).exp_m1() / e,
                 _ => (term - lower) / e,
             };
-            let next = (f64::from(k) + 0.5) / (f64::from(k) + 1.0);
+            let next = (k + 0.5) / (k + 1.0);
             (term, lower) = (term * next * square, lower * next * MIDDLE * MIDDLE);
         }
         sum
@@ -121,30 +139,36 @@ impl PowerField {
     /// ωₙ(s), s = a/r ≤ 1.
     pub(super) fn outside(&self, s: f64) -> f64 {
         let n = self.exponent;
-        if s <= 0.7 {
+        if s <= MIDDLE {
             // Σ cₖ s²ᵏ⁺¹ [1/(2k+1) - 1/(n+1+2k)], all terms positive.
-            let (square, mut term, mut sum, mut k) = (s * s, s, 0.0, 0.0);
-            loop {
-                let odd = 2.0 * k + 1.0;
-                let add = term * n / (odd * (n + odd));
-                sum += add;
-                if add <= 1e-17 * sum || k > 200.0 {
-                    return FRAC_2_PI * sum;
-                }
-                term *= square * (k + 0.5) / (k + 1.0);
-                k += 1.0;
-            }
+            return FRAC_2_PI * s * self.far.iter().rev().fold(0.0, |sum, c| sum * (s * s) + c);
         }
-        // ∫(1-(sin φ/s)ⁿ)dφ up to sin φ = s; down from π/2, where all is smooth, but for the tail below, which is the series'.
-        let (from, to) = (0.7_f64.asin(), s.asin());
-        let inside = 0.7 / s;
+        if let Some(whole) = self.whole
+            && s.powi(whole as i32) > LEAST
+        {
+            return FRAC_2_PI * whole_outside(whole, s);
+        }
+        // ∫(1-(sin φ/s)ⁿ)dφ up to sin φ = s: from the middle on all is smooth, what is below is the series'.
+        let (from, to) = (MIDDLE.asin(), s.asin());
+        let inside = MIDDLE / s;
         let share = |phi: f64| 1.0 - (phi.sin() / s).powf(n);
         let outer = self.panels([from, to], share);
-        // The part below 0.7: ∫(1-(x/s)ⁿ) = ∫(1-(x/0.7)ⁿ) + (1-(0.7/s)ⁿ)-weighted ∫(x/0.7)ⁿ.
-        let whole = from;
-        let small = self.outside(0.7) / FRAC_2_PI;
-        FRAC_2_PI * (small * inside.powf(n) + whole * (1.0 - inside.powf(n)) + outer)
+        // Below it 1-(x/s)ⁿ = q [1-(2x)ⁿ] + 1-q with q = (1/2s)ⁿ.
+        let q = inside.powf(n);
+        FRAC_2_PI * (q * self.outside(MIDDLE) / FRAC_2_PI + from * (1.0 - q) + outer)
     }
+}
+
+/// arcsin s - Kₙ/sⁿ with Kₙ = ∫₀^{arcsin s} sinⁿ, n Kₙ = (n-1) Kₙ₋₂ - sⁿ⁻¹√(1-s²), of a whole exponent.
+fn whole_outside(n: u32, s: f64) -> f64 {
+    let (angle, cosine) = (s.asin(), ((1.0 - s) * (1.0 + s)).sqrt());
+    // Kₘ/sᵐ.
+    let (mut share, from) = if n % 2 == 1 { ((1.0 - cosine) / s, 3) } else { (angle, 2) };
+    for m in (from..=n).step_by(2) {
+        let m = f64::from(m);
+        share = ((m - 1.0) * share / (s * s) - cosine / s) / m;
+    }
+    angle - share
 }
 
 /// jₙ of a whole exponent.

@@ -5,7 +5,7 @@
 /// Asked for once, when a profile is built.
 // By products where n is whole: fractions, times π where n is odd, that come out as the nearest double up to n = 16. The rest
 // by a series for the quotient itself, 2e-16 off: by the logarithms of two gammas it would be 1.4e-13 off at n = 1000.
-pub(super) fn kappa(n: f64) -> f64 {
+pub(crate) fn kappa(n: f64) -> f64 {
     const LARGEST_BY_RECURSION: f64 = 16.0;
     if n.fract() == 0.0 && n <= LARGEST_BY_RECURSION {
         return kappa_of_integer(n);

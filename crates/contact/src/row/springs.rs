@@ -132,6 +132,17 @@ impl Springs {
         self.ranks().iter().map(|rank| self.heights()[*rank])
     }
 
+    /// Position, height and length of every spring, m, in the order of [`Self::positions`].
+    pub fn cells(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        // Two springs of one height, mirror images of each other, are held as one with their common length.
+        let mut shared = vec![0_u32; self.heights.len()];
+        self.ranks.iter().for_each(|rank| shared[*rank] += 1);
+        let cell = move |(&x, &rank): (&f64, &usize)| {
+            (x, self.heights[rank], self.lengths[rank] / f64::from(shared[rank]))
+        };
+        self.positions.iter().zip(&self.ranks).map(cell)
+    }
+
     /// Position x of every spring, m, ascending; springs of a list lie side by side in the order given.
     pub fn positions(&self) -> &[f64] {
         &self.positions

@@ -54,6 +54,6 @@ impl Component for Contact {
     }
 
     fn columns(&self) -> Vec<&'static str> {
-        vec!["u_m", "d_m", "fx_N", "fn_N", "stick_m", "state", "elastic_J", "friction_J"]
+        vec!["u_m", "d_m", "fx_N", "fn_N", "a_m", "stick_m", "state", "elastic_J", "friction_J"]
     }
 }

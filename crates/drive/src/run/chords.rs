@@ -88,6 +88,7 @@ impl<'a> Chords<'a> {
         if opening.has_row(&self.output, state.t) {
             self.write_now(state, record);
         }
+        self.ledger.begin_telling(record);
         let eq = Equations::on(self.model, state, self.layout, true);
         self.output.begin_looks(&eq, (model, state), opening, record);
     }
@@ -225,6 +226,7 @@ impl<'a> Chords<'a> {
             self.ledger.push(c, t, Segment::Straight(motion.apex()));
         }
         self.ledger.commit((self.model, self.layout), t, state)?;
+        self.ledger.tell(record);
         state.y.copy_from_slice(y);
         state.t = t;
         if !self.model.blocks.is_empty() {

@@ -10,6 +10,7 @@ use crate::component::{Passage, Refused};
 use crate::contact::Mode;
 use crate::equations::{Components, Equations};
 use crate::model::{Model, Wired};
+use crate::record::Record;
 use crate::state::{Booked, Books, Layout, State};
 use stickslip_contact::{Segment, Timed};
 
@@ -21,6 +22,8 @@ pub(super) struct Ledger {
     pub(super) booked: Booked,
     /// The blocks' paths.
     passages: Vec<Passage>,
+    /// What was committed since the record was told last, where it wants to know.
+    told: Option<Vec<(usize, Segment)>>,
 }
 
 impl Ledger {
@@ -36,6 +39,33 @@ impl Ledger {
             segments: Vec::with_capacity(model.contacts.len() + more),
             booked: Booked { last: vec![0.0; model.contacts.len()], blocks: 0.0, books: Books::Current },
             passages: model.blocks.iter().map(passage).collect(),
+            told: None,
+        }
+    }
+
+    /// Keeps what is committed from here on for a record that wants to know.
+    pub(super) fn begin_telling(&mut self, record: &dyn Record) {
+        self.told = record.follows().then(Vec::new);
+    }
+
+    /// Whether a record wants to know.
+    pub(super) fn is_told(&self) -> bool {
+        self.told.is_some()
+    }
+
+    /// Notes a path that the memory of contact `c` has committed.
+    #[inline]
+    pub(super) fn note(&mut self, model: &Model, state: &State, c: usize, path: Segment) {
+        if let Some(told) = &mut self.told {
+            told.push((c, path.shifted(state.shift(&model.contacts[c]))));
+        }
+    }
+
+    /// Tells a record what was committed.
+    #[inline]
+    pub(super) fn tell(&mut self, record: &mut dyn Record) {
+        if let Some(told) = &mut self.told {
+            told.drain(..).for_each(|(c, path)| record.path(c, path));
         }
     }
 
@@ -66,12 +96,13 @@ impl Ledger {
     /// Books friction (J) of all of a contact's identical members, unless it is an integral of the run. Fails
     /// where a memory refuses its path.
     pub(super) fn commit(
-        &self,
+        &mut self,
         (model, layout): (&Model, Layout),
         t: f64,
         state: &mut State,
     ) -> Result<(), RunError> {
-        for &(c, segment) in &self.segments {
+        for k in 0..self.segments.len() {
+            let (c, segment) = self.segments[k];
             let contact = &model.contacts[c];
             let friction = state.memories[c]
                 .commit(&contact.interface, segment)
@@ -83,6 +114,7 @@ impl Ledger {
             {
                 state.friction[c] += contact.count * friction;
             }
+            self.note(model, state, c, segment.path);
             // Growth that goes on joins the piece before it; anything else ends that piece.
             state.grew[c] = matches!(segment.path, Segment::Grown { .. });
         }

@@ -166,6 +166,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         if opening.has_row(&self.output, state.t) {
             self.output.write_now(&self.setting.plain(state), state, record);
         }
+        self.ledger.begin_telling(record);
         let eq = self.setting.plain(state);
         self.output.begin_looks(&eq, (self.setting.model, state), opening, record);
     }
@@ -182,12 +183,14 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.horizon.aim(goal);
         self.horizon.nearly = self.output.end_at(self.horizon.end);
         let mut outcome = self.bounds.tried(state).and_then(|_| self.turn_due(state, record));
+        self.ledger.tell(record);
         while state.t < self.horizon.limit() && outcome.is_ok() {
             match self.step(state, record) {
                 Ok(Progress::Made) => {}
                 Ok(Progress::Short) => break,
                 Err(error) => outcome = Err(error),
             }
+            self.ledger.tell(record);
         }
         self.put_down(state);
         outcome

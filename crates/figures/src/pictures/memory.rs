@@ -19,7 +19,7 @@ pub(super) const KIND: Kind = Kind {
 /// One panel for each curve.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
-    let curves = curves::read(written(&sources.memory, MEMORY)?, MOST_CURVES)?;
+    let curves = curves::read(written(&sources.insides.memory, MEMORY)?, MOST_CURVES)?;
     let slope = |name: &str| {
         let law = job.model.contacts().find(|(contact, _)| *contact == name);
         law.map_or(f64::NAN, |(_, law)| law.stick_slope())

@@ -14,7 +14,7 @@ pub(super) const KIND: Kind =
 /// One panel for each contact.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
-    let contacts = springs::read(written(&sources.springs, SPRINGS)?)?;
+    let contacts = springs::read(written(&sources.insides.springs, SPRINGS)?)?;
     let contacts: Vec<(Springs, Vec<SpringCondition>)> = contacts
         .into_iter()
         .map(|mut springs| {

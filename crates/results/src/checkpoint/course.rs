@@ -5,7 +5,7 @@ use crate::job::Job;
 use crate::outcome::{Ended, Outcome};
 use crate::record::{Draft, Recorder};
 use std::io;
-use stickslip_contact::Memory;
+use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, Record, Run, RunError};
 
 impl Job {
@@ -87,6 +87,15 @@ impl Record for Journalled<'_> {
     fn look(&mut self, t: f64, memories: &[Memory]) {
         self.keeper.journal.look(t, memories);
         self.recorder.look(t, memories);
+    }
+
+    fn follows(&self) -> bool {
+        self.recorder.follows()
+    }
+
+    fn path(&mut self, c: usize, segment: Segment) {
+        self.keeper.journal.path(c, segment);
+        self.recorder.path(c, segment);
     }
 
     fn next_mark(&mut self) -> Option<f64> {

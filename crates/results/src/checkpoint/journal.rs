@@ -9,13 +9,14 @@
 //! | event | tag, kind of its source and its place (u32), length of its word (u8) and the word, a number for each channel |
 //! | look | tag, time, number of words (u64), the words of each contact's memory |
 //! | mark | tag, a number for each channel |
+//! | path | tag, place of the contact (u32), kind (u8), end (d, u), force and energy at it |
 //! | range | tag, least and largest place |
 
 use sha2::{Digest, Sha256};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
-use stickslip_contact::Memory;
+use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, Source};
 
 /// What a record begins with.
@@ -25,6 +26,7 @@ pub(super) mod tag {
     pub(in super::super) const LOOK: u8 = 2;
     pub(in super::super) const MARK: u8 = 3;
     pub(in super::super) const RANGE: u8 = 4;
+    pub(in super::super) const PATH: u8 = 5;
 }
 
 /// How far a journal counts, and what it holds up to there.
@@ -130,6 +132,20 @@ impl Journal {
     pub(super) fn range(&mut self, range: [f64; 2]) {
         self.bytes.push(tag::RANGE);
         self.reals(&range);
+        self.put();
+    }
+
+    pub(super) fn path(&mut self, c: usize, segment: Segment) {
+        let (kind, [force, energy]) = match segment {
+            Segment::Straight(_) => (0, [0.0; 2]),
+            Segment::Jump(_) => (1, [0.0; 2]),
+            Segment::Grown { force, energy, joins, .. } => (2 + u8::from(joins), [force, energy]),
+        };
+        let to = segment.end();
+        self.bytes.push(tag::PATH);
+        self.bytes.extend(u32::try_from(c).unwrap_or(u32::MAX).to_le_bytes());
+        self.bytes.push(kind);
+        self.reals(&[to.d, to.u, force, energy]);
         self.put();
     }
 

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
-use stickslip_contact::{Engine, Interface, Memory, Words};
+use stickslip_contact::{Apex, Engine, Interface, Memory, Segment, Words};
 use stickslip_drive::{Record, Source};
 
 /// Bytes read at a time.
@@ -152,6 +152,7 @@ impl Playback<'_, '_> {
                 self.recorder.range(range);
                 Ok(Some(()))
             }
+            [tag::PATH] => self.path(),
             [tag::EVENT] => self.event(),
             [tag::LOOK] => self.look(),
             _ => Ok(None),
@@ -172,6 +173,25 @@ impl Playback<'_, '_> {
         };
         self.read_values()?;
         self.recorder.event_named(source, &word, &self.values);
+        Ok(Some(()))
+    }
+
+    fn path(&mut self) -> io::Result<Option<()>> {
+        let c = u32::from_le_bytes(self.array()?) as usize;
+        let [kind] = self.array()?;
+        let mut reals = [0.0; 4];
+        for real in &mut reals {
+            *real = f64::from_le_bytes(self.array()?);
+        }
+        let [d, u, force, energy] = reals;
+        let to = Apex { d, u };
+        let segment = match kind {
+            0 => Segment::Straight(to),
+            1 => Segment::Jump(to),
+            2 | 3 => Segment::Grown { to, force, energy, joins: kind == 3 },
+            _ => return Ok(None),
+        };
+        self.recorder.path(c, segment);
         Ok(Some(()))
     }
 

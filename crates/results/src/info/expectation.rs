@@ -42,6 +42,9 @@ pub struct Expectation {
     /// Curves in `memory.csv`; an open contact has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory_curves: Option<Real>,
+    /// Lines of `fields.csv`, and of `friction.csv`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub field_lines: Option<Real>,
     /// Memory that the program takes, B.
     #[serde(rename = "memory_B")]
     pub memory: Real,
@@ -81,11 +84,14 @@ impl Expectation {
             job.scenario.springs.as_ref().map(|asked| springs as f64 * asked.moments.count(plan.duration));
         let contacts = job.scenario.scene.contacts.len() as f64;
         let curves = job.scenario.memory.as_ref().map(|asked| contacts * asked.moments.count(plan.duration));
+        let fields = job.scenario.fields.as_ref();
+        let fields = fields.map(|asked| contacts * asked.radii as f64 * asked.moments.count(plan.duration));
         Self {
             steps: fixed_steps(&job.model, plan).map(Real),
             spring_lines: spring_lines.map(Real),
             springs_file: spring_lines.map(|lines| Real(lines * BYTES_PER_SPRING)),
             memory_curves: curves.map(Real),
+            field_lines: fields.map(Real),
             rows: Real(rows),
             columns,
             trace: Real(rows * columns as f64 * BYTES_PER_VALUE),

@@ -21,7 +21,7 @@ pub(crate) use coupling::{ActuatorForm, DirectionForm, GravityForm, LoadForm, Sp
 pub(crate) use input::{InputForm, InterpolationForm};
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
-pub(crate) use output::{MemoryOutputForm, OutputForm};
+pub(crate) use output::{FieldsOutputForm, MemoryOutputForm, OutputForm};
 pub(crate) use plain::{Count, Reserved, Two};
 pub(crate) use point::{PointForm, Points};
 pub(crate) use run::{FiguresForm, LimitsForm, RunForm, RunStartForm, StepperForm};

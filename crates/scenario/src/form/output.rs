@@ -1,7 +1,7 @@
 //! What is written down.
 
 use super::Count;
-use crate::quantity::Time;
+use crate::quantity::{Length, Time};
 use crate::schema::{above_zero, at_least_zero};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,12 +30,18 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "at": ["91 ms", "95 ms", "100 ms"] }))]
     pub(crate) memory: Option<MemoryOutputForm>,
+    /// Stress and displacement under all contacts at some moments, in `fields.csv`, and where friction has done its work until
+    /// then, in `friction.csv`; not by default, but the plots `fields` and `friction` ask for it by themselves. A contact
+    /// whose profile is a list of springs has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!({ "at": ["91 ms", "95 ms", "100 ms"], "radii": 200 }))]
+    pub(crate) fields: Option<FieldsOutputForm>,
 }
 
 impl OutputForm {
     pub(crate) fn is_empty(&self) -> bool {
-        let Self { every, channels, springs, memory } = self;
-        every.is_none() && channels.is_none() && springs.is_none() && memory.is_none()
+        let Self { every, channels, springs, memory, fields } = self;
+        every.is_none() && channels.is_none() && springs.is_none() && memory.is_none() && fields.is_none()
     }
 }
 
@@ -62,6 +68,38 @@ impl Default for SpringsOutputForm {
 
 fn default_count() -> Count {
     Count(101)
+}
+
+/// Where and when stress and displacement are written; by default at the moments at which memory curves are by default.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FieldsOutputForm {
+    /// Distances from the axis, 2 to 1 000 000, evenly from 0 to `extent`.
+    #[serde(default = "default_radii")]
+    #[schemars(range(min = 2, max = 1_000_000), example = 200)]
+    pub(crate) radii: Count,
+    /// The largest of them, m, above 0; by default 1.5 times the largest contact radius that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"10 um", transform = above_zero)]
+    pub(crate) extent: Option<Length>,
+    /// Interval of the moments, s, above 0; this or `at`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"1 ms", transform = above_zero)]
+    pub(crate) every: Option<Time>,
+    /// Moments, s, ascending, within the run; this or `every`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1), transform = at_least_zero, example = json!(["91 ms", "95 ms", "100 ms"]))]
+    pub(crate) at: Option<Vec<Time>>,
+}
+
+impl Default for FieldsOutputForm {
+    fn default() -> Self {
+        Self { radii: default_radii(), extent: None, every: None, at: None }
+    }
+}
+
+fn default_radii() -> Count {
+    Count(151)
 }
 
 /// When the memory curves are written; by default at six moments, evenly spread over the last period or, without one,

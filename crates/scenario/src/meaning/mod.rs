@@ -15,7 +15,7 @@ mod run;
 pub(crate) mod warnings;
 mod waveform;
 
-pub use output::{MemoryOutput, SpringsOutput};
+pub use output::{FieldsOutput, MemoryOutput, SpringsOutput};
 
 use crate::PlotName;
 use crate::fault::Fault;
@@ -41,6 +41,7 @@ pub(crate) struct Meaning {
     pub(crate) channels: Option<Vec<String>>,
     pub(crate) springs: Option<SpringsOutput>,
     pub(crate) memory: Option<MemoryOutput>,
+    pub(crate) fields: Option<FieldsOutput>,
     pub(crate) plots: Vec<PlotName>,
 }
 
@@ -82,12 +83,14 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     builder.start()?;
     builder.plots()?;
     let (springs, memory) = (builder.springs_output(plan)?, builder.memory_output(plan, figures)?);
+    let fields = builder.fields_output(plan, figures)?;
     Ok(Meaning {
         plan,
         figures,
         channels: form.output.channels.clone(),
         springs,
         memory,
+        fields,
         plots: form.plots.clone(),
         scene: builder.scene,
     })

@@ -4,11 +4,11 @@ use super::contact::MAX_SPRINGS;
 use super::{Builder, Figures, range};
 use crate::PlotName;
 use crate::fault::Fault;
-use crate::form::MemoryOutputForm;
+use crate::form::{FieldsOutputForm, MemoryOutputForm};
 use crate::guide::Help;
 use crate::path::At;
 use crate::quantity::Time;
-use stickslip_drive::scene::EngineChoice;
+use stickslip_drive::scene::{Contact, EngineChoice, Named};
 use stickslip_drive::{Moments, Plan, Waveform};
 
 /// Most springs shown of one contact.
@@ -40,6 +40,19 @@ pub struct MemoryOutput {
     pub asked_by: String,
 }
 
+/// Stress and displacement under the contacts, and where friction works.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldsOutput {
+    /// Distances from the axis.
+    pub radii: usize,
+    /// The largest of them, m, where it is given.
+    pub extent: Option<f64>,
+    /// When.
+    pub moments: Moments,
+    /// Key path of what asks for it.
+    pub asked_by: String,
+}
+
 impl Builder<'_> {
     /// What is written of the springs: asked for by its key or by its plot.
     pub(super) fn springs_output(&self, plan: Plan) -> Result<Option<SpringsOutput>, Fault> {
@@ -47,7 +60,7 @@ impl Builder<'_> {
         let (output, plots) = (root.key("output"), root.key("plots"));
         let at = output.key("springs");
         let form = &self.form.output.springs;
-        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, PlotName::State)? else {
+        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, &[PlotName::State])? else {
             return Ok(None);
         };
         let form = form.clone().unwrap_or_default();
@@ -76,7 +89,7 @@ impl Builder<'_> {
         let (output, plots) = (root.key("output"), root.key("plots"));
         let at = output.key("memory");
         let form = &self.form.output.memory;
-        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, PlotName::Memory)? else {
+        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, &[PlotName::Memory])? else {
             return Ok(None);
         };
         let on_row = |engine: &EngineChoice| matches!(engine, EngineChoice::Springs { .. });
@@ -85,30 +98,62 @@ impl Builder<'_> {
             let help = "output.springs shows a row; the engine \"curve\" has a memory curve";
             return Err(asked.fault(message).help(help));
         }
-        let moments = match form.clone().unwrap_or_default() {
-            MemoryOutputForm { every: Some(every), at: None } => {
-                Moments::Every(interval(&at.key("every"), every, plan)?)
-            }
-            MemoryOutputForm { every: None, at: Some(times) } => {
-                Moments::At(list(&at.key("at"), &times, plan)?)
-            }
-            MemoryOutputForm { every: None, at: None } => self.last_period(plan, figures),
-            MemoryOutputForm { every: Some(_), at: Some(_) } => {
-                let fault = at.key("at").fault("the interval of the moments is given already").on_key();
-                return Err(fault.help("keep one of them"));
-            }
-        };
+        let MemoryOutputForm { every, at: times } = form.clone().unwrap_or_default();
+        let moments = self.moments(&at, (every, times.as_deref()), plan, figures)?;
         Ok(Some(MemoryOutput { moments, asked_by: asked.path().to_string() }))
     }
 
-    /// The key or else the plot that asks for a look into the contacts, of which there must be some.
+    /// What is written of stress and displacement: asked for by its key or by one of its plots.
+    pub(super) fn fields_output(&self, plan: Plan, figures: Figures) -> Result<Option<FieldsOutput>, Fault> {
+        let root = At::ROOT;
+        let (output, plots) = (root.key("output"), root.key("plots"));
+        let at = output.key("fields");
+        let form = &self.form.output.fields;
+        let names = [];
+        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, &names)? else {
+            return Ok(None);
+        };
+        let shapeless = |contact: &Named<Contact>| contact.part.interface.profile().is_list();
+        if self.scene.contacts.iter().all(shapeless) {
+            let fault = asked.fault("no contact here has a shape in three dimensions");
+            return Err(
+                fault.help("a list of springs has forces and no stress; springs.csv has those of each")
+            );
+        }
+        let FieldsOutputForm { radii, extent, every, at: times } = form.clone().unwrap_or_default();
+        let radii = range::count_between(&at.key("radii"), radii.0, 2, MAX_COUNT)? as usize;
+        let extent = extent.map(|extent| range::above_zero(&at.key("extent"), extent)).transpose()?;
+        let moments = self.moments(&at, (every, times.as_deref()), plan, figures)?;
+        Ok(Some(FieldsOutput { radii, extent, moments, asked_by: asked.path().to_string() }))
+    }
+
+    /// The moments of a look into the contacts: at an interval, in a list, or over the last period.
+    fn moments(
+        &self,
+        at: &At<'_>,
+        (every, times): (Option<Time>, Option<&[Time]>),
+        plan: Plan,
+        figures: Figures,
+    ) -> Result<Moments, Fault> {
+        Ok(match (every, times) {
+            (Some(every), None) => Moments::Every(interval(&at.key("every"), every, plan)?),
+            (None, Some(times)) => Moments::At(list(&at.key("at"), times, plan)?),
+            (None, None) => self.last_period(plan, figures),
+            (Some(_), Some(_)) => {
+                let fault = at.key("at").fault("the interval of the moments is given already").on_key();
+                return Err(fault.help("keep one of them"));
+            }
+        })
+    }
+
+    /// The key or else the first of the plots that asks for a look into the contacts, of which there must be some.
     fn asked<'a>(
         &self,
         key: Option<At<'a>>,
         plots: &'a At<'a>,
-        plot: PlotName,
+        wanted_by: &[PlotName],
     ) -> Result<Option<At<'a>>, Fault> {
-        let place = self.form.plots.iter().position(|name| *name == plot);
+        let place = self.form.plots.iter().position(|name| wanted_by.contains(name));
         let asked = key.or(place.map(|place| plots.index(place)));
         match asked {
             Some(at) if self.scene.contacts.is_empty() => Err(at.fault("there is no contact to look into")),

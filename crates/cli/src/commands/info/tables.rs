@@ -126,6 +126,7 @@ impl Info {
                 Some(format!("about {}, {}", bytes(expected.trace), bytes(expected.events_file))),
             ),
             ("springs.csv", expected.spring_lines.zip(expected.springs_file).map(of_springs)),
+            ("fields.csv", expected.field_lines.map(|lines| format!("{} lines", whole(lines.0)))),
             ("memory.csv", expected.memory_curves.map(|curves| format!("{} curves", whole(curves.0)))),
             ("memory", Some(format!("about {}", bytes(expected.memory)))),
         ];

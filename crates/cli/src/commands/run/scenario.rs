@@ -7,7 +7,7 @@ use std::io;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
-use stickslip_results::files::{CYCLES, EVENTS, MEMORY, SCENARIO, SPRINGS, SUMMARY, TRACE};
+use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Draft, Job, Outcome, Periods, Recorder, Summary, cycles_table};
 
@@ -53,8 +53,8 @@ pub(crate) fn run(
         return Report::not_written(job, &error);
     }
     // A run that was killed has left its drafts.
-    let names = [TRACE, EVENTS, SPRINGS, MEMORY, CYCLES, SCENARIO, SUMMARY].map(str::to_owned);
-    sweep(&job.folder, &[&names[..], &Look::all_files()].concat());
+    let names = [TRACE, EVENTS, CYCLES, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
+    sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>());
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
     let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
     let recorder = Recorder::new(job, &bar);
@@ -106,8 +106,8 @@ pub(crate) fn write(
         None
     };
     folder.release();
-    let optional = [SPRINGS, MEMORY, CYCLES].map(str::to_owned);
-    folder.forget(optional.into_iter().chain(Look::all_files()).collect());
+    let optional = INSIDES.into_iter().chain([CYCLES]).map(str::to_owned);
+    folder.forget(optional.chain(Look::all_files()).collect());
     let names = folder.names().into_iter().chain([SUMMARY.to_owned()]).collect();
     summary.set_files(names);
     folder.write(SUMMARY, summary.pretty()?.as_bytes())?;
@@ -122,9 +122,9 @@ fn draw(
     folder: &mut Folder,
     (outcome, summary): (&Outcome, &mut Summary),
 ) -> Option<io::Error> {
-    let (springs, memory) = (folder.place(SPRINGS).into(), folder.place(MEMORY).into());
+    let sources = Sources { job, kept: &outcome.kept, insides: InsideTables::drafted(folder) };
     let mut failure = None;
-    for pictures in stickslip_figures::draw(&Sources { job, kept: &outcome.kept, springs, memory }, look) {
+    for pictures in stickslip_figures::draw(&sources, look) {
         match pictures {
             Ok(pictures) => {
                 for (name, bytes) in pictures {

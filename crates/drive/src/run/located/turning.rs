@@ -107,6 +107,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             // over.
             let work = contact.count
                 * state.memories[c].commit(&contact.interface, Segment::Jump(to)).unwrap_or(0.0);
+            self.ledger.note(self.setting.model, state, c, Segment::Jump(to));
             state.friction[c] += work;
             friction += work;
             // The law follows the way of the jump; a contact that the jump did not move keeps its own.

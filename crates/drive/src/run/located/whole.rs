@@ -290,6 +290,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let friction = state.memories[c]
                 .commit(&contact.interface, Timed { path, duration })
                 .map_err(|source| self.setting.model.refused(c, t, source))?;
+            self.ledger.note(self.setting.model, state, c, path);
             self.ledger.booked.last[c] = t;
             state.friction[c] += contact.count * friction;
         }

@@ -1,0 +1,101 @@
+//! Stress and displacement under the contacts, and where friction works: `fields.csv` and `friction.csv`.
+
+use super::state_name;
+use crate::files::{FIELD_HEAD, FIELDS, FRICTION, FRICTION_HEAD};
+use crate::folder::Folder;
+use crate::job::Job;
+use crate::sheet::{Sheet, Written};
+use std::io;
+use stickslip_contact::{Fields, FrictionMap, Interface, Memory, Segment};
+use stickslip_scenario::FieldsOutput;
+
+/// Distances go so many contact radii far where nothing else is asked for: the surface is displaced beyond the contact, too.
+const EXTENT: f64 = 1.5;
+
+/// The two tables.
+pub(super) struct FieldTables<'a> {
+    contacts: Vec<Followed<'a>>,
+    fields: Sheet,
+    friction: Sheet,
+}
+
+/// A contact and what it has gone through.
+struct Followed<'a> {
+    name: &'a str,
+    law: &'a Interface,
+    /// Where it stood when the last path was told.
+    memory: Memory,
+    /// Its friction up to then; none of a contact without fields.
+    map: Option<FrictionMap>,
+}
+
+impl<'a> FieldTables<'a> {
+    /// Opens the tables.
+    pub(super) fn new(job: &'a Job, asked: &FieldsOutput, folder: &Folder) -> io::Result<Self> {
+        let open = |name: &str, head: &[&str]| {
+            Ok::<_, io::Error>(Sheet::new(folder.draft(name)?, head.iter().copied()))
+        };
+        let contacts = job.model.contacts().zip(job.start.memories()).enumerate();
+        let follow = |(c, ((name, law), memory)): (usize, ((&'a str, &'a Interface), &Memory))| {
+            // A contact without width is never pressed, a list of springs has no radii.
+            let width = job.model.contact_width(c).filter(|_| !law.profile().is_list());
+            let radii = width.map(|width| radii(asked, asked.extent.unwrap_or(EXTENT * 0.5 * width)));
+            Followed { name, law, memory: memory.clone(), map: radii.map(FrictionMap::new) }
+        };
+        let contacts = contacts.map(follow).collect();
+        Ok(Self { contacts, fields: open(FIELDS, FIELD_HEAD)?, friction: open(FRICTION, FRICTION_HEAD)? })
+    }
+
+    /// Takes a path of contact `c`.
+    pub(super) fn path(&mut self, c: usize, segment: Segment) {
+        let Some(contact) = self.contacts.get_mut(c) else { return };
+        let Some(map) = &mut contact.map else { return };
+        map.follow(contact.law, &contact.memory, segment);
+        // The run's own memory has gone this way: it refuses nothing.
+        let _ = contact.memory.commit(contact.law, segment);
+    }
+
+    /// Writes down what there is at a moment, s.
+    pub(super) fn look(&mut self, t: f64, memories: &[Memory]) {
+        for (contact, memory) in self.contacts.iter().zip(memories) {
+            let Followed { name, law, memory: before, map: Some(map) } = contact else { continue };
+            let Some(fields) = Fields::of(law, memory) else { continue };
+            for &r in map.radii() {
+                let field = fields.at(r);
+                self.fields.number(t);
+                self.fields.text(name);
+                let values =
+                    [r, field.pressure, field.shear, field.displacement, field.slip, field.deflection];
+                values.into_iter().for_each(|value| self.fields.number(value));
+                self.fields.word(state_name(field.state));
+                field.error.into_iter().for_each(|error| self.fields.number(error));
+                self.fields.end_line();
+            }
+            // The run commits a path when it is over: the part of it before this moment is not told yet.
+            let mut map = map.clone();
+            map.follow(law, before, Segment::Straight(memory.apex()));
+            for ((r, work), way) in map.radii().iter().zip(map.work()).zip(map.way()) {
+                self.friction.number(t);
+                self.friction.text(name);
+                [*r, *work, *way].into_iter().for_each(|value| self.friction.number(value));
+                self.friction.end_line();
+            }
+        }
+    }
+
+    /// Whether one of the files takes no more.
+    pub(super) fn has_failed(&self) -> bool {
+        self.fields.has_failed() || self.friction.has_failed()
+    }
+
+    /// Closes the tables.
+    pub(super) fn finish(self) -> io::Result<[(&'static str, Written); 2]> {
+        Ok([(FIELDS, self.fields.finish()?), (FRICTION, self.friction.finish()?)])
+    }
+}
+
+/// Evenly from the axis to a distance, m.
+fn radii(asked: &FieldsOutput, extent: f64) -> Vec<f64> {
+    let last = asked.radii.saturating_sub(1).max(1);
+    (0..asked.radii).map(|k| extent * k as f64 / last as f64).collect()
+}
