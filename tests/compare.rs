@@ -129,7 +129,7 @@ fn the_same_run_is_the_same_to_the_bit() {
     assert_eq!((code, &found["same"], &found["notes"]), (0, &json!(true), &json!([])));
     assert_eq!(found["rows"], json!({ "a": 2101, "b": 2101, "common": 2101 }));
     assert_eq!(found["coverage"], json!({ "time": 1.0, "rows": 1.0 }));
-    assert_eq!(found["channels"].as_array().unwrap().len(), 18);
+    assert_eq!(found["channels"].as_array().unwrap().len(), 19);
     assert!(found["figures"]["compared"].as_u64().unwrap() > 25);
     let text = pair.text(&[]);
     assert!(text.contains("  ball.fx_N ") && text.ends_with("\nno difference\n"), "{text}");
@@ -279,11 +279,11 @@ fn channels_that_one_run_lacks_are_named() {
     let set = ["run.duration=21 ms", "plots=[]", r#"output.channels=["slider.x_m", "ball.state"]"#];
     let few = run_example("quickstart", out.path(), &set);
     let (code, found) = compare(&pair.a, &few, &[]);
-    assert_eq!((code, found["channels_missing"].as_array().unwrap().len()), (1, 16));
+    assert_eq!((code, found["channels_missing"].as_array().unwrap().len()), (1, 17));
     assert!(stdout(&call(&pair.a, &few, &[])).contains("  ball.u_m "));
     // What B has besides is said, and is no difference.
     let (code, found) = compare(&few, &pair.a, &[]);
-    assert_eq!((code, found["channels_extra"].as_array().unwrap().len()), (0, 16));
+    assert_eq!((code, found["channels_extra"].as_array().unwrap().len()), (0, 17));
     assert!(found["notes"].to_string().contains("only in B: foot.x_m, "));
 }
 

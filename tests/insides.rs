@@ -114,7 +114,7 @@ fn springs_do_what_the_clamped_sum_says() {
         results(out.path(), &rig.scenario(&json!({ "springs": { "count": 40, "every": "73 ms" } })), &[]);
     assert!(summary(&folder)["files"].as_array().unwrap().contains(&json!("springs.csv")));
     let table = Table::read(&folder.join("springs.csv"));
-    assert_eq!(table.head.join(","), "time_s,contact,x_m,stretch_m,state");
+    assert_eq!(table.head.join(","), "time_s,contact,x_m,stretch_m,state,g_m,fx_N,fz_N,limit_N");
     // 0, 73 ms, … 1.971 s: none lies at a turning point.
     assert_eq!(table.rows.len(), 28 * 40);
     let (time, x, stretch) =
@@ -127,6 +127,11 @@ fn springs_do_what_the_clamped_sum_says() {
         let (s, known) = rig.spring(x[i], time[i]);
         assert!((stretch[i] - s).abs() < 1e-12 * u_c, "{i}: {} {s}", stretch[i]);
         assert_eq!(state, known, "{i}");
+        // (4.22), (4.23): F_x over its limit is the stretch over κ(d-g), and the limit is μ times the normal force.
+        let [g, fx, fz, limit] = ["g_m", "fx_N", "fz_N", "limit_N"].map(|name| numbers(&table, name)[i]);
+        let most = rig.slope * (rig.d - g);
+        assert!((fx * most - limit * s).abs() < 1e-12 * limit * u_c, "{i}: {fx} {limit}");
+        assert!((fz * FRICTION - limit).abs() < 1e-12 * limit, "{i}: {fz} {limit}");
         *seen.entry(known).or_insert(0) += 1;
     }
     assert!(seen.len() == 3 && seen.values().all(|count| *count > 100), "{seen:?}");
@@ -228,7 +233,11 @@ fn looking_inside_changes_nothing_else() {
         let stepper = format!("run.stepper={stepper}");
         let set = ["run.duration=20 ms", stepper.as_str(), "plots=[]"];
         let plain = run_example("quickstart", &out.path().join(format!("{i}")), &set);
-        let inside = ["output.springs={\"every\": \"13 us\"}", "output.memory={\"every\": \"17 us\"}"];
+        let inside = [
+            "output.springs={\"every\": \"13 us\"}",
+            "output.memory={\"every\": \"17 us\"}",
+            "output.fields={\"every\": \"1 ms\", \"radii\": 7}",
+        ];
         let looked =
             run_example("quickstart", &out.path().join(format!("{i} looked")), &[&set[..], &inside].concat());
         for name in ["trace.csv", "events.csv"] {

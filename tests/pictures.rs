@@ -276,7 +276,7 @@ fn damaged_results_are_refused_with_file_and_line() {
         ),
         (
             after("trace.csv", ",energy.error_J", ""),
-            format!("trace.csv:1  column 19: expected \"energy.error_J\", got nothing\n{other}"),
+            format!("trace.csv:1  column 20: expected \"energy.error_J\", got nothing\n{other}"),
         ),
         (
             after("scenario.json", "Sawtooth", "Saw"),
@@ -291,7 +291,7 @@ fn damaged_results_are_refused_with_file_and_line() {
     let summary = after("summary.json", "\"program\"", "\"programme\"");
     assert_eq!(summary, "summary.json: is no summary of a run: there is no program.name\n");
     let cut = after("trace.csv", "\n0.00004,", "\n0.00004,0.1\n0.00005,");
-    assert_eq!(cut, "trace.csv:6  expected 19 cells like the first line, got 2\n");
+    assert_eq!(cut, "trace.csv:6  expected 20 cells like the first line, got 2\n");
     // What cannot be told from its own form is told from its seal.
     let other = after("trace.csv", "\n0.00004,", "\n0.000041,");
     let seal = "trace.csv: is not the table that its run wrote: its SHA-256 is not that in summary.json\n   help: it was \

@@ -131,7 +131,7 @@ fn a_run_with_more_looks_than_fit_is_refused() {
     let with = |output: &str| format!("\"10 us\", {output} }},\n  \"plots\"");
     let springs = "{ \"every\": \"100 ns\" }";
     let message =
-        "output.springs: 101 springs at 1.000e6 moments make 1.010e8 lines, expected at most 5.000e7";
+        "output.springs: 101 springs at 1.000e6 moments make 1.010e8 lines, expected at most 2.778e7";
     refused(from, &with(&format!("\"springs\": {springs}")), springs, message);
     let memory = "{ \"every\": \"1 us\" }";
     let message = "output.memory: 1.000e5 curves of up to 16384 corners may make 1.638e9 lines, expected at most 4.167e7";

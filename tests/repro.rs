@@ -189,7 +189,7 @@ fn another_version_is_told_and_compared_all_the_same() {
     let carried = Carried::by(&folder.join("loop.png")).with("Software", "stickslip 0.0.9");
     let (code, said, noted) = carried.repeated();
     assert_eq!(code, 0);
-    assert!(said.starts_with("PICTURE: identical: 701 rows of 17 channels, "), "{said}");
+    assert!(said.starts_with("PICTURE: identical: 701 rows of 18 channels, "), "{said}");
     assert_eq!(noted, "PICTURE: note: computed by stickslip 0.0.9, this is stickslip 0.1.0\n");
 }
 

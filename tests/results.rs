@@ -5,7 +5,7 @@ use std::path::Path;
 use tempfile::tempdir;
 
 const COLUMNS: &str = "time_s,foot.x_m,foot.vx_m_s,slider.x_m,slider.vx_m_s,ball.u_m,ball.d_m,ball.fx_N,ball.fn_N,\
-    ball.stick_m,ball.state,ball.elastic_J,ball.friction_J,energy.input_J,energy.kinetic_J,energy.elastic_J,\
+    ball.a_m,ball.stick_m,ball.state,ball.elastic_J,ball.friction_J,energy.input_J,energy.kinetic_J,energy.elastic_J,\
     energy.friction_J,energy.damping_J,energy.error_J";
 
 #[test]
