@@ -64,26 +64,21 @@ fn two_hundred_points_give_g_to_a_millionth() {
     for specimen in specimens() {
         let table = specimen.table(200);
         let error = specimen.error(&table);
-        println!(
-            "{} {error:.1e} estimate {:.1e}",
-            specimen.name,
-            table.transform_error().unwrap() / specimen.exact.depth(specimen.end)
-        );
-        assert!(error < 1e-7, "{}: {error:e}", specimen.name);
-        // The estimate is one of g at the points: of the right size, or as small as what panels may miss.
+        assert!(error < 1e-9, "{}: {error:e}", specimen.name);
+        // The estimate is one of g at the points: of the right size, but for what panels may miss.
         let estimate = table.transform_error().unwrap() / specimen.exact.depth(specimen.end);
-        assert!(estimate < 1e-6, "{}: {estimate:e}", specimen.name);
+        let is_right = estimate < 10.0 * error && error < 10.0 * estimate + 2e-10;
+        assert!(is_right, "{}: {estimate:e}", specimen.name);
     }
 }
 
 #[test]
-fn the_error_of_g_falls_with_the_third_power_of_the_distance() {
+fn the_error_of_g_falls_faster_than_the_third_power_of_the_distance() {
     for specimen in specimens() {
         // Where cubics through the points are not exact anyway.
         let points: Vec<(f64, f64)> = [16, 32, 64, 128]
             .map(|count| (f64::from(count).ln(), specimen.error(&specimen.table(count)).ln()))
             .to_vec();
-        println!("{} {:?}", specimen.name, points.iter().map(|p| p.1.exp()).collect::<Vec<_>>());
         if !["sphere", "fourth power"].contains(&specimen.name) {
             assert!(points.iter().all(|point| point.1 < 1e-9_f64.ln()), "{}: {points:?}", specimen.name);
             continue;
@@ -92,8 +87,8 @@ fn the_error_of_g_falls_with_the_third_power_of_the_distance() {
         let (x, y) = (mean(|p| p.0), mean(|p| p.1));
         let over: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
         let order = -over / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>();
-        println!("{} {order}", specimen.name);
-        assert!(order > 2.9, "{}: {order}", specimen.name);
+        // Fitted: 3.77 and 3.61. Its theory is 3 for f′, and half an order or one more by the integral.
+        assert!(order > 3.5 && order < 4.1, "{}: {order}", specimen.name);
     }
 }
 
@@ -188,10 +183,9 @@ fn curve_and_row_of_a_table_agree_through_histories() {
         for _ in 0..60 {
             let to = Apex { d: deepest * (1.1 * draw() - 0.1), u: 2.0 * u * (draw() - 0.5) };
             booked += curve.commit(&law, Segment::Straight(to)).unwrap();
-            work += row.commit(&springs, &law, Segment::Straight(to)).unwrap().friction;
+            work += row.commit(&springs, &law, Segment::Straight(to)).unwrap();
             worst = worst.max((curve.force(&law) - row.force(&springs, &law, to)).abs() / limit);
         }
-        println!("{name} {worst:e} {:e}", booked / work - 1.0);
         assert!(worst < 3e-8, "{name}: {worst:e}");
         assert!((booked / work - 1.0).abs() < 1e-7, "{name}: {booked:e} {work:e}");
     }
@@ -228,7 +222,6 @@ fn a_normal_law_is_met_at_its_points_and_tends_to_the_profile() {
         assert!((law.depth(law.radius(2.3e-6)) / 2.3e-6 - 1.0).abs() < 1e-12);
         assert_eq!((law.gap(1e-5), law.reach(), law.transform_error()), (None, Some(4e-6), None));
     }
-    println!("{errors:?}");
     assert!(errors[1] < errors[0] / 3.0 && errors[2] < errors[1] / 3.0, "second order: {errors:?}");
     assert!(errors[2] < 1e-3, "{errors:?}");
     // A flat punch: a straight law; a stiffness that begins above zero is a flat.

@@ -21,7 +21,8 @@ pub(super) struct Outline {
 }
 
 /// Points of the polynomial whose slope is taken.
-// Three leave g of a sphere 1e-5 off where five leave 4e-9, both with 200 points; seven gain nothing over the cubic between.
+// With 200 points three leave g of a sphere up to a/R = 1/2 off by 3e-7 of its last value, five by 1.3e-10; seven gain nothing, for
+// between the points f is a cubic.
 const STENCIL: usize = 5;
 
 impl Outline {

@@ -6,7 +6,7 @@ use super::{Profile, ProfileError, Shape};
 use std::sync::Arc;
 
 /// What a panel may miss of the transform, relative to g at the last point.
-// Four digits below what 200 points leave of f itself.
+// What 200 points leave of a sphere or a fourth power.
 const TOLERANCE: f64 = 1e-10;
 
 /// Most halvings of a cell. Behind a kink and nowhere else are some needed.
@@ -20,7 +20,7 @@ impl Profile {
     /// of them a point: g by the numerical transform (4.20).
     ///
     /// Between two kinks f must be smooth. It stands up to g of the last point ([`Self::reach`]). 200 even points give g of
-    /// paraboloid, cone, sphere, fourth power and truncated cone to 1e-7 of its last value ([`Self::transform_error`]).
+    /// paraboloid, cone, sphere, fourth power and truncated cone to 1e-9 of its last value ([`Self::transform_error`]).
     ///
     /// # Errors
     ///
