@@ -57,9 +57,13 @@ fn long_lists(bench: &mut Criterion) {
     };
     let heights: Vec<f64> = (0..100_000).map(|_| height()).collect();
     let pair = Pair::from_moduli(1.15e11, 0.95e11).unwrap();
-    for (name, profile) in
-        [("paraboloid", Profile::paraboloid(1e-3)), ("1e5 heights", Profile::rough(&heights, 1e-8))]
-    {
+    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let lacks: Vec<f64> = heights.iter().map(|height| highest - height).collect();
+    for (name, profile) in [
+        ("paraboloid", Profile::paraboloid(1e-3)),
+        ("1e5 heights", Profile::rough(&heights, 1e-8)),
+        ("1e5 heights without an index", Profile::foundation(&lacks, &vec![1e-8; lacks.len()])),
+    ] {
         let law = Interface::new(pair, profile.unwrap(), 0.15).unwrap();
         let (curve, before, last) = nested(&law, 4);
         // From trial to trial elsewhere in the list: what is looked up lies in no fast memory by chance.

@@ -5,12 +5,15 @@ use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 use std::sync::Arc;
 
+/// Steps of the index per height.
+const STEPS_PER_HEIGHT: usize = 4;
+
 /// A foundation with an index by height.
 ///
-/// Heights are parted into as many equal steps as there are springs. Of a line whose heights are spread like those of a surface the
+/// Heights are parted into equal steps, four times as many as there are springs. Of a line whose heights are spread like those of a surface the
 /// index leaves one or two to look at, and of any line a range that is searched by halves.
-// By halves alone a value of M takes 60 ns among 1e5 heights, nine tenths of it in waiting for memory, and a trial of the curve
-// eight times a paraboloid's; with the index, and all of a height side by side, it is one wait.
+// By halves alone a trial of the curve anywhere among 1e5 heights takes 4.5 times as long as a paraboloid's, most of it in waiting for
+// memory; with the index, and all that belongs to a height side by side, 2.1 times. As many steps as springs: 2.6 times.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rough {
     foundation: Foundation,
@@ -65,22 +68,27 @@ impl Rough {
         let heights = foundation.heights();
         let levels: Vec<Level> =
             heights.iter().zip(foundation.sums()).map(|(&height, &sums)| Level { height, sums }).collect();
-        let steps = levels.len();
+        let steps = STEPS_PER_HEIGHT * levels.len();
         let scale = match heights.last() {
             Some(&last) if last > 0.0 && (steps as f64 / last).is_finite() => steps as f64 / last,
             _ => 0.0,
         };
         // A product and its whole part do not fall as a height rises: no height is looked for in the wrong step.
         let step = |height: f64| ((height * scale) as usize).min(steps);
-        let start = |k: usize| levels.partition_point(|level| step(level.height) < k) as u32;
-        let starts = (0..=steps + 1).map(start).collect();
+        let mut starts = vec![0; steps + 2];
+        for level in &levels {
+            starts[step(level.height) + 1] += 1;
+        }
+        for k in 1..starts.len() {
+            starts[k] += starts[k - 1];
+        }
         Self { levels, starts, scale, foundation }
     }
 
     /// The sums at h > 0.
     #[inline]
     fn below(&self, h: f64) -> Sums {
-        let step = ((h * self.scale) as usize).min(self.levels.len());
+        let step = ((h * self.scale) as usize).min(self.starts.len() - 2);
         let (from, to) = (self.starts[step] as usize, self.starts[step + 1] as usize);
         let count = from + self.levels[from..to].partition_point(|level| level.height < h);
         match self.levels.get(count.wrapping_sub(1)) {
