@@ -208,6 +208,11 @@ impl Profile {
         of_kind!(self, kind => kind.reach())
     }
 
+    /// Whether it ends at the last of the points that it is given by, beyond which nothing is known of it.
+    pub fn ends_at_a_point(&self) -> bool {
+        matches!(self.shape, Shape::Chart(_))
+    }
+
     /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
     // Methods of high order see such kinks late: runs with lists came out 20 to 1000 times their tolerance off before anybody
     // asked for this.
