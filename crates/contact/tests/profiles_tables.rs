@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use stickslip_contact::{Apex, Curve, Interface, Pair, Profile, ProfileError, Row, Segment, Springs};
+use stickslip_contact::{
+    Apex, ContactError, Curve, Interface, Move, Pair, Profile, ProfileError, Row, Segment, Springs,
+};
 
 /// A profile of closed form, its f, the last radius of its table, its kinks.
 struct Specimen {
@@ -139,6 +141,14 @@ fn a_table_ends_at_its_last_point() {
     let force = table.reduced_force(2.0 * reach);
     assert!((force - table.reduced_force(reach) - 2.0 * paraboloid.end * reach).abs() < 1e-12 * force);
     assert!((table.height_of_reduced_force(force) / (2.0 * reach) - 1.0).abs() < 1e-14);
+    // A trial may look there, a move may not go there; it leaves everything as it was.
+    let law = Interface::new(Pair::from_moduli(1e11, 0.8e11).unwrap(), table.clone(), 0.3).unwrap();
+    let mut curve = Curve::new(&law, Apex { d: 0.5 * reach, u: 0.0 });
+    let (before, to) = (curve.clone(), Apex { d: 1.01 * reach, u: 0.0 });
+    assert!(curve.trial(&law, Move::Chord(to)).force.is_finite());
+    let error = curve.commit(&law, Segment::Straight(to));
+    assert_eq!(error, Err(ContactError::Beyond { d: to.d, reach }));
+    assert_eq!(curve, before);
     assert!(table.reduced_energy(2.0 * reach).is_finite() && table.depth_slope(1.0).is_infinite());
 }
 
