@@ -93,6 +93,9 @@ pub(crate) fn inline(form: &mut Form, base: Option<&Path>, document: &mut Docume
     Ok(!document.tables.is_empty())
 }
 
+/// Rows of a file, and the dimension of each column where its head tells.
+type Rows<const N: usize> = (Vec<[f64; N]>, [Option<Kind>; N]);
+
 /// The files of a scenario.
 struct Shelf<'a> {
     /// The scenario's folder, if it has one.
@@ -129,7 +132,7 @@ impl Shelf<'_> {
         }
         let [time, value] = columns;
         let columns = [(time.0, time.1, Column::Time), (value.0, value.1, Column::Value)];
-        let (rows, [_, kind]) = self.rows(&at, &file, "points", columns)?;
+        let (rows, [_, kind]) = self.rows(&at, &file, "points", &columns)?;
         let point = |[time, si]: [f64; 2]| Point(Time::new(time), AnyQuantity { si, kind });
         table.points = Some(rows.into_iter().map(point).collect());
         Ok(())
@@ -142,8 +145,8 @@ impl Shelf<'_> {
         at: &At<'_>,
         file: &str,
         list: &'static str,
-        columns: [(&str, Option<String>, Column); N],
-    ) -> Result<(Vec<[f64; N]>, [Option<Kind>; N]), Fault> {
+        columns: &[(&str, Option<String>, Column); N],
+    ) -> Result<Rows<N>, Fault> {
         let file_at = at.key("file");
         let bytes = self.read(&file_at, file)?;
         let source = self.document.sources.len();
@@ -167,11 +170,11 @@ impl Shelf<'_> {
         let header: Vec<Head> =
             sheet::header(text).map_err(slipped)?.iter().map(|head| Head::new(head)).collect();
         let mut scaled = [(0, Scale::Ten(0)); N];
-        for (place, (key, name, _)) in scaled.iter_mut().zip(&columns) {
+        for (place, (key, name, _)) in scaled.iter_mut().zip(columns) {
             place.0 = column(at, key, name.as_deref(), &header)?;
         }
         let mut kinds = [None; N];
-        for (((place, scale), kind), (_, _, column)) in scaled.iter_mut().zip(&mut kinds).zip(&columns) {
+        for (((place, scale), kind), (_, _, column)) in scaled.iter_mut().zip(&mut kinds).zip(columns) {
             let measure = header[*place].measure(*column).map_err(|odd| {
                 let fault = file_at.fault(odd.message).at_span(span(sheet::head(text, *place)));
                 fault.help(odd.help)

@@ -87,10 +87,10 @@ impl SelfAffine {
         let [first, last] = self.waves()?;
         let mut random = Random(self.seed);
         let mut spectrum = vec![[0.0; 2]; self.points];
-        for k in first..=last {
+        for (k, wave) in spectrum.iter_mut().enumerate().take(last + 1).skip(first) {
             let amplitude = exp(-(self.hurst + 0.5) * ln(k as f64));
             let [cosine, sine] = random.direction();
-            spectrum[k] = [amplitude * cosine, amplitude * sine];
+            *wave = [amplitude * cosine, amplitude * sine];
         }
         transform(&mut spectrum);
         let count = self.points as f64;

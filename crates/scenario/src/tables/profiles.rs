@@ -27,7 +27,8 @@ impl Shelf<'_> {
             return Err(given_twice(at));
         }
         let length = Column::Of(Kind::Length);
-        let (rows, _) = self.rows(at, &file, "points", [("radius", radius, length), ("gap", gap, length)])?;
+        let (rows, _) =
+            self.rows(at, &file, "points", &[("radius", radius, length), ("gap", gap, length)])?;
         let points = rows.into_iter().map(|[r, f]| GapPoint(Length::new(r), Length::new(f)));
         table.points = Some(points.collect());
         Ok(())
@@ -43,7 +44,7 @@ impl Shelf<'_> {
         }
         let indentation = ("indentation", indentation, Column::Of(Kind::Length));
         let force = ("force", force, Column::Of(Kind::Force));
-        let (rows, _) = self.rows(at, &file, "points", [indentation, force])?;
+        let (rows, _) = self.rows(at, &file, "points", &[indentation, force])?;
         let points = rows.into_iter().map(|[d, force]| LawPoint(Length::new(d), Force::new(force)));
         law.points = Some(points.collect());
         Ok(())
@@ -59,7 +60,7 @@ impl Shelf<'_> {
             return Err(fault.help("keep one of them"));
         }
         let height = ("height", height, Column::Of(Kind::Length));
-        let (rows, _) = self.rows(at, &file, "heights", [height])?;
+        let (rows, _) = self.rows(at, &file, "heights", &[height])?;
         line.heights = Some(rows.into_iter().map(|[z]| Length::new(z)).collect());
         Ok(())
     }
