@@ -45,6 +45,40 @@ fn trials(bench: &mut Criterion) {
     }
 }
 
+/// A rough line of 10⁵ heights, spread like those of a surface, beside a paraboloid: a trial is to cost less than three times as much.
+fn long_lists(bench: &mut Criterion) {
+    let mut random = 1_u64;
+    let mut height = || {
+        let even = (0..12).map(|_| {
+            random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (random >> 11) as f64 / (1_u64 << 53) as f64
+        });
+        50e-9 * (even.sum::<f64>() - 6.0)
+    };
+    let heights: Vec<f64> = (0..100_000).map(|_| height()).collect();
+    let pair = Pair::from_moduli(1.15e11, 0.95e11).unwrap();
+    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let lacks: Vec<f64> = heights.iter().map(|height| highest - height).collect();
+    for (name, profile) in [
+        ("paraboloid", Profile::paraboloid(1e-3)),
+        ("1e5 heights", Profile::rough(&heights, 1e-8)),
+        ("1e5 heights without an index", Profile::foundation(&lacks, &vec![1e-8; lacks.len()])),
+    ] {
+        let law = Interface::new(pair, profile.unwrap(), 0.15).unwrap();
+        let (curve, before, last) = nested(&law, 4);
+        // From trial to trial elsewhere in the list: what is looked up lies in no fast memory by chance.
+        let mut share = 0.0;
+        bench.bench_function(&format!("trials all over, {name}"), |b| {
+            b.iter(|| {
+                share += 0.618_033_988_749_894_9;
+                share -= f64::from(u8::from(share > 1.0));
+                let to = Apex { d: D * (1.0 - 0.3 * share), u: last + share * (before - last) };
+                black_box(&curve).trial(&law, Move::Chord(black_box(to)))
+            });
+        });
+    }
+}
+
 fn branches(bench: &mut Criterion) {
     for (name, law) in laws() {
         let (curve, before, last) = nested(&law, 4);
@@ -80,6 +114,6 @@ criterion_group! {
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1))
         .sample_size(20);
-    targets = trials, branches, commits
+    targets = trials, long_lists, branches, commits
 }
 criterion_main!(benches);

@@ -194,7 +194,7 @@ impl Curve {
 
     /// Accepts a segment: the only thing that moves the memory. Returns the friction work, J.
     ///
-    /// Fails, leaving everything as it was, for a motion that is not finite.
+    /// Fails, leaving everything as it was, for a motion that is not finite or leaves the points that the profile is given by.
     pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
         let to = segment.end();
         if !(to.d.is_finite() && to.u.is_finite()) {
@@ -207,6 +207,13 @@ impl Curve {
         }
         if to == self.apex {
             return Ok(0.0);
+        }
+        // Only here and in no trial: a stepper may look beyond, and go another way.
+        if law.profile().ends_at_a_point()
+            && let Some(reach) = law.profile().reach()
+            && to.d > reach
+        {
+            return Err(ContactError::Beyond { d: to.d, reach });
         }
         // Before the move: a knot made first would carry the sums of the stack as it was, the error be hidden in a
         // step at the apex and booked again by every later merge.

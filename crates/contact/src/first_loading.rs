@@ -80,15 +80,15 @@ pub enum FirstLoadingError {
         /// `μF_N`, N.
         limit: f64,
     },
-    /// A sphere ends at its equator, m.
-    #[error("the indentation {d:.3e} m reaches beyond the sphere, which allows {reach:.3e} m")]
-    BeyondSphere {
+    /// A sphere ends at its equator, a table at its last point, m.
+    #[error("the indentation {d:.3e} m reaches beyond the profile, which allows {reach:.3e} m")]
+    BeyondProfile {
         /// Indentation, m.
         d: f64,
-        /// Where the sphere ends, m: [`Profile::reach`](crate::Profile::reach).
+        /// Where the profile ends, m: [`Profile::reach`](crate::Profile::reach).
         reach: f64,
     },
-    /// A flat punch or a list of springs keeps one radius over a range of depths.
+    /// A flat punch, a worn profile or a list of springs keeps one radius over a range of depths.
     #[error("a radius does not determine the depth of this profile: give a depth or a force")]
     Undetermined,
 }
@@ -128,7 +128,8 @@ impl NormalGiven {
     ///
     /// # Errors
     ///
-    /// If the quantity is out of its range, a radius that does not determine a depth, or beyond the equator of a sphere.
+    /// If the quantity is out of its range, a radius that does not determine a depth, or beyond the equator of a sphere or the last point
+    /// of a table.
     pub fn indentation(self, law: &Interface) -> Result<f64, FirstLoadingError> {
         let d = match self {
             Self::Indentation(d) if d.is_finite() => d,
@@ -145,7 +146,7 @@ impl NormalGiven {
             }
         };
         match law.profile().reach() {
-            Some(reach) if d >= reach => Err(FirstLoadingError::BeyondSphere { d, reach }),
+            Some(reach) if d >= reach => Err(FirstLoadingError::BeyondProfile { d, reach }),
             _ => Ok(d),
         }
     }

@@ -38,6 +38,6 @@ pub use material::{Material, MaterialError, Pair};
 pub use motion::{
     Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState, Timed,
 };
-pub use profile::{Profile, ProfileError};
+pub use profile::{Profile, ProfileError, RoughnessError, SelfAffine};
 pub use row::{Change, Lull, Row, Slack, Springs, SpringsError};
 pub use words::Words;

@@ -184,6 +184,14 @@ pub enum ContactError {
         /// Largest indentation the row can follow, m.
         reach: f64,
     },
+    /// The indentation went beyond the points that the profile is given by.
+    #[error("the indentation {d:e} m went beyond the last point of the profile, which reaches {reach:e} m")]
+    Beyond {
+        /// Indentation, m.
+        d: f64,
+        /// Largest indentation known of, m.
+        reach: f64,
+    },
     /// The motion is not a number.
     #[error("the motion is not finite: d = {d}, u = {u}")]
     NotFinite {

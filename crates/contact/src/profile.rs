@@ -1,23 +1,45 @@
 //! Profiles of the gap, as what the foundation makes of them: three functions of one number.
 
+mod angle;
+mod chart;
 mod error;
 mod flat;
 mod foundation;
 mod kappa;
 mod kind;
+mod newton;
+mod normal_law;
+mod outline;
 mod power;
+mod powers;
+mod rough;
+mod rounded_flat;
+mod self_affine;
 mod sphere;
+mod table;
+mod tipped_paraboloid;
+mod truncated_cone;
+mod truncated_paraboloid;
 
 pub use error::ProfileError;
 pub(crate) use foundation::{Foundation, Sums};
 pub(crate) use kappa::kappa;
 pub(crate) use kind::Peak;
+pub use self_affine::{RoughnessError, SelfAffine};
 
 use crate::quadrature::GAUSS;
+use chart::Chart;
 use flat::Flat;
 use kind::Kind;
 use power::Power;
+use powers::Powers;
+use rough::Rough;
+use rounded_flat::RoundedFlat;
 use sphere::Sphere;
+use std::sync::Arc;
+use tipped_paraboloid::TippedParaboloid;
+use truncated_cone::TruncatedCone;
+use truncated_paraboloid::TruncatedParaboloid;
 
 /// The profile of the gap between two bodies. Constant.
 ///
@@ -38,6 +60,15 @@ enum Shape {
     Power(Power),
     Sphere(Sphere),
     Foundation(Foundation),
+    TruncatedCone(TruncatedCone),
+    TruncatedParaboloid(TruncatedParaboloid),
+    RoundedFlat(RoundedFlat),
+    TippedParaboloid(TippedParaboloid),
+    Powers(Powers),
+    /// A table of points or a normal law; shared by all contacts that are clones of one.
+    Chart(Arc<Chart>),
+    /// A long list of springs.
+    Rough(Arc<Rough>),
 }
 
 /// What a kind of profile answers. A match and no table of functions behind a pointer: the compiler sees through it, and
@@ -49,6 +80,13 @@ macro_rules! of_kind {
             Shape::Power($kind) => $answer,
             Shape::Sphere($kind) => $answer,
             Shape::Foundation($kind) => $answer,
+            Shape::TruncatedCone($kind) => $answer,
+            Shape::TruncatedParaboloid($kind) => $answer,
+            Shape::RoundedFlat($kind) => $answer,
+            Shape::TippedParaboloid($kind) => $answer,
+            Shape::Powers($kind) => $answer,
+            Shape::Chart($kind) => $answer,
+            Shape::Rough($kind) => $answer,
         }
     };
 }
@@ -98,9 +136,10 @@ impl Profile {
     }
 
     /// g(a), m: the indentation at which the contact radius is a; 0 for a ≤ 0, infinite where no indentation
-    /// reaches (beyond a flat punch's or a sphere's radius, beyond the springs of a list).
+    /// reaches (beyond a flat punch's or a sphere's radius, beyond the springs of a list or the points of a table).
     ///
-    /// A flat punch and a list of springs take one radius over a whole range of h: this is its lower end.
+    /// A flat punch and a list of springs take one radius over a whole range of h: this is its lower end. So do radii inside
+    /// the flat of a worn profile, which all touch at once.
     #[inline]
     pub fn depth(&self, a: f64) -> f64 {
         if a.is_nan() || a <= 0.0 {
@@ -118,8 +157,9 @@ impl Profile {
         of_kind!(self, kind => kind.depth_slope(a))
     }
 
-    /// f(r), m: the gap at the distance r ≥ 0 (m) from the axis before anything is pressed; none beyond a flat punch or a
-    /// sphere, and for a foundation given spring by spring, which no axisymmetric gap need belong to.
+    /// f(r), m: the gap at the distance r ≥ 0 (m) from the axis before anything is pressed; none beyond a flat punch, a
+    /// sphere or the last point of a table, and for a foundation given spring by spring or by its normal law, which no
+    /// axisymmetric gap need belong to.
     ///
     /// Of a power law f = g/`κ_n` (4.20): r²/2R for the paraboloid.
     pub fn gap(&self, r: f64) -> Option<f64> {
@@ -129,7 +169,13 @@ impl Profile {
         of_kind!(self, kind => kind.gap(r))
     }
 
-    /// Where the normal pressure is largest; none for a list of springs, which has no shape in three dimensions.
+    /// Places x > 0, m, ascending, at which g or a derivative of g is not smooth: where a quadrature over g is to be parted.
+    pub fn borders(&self) -> &[f64] {
+        of_kind!(self, kind => kind.borders())
+    }
+
+    /// Where the normal pressure is largest; none for a list of springs and a normal law, which have no shape in three
+    /// dimensions.
     pub(crate) fn peak(&self) -> Option<Peak> {
         of_kind!(self, kind => kind.peak())
     }
@@ -149,7 +195,8 @@ impl Profile {
         of_kind!(self, kind => kind.height_of_reduced_force(force))
     }
 
-    /// Exponent n of a power law; none for every other profile, the flat punch (its limit n → ∞) included.
+    /// Exponent n of a power law, a sum of powers of one term included; none for every other profile, the flat punch (its limit
+    /// n → ∞) among them.
     pub fn exponent(&self) -> Option<f64> {
         of_kind!(self, kind => kind.exponent())
     }
@@ -157,9 +204,14 @@ impl Profile {
     /// Largest height for which the profile stands, m; none if there is no limit.
     ///
     /// A sphere ends where a → R: its height is limited to g(0.999R) = 3.796R, beyond which its functions
-    /// still return finite numbers.
+    /// still return finite numbers. A table and a normal law end at their last point.
     pub fn reach(&self) -> Option<f64> {
         of_kind!(self, kind => kind.reach())
+    }
+
+    /// Whether it ends at the last of the points that it is given by, beyond which nothing is known of it.
+    pub fn ends_at_a_point(&self) -> bool {
+        matches!(self.shape, Shape::Chart(_))
     }
 
     /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
@@ -181,19 +233,18 @@ impl Profile {
     /// 1e-18 of it.
     pub(crate) fn moment(&self, [from, to]: [f64; 2], [low, high]: [f64; 2]) -> f64 {
         let width = to - from;
-        if let Some(foundation) = self.as_foundation() {
-            return foundation.moment([from, to], [low, (high - low) / width]);
+        let straight = [low, (high - low) / width];
+        match &self.shape {
+            Shape::Foundation(foundation) => return foundation.moment([from, to], straight),
+            Shape::Rough(rough) => return rough.moment([from, to], straight),
+            Shape::Chart(chart) => return chart.moment([from, to], straight),
+            _ => {}
         }
         let (middle, mean, half) = (0.5 * (from + to), 0.5 * (low + high), 0.5 * (high - low));
         let node = |(x, weight): &(f64, f64)| {
             weight * (mean + half * x) * self.reduced_stiffness(middle + 0.5 * width * x)
         };
         width * GAUSS.iter().map(node).sum::<f64>()
-    }
-
-    /// Positions x > 0 where g or one of its derivatives is not smooth, m, ascending: where quadratures over g are to be split.
-    pub(crate) fn borders(&self) -> &[f64] {
-        of_kind!(self, kind => kind.borders())
     }
 
     /// Radius of a flat punch, m; none for every other profile.

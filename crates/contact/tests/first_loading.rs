@@ -241,7 +241,7 @@ fn what_does_not_fit_is_refused() {
         Err(FirstLoadingError::Radius(1.0))
     );
     let reach = sphere.profile().reach().unwrap();
-    let beyond = Err(FirstLoadingError::BeyondSphere { d: reach, reach });
+    let beyond = Err(FirstLoadingError::BeyondProfile { d: reach, reach });
     assert_eq!(NormalGiven::Indentation(reach).indentation(&sphere), beyond);
     assert!(NormalGiven::Force(1.0001 * sphere.normal_force(reach)).indentation(&sphere).is_err());
     assert!(NormalGiven::Radius(0.9995).indentation(&sphere).is_err());

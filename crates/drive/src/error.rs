@@ -158,6 +158,9 @@ impl RunError {
             Self::Zeno { .. } | Self::Crawl { .. } => {
                 "take a fixed step: the whole law by halved steps was tried and found no way on, either"
             }
+            Self::Contact { source: ContactError::Beyond { .. }, .. } => {
+                "give the profile points further out, or press it less"
+            }
             Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
             Self::Block { .. } => "look at what the block says of itself",
             Self::OutOfTime { .. } => "raise run.limits.wall or shorten the run",

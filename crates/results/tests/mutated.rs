@@ -198,7 +198,7 @@ fn results(root: &Path) -> PathBuf {
 /// Reads a folder in all ways there are; whether it was refused by all who hold it against something.
 fn read(folder: &Path, original: &compare::Results) -> bool {
     let drawn = Results::read(folder, &[PlotName::Events]).map(|results| {
-        let _ = (springs::read(&results.springs), curves::read(&results.memory, 100));
+        let _ = (springs::read(&results.insides.springs), curves::read(&results.insides.memory, 100));
     });
     let compared = compare::Results::read(folder).map(|results| {
         let _ = Comparison::new(original, &results, &Terms::default());

@@ -254,15 +254,15 @@ mod tests {
         assert_eq!(guide.kinds(&path("run.stepper")), ["event", "verlet", "rk4", "dopri5"]);
         assert_eq!(guide.kinds(&path("contacts.a.engine")), ["curve", "springs"]);
         assert_eq!(guide.kinds(&path("springs.a.direction")), ["x", "z"]);
-        assert!(!guide.kinds(&path("contacts.a.profile")).contains(&"rough".to_owned()));
+        assert!(!guide.kinds(&path("waveforms.a")).contains(&"chirp".to_owned()));
         let homes = |sought: &str, key: &str| guide.homes(&path(sought), key);
         assert_eq!(homes("materials.ruby", "friction"), ["contacts.NAME"]);
         assert_eq!(homes("contacts.ball", "mass"), ["bodies.NAME"]);
         assert_eq!(homes("run", "on"), ["loads[0]"]);
         assert_eq!(homes("waveforms.saw", "order"), ["waveforms.saw.harmonics.terms[0]"]);
         assert_eq!(homes("bodies.foot", "follows"), ["bodies.foot.x", "bodies.foot.z", "bodies.foot.pitch"]);
-        let profiles = ["flat", "paraboloid", "sphere"].map(|kind| format!("contacts.ball.profile.{kind}"));
-        assert_eq!(homes("contacts.ball.profile.cone", "radius"), profiles);
+        let profiles = ["cone", "truncated_cone"].map(|kind| format!("contacts.ball.profile.{kind}"));
+        assert_eq!(homes("contacts.ball.profile.sphere", "slope"), profiles);
         assert_eq!(homes("run", "no_such_key"), [""; 0]);
         assert!(guide.knows(&path("bodies.a"), "mass") && !guide.knows(&path("actuators.a"), "voltage"));
     }

@@ -11,10 +11,9 @@ impl Scenario {
     }
 
     /// The word for the profile of contact `index`, such as `paraboloid`.
-    pub fn profile_of(&self, index: usize) -> Option<String> {
+    pub fn profile_of(&self, index: usize) -> Option<&'static str> {
         let (_, contact) = self.form.contacts.0.get(index)?;
-        let profile = serde_json::to_value(&contact.profile).ok()?;
-        profile.as_object()?.keys().next().cloned()
+        Some(contact.profile.word())
     }
 
     /// Radius of curvature R of the ball of contact `index`, m, and whether it is a paraboloid in its place; none of other
@@ -61,7 +60,7 @@ mod tests {
             Scenario::from_str(&text.replace("[\"ruby\", \"steel\"]", "[\"steel\", \"steel\"]"), "a", "");
         let scenario = scenario.unwrap();
         assert_eq!(scenario.materials_of(0), Some(["steel", "steel"]));
-        assert_eq!(scenario.profile_of(0).as_deref(), Some("paraboloid"));
+        assert_eq!(scenario.profile_of(0), Some("paraboloid"));
         assert_eq!(scenario.unused_materials().collect::<Vec<_>>(), ["ruby"]);
         assert_eq!((scenario.materials_of(1), scenario.profile_of(1)), (None, None));
     }

@@ -3,8 +3,9 @@
 mod rule;
 
 pub(crate) use rule::{
-    above_zero, at_least_zero, duration_or_cycles, inertia_where_free, names, no_ground, no_trace_column,
-    period_or_frequency, points_or_file, something_on_it, something_to_do, stroke_needed,
+    above_zero, at_least_zero, duration_or_cycles, gaps_or_file, heights_or_file, inertia_where_free,
+    law_or_file, names, no_ground, no_trace_column, period_or_frequency, points_or_file, something_on_it,
+    something_to_do, stroke_needed,
 };
 
 use crate::form::Form;

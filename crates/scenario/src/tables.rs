@@ -1,15 +1,17 @@
 //! Tables in files: read once, and from then on points of the scenario.
 
 mod head;
+mod profiles;
 mod sheet;
 
 use crate::document::{Document, Source, SourceKind, shown};
 use crate::fault::Fault;
 use crate::folder::{self, Denied};
-use crate::form::{Form, FreedomForm, Moving, NormalForm, Point, TableForm, WaveformForm, WaveformRef};
+use crate::form::{Form, FreedomForm, Moving, NormalForm, Point, WaveformForm, WaveformRef};
 use crate::path::{At, KeyPath, Step};
 use crate::place::Span;
 use crate::quantity::{AnyQuantity, Time};
+use crate::units::{Kind, Scale};
 use crate::{suggest, syntax, text};
 use head::{Column, Head};
 use std::io;
@@ -26,8 +28,10 @@ pub(crate) struct TableFile {
     path: KeyPath,
     /// The file's place in the list of sources.
     source: usize,
-    /// Columns of time and value.
-    columns: [usize; 2],
+    /// Key of its list: the rows.
+    list: &'static str,
+    /// Columns of an entry's numbers, at least one.
+    columns: Vec<usize>,
 }
 
 impl TableFile {
@@ -39,11 +43,11 @@ impl TableFile {
         };
         let column = match rest.first() {
             Some(Step::Index(column)) => *self.columns.get(*column)?,
-            _ => self.columns[0],
+            _ => *self.columns.first()?,
         };
         let text = &sources.get(self.source)?.text;
         let Range { start, end } = sheet::cell(text, *row, column)?;
-        (points == "points").then_some(Span { source: self.source, start, end })
+        (points == self.list).then_some(Span { source: self.source, start, end })
     }
 }
 
@@ -65,6 +69,7 @@ pub(crate) fn inline(form: &mut Form, base: Option<&Path>, document: &mut Docume
     let at = root.key("contacts");
     for (name, contact) in &mut form.contacts.0 {
         let at = at.key(name);
+        shelf.in_profile(&at.key("profile"), &mut contact.profile)?;
         let at = at.key("normal");
         match &mut contact.normal {
             NormalForm::Force(moving) => shelf.in_moving(&at.key("force"), moving)?,
@@ -87,6 +92,9 @@ pub(crate) fn inline(form: &mut Form, base: Option<&Path>, document: &mut Docume
     }
     Ok(!document.tables.is_empty())
 }
+
+/// Rows of a file, and the dimension of each column where its head tells.
+type Rows<const N: usize> = (Vec<[f64; N]>, [Option<Kind>; N]);
 
 /// The files of a scenario.
 struct Shelf<'a> {
@@ -115,25 +123,30 @@ impl Shelf<'_> {
     fn in_waveform(&mut self, at: &At<'_>, waveform: &mut WaveformForm) -> Result<(), Fault> {
         let WaveformForm::Table(table) = waveform else { return Ok(()) };
         let at = at.key("table");
+        let columns = [("time", table.time.take()), ("value", table.value.take())];
         let Some(file) = table.file.take() else {
-            for (key, given) in [("time", table.time.is_some()), ("value", table.value.is_some())] {
-                if given {
-                    let fault = at.key(key).fault("names a column, but there is no file").on_key();
-                    return Err(fault.help("leave it out; points have no columns"));
-                }
-            }
-            return Ok(());
+            return no_columns(&at, &columns);
         };
         if table.points.is_some() {
-            let fault = at.key("file").fault("the points are given already").on_key();
-            return Err(fault.help("keep one of them"));
+            return Err(given_twice(&at));
         }
-        table.points = Some(self.points(&at, &file, table)?);
-        (table.time, table.value) = (None, None);
+        let [time, value] = columns;
+        let columns = [(time.0, time.1, Column::Time), (value.0, value.1, Column::Value)];
+        let (rows, [_, kind]) = self.rows(&at, &file, "points", &columns)?;
+        let point = |[time, si]: [f64; 2]| Point(Time::new(time), AnyQuantity { si, kind });
+        table.points = Some(rows.into_iter().map(point).collect());
         Ok(())
     }
 
-    fn points(&mut self, at: &At<'_>, file: &str, table: &TableForm) -> Result<Vec<Point>, Fault> {
+    /// The rows of a file by the columns that an object names under these keys, and the dimensions that their heads tell. The list
+    /// is what the rows become.
+    fn rows<const N: usize>(
+        &mut self,
+        at: &At<'_>,
+        file: &str,
+        list: &'static str,
+        columns: &[(&str, Option<String>, Column); N],
+    ) -> Result<Rows<N>, Fault> {
         let file_at = at.key("file");
         let bytes = self.read(&file_at, file)?;
         let source = self.document.sources.len();
@@ -156,22 +169,22 @@ impl Shelf<'_> {
         let text = self.document.add(name, text, kind);
         let header: Vec<Head> =
             sheet::header(text).map_err(slipped)?.iter().map(|head| Head::new(head)).collect();
-        let columns = [
-            column(at, "time", table.time.as_deref(), &header)?,
-            column(at, "value", table.value.as_deref(), &header)?,
-        ];
-        let measure = |place: usize, column: Column| {
-            header[place].measure(column).map_err(|odd| {
-                let fault = file_at.fault(odd.message).at_span(span(sheet::head(text, place)));
+        let mut scaled = [(0, Scale::Ten(0)); N];
+        for (place, (key, name, _)) in scaled.iter_mut().zip(columns) {
+            place.0 = column(at, key, name.as_deref(), &header)?;
+        }
+        let mut kinds = [None; N];
+        for (((place, scale), kind), (_, _, column)) in scaled.iter_mut().zip(&mut kinds).zip(columns) {
+            let measure = header[*place].measure(*column).map_err(|odd| {
+                let fault = file_at.fault(odd.message).at_span(span(sheet::head(text, *place)));
                 fault.help(odd.help)
-            })
-        };
-        let (time, value) = (measure(columns[0], Column::Time)?, measure(columns[1], Column::Value)?);
-        let scaled = [(columns[0], time.scale), (columns[1], value.scale)];
-        let numbers = sheet::numbers(text, scaled, header.len()).map_err(slipped)?;
-        self.document.tables.push(TableFile { path: at.path(), source, columns });
-        let point = |[time, si]: [f64; 2]| Point(Time::new(time), AnyQuantity { si, kind: value.kind });
-        Ok(numbers.into_iter().map(point).collect())
+            })?;
+            (*scale, *kind) = (measure.scale, measure.kind);
+        }
+        let rows = sheet::numbers(text, scaled, header.len()).map_err(slipped)?;
+        let columns = scaled.map(|(place, _)| place).to_vec();
+        self.document.tables.push(TableFile { path: at.path(), source, list, columns });
+        Ok((rows, kinds))
     }
 
     fn read(&mut self, at: &At<'_>, file: &str) -> Result<Vec<u8>, Fault> {
@@ -207,6 +220,22 @@ impl Shelf<'_> {
         }
         Ok(bytes)
     }
+}
+
+/// Names of columns where there is no file.
+fn no_columns(at: &At<'_>, columns: &[(&str, Option<String>)]) -> Result<(), Fault> {
+    match columns.iter().find(|(_, name)| name.is_some()) {
+        None => Ok(()),
+        Some((key, _)) => {
+            let fault = at.key(key).fault("names a column, but there is no file").on_key();
+            Err(fault.help("leave it out; points have no columns"))
+        }
+    }
+}
+
+/// A file beside what it would bring.
+fn given_twice(at: &At<'_>) -> Fault {
+    at.key("file").fault("the points are given already").on_key().help("keep one of them")
 }
 
 /// The place of a column by its head, or by its head without the unit where no head is that.

@@ -110,7 +110,7 @@ impl Profile {
 
 impl Foundation {
     /// Sorted springs with their sums; fails for lists that are empty, of unlike lengths, or with a number out of range.
-    fn new(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
+    pub(super) fn new(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
         check(heights, lengths)?;
         let mut order: Vec<usize> = (0..heights.len()).collect();
         order.sort_by(|&i, &j| heights[i].total_cmp(&heights[j]));
@@ -122,6 +122,11 @@ impl Foundation {
         let lengths: Vec<f64> = order.iter().map(|&i| lengths[i]).collect();
         let sums = Sums::of(&heights, &lengths);
         Ok(Self { heights, lengths, ranks, sums })
+    }
+
+    /// Sums at each height.
+    pub(super) fn sums(&self) -> &[Sums] {
+        &self.sums
     }
 
     /// Heights, m, ascending.

@@ -31,6 +31,11 @@ pub(super) trait Kind {
     /// f(r), m, r ≥ 0; none where there is no gap.
     fn gap(&self, r: f64) -> Option<f64>;
 
+    /// Places x > 0, m, ascending, at which g or a derivative of g is not smooth.
+    fn borders(&self) -> &[f64] {
+        &[]
+    }
+
     /// Where its pressure is largest; none without a shape in three dimensions.
     fn peak(&self) -> Option<Peak>;
 
@@ -50,11 +55,6 @@ pub(super) trait Kind {
     /// Largest height for which it stands, m, if there is a limit.
     fn reach(&self) -> Option<f64> {
         None
-    }
-
-    /// Positions x > 0 where g or one of its derivatives is not smooth, m, ascending.
-    fn borders(&self) -> &[f64] {
-        &[]
     }
 
     /// Radius of a flat punch, m.

@@ -130,7 +130,9 @@ impl SceneFault {
                 "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
             }
             Self::Loading(FirstLoadingError::Undetermined) => "give the normal force or the indentation",
-            Self::Loading(FirstLoadingError::BeyondSphere { .. }) => "lower the load or enlarge the radius",
+            Self::Loading(FirstLoadingError::BeyondProfile { .. }) => {
+                "lower the load, or enlarge the radius or the table of the profile"
+            }
             Self::Open => "press it at t = 0, or leave it \"untouched\"",
             Self::Springs(_) | Self::Narrow { .. } => {
                 "leave the span out: the row is then as wide as the contact ever is"

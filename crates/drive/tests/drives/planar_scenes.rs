@@ -145,7 +145,7 @@ fn what_is_missing_is_named() {
 fn a_sphere_that_the_loads_press_beyond_its_equator_is_refused() {
     let small: Change =
         |s| s.contacts[1].part = of_profile(Profile::sphere(1e-9).unwrap(), &s.contacts[1].part);
-    refused(small, (Part::Contact(1), Field::Normal), "beyond the sphere");
+    refused(small, (Part::Contact(1), Field::Normal), "beyond the profile");
 }
 
 /// A foot that jumps below a contact whose stuck springs are damped: an impulse without end.

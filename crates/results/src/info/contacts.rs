@@ -112,7 +112,7 @@ fn contact(job: &Job, c: usize, law: &Interface) -> Option<ContactInfo> {
     Some(ContactInfo {
         between: contact.between.map(|side| name(job, side)),
         materials: job.scenario.materials_of(c).unwrap_or_default().map(str::to_owned),
-        profile: job.scenario.profile_of(c).unwrap_or_default(),
+        profile: job.scenario.profile_of(c).unwrap_or_default().to_owned(),
         count: contact.count,
         normal_modulus: Real(law.normal_modulus()),
         tangential_modulus: Real(law.tangential_modulus()),

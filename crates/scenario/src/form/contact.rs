@@ -1,6 +1,6 @@
 //! Contacts.
 
-use super::{Count, Lengths, Moving, Points, Reserved, Two};
+use super::{Count, Moving, Points, ProfileForm, Two};
 use crate::quantity::{Force, Length, Time, dimension};
 use crate::schema::{above_zero, at_least_zero};
 use schemars::JsonSchema;
@@ -65,85 +65,6 @@ fn no_time() -> Time {
 
 fn is_zero(time: &Time) -> bool {
     time.si == 0.0
-}
-
-/// Profile of the gap between the undeformed bodies.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum ProfileForm {
-    /// Flat cylindrical punch.
-    #[schemars(example = json!({ "flat": { "radius": "50 um" } }))]
-    Flat(FlatForm),
-    /// Cone, f = slope · r.
-    #[schemars(example = json!({ "cone": { "slope": 0.01 } }))]
-    Cone(ConeForm),
-    /// Paraboloid, f = r²/(2R): Hertz.
-    #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
-    Paraboloid(BallForm),
-    /// Sphere, f = R - √(R²-r²), exact.
-    #[schemars(example = json!({ "sphere": { "radius": "0.5 mm" } }))]
-    Sphere(BallForm),
-    /// Power law, f = A rⁿ.
-    #[schemars(example = json!({ "power": { "coefficient": 1e6, "exponent": 4 } }))]
-    Power(PowerForm),
-    /// One-dimensional foundation given by its heights; need not be monotone.
-    #[schemars(example = json!({ "foundation": { "heights": [0, "10 nm", "20 nm"], "length": "1 um" } }))]
-    Foundation(FoundationForm),
-    /// Table of the profile. Not yet in this version.
-    Table(Reserved),
-    /// Rough line. Not yet in this version.
-    Rough(Reserved),
-}
-
-/// A flat punch.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FlatForm {
-    /// Radius of the flat face, m, above 0; typical 10 um to 5 mm.
-    #[schemars(example = &"50 um", transform = above_zero)]
-    pub(crate) radius: Length,
-}
-
-/// A ball.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct BallForm {
-    /// Radius of curvature R, m, above 0; typical 0.1 mm to 50 mm.
-    #[schemars(example = &"0.5 mm", transform = above_zero)]
-    pub(crate) radius: Length,
-}
-
-/// A cone.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ConeForm {
-    /// Slope of the flank against the plane, tan θ, above 0; typical 0.001 to 0.1.
-    #[schemars(extend("exclusiveMinimum" = 0), example = 0.01)]
-    pub(crate) slope: f64,
-}
-
-/// A power law.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct PowerForm {
-    /// Coefficient A of f = A rⁿ in SI, m^(1-n), above 0; the paraboloid of radius R has A = 1/(2R) and n = 2.
-    #[schemars(extend("exclusiveMinimum" = 0), example = 1e6)]
-    pub(crate) coefficient: f64,
-    /// Exponent n of f = A rⁿ, above 0; 1 is a cone, 2 a paraboloid.
-    #[schemars(extend("exclusiveMinimum" = 0), example = 4)]
-    pub(crate) exponent: f64,
-}
-
-/// A one-dimensional foundation.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FoundationForm {
-    /// Heights of the springs above the lowest point, m, at least 0, in any order; typical 1 nm to 10 um.
-    #[schemars(length(min = 1), example = json!([0, "10 nm", "20 nm"]), transform = at_least_zero)]
-    pub(crate) heights: Vec<Length>,
-    /// Length of foundation at each height, m, above 0: one for all, or one each; typical 10 nm to 100 um.
-    #[schemars(example = &"1 um", example = json!(["1 um", "2 um", "1 um"]), transform = above_zero)]
-    pub(crate) length: Lengths,
 }
 
 /// What presses a contact.

@@ -1,29 +1,35 @@
 //! The file's form: what may stand where, before anybody asks what it means. The doc comments become the schema.
 
 mod body;
+mod bordered;
 mod contact;
 mod coupling;
 mod input;
 mod lengths;
 mod material;
+mod measured;
 mod output;
 mod plain;
 mod point;
+mod profile;
 mod run;
 mod value;
 mod waveform;
 
 pub(crate) use body::{BodyForm, BodyStartForm, FreedomForm};
-pub(crate) use contact::{
-    ContactForm, ContactStartForm, EngineForm, FoundationForm, NormalForm, ProfileForm,
+pub(crate) use bordered::{
+    PowersForm, RoundedFlatForm, TippedParaboloidForm, TruncatedConeForm, TruncatedParaboloidForm,
 };
+pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, NormalForm};
 pub(crate) use coupling::{ActuatorForm, DirectionForm, GravityForm, LoadForm, SpringForm};
 pub(crate) use input::{InputForm, InterpolationForm};
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
+pub(crate) use measured::{GapPoint, GapTableForm, LawPoint, NormalLawForm, RoughForm, SelfAffineForm};
 pub(crate) use output::{FieldsOutputForm, MemoryOutputForm, OutputForm};
 pub(crate) use plain::{Count, Reserved, Two};
 pub(crate) use point::{PointForm, Points};
+pub(crate) use profile::{FoundationForm, ProfileForm};
 pub(crate) use run::{FiguresForm, LimitsForm, RunForm, RunStartForm, StepperForm};
 pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::{HarmonicsForm, Periodic, Point, TableForm, WaveformForm};

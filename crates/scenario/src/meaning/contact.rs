@@ -30,7 +30,7 @@ impl Builder<'_> {
     fn contact(&mut self, at: &At<'_>, form: &ContactForm) -> Result<Contact, Fault> {
         let between = self.between(at, &form.between)?;
         let pair = self.pair(&at.key("materials"), &form.materials.0)?;
-        let profile = profile(&at.key("profile"), &form.profile)?;
+        let profile = profile(&at.key("profile"), &form.profile, pair)?;
         let friction_at = at.key("friction");
         let interface = Interface::new(pair, profile, form.friction).map_err(|FrictionError(_)| {
             let fault =

@@ -4,6 +4,7 @@ mod body;
 mod contact;
 mod coupling;
 mod input;
+mod measured;
 mod motion;
 mod names;
 mod output;

@@ -1,32 +1,59 @@
 //! Profiles of the gap.
 
-use super::range;
+use super::{measured, range};
 use crate::fault::Fault;
-use crate::form::{FoundationForm, Lengths, ProfileForm};
+use crate::form::{FoundationForm, Lengths, PowersForm, ProfileForm};
 use crate::guide::Help;
 use crate::path::At;
 use crate::units::Kind;
-use stickslip_contact::{Profile, ProfileError};
+use stickslip_contact::{Pair, Profile, ProfileError};
 
-/// The profile of a form.
-pub(super) fn profile(at: &At<'_>, form: &ProfileForm) -> Result<Profile, Fault> {
-    let (key, profile) = match form {
-        ProfileForm::Flat(flat) => ("flat", Profile::flat(flat.radius.si)),
-        ProfileForm::Cone(cone) => ("cone", Profile::cone(cone.slope)),
-        ProfileForm::Paraboloid(ball) => ("paraboloid", Profile::paraboloid(ball.radius.si)),
-        ProfileForm::Sphere(ball) => ("sphere", Profile::sphere(ball.radius.si)),
-        ProfileForm::Power(power) => ("power", Profile::power(power.coefficient, power.exponent)),
-        ProfileForm::Foundation(form) => return foundation(&at.key("foundation"), form),
-        ProfileForm::Table(_) => return Err(at.key("table").not_yet()),
-        ProfileForm::Rough(_) => return Err(at.key("rough").not_yet()),
+/// Most terms of a sum of powers: each costs a power in every evaluation.
+const MAX_TERMS: usize = 16;
+
+/// The profile of a form, between bodies of this pair.
+pub(super) fn profile(at: &At<'_>, form: &ProfileForm, pair: Pair) -> Result<Profile, Fault> {
+    let at = at.key(form.word());
+    let profile = match form {
+        ProfileForm::Flat(flat) => Profile::flat(flat.radius.si),
+        ProfileForm::Cone(cone) => Profile::cone(cone.slope),
+        ProfileForm::Paraboloid(ball) => Profile::paraboloid(ball.radius.si),
+        ProfileForm::Sphere(ball) => Profile::sphere(ball.radius.si),
+        ProfileForm::Power(power) => Profile::power(power.coefficient, power.exponent),
+        ProfileForm::Foundation(form) => return foundation(&at, form),
+        ProfileForm::TruncatedCone(cone) => Profile::truncated_cone(cone.flat.si, cone.slope),
+        ProfileForm::TruncatedParaboloid(ball) => Profile::truncated_paraboloid(ball.flat.si, ball.radius.si),
+        ProfileForm::RoundedFlat(punch) => Profile::rounded_flat(punch.flat.si, punch.radius.si),
+        ProfileForm::TippedParaboloid(ball) => Profile::tipped_paraboloid(ball.radius.si, ball.tip.si),
+        ProfileForm::Powers(form) => return powers(&at.key("terms"), form),
+        ProfileForm::Table(form) => return measured::table(&at, form),
+        ProfileForm::NormalLaw(form) => return measured::normal_law(&at, form, pair),
+        ProfileForm::Rough(form) => return measured::rough(&at, form),
     };
-    let at = at.key(key);
+    let length = |key| at.key(key).expected(range::above(Kind::Length));
     profile.map_err(|error| match error {
-        ProfileError::Radius(_) => at.key("radius").expected(range::above(Kind::Length)),
+        ProfileError::Radius(_) => length("radius"),
+        ProfileError::Flat(_) => length("flat"),
+        ProfileError::Tip(_) => length("tip"),
         ProfileError::Slope(_) => at.key("slope").expected(range::ABOVE),
         // Above 0 it is out of reach for another reason, and need not be the one in the file.
         ProfileError::Coefficient(value) if value <= 0.0 => at.key("coefficient").expected(range::ABOVE),
         ProfileError::Exponent(_) => at.key("exponent").expected(range::ABOVE),
+        _ => at.fault(error.to_string()),
+    })
+}
+
+fn powers(at: &At<'_>, form: &PowersForm) -> Result<Profile, Fault> {
+    let terms: Vec<(f64, f64)> = form.terms.iter().map(|term| (term.coefficient, term.exponent)).collect();
+    if terms.len() > MAX_TERMS {
+        return Err(at.fault(format!("expected at most {MAX_TERMS} terms, got {}", terms.len())));
+    }
+    Profile::powers(&terms).map_err(|error| match error {
+        ProfileError::TermCoefficient { index, .. } => {
+            at.index(index).key("coefficient").expected("a number of at least 0")
+        }
+        ProfileError::TermExponent { index, .. } => at.index(index).key("exponent").expected(range::ABOVE),
+        ProfileError::NoTerm => at.fault("expected at least one term above 0").ask(Help::Shape),
         _ => at.fault(error.to_string()),
     })
 }

@@ -75,8 +75,8 @@ fn loading(scene: &Scene, path: KeyPath, error: &SceneError, reason: FirstLoadin
         FirstLoadingError::NormalForce(low) | FirstLoadingError::Radius(low) if low < 0.0 => {
             below_zero(scene, path, error, low)
         }
-        FirstLoadingError::Radius(_) | FirstLoadingError::BeyondSphere { .. } => {
-            beyond_sphere(scene, &path, error).unwrap_or_else(|| plain(path, error))
+        FirstLoadingError::Radius(_) | FirstLoadingError::BeyondProfile { .. } => {
+            beyond_profile(scene, &path, error).unwrap_or_else(|| plain(path, error))
         }
         _ => plain(path, error),
     }
@@ -107,8 +107,8 @@ fn below_zero(scene: &Scene, mut path: KeyPath, error: &SceneError, low: f64) ->
     Fault::new(path, message).help(help)
 }
 
-/// A sphere ends at its equator; how deep the bodies press a coupled one is a matter of the whole scene.
-fn beyond_sphere(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<Fault> {
+/// A sphere ends at its equator, a table at its last point; how deep the bodies press a coupled one is a matter of the whole scene.
+fn beyond_profile(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<Fault> {
     let (Part::Contact(i), Some((varying, normal))) = (error.part, pressing(scene, error.part)) else {
         return None;
     };
@@ -124,10 +124,16 @@ fn beyond_sphere(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<Fa
         Varying::Follows(w) => scene.waveforms.get(w)?.part.range().1,
     };
     let (most, high, unit) = (range::short(most), range::short(high), address::kind(error)?.si());
-    let message = format!(
-        "expected less than {most} {unit}, where the contact reaches the sphere's equator, got {high} {unit}"
-    );
-    let help = "half-spaces touch in circles much smaller than the sphere";
+    let (end, help) = if interface.profile().ends_at_a_point() {
+        (
+            "the last point of its profile",
+            "half-spaces touch in circles smaller than what is known of the profile",
+        )
+    } else {
+        ("the sphere's equator", "half-spaces touch in circles much smaller than the sphere")
+    };
+    let message =
+        format!("expected less than {most} {unit}, where the contact reaches {end}, got {high} {unit}");
     Some(Fault::new(path.clone(), message).help(help))
 }
 

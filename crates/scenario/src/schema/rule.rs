@@ -66,9 +66,36 @@ fn either(schema: &mut Schema, one: &str, other: &str) {
 
 /// A table stands in the scenario or in a file.
 pub(crate) fn points_or_file(schema: &mut Schema) {
-    let here =
-        json!({ "required": ["points"], "properties": { "file": false, "time": false, "value": false } });
-    let there = json!({ "required": ["file", "time", "value"], "properties": { "points": false } });
+    here_or_in_file(schema, ["points"], &["time", "value"]);
+}
+
+/// So does a profile by points, …
+pub(crate) fn gaps_or_file(schema: &mut Schema) {
+    here_or_in_file(schema, ["points"], &["radius", "gap"]);
+}
+
+/// … a normal law …
+pub(crate) fn law_or_file(schema: &mut Schema) {
+    here_or_in_file(schema, ["points"], &["indentation", "force"]);
+}
+
+/// … and a rough line, if it is not made by numbers.
+pub(crate) fn heights_or_file(schema: &mut Schema) {
+    let without =
+        |keys: &[&str]| keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect::<Map<_, _>>();
+    let here = json!({ "required": ["heights", "spacing"], "properties": without(&["file", "height", "self_affine"]) });
+    let there = json!({ "required": ["file", "height", "spacing"], "properties": without(&["heights", "self_affine"]) });
+    let made = json!({ "required": ["self_affine"], "properties": without(&["heights", "file", "height", "spacing"]) });
+    schema.insert("oneOf".to_owned(), json!([here, there, made]));
+}
+
+/// A list stands here, or in the columns of a file.
+fn here_or_in_file(schema: &mut Schema, list: [&str; 1], columns: &[&str]) {
+    let there: Vec<&str> = ["file"].iter().chain(columns).copied().collect();
+    let without =
+        |keys: &[&str]| keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect::<Map<_, _>>();
+    let here = json!({ "required": list, "properties": without(&there) });
+    let there = json!({ "required": there, "properties": without(&list) });
     schema.insert("oneOf".to_owned(), json!([here, there]));
 }
 

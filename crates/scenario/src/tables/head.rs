@@ -8,6 +8,8 @@ pub(super) enum Column {
     Time,
     /// Of whatever follows the waveform.
     Value,
+    /// Of this dimension, in a unit that the head must name.
+    Of(Kind),
 }
 
 /// The head of a column, such as `disp (µm)`, `t [ms]`, `disp_um` or `time/ms`.
@@ -85,8 +87,17 @@ impl Head {
     /// where it fits, and is a part of the name elsewhere.
     pub(super) fn measure(&self, column: Column) -> Result<Measure, Unreadable> {
         let si = Measure { kind: None, scale: Scale::Ten(0) };
-        let Some(unit) = &self.unit else { return Ok(si) };
-        let wanted = (column == Column::Time).then_some(Kind::Time);
+        let wanted = match column {
+            Column::Time => Some(Kind::Time),
+            Column::Value => None,
+            Column::Of(kind) => Some(kind),
+        };
+        let unit = match (&self.unit, column) {
+            (Some(unit), _) => unit,
+            // Whoever measures a profile does so in micrometres or nanometres, never in metres.
+            (None, Column::Of(kind)) => return Err(self.without_unit(kind)),
+            (None, Column::Time | Column::Value) => return Ok(si),
+        };
         let Some((kind, scale)) = units::find(&unit.text) else {
             let message = format!("\"{}\" is no unit", crate::document::shown(&unit.text));
             return Err(Unreadable { message, help: advice(&unit.text, wanted) });
@@ -94,14 +105,19 @@ impl Head {
         let fits = match column {
             Column::Time => kind == Kind::Time,
             Column::Value => matches!(kind, Kind::Length | Kind::Force | Kind::Moment | Kind::Angle),
+            Column::Of(wanted) => kind == wanted,
         };
         match (fits, unit.bracketed) {
             (true, _) => Ok(Measure { kind: Some(kind), scale }),
-            (false, false) => Ok(si),
+            (false, false) => match column {
+                Column::Of(kind) => Err(self.without_unit(kind)),
+                Column::Time | Column::Value => Ok(si),
+            },
             (false, true) => Err(Unreadable {
                 message: match column {
                     Column::Time => "expected a column of times".to_owned(),
                     Column::Value => "expected a column of lengths, forces, moments or angles".to_owned(),
+                    Column::Of(kind) => format!("expected a column of {}s", plural(kind)),
                 },
                 help: match wanted {
                     Some(wanted) => of_another(&unit.text, kind, wanted),
@@ -112,6 +128,25 @@ impl Head {
             }),
         }
     }
+}
+
+impl Head {
+    /// A head that must name a unit of this dimension and does not.
+    fn without_unit(&self, kind: Kind) -> Unreadable {
+        let name = crate::document::shown(&self.full);
+        Unreadable {
+            message: format!("the head \"{name}\" names no unit of {}", kind.article()),
+            help: format!(
+                "put one behind the name, such as \"{name} ({})\"",
+                if kind == Kind::Force { "mN" } else { "um" }
+            ),
+        }
+    }
+}
+
+/// The word for a dimension without its article.
+fn plural(kind: Kind) -> &'static str {
+    kind.article().split_once(' ').map_or("", |(_, word)| word)
 }
 
 /// Whether a text behind a slash or an underscore is a unit beyond doubt.
@@ -173,5 +208,16 @@ mod tests {
         assert!(refused("disp (microns)", Column::Value).help.starts_with("did you mean \"um\"?"));
         assert_eq!(refused("t (um)", Column::Time).message, "expected a column of times");
         assert!(refused("v [mm/s]", Column::Value).help.contains("a velocity"));
+        assert_eq!(refused("d (N)", Column::Of(Kind::Length)).message, "expected a column of lengths");
+    }
+
+    #[test]
+    fn a_column_of_a_profile_names_its_unit() {
+        let length = Column::Of(Kind::Length);
+        assert_eq!(read("z_nm", length), Some(("z".to_owned(), Some(Kind::Length), Scale::Ten(-9))));
+        for head in ["z", "F_mN", "z/a"] {
+            let refused = Head::new(head).measure(length).unwrap_err();
+            assert_eq!(refused.message, format!("the head \"{head}\" names no unit of a length"));
+        }
     }
 }

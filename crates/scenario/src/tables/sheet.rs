@@ -25,9 +25,13 @@ pub(super) fn header(text: &str) -> Result<Vec<String>, Slip> {
     }
 }
 
-/// The numbers of two columns of a table that is `width` columns wide, in SI by the scale of each.
-pub(super) fn numbers(text: &str, columns: [(usize, Scale); 2], width: usize) -> Result<Vec<[f64; 2]>, Slip> {
-    let mut pairs = Vec::new();
+/// The numbers of some columns of a table that is `width` columns wide, in SI by the scale of each.
+pub(super) fn numbers<const N: usize>(
+    text: &str,
+    columns: [(usize, Scale); N],
+    width: usize,
+) -> Result<Vec<[f64; N]>, Slip> {
+    let mut rows = Vec::new();
     for record in reader(text).records() {
         // A text in memory can be read, and any text is a flexible table.
         let Ok(record) = record else { continue };
@@ -59,9 +63,13 @@ pub(super) fn numbers(text: &str, columns: [(usize, Scale); 2], width: usize) ->
                 }),
             }
         };
-        pairs.push([number(columns[0])?, number(columns[1])?]);
+        let mut row = [0.0; N];
+        for (value, column) in row.iter_mut().zip(columns) {
+            *value = number(column)?;
+        }
+        rows.push(row);
     }
-    Ok(pairs)
+    Ok(rows)
 }
 
 /// The place of the head of a column.

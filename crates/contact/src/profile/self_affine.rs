@@ -1,0 +1,270 @@
+//! Rough lines made by numbers: self-affine between two cut-offs, the same on every machine.
+//!
+//! z(x) = ΣAₖcos(2πkx/L + φₖ) over the wavelengths L/k between the cut-offs, Aₖ ~ k^{-(H+1/2)}: a line whose power spectrum is
+//! C(q) ~ q^{-(1+2H)} (Persson et al., J. Phys.: Condens. Matter 17, 2005, R1), its phases drawn by the seed, scaled to the rms height
+//! asked for.
+//!
+//! Only sums, products, quotients and square roots are used, which every machine rounds alike, and integers: no function of a
+//! mathematical library, whose last digits differ between them.
+
+use thiserror::Error;
+
+/// A self-affine rough line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SelfAffine {
+    /// Root of the mean square of the heights about their mean, m, above 0.
+    pub rms: f64,
+    /// Hurst exponent, between 0 and 1.
+    pub hurst: f64,
+    /// Longest wavelength, m, at most the length.
+    pub longest: f64,
+    /// Shortest wavelength, m, below the longest and two distances of points at least.
+    pub shortest: f64,
+    /// Length L of the line, m, after which it repeats.
+    pub length: f64,
+    /// Number of points, a power of two from 4 to [`Self::MAX_POINTS`].
+    pub points: usize,
+    /// What the phases are drawn by.
+    pub seed: u64,
+}
+
+/// Why a rough line cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum RoughnessError {
+    /// The rms height must be positive and finite, m.
+    #[error("expected an rms height above 0 m, got {0}")]
+    Rms(f64),
+    /// The Hurst exponent lies between 0 and 1.
+    #[error("expected a Hurst exponent between 0 and 1, got {0}")]
+    Hurst(f64),
+    /// The length must be positive and finite, m.
+    #[error("expected a length above 0 m, got {0}")]
+    Length(f64),
+    /// The number of points is a power of two.
+    #[error("expected a power of two between 4 and {max} points, got {0}", max = SelfAffine::MAX_POINTS)]
+    Points(usize),
+    /// The longest wavelength fits into the length, m.
+    #[error("expected a longest wavelength of at most the length {length} m, got {longest} m")]
+    Longest {
+        /// Asked for, m.
+        longest: f64,
+        /// Length of the line, m.
+        length: f64,
+    },
+    /// The shortest wavelength is shorter than the longest, m.
+    #[error("expected a shortest wavelength below the longest of {longest} m, got {shortest} m")]
+    Swapped {
+        /// Asked for, m.
+        shortest: f64,
+        /// The longest, m.
+        longest: f64,
+    },
+    /// The shortest wavelength has two points at least, m.
+    #[error(
+        "expected a shortest wavelength of at least two distances of points, {least} m, got {shortest} m"
+    )]
+    Shortest {
+        /// Asked for, m.
+        shortest: f64,
+        /// Two distances of points, m.
+        least: f64,
+    },
+    /// No whole part of the length lies between the cut-offs.
+    #[error("no whole part of the length lies between the longest and the shortest wavelength")]
+    NoWave,
+}
+
+impl SelfAffine {
+    /// Most points.
+    pub const MAX_POINTS: usize = 1 << 20;
+
+    /// Heights at equal distances, m, with the mean 0.
+    ///
+    /// # Errors
+    ///
+    /// For the first parameter out of its range.
+    pub fn heights(&self) -> Result<Vec<f64>, RoughnessError> {
+        let [first, last] = self.waves()?;
+        let mut random = Random(self.seed);
+        let mut spectrum = vec![[0.0; 2]; self.points];
+        for (k, wave) in spectrum.iter_mut().enumerate().take(last + 1).skip(first) {
+            let amplitude = exp(-(self.hurst + 0.5) * ln(k as f64));
+            let [cosine, sine] = random.direction();
+            *wave = [amplitude * cosine, amplitude * sine];
+        }
+        transform(&mut spectrum);
+        let count = self.points as f64;
+        let square: f64 = spectrum.iter().map(|z| z[0] * z[0]).sum();
+        let scale = self.rms / (square / count).sqrt();
+        Ok(spectrum.iter().map(|z| scale * z[0]).collect())
+    }
+
+    /// Waves along the length, from the fewest to the most.
+    fn waves(&self) -> Result<[usize; 2], RoughnessError> {
+        let Self { rms, hurst, longest, shortest, length, points, .. } = *self;
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        if !positive(rms) {
+            return Err(RoughnessError::Rms(rms));
+        }
+        if !(0.0..=1.0).contains(&hurst) {
+            return Err(RoughnessError::Hurst(hurst));
+        }
+        if !positive(length) {
+            return Err(RoughnessError::Length(length));
+        }
+        if !points.is_power_of_two() || !(4..=Self::MAX_POINTS).contains(&points) {
+            return Err(RoughnessError::Points(points));
+        }
+        // Rounding of a quotient does not count.
+        let slack = 1e-9;
+        if !(longest > 0.0 && longest <= length * (1.0 + slack)) {
+            return Err(RoughnessError::Longest { longest, length });
+        }
+        if !(shortest > 0.0 && shortest <= longest) {
+            return Err(RoughnessError::Swapped { shortest, longest });
+        }
+        let least = 2.0 * length / points as f64;
+        if shortest < least * (1.0 - slack) {
+            return Err(RoughnessError::Shortest { shortest, least });
+        }
+        let first = (length / longest * (1.0 - slack)).ceil() as usize;
+        let last = ((length / shortest * (1.0 + slack)).floor() as usize).min(points / 2);
+        if first == 0 || first > last {
+            return Err(RoughnessError::NoWave);
+        }
+        Ok([first, last])
+    }
+}
+
+/// Whole numbers at random: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Between -1 and 1, evenly.
+    fn even(&mut self) -> f64 {
+        (self.next() >> 11) as f64 * (1.0 / (1_u64 << 52) as f64) - 1.0
+    }
+
+    /// Cosine and sine of an angle, all alike: of a point in the unit circle, drawn until one lies inside.
+    fn direction(&mut self) -> [f64; 2] {
+        loop {
+            let (x, y) = (self.even(), self.even());
+            let square = x * x + y * y;
+            if square > 1e-6 && square < 1.0 {
+                let length = square.sqrt();
+                return [x / length, y / length];
+            }
+        }
+    }
+}
+
+/// ln x of a normal number above 0, to 1e-15: 2 artanh((m-1)/(m+1)) of what is left of x by its power of two.
+fn ln(x: f64) -> f64 {
+    let bits = x.to_bits();
+    let mut power = ((bits >> 52) as i32 - 1023) as f64;
+    let mut m = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) | 0x3ff0_0000_0000_0000);
+    if m > std::f64::consts::SQRT_2 {
+        (m, power) = (0.5 * m, power + 1.0);
+    }
+    let s = (m - 1.0) / (m + 1.0);
+    let sum = (0..13).rev().fold(0.0, |sum, k| sum * (s * s) + 1.0 / f64::from(2 * k + 1));
+    power * std::f64::consts::LN_2 + 2.0 * s * sum
+}
+
+/// eˣ for |x| < 700, to 1e-14: by its series for what is left by a power of two.
+fn exp(x: f64) -> f64 {
+    let power = (x / std::f64::consts::LN_2).round();
+    let rest = x - power * std::f64::consts::LN_2;
+    let sum = (1..20).rev().fold(1.0, |sum, k| 1.0 + sum * (rest / f64::from(k)));
+    sum * f64::from_bits(((power as i64 + 1023) as u64) << 52)
+}
+
+/// Cosines and sines of the first half of n equal parts of a circle, n a power of two from 4 on: halves of angles whose
+/// directions are known, by square roots.
+fn directions(n: usize) -> Vec<[f64; 2]> {
+    let half = n / 2;
+    let mut table = vec![[0.0_f64; 2]; half + 1];
+    (table[0], table[half / 2], table[half]) = ([1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]);
+    let mut step = half / 2;
+    while step > 1 {
+        for from in (0..half).step_by(step) {
+            let (a, b) = (table[from], table[from + step]);
+            let sum = [a[0] + b[0], a[1] + b[1]];
+            let length = (sum[0] * sum[0] + sum[1] * sum[1]).sqrt();
+            table[from + step / 2] = [sum[0] / length, sum[1] / length];
+        }
+        step /= 2;
+    }
+    table
+}
+
+/// Fourier's sum Σ cₖe^{2πijk/n} in place, by halves (Cooley and Tukey, Math. Comp. 19, 1965).
+fn transform(c: &mut [[f64; 2]]) {
+    let n = c.len();
+    let shift = usize::BITS - n.trailing_zeros();
+    for i in 0..n {
+        let mirror = i.reverse_bits() >> shift;
+        if i < mirror {
+            c.swap(i, mirror);
+        }
+    }
+    let table = directions(n);
+    let mut half = 1;
+    while half < n {
+        for first in (0..n).step_by(2 * half) {
+            for k in 0..half {
+                let [cosine, sine] = table[k * (n / 2 / half)];
+                let [x, y] = c[first + half + k];
+                let turned = [x * cosine - y * sine, x * sine + y * cosine];
+                let [x, y] = c[first + k];
+                c[first + k] = [x + turned[0], y + turned[1]];
+                c[first + half + k] = [x - turned[0], y - turned[1]];
+            }
+        }
+        half *= 2;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn its_own_functions_agree_with_those_of_the_library() {
+        for x in [1.0, 1.5, 2.0, 3.0, 1000.0, 524_288.0, 0.1] {
+            approx::assert_abs_diff_eq!(ln(x), x.ln(), epsilon = 2e-15 * x.ln().abs().max(1.0));
+            approx::assert_relative_eq!(exp(-1.3 * ln(x)), x.powf(-1.3), max_relative = 2e-14);
+        }
+        let n = 1024;
+        for (k, [cosine, sine]) in directions(n).iter().enumerate() {
+            let angle = 2.0 * std::f64::consts::PI * k as f64 / n as f64;
+            approx::assert_abs_diff_eq!(*cosine, angle.cos(), epsilon = 2e-15);
+            approx::assert_abs_diff_eq!(*sine, angle.sin(), epsilon = 2e-15);
+        }
+    }
+
+    #[test]
+    fn its_transform_is_the_sum_written_out() {
+        let mut random = Random(3);
+        let c: Vec<[f64; 2]> = (0..16).map(|_| [random.even(), random.even()]).collect();
+        let mut fast = c.clone();
+        transform(&mut fast);
+        for (j, z) in fast.iter().enumerate() {
+            let mut sum = [0.0; 2];
+            for (k, [x, y]) in c.iter().enumerate() {
+                let (sine, cosine) = (2.0 * std::f64::consts::PI * (j * k % 16) as f64 / 16.0).sin_cos();
+                sum = [sum[0] + x * cosine - y * sine, sum[1] + x * sine + y * cosine];
+            }
+            approx::assert_abs_diff_eq!(z[0], sum[0], epsilon = 1e-14);
+            approx::assert_abs_diff_eq!(z[1], sum[1], epsilon = 1e-14);
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Profiles by points and lines, written out or in a file.
+
+use super::Count;
+use crate::quantity::{Force, Length};
+use crate::schema::{above_zero, gaps_or_file, heights_or_file, law_or_file};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::json;
+use std::borrow::Cow;
+use std::fmt;
+
+/// A profile by points.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = gaps_or_file)]
+pub(crate) struct GapTableForm {
+    /// Pairs of radius and gap, 2 to 4000: the first [0, 0], radii rising, gaps not falling; this or `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2, max = 4000), example = json!([[0, 0], ["10 um", "5 nm"], ["20 um", "20 nm"]]))]
+    pub(crate) points: Option<Vec<GapPoint>>,
+    /// CSV file with a header, at or below the scenario's own folder, whose columns have a unit in their heads, as in `f (nm)`,
+    /// `r [um]`, `r_um` and `f/nm`; this or `points`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"worn.csv")]
+    pub(crate) file: Option<String>,
+    /// Name of the column of radii, which may leave out the unit in its head; needed with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"r")]
+    pub(crate) radius: Option<String>,
+    /// Name of the column of gaps, which may leave out the unit in its head; needed with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"f")]
+    pub(crate) gap: Option<String>,
+    /// Radii of points at which the profile has a kink, m, such as the edge of a flat; none by default: between kinks it is
+    /// taken to be smooth.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(example = json!(["20 um"]), transform = above_zero)]
+    pub(crate) kinks: Vec<Length>,
+}
+
+/// A profile by its normal law.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = law_or_file)]
+pub(crate) struct NormalLawForm {
+    /// Pairs of indentation and normal force of one contact between its two materials, at least two: the first [0, 0], both
+    /// rising, ever more steeply; this or `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2), example = json!([[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]]))]
+    pub(crate) points: Option<Vec<LawPoint>>,
+    /// CSV file with a header, at or below the scenario's own folder, whose columns have a unit in their heads, as in `d (nm)`
+    /// and `F_mN`; this or `points`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"indenter.csv")]
+    pub(crate) file: Option<String>,
+    /// Name of the column of indentations, which may leave out the unit in its head; needed with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"d")]
+    pub(crate) indentation: Option<String>,
+    /// Name of the column of forces, which may leave out the unit in its head; needed with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"F")]
+    pub(crate) force: Option<String>,
+}
+
+/// A rough line, that of the one-dimensional foundation.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = heights_or_file)]
+pub(crate) struct RoughForm {
+    /// Heights at equal distances, m, counted outwards from the body and from any level: the highest touches first; this
+    /// or `file` or `self_affine`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1), example = json!([0, "12 nm", "7 nm"]))]
+    pub(crate) heights: Option<Vec<Length>>,
+    /// CSV file with a header, at or below the scenario's own folder, whose column has a unit in its head, as in `z (nm)`;
+    /// this or `heights`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"line.csv")]
+    pub(crate) file: Option<String>,
+    /// Name of the column of heights, which may leave out the unit in its head; needed with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"z")]
+    pub(crate) height: Option<String>,
+    /// Distance from height to height, m, above 0; needed with `heights` and `file`; typical 10 nm to 10 um.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"1 um", transform = above_zero)]
+    pub(crate) spacing: Option<Length>,
+    /// A line made by numbers, the same on every machine; this or `heights`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!({ "rms": "20 nm", "hurst": 0.8, "longest": "20 um", "shortest": "1 um", "length": "100 um", "points": 1024, "seed": 1 }))]
+    pub(crate) self_affine: Option<SelfAffineForm>,
+}
+
+/// A self-affine line: a sum of waves between two cut-offs whose amplitudes fall with the power H + 1/2 of their number, with
+/// phases drawn by the seed.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SelfAffineForm {
+    /// Root mean square of the heights, m, above 0; typical 1 nm to 1 um.
+    #[schemars(example = &"20 nm", transform = above_zero)]
+    pub(crate) rms: Length,
+    /// The Hurst exponent H, 0 to 1; typical 0.8.
+    #[schemars(range(min = 0.0, max = 1.0), example = 0.8)]
+    pub(crate) hurst: f64,
+    /// Longest wavelength, m, at most the length.
+    #[schemars(example = &"20 um", transform = above_zero)]
+    pub(crate) longest: Length,
+    /// Shortest wavelength, m, below the longest and at least two distances of points.
+    #[schemars(example = &"1 um", transform = above_zero)]
+    pub(crate) shortest: Length,
+    /// Length of the line, m, above 0.
+    #[schemars(example = &"100 um", transform = above_zero)]
+    pub(crate) length: Length,
+    /// Number of points, a power of two from 4 to 1 048 576.
+    #[schemars(range(min = 4, max = 1_048_576), example = 1024)]
+    pub(crate) points: Count,
+    /// Whole number by which the phases are drawn, 0 by default.
+    #[serde(default = "no_seed")]
+    #[schemars(example = 1)]
+    pub(crate) seed: Count,
+}
+
+fn no_seed() -> Count {
+    Count(0)
+}
+
+/// Two quantities in brackets.
+macro_rules! pair {
+    ($(#[$doc:meta])* $name:ident($first:ty, $second:ty), $expected:literal, $described:literal, $example:expr) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, Serialize)]
+        pub(crate) struct $name(pub(crate) $first, pub(crate) $second);
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct PairVisitor;
+                impl<'de> Visitor<'de> for PairVisitor {
+                    type Value = $name;
+
+                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                        f.write_str($expected)
+                    }
+
+                    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<$name, A::Error> {
+                        let short = |length| de::Error::invalid_length(length, &self);
+                        let first = seq.next_element()?.ok_or_else(|| short(0))?;
+                        let second = seq.next_element()?.ok_or_else(|| short(1))?;
+                        if seq.next_element::<de::IgnoredAny>()?.is_some() {
+                            return Err(short(3));
+                        }
+                        Ok($name(first, second))
+                    }
+                }
+                deserializer.deserialize_tuple(2, PairVisitor)
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                json_schema!({
+                    "description": $described,
+                    "examples": [$example],
+                    "type": "array",
+                    "prefixItems": [generator.subschema_for::<$first>(), generator.subschema_for::<$second>()],
+                    "minItems": 2,
+                    "maxItems": 2
+                })
+            }
+        }
+    };
+}
+
+pair! {
+    /// A point of a profile.
+    GapPoint(Length, Length), "a pair [radius, gap]", "Radius and gap.", json!(["10 um", "5 nm"])
+}
+
+pair! {
+    /// A point of a normal law.
+    LawPoint(Length, Force), "a pair [indentation, force]", "Indentation and normal force.", json!(["50 nm", "20 mN"])
+}

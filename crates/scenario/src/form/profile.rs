@@ -1,0 +1,132 @@
+//! Profiles of the gap.
+
+use super::{
+    GapTableForm, Lengths, NormalLawForm, PowersForm, RoughForm, RoundedFlatForm, TippedParaboloidForm,
+    TruncatedConeForm, TruncatedParaboloidForm,
+};
+use crate::quantity::Length;
+use crate::schema::{above_zero, at_least_zero};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+/// Profile of the gap between the undeformed bodies.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ProfileForm {
+    /// Flat cylindrical punch.
+    #[schemars(example = json!({ "flat": { "radius": "50 um" } }))]
+    Flat(FlatForm),
+    /// Cone, f = slope · r.
+    #[schemars(example = json!({ "cone": { "slope": 0.01 } }))]
+    Cone(ConeForm),
+    /// Paraboloid, f = r²/(2R): Hertz.
+    #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
+    Paraboloid(BallForm),
+    /// Sphere, f = R - √(R²-r²), exact.
+    #[schemars(example = json!({ "sphere": { "radius": "0.5 mm" } }))]
+    Sphere(BallForm),
+    /// Power law, f = A rⁿ.
+    #[schemars(example = json!({ "power": { "coefficient": 1e6, "exponent": 4 } }))]
+    Power(PowerForm),
+    /// One-dimensional foundation given by its heights; need not be monotone.
+    #[schemars(example = json!({ "foundation": { "heights": [0, "10 nm", "20 nm"], "length": "1 um" } }))]
+    Foundation(FoundationForm),
+    /// Worn cone: flat up to a radius, beyond it f = slope · (r - flat).
+    #[schemars(example = json!({ "truncated_cone": { "flat": "20 um", "slope": 0.01 } }))]
+    TruncatedCone(TruncatedConeForm),
+    /// Worn ball: flat up to a radius, beyond it f = (r² - flat²)/(2R).
+    #[schemars(example = json!({ "truncated_paraboloid": { "flat": "20 um", "radius": "5 mm" } }))]
+    TruncatedParaboloid(TruncatedParaboloidForm),
+    /// Flat punch with a rounded edge: flat up to a radius, beyond it f = (r - flat)²/(2R).
+    #[schemars(example = json!({ "rounded_flat": { "flat": "50 um", "radius": "1 mm" } }))]
+    RoundedFlat(RoundedFlatForm),
+    /// Paraboloid with a conical tip: f = tip · r/R up to the tip's radius, beyond it (r² + tip²)/(2R).
+    #[schemars(example = json!({ "tipped_paraboloid": { "radius": "5 mm", "tip": "5 um" } }))]
+    TippedParaboloid(TippedParaboloidForm),
+    /// Sum of powers, f = Σ A rⁿ.
+    #[schemars(example = json!({ "powers": { "terms": [{ "coefficient": 100, "exponent": 2 }, { "coefficient": 1e9, "exponent": 4 }] } }))]
+    Powers(PowersForm),
+    /// Given by points (r, f), whose equivalent g(x) is computed.
+    #[schemars(example = json!({ "table": { "points": [[0, 0], ["10 um", "5 nm"], ["20 um", "20 nm"]] } }))]
+    Table(GapTableForm),
+    /// Given by points of its normal law, force over indentation.
+    #[schemars(example = json!({ "normal_law": { "points": [[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]] } }))]
+    NormalLaw(NormalLawForm),
+    /// Rough line: heights at equal distances, measured or made by numbers; only their distribution matters.
+    #[schemars(example = json!({ "rough": { "heights": [0, "12 nm", "7 nm"], "spacing": "1 um" } }))]
+    Rough(RoughForm),
+}
+
+impl ProfileForm {
+    /// The word for the kind, as in the file.
+    pub(crate) fn word(&self) -> &'static str {
+        match self {
+            Self::Flat(_) => "flat",
+            Self::Cone(_) => "cone",
+            Self::Paraboloid(_) => "paraboloid",
+            Self::Sphere(_) => "sphere",
+            Self::Power(_) => "power",
+            Self::Foundation(_) => "foundation",
+            Self::TruncatedCone(_) => "truncated_cone",
+            Self::TruncatedParaboloid(_) => "truncated_paraboloid",
+            Self::RoundedFlat(_) => "rounded_flat",
+            Self::TippedParaboloid(_) => "tipped_paraboloid",
+            Self::Powers(_) => "powers",
+            Self::Table(_) => "table",
+            Self::NormalLaw(_) => "normal_law",
+            Self::Rough(_) => "rough",
+        }
+    }
+}
+
+/// A flat punch.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FlatForm {
+    /// Radius of the flat face, m, above 0; typical 10 um to 5 mm.
+    #[schemars(example = &"50 um", transform = above_zero)]
+    pub(crate) radius: Length,
+}
+
+/// A ball.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BallForm {
+    /// Radius of curvature R, m, above 0; typical 0.1 mm to 50 mm.
+    #[schemars(example = &"0.5 mm", transform = above_zero)]
+    pub(crate) radius: Length,
+}
+
+/// A cone.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ConeForm {
+    /// Slope of the flank against the plane, tan θ, above 0; typical 0.001 to 0.1.
+    #[schemars(extend("exclusiveMinimum" = 0), example = 0.01)]
+    pub(crate) slope: f64,
+}
+
+/// A power law.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PowerForm {
+    /// Coefficient A of f = A rⁿ in SI, m^(1-n), above 0; the paraboloid of radius R has A = 1/(2R) and n = 2.
+    #[schemars(extend("exclusiveMinimum" = 0), example = 1e6)]
+    pub(crate) coefficient: f64,
+    /// Exponent n of f = A rⁿ, above 0; 1 is a cone, 2 a paraboloid.
+    #[schemars(extend("exclusiveMinimum" = 0), example = 4)]
+    pub(crate) exponent: f64,
+}
+
+/// A one-dimensional foundation.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FoundationForm {
+    /// Heights of the springs above the lowest point, m, at least 0, in any order; typical 1 nm to 10 um.
+    #[schemars(length(min = 1), example = json!([0, "10 nm", "20 nm"]), transform = at_least_zero)]
+    pub(crate) heights: Vec<Length>,
+    /// Length of foundation at each height, m, above 0: one for all, or one each; typical 10 nm to 100 um.
+    #[schemars(example = &"1 um", example = json!(["1 um", "2 um", "1 um"]), transform = above_zero)]
+    pub(crate) length: Lengths,
+}

@@ -1,0 +1,155 @@
+//! Profiles by points and lines; those of files are already here.
+
+use super::range;
+use crate::fault::Fault;
+use crate::form::{GapTableForm, NormalLawForm, RoughForm, SelfAffineForm};
+use crate::guide::Help;
+use crate::path::At;
+use crate::units::Kind;
+use stickslip_contact::{Pair, Profile, ProfileError, RoughnessError, SelfAffine};
+
+pub(super) fn table(at: &At<'_>, form: &GapTableForm) -> Result<Profile, Fault> {
+    let Some(points) = &form.points else {
+        let help = "or \"file\" with the names of its columns \"radius\" and \"gap\"";
+        return Err(at.missing("points").help(help));
+    };
+    let (points_at, kinks_at) = (at.key("points"), at.key("kinks"));
+    let points: Vec<(f64, f64)> = points.iter().map(|point| (point.0.si, point.1.si)).collect();
+    let kinks: Vec<f64> = form.kinks.iter().map(|kink| kink.si).collect();
+    Profile::table(&points, &kinks).map_err(|error| match error {
+        ProfileError::TooMany(_) => points_at.fault(error.to_string()).help("keep one of several points"),
+        ProfileError::Origin { .. } => {
+            let fault = points_at.index(0).fault("expected the first point at [0, 0]");
+            fault.help("radii count from the axis, gaps from where the bodies touch first")
+        }
+        ProfileError::Order { index } => {
+            points_at.index(index).index(0).expected("a radius beyond that of the point before it")
+        }
+        ProfileError::Fall { index } => {
+            points_at.index(index).index(1).expected("a gap not below that of the point before it")
+        }
+        ProfileError::NoRise => {
+            let fault =
+                points_at.index(points.len() - 1).index(1).fault("expected a gap above 0 m in the end");
+            fault.help("a table of zeros is a flat punch: \"flat\"")
+        }
+        ProfileError::Kink { index, .. } => {
+            let fault =
+                kinks_at.index(index).expected("the radius of a point between the first and the last");
+            fault.help("a kink is a point of the table; points beside it may be as near as you like")
+        }
+        ProfileError::NotRising { index, .. } => {
+            let message =
+                "the profile bends down so far before this point that its equivalent g(x) does not rise";
+            let help = "circles of contact that grow need a profile that is convex, or nearly so";
+            points_at.index(index).fault(message).help(help)
+        }
+        _ => few(&points_at, &error),
+    })
+}
+
+pub(super) fn normal_law(at: &At<'_>, form: &NormalLawForm, pair: Pair) -> Result<Profile, Fault> {
+    let Some(points) = &form.points else {
+        let help = "or \"file\" with the names of its columns \"indentation\" and \"force\"";
+        return Err(at.missing("points").help(help));
+    };
+    let at = at.key("points");
+    let modulus = pair.normal_modulus();
+    let points: Vec<(f64, f64)> = points.iter().map(|point| (point.0.si, point.1.si / modulus)).collect();
+    Profile::normal_law(&points).map_err(|error| match error {
+        ProfileError::Origin { .. } => {
+            let fault = at.index(0).fault("expected the first point at [0, 0]");
+            fault.help("indentations and forces count from the first touch")
+        }
+        ProfileError::Order { index } => {
+            at.index(index).index(0).expected("an indentation beyond that of the point before it")
+        }
+        ProfileError::Fall { index } => {
+            at.index(index).index(1).expected("a force above that of the point before it")
+        }
+        ProfileError::Softening { index } => {
+            let fault = at.index(index).fault("the force rises less steeply up to this point than before it");
+            fault.help("a contact grows as it is pressed: its stiffness does not fall")
+        }
+        _ => few(&at, &error),
+    })
+}
+
+/// Too few points.
+fn few(at: &At<'_>, error: &ProfileError) -> Fault {
+    at.fault(error.to_string()).ask(Help::Shape)
+}
+
+pub(super) fn rough(at: &At<'_>, form: &RoughForm) -> Result<Profile, Fault> {
+    let heights_at = at.key("heights");
+    let (heights, spacing) = match (&form.heights, &form.self_affine) {
+        (Some(_), Some(_)) => {
+            let fault = at.key("self_affine").fault("the heights are given already").on_key();
+            return Err(fault.help("keep one of them"));
+        }
+        (None, None) => {
+            let help = "or \"file\" with the name of its column \"height\", or \"self_affine\"";
+            return Err(at.missing("heights").help(help));
+        }
+        (None, Some(line)) => {
+            if form.spacing.is_some() {
+                let fault = at.key("spacing").fault("the length of the line and its points say it already");
+                return Err(fault.on_key().help("leave it out"));
+            }
+            let count =
+                range::count_between(&at.key("self_affine").key("points"), line.points.0, 4, MAX_POINTS)?;
+            (made(&at.key("self_affine"), line)?, line.length.si / count as f64)
+        }
+        (Some(heights), None) => {
+            let spacing = form.spacing.ok_or_else(|| at.missing("spacing"))?;
+            let spacing = range::above_zero(&at.key("spacing"), spacing)?;
+            (heights.iter().map(|height| height.si).collect(), spacing)
+        }
+    };
+    Profile::rough(&heights, spacing).map_err(|error| match error {
+        ProfileError::Empty => heights_at.fault(error.to_string()).ask(Help::Shape),
+        ProfileError::TooManyHeights(_) => heights_at.fault(error.to_string()),
+        ProfileError::LineHeight { index, .. } => heights_at.index(index).fault(error.to_string()),
+        _ => at.fault(error.to_string()),
+    })
+}
+
+const MAX_POINTS: u64 = SelfAffine::MAX_POINTS as u64;
+
+/// The heights of a line made by numbers.
+fn made(at: &At<'_>, form: &SelfAffineForm) -> Result<Vec<f64>, Fault> {
+    let line = SelfAffine {
+        rms: form.rms.si,
+        hurst: form.hurst,
+        longest: form.longest.si,
+        shortest: form.shortest.si,
+        length: form.length.si,
+        points: form.points.0 as usize,
+        seed: form.seed.0,
+    };
+    line.heights().map_err(|error| match error {
+        RoughnessError::Rms(_) => at.key("rms").expected(range::above(Kind::Length)),
+        RoughnessError::Hurst(_) => at.key("hurst").expected("a number between 0 and 1"),
+        RoughnessError::Length(_) => at.key("length").expected(range::above(Kind::Length)),
+        RoughnessError::Points(count) => {
+            let fault = at.key("points").expected("a power of two");
+            fault.help(format!("the nearest above is {}", count.next_power_of_two()))
+        }
+        RoughnessError::Longest { length, .. } => {
+            let wanted =
+                format!("a wavelength above 0 m and at most the length of {} m", range::short(length));
+            at.key("longest").expected(wanted)
+        }
+        RoughnessError::Swapped { longest, .. } => {
+            let wanted =
+                format!("a wavelength above 0 m and below the longest of {} m", range::short(longest));
+            at.key("shortest").expected(wanted).help("are \"longest\" and \"shortest\" swapped?")
+        }
+        RoughnessError::Shortest { least, .. } => {
+            let wanted =
+                format!("a wavelength of at least two distances of points, {} m", range::short(least));
+            at.key("shortest").expected(wanted).help("or take more points")
+        }
+        RoughnessError::NoWave => at.fault(error.to_string()).help("bring the cut-offs further apart"),
+    })
+}
