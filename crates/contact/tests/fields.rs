@@ -275,6 +275,51 @@ fn walk(law: &Interface, memory: &mut Memory, depth: f64, corners: usize, random
 }
 
 #[test]
+fn every_other_profile_has_fields_by_quadrature_that_add_up() {
+    // What is a root at a worn edge, kinked at a node, sharp at a tip: ∫p = F_N, ∫τ = F_x, u and w by (4.25), w = d - f inside.
+    let table: Vec<(f64, f64)> = (0..=12).map(|k| f64::from(k) / 12.0).map(|r| (r, r * r / 3.0)).collect();
+    let law_points: Vec<(f64, f64)> =
+        (0..=10).map(|k| f64::from(k) / 10.0).map(|d| (d, d.powf(1.5))).collect();
+    let profiles = [
+        ("truncated cone", Profile::truncated_cone(0.2, 0.5), 1e-9),
+        ("truncated paraboloid", Profile::truncated_paraboloid(0.2, 1.5), 1e-9),
+        ("rounded flat", Profile::rounded_flat(0.2, 1.5), 1e-9),
+        ("tipped paraboloid", Profile::tipped_paraboloid(1.5, 0.2), 1e-9),
+        ("powers", Profile::powers(&[(0.3, 1.0), (0.2, 2.5), (1.0, 6.0)]), 1e-9),
+        ("table", Profile::table(&table, &[]), 1e-8),
+        ("normal law", Profile::normal_law(&law_points), 1e-6),
+    ];
+    for (name, profile, within) in profiles {
+        let law = interface(profile.unwrap(), 0.4);
+        let d = law.profile().depth(0.5);
+        let u_c = law.gross_slip_displacement(d);
+        let memory = pushed(&law, d, &[0.7 * u_c, -0.1 * u_c, 0.3 * u_c]);
+        let fields = Fields::of(&law, &memory).unwrap();
+        let mut corners: Vec<f64> = fields.zones().iter().map(|zone| zone.to).collect();
+        corners.extend(law.profile().borders());
+        let normal = over_area(&fields, &corners, |r| fields.at(r).pressure);
+        assert_relative_eq!(normal, law.normal_force(d), max_relative = within, epsilon = 0.0);
+        let shear = over_area(&fields, &corners, |r| fields.at(r).shear);
+        let force = memory.force(&law, memory.apex());
+        assert!((shear - force).abs() < within * law.friction() * normal, "{name}: {shear}, {force}");
+        let Memory::Curve(curve) = &memory else { unreachable!() };
+        corners.push(fields.radius());
+        corners.sort_by(f64::total_cmp);
+        for r in [0.1, 0.26, 0.37, 0.49, 0.51, 0.9] {
+            let field = fields.at(r);
+            let want = surface(|x| curve.stretch(law.profile().depth(x)), &corners, r);
+            assert!(
+                (field.displacement - want).abs() < 10.0 * within * u_c,
+                "{name} r {r}: {field:?}, {want}"
+            );
+            let want = surface(|x| (d - law.profile().depth(x)).max(0.0), &corners, r);
+            assert!((field.deflection - want).abs() < 10.0 * within * d, "{name} r {r}: {field:?}, {want}");
+            assert!(field.shear.abs() <= law.friction() * field.pressure * (1.0 + 1e-9), "{name} r {r}");
+        }
+    }
+}
+
+#[test]
 fn ten_thousand_random_histories_add_up_and_keep_the_limit() {
     let mut random = Random(15);
     let mut rings = 0;
