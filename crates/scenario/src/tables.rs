@@ -1,7 +1,10 @@
 //! Tables in files: read once, and from then on points of the scenario.
 
 mod head;
+mod pairs;
 mod sheet;
+
+pub use pairs::{Pairs, pairs};
 
 use crate::document::{Document, Source, SourceKind, shown};
 use crate::fault::Fault;
