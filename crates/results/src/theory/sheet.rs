@@ -219,7 +219,8 @@ impl UniversalRow {
     /// radius does not determine one.
     fn at(law: &Interface, d: f64, share: f64) -> Result<Self, TheoryError> {
         let a = law.profile().radius(d);
-        let asked = if law.profile().is_strictly_convex() {
+        // Full stick is nothing but pressed: by its radius it would come out but for rounding.
+        let asked = if share > 0.0 && law.profile().is_strictly_convex() {
             TangentialGiven::StickRadius((1.0 - share) * a)
         } else {
             TangentialGiven::Displacement(share * law.gross_slip_displacement(d))

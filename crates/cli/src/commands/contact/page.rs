@@ -97,7 +97,7 @@ fn normal(sheet: &Sheet) -> String {
             quantity(row.gross_slip, "m"),
         ]
     };
-    let head = ["PRESSED (4.26): d", "a", "F_N", "stiffness", "u_c"];
+    let head = ["PRESSED: d", "a", "F_N", "stiffness", "u_c"];
     grid(head, sheet.normal.iter().map(row))
 }
 
@@ -115,13 +115,13 @@ fn universal(sheet: &Sheet) -> String {
         ]
     };
     let head = [
-        "FIRST LOADING (4.37): c/a",
+        "FIRST LOADING: c/a",
         "u/u_c",
         "F_x/(μF_N)",
         "u",
         "F_x (4.38)",
         "F_x (4.39)",
-        "friction work (4.42)",
+        "work (4.42)",
     ];
     grid(head, sheet.universal.iter().map(row))
 }
