@@ -68,8 +68,8 @@ pub fn substitute_figure(title: &str, moments: &[SubstituteMoment<'_>]) -> Figur
     let mut panels: Vec<Panel<'static>> = moments.iter().map(panel).collect();
     // One legend for all, which names what any of them shows.
     let shown = |condition: &SpringCondition| moments.iter().any(|moment| moment.conditions.contains(condition));
-    if let Some(first) = panels.first_mut() {
-        first.series.extend(ALL.iter().filter(|condition| shown(condition)).map(|condition| {
+    for panel in &mut panels {
+        panel.series.extend(ALL.iter().filter(|condition| shown(condition)).map(|condition| {
             let (label, ink) = look(*condition);
             Series { style: style(ink), ..Series::new(label, vec![], vec![]) }
         }));

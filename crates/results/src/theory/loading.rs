@@ -4,7 +4,7 @@ use super::state::contact_word;
 use super::{Subject, TheoryError};
 use crate::real::Real;
 use serde::Serialize;
-use stickslip_contact::{FirstLoading, Interface, NormalGiven, TangentialGiven};
+use stickslip_contact::{ContactState, FirstLoading, Interface, NormalGiven, Outcome, TangentialGiven};
 
 /// A first loading: two quantities given, the rest follows.
 #[derive(Debug, Clone, Serialize)]
@@ -71,10 +71,15 @@ impl Loading {
             tangential_force: Real(loading.tangential_force),
             by_integral: Real(by_integral),
             integral_error: Real(integral_error),
-            friction_work: Real(outcome.friction),
+            friction_work: Real(worked(&outcome)),
             tangential_energy: Real(outcome.elastic),
             normal_energy: Real(law.normal_energy(loading.d)),
             state: contact_word(outcome.state),
         }
     }
+}
+
+/// Friction work, J: what sticks as a whole has none, where its sums leave rounding.
+pub(super) fn worked(outcome: &Outcome) -> f64 {
+    if outcome.state == ContactState::Stick { 0.0 } else { outcome.friction }
 }

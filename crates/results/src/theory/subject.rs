@@ -48,7 +48,7 @@ pub enum TheoryError {
         names: String,
     },
     /// No first loading fits.
-    #[error("{0}")]
+    #[error("{option}{error}", option = option(.0), error = .0)]
     Loading(FirstLoadingError),
     /// A corner of a history that cannot be reached.
     #[error("corner {corner} of the history: {source}")]
@@ -74,6 +74,19 @@ pub enum TheoryError {
         /// The same.
         source: io::Error,
     },
+}
+
+/// What asked for it, as the options of the program are named.
+fn option(error: &FirstLoadingError) -> &'static str {
+    match error {
+        FirstLoadingError::Indentation(_) => "--indentation  ",
+        FirstLoadingError::Radius(_) => "--radius  ",
+        FirstLoadingError::NormalForce(_) => "--force  ",
+        FirstLoadingError::Displacement(_) => "--displacement  ",
+        FirstLoadingError::StickRadius { .. } => "--stick-radius  ",
+        FirstLoadingError::TangentialForce { .. } => "--tangential  ",
+        FirstLoadingError::BeyondSphere { .. } | FirstLoadingError::Undetermined => "",
+    }
 }
 
 impl From<FirstLoadingError> for TheoryError {

@@ -1,6 +1,7 @@
 //! A contact led along a history.
 
 use super::history::{Corner, History, Normal, Tangential};
+use super::loading::worked;
 use super::state::LoadedSpring;
 use super::{Subject, TheoryError};
 use stickslip_contact::{
@@ -111,7 +112,7 @@ impl Walk {
         let row = row(law, 2.0 * reach);
         let mut memory = Memory::Curve(Curve::new(law, route[0]));
         let mut map = (Fields::of(law, &memory).is_some() && reach > 0.0)
-            .then(|| FrictionMap::new(grid(reach / BEYOND, MAP_RADII)));
+            .then(|| FrictionMap::new(rings(reach / BEYOND, MAP_RADII)));
         let mut steps = Vec::new();
         let moment = |stop: Stop, memory: &Memory| Moment::at(law, memory, stop, (reach, row.as_ref()));
         let mut friction = 0.0;
@@ -144,6 +145,11 @@ impl Walk {
 /// So many places from 0 to an end, m.
 fn grid(end: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| end * k as f64 / (count - 1) as f64).collect()
+}
+
+/// Middles of so many rings up to a radius, m: neither the tip nor the edge, where pressures may have no bound, is one.
+fn rings(radius: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| radius * (k as f64 + 0.5) / count as f64).collect()
 }
 
 /// A row of springs to look at, and its width, m; none while nothing ever touches.
@@ -275,7 +281,7 @@ impl Stop {
             c: outcome.stick_radius,
             state: outcome.state,
             elastic: outcome.elastic,
-            friction: friction + outcome.friction,
+            friction: friction + worked(&outcome),
         }
     }
 }

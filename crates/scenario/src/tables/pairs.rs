@@ -32,7 +32,8 @@ pub fn pairs(
 ) -> Result<Pairs, ScenarioError> {
     let name = path.display().to_string();
     let read = text::read(path, syntax::MAX_BYTES);
-    let bytes = read.map_err(|error| at_file(&name, text::unreadable(path, &error)))?;
+    // What is near by is told of scenarios only.
+    let bytes = read.map_err(|error| at_file(&name, (text::unreadable(path, &error).0, None)))?;
     let most = syntax::MAX_BYTES;
     let bytes = bytes.ok_or_else(|| at_file(&name, (format!("a table has at most {most} bytes"), None)))?;
     let text = text::decode(bytes).map_err(|garbled| {
@@ -86,15 +87,15 @@ impl Table<'_> {
     /// How the numbers of a column become SI.
     fn scale(&self, place: usize, si: &str) -> Result<units::Scale, ScenarioError> {
         let measure = self.header[place].measure(Column::Value);
-        let measure = measure.map_err(|odd| self.fault(place, (odd.message, Some(odd.help))))?;
-        let wanted = units::of_si(si);
-        match (measure.kind, wanted) {
-            (Some(kind), Some(wanted)) if kind != wanted => {
-                let message = format!("expected {}", Kind::article(wanted));
-                let help = format!("such as {}", Kind::example(wanted));
+        let Some(wanted) = units::of_si(si) else { return Ok(units::Scale::Ten(0)) };
+        match measure {
+            Ok(measure) if measure.kind.is_none_or(|kind| kind == wanted) => Ok(measure.scale),
+            _ => {
+                let symbols: Vec<&str> = units::symbols(Some(wanted)).collect();
+                let message = format!("expected the unit of {}", Kind::article(wanted));
+                let help = format!("units here: {}", symbols.join(", "));
                 Err(self.fault(place, (message, Some(help))))
             }
-            _ => Ok(measure.scale),
         }
     }
 

@@ -142,6 +142,6 @@ pub(super) fn corners(walk: &Walk) -> String {
             quantity(Real(stop.friction), "J"),
         ]
     };
-    let head = ["CORNER", "d", "u", "F_N", "F_x", "a", "c", "state", "friction work"];
+    let head = ["CORNER", "d", "u", "F_N", "F_x", "a", "c", "state", "work"];
     grid(head, walk.moments.iter().map(row))
 }
