@@ -2,6 +2,7 @@
 
 pub(crate) mod bench;
 pub(crate) mod compare;
+pub(crate) mod contact;
 pub(crate) mod look;
 mod pictures;
 pub(crate) mod run;
@@ -14,6 +15,7 @@ use std::path::PathBuf;
 
 pub(crate) use bench::BenchArguments;
 pub(crate) use compare::CompareArguments;
+pub(crate) use contact::ContactArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
 pub(crate) use soak::SoakArguments;
@@ -79,6 +81,9 @@ pub(crate) enum Command {
     /// Nothing is run or written. Exit codes: 0 done, 2 bad input.
     #[command(after_long_help = INFO_EXAMPLES)]
     Info(InfoArguments),
+    /// Answer for one contact of a scenario, without a run: constants, curves, first loadings, fields
+    #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
+    Contact(ContactArguments),
     /// Write a scenario that runs at once, from a template, with the schema by which editors complete it
     ///
     /// Writes NAME.json and, beside it, schema/scenario-1.json, which the scenario names as its "$schema": editors that

@@ -3,6 +3,7 @@
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod contact;
 pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod new;

@@ -9,7 +9,7 @@ mod console;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use commands::{bench, check, compare, gallery, info, new, plot, repro, resume, run, schema, soak};
+use commands::{bench, check, compare, contact, gallery, info, new, plot, repro, resume, run, schema, soak};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -18,6 +18,7 @@ fn main() -> ExitCode {
         Command::Resume(arguments) => resume::resume(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Info(arguments) => info::info(&arguments),
+        Command::Contact(arguments) => contact::contact(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Schema => schema::print(),
         Command::Compare(arguments) => compare::run(&arguments),

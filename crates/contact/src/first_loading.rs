@@ -6,6 +6,8 @@
 //! * G\*u = μE\*[d-g(c)], that is g(c) = d - u/κ, with gross slip from u = `u_c` = κd on;
 //! * `F_x` = μ[`F_N`(d) - `F_N`(g(c))] (4.39), the force of a smaller contact taken from that of the whole.
 
+mod approaches;
+
 use crate::Interface;
 use thiserror::Error;
 

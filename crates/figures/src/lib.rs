@@ -11,6 +11,7 @@ pub mod gallery;
 pub mod look;
 mod origin;
 mod pictures;
+pub mod theory;
 
 pub use look::{Colours, Format, Look, Picture};
 pub use origin::{Origin, OriginError};

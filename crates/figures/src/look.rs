@@ -53,22 +53,32 @@ impl Format {
 impl Look {
     /// Name of a picture's file.
     pub fn file(&self, plot: PlotName, format: Format) -> String {
+        self.file_of(plot.name(), format)
+    }
+
+    /// The same of a picture that no scenario can ask for, by its name.
+    pub fn file_of(&self, plot: &str, format: Format) -> String {
         let theme = match self.theme {
             Colours::Light => "",
             Colours::Dark => "-dark",
         };
         let scale = if self.scale == 1 { String::new() } else { format!("@{}x", self.scale) };
-        format!("{}{theme}{scale}.{}", plot.name(), format.ending())
+        format!("{plot}{theme}{scale}.{}", format.ending())
     }
 
     /// Names of all files that any look gives to the pictures of a scenario.
     pub fn all_files() -> Vec<String> {
+        Self::all_files_of(&PlotName::ALL.map(PlotName::name))
+    }
+
+    /// The same of pictures by their names.
+    pub fn all_files_of(plots: &[&str]) -> Vec<String> {
         let mut names = Vec::new();
         for theme in [Colours::Light, Colours::Dark] {
             for scale in [1, 2] {
                 let look = Self { formats: Vec::new(), theme, scale };
                 for format in [Format::Png, Format::Svg] {
-                    names.extend(PlotName::ALL.map(|plot| look.file(plot, format)));
+                    names.extend(plots.iter().map(|plot| look.file_of(plot, format)));
                 }
             }
         }
@@ -78,7 +88,12 @@ impl Look {
 
 impl Pen<'_> {
     /// Draws a figure, one file for each format.
-    pub(crate) fn draw(&self, plot: PlotName, mut figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
+    pub(crate) fn draw(&self, plot: PlotName, figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
+        self.draw_as(plot.name(), figure)
+    }
+
+    /// The same under a name of its own.
+    pub(crate) fn draw_as(&self, plot: &str, mut figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
         let (width, height) = figure.size;
         figure.size = (width * self.look.scale, height * self.look.scale);
         figure.theme = match self.look.theme {
@@ -91,7 +106,7 @@ impl Pen<'_> {
                 Format::Png => draw_png(&figure)?,
                 Format::Svg => draw_svg(&figure)?.into_bytes(),
             };
-            Ok((self.look.file(plot, *format), bytes))
+            Ok((self.look.file_of(plot, *format), bytes))
         };
         self.look.formats.iter().map(picture).collect()
     }

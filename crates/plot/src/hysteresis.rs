@@ -2,7 +2,8 @@
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
-use crate::panel::{Axis, Panel, Reference, Series};
+use crate::panel::{Axis, Note, Panel, Reference, Series};
+use crate::theme::{Dash, Ink, Style};
 
 /// One loop, of a contact or of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +50,29 @@ pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> 
         .with_room_for_legends()
 }
 
+/// The same of one loop with places of it marked: displacement (m), force (N), name.
+pub fn marked_loop_figure<'a>(
+    title: &str,
+    of: HysteresisLoop<'a>,
+    marks: &[(f64, f64, String)],
+) -> Figure<'a> {
+    let mut figure = loop_figure(title, &[of]);
+    if let Some(panel) = figure.panels.first_mut() {
+        let dot = |(u, force, _): &(f64, f64, String)| Series {
+            style: Style { ink: Some(Ink::Palette(1)), dash: Some(Dash::Solid), width: 1.8 },
+            ..Series::new("", vec![*u], vec![*force])
+        };
+        panel.series.extend(marks.iter().map(dot));
+        let note = |(u, force, name): &(f64, f64, String)| Note {
+            lines: vec![Label::plain(name)],
+            about: [(*u, *force); 2],
+            on: None,
+        };
+        panel.notes = marks.iter().map(note).collect();
+    }
+    figure
+}
+
 /// The limit force of all loops; none where they differ or one has none.
 fn common_limit(loops: &[HysteresisLoop<'_>]) -> Option<f64> {
     let first = usable(loops.first()?.limit)?;
@@ -67,6 +91,6 @@ fn normalised<'a>(place: usize, l: &HysteresisLoop<'a>) -> Option<Series<'a>> {
     let (gross_slip, limit) = (usable(l.gross_slip)?, usable(l.limit)?);
     let divided = |values: &[f64], by: f64| -> Vec<f64> { values.iter().map(|v| v / by).collect() };
     let mut series = Series::new(l.name, divided(l.u, gross_slip), divided(l.force, limit));
-    series.style.ink = Some(crate::Ink::Palette(place));
+    series.style.ink = Some(Ink::Palette(place));
     Some(series)
 }

@@ -10,7 +10,8 @@
 //! * [`label`] – texts, plain or with subscripts;
 //! * the builders: [`hysteresis`] (force over displacement), [`trajectory`] (motion over time), [`phase`] (velocity
 //!   over displacement), [`energy`] (the energy book), [`events`] (what happened when), [`state`] (springs over time),
-//!   [`memory`] (the curve a contact remembers by), [`scene`] (what there is, to scale), [`compare`] (two runs and their
+//!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
+//!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
 //!   difference), [`work_precision`] (what an error costs), [`growth`] (what more of something costs);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
@@ -21,6 +22,7 @@
 //!
 //! Same figure, same bytes: nothing is read but the figure, the font is built in.
 
+pub mod anchors;
 mod canvas;
 pub mod carried;
 pub mod compare;
@@ -29,8 +31,10 @@ mod dash;
 pub mod energy;
 pub mod error;
 pub mod events;
+pub mod fields;
 pub mod figure;
 mod font;
+pub mod friction;
 pub mod growth;
 pub mod hysteresis;
 pub mod label;
@@ -45,35 +49,42 @@ pub mod panel;
 pub mod phase;
 mod place;
 pub mod png;
+pub mod profile;
 mod range;
 mod raster;
 mod scale;
 pub mod scene;
 pub mod state;
+pub mod substitute;
 pub mod svg;
 pub mod theme;
 mod thin;
 pub mod trajectory;
 pub mod work_precision;
 
+pub use anchors::{AnchorMoment, anchors_figure};
 pub use carried::read_text;
 pub use compare::{ComparedChannel, compare_figure};
 pub use energy::{EnergyBook, energy_figure};
 pub use error::PlotError;
 pub use events::{EventTrack, events_figure};
+pub use fields::{FieldsMoment, FieldsZone, fields_figure};
 pub use figure::{Arrangement, Figure};
+pub use friction::{FrictionWork, friction_figure};
 pub use growth::{GrowthCurve, growth_figure};
-pub use hysteresis::{HysteresisLoop, loop_figure};
+pub use hysteresis::{HysteresisLoop, loop_figure, marked_loop_figure};
 pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
 pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Series, Shape};
 pub use phase::{PhasePath, phase_figure};
 pub use png::draw_png;
+pub use profile::{ProfilePair, profile_figure};
 pub use scene::{
     Amount, Fixture, LinkKind, Mobility, Press, Scene, SceneBody, SceneContact, SceneGravity, SceneLink,
     SceneLoad, layout_figure,
 };
 pub use state::{SpringCondition, SpringMap, state_figure};
+pub use substitute::{SubstituteMoment, substitute_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};
 pub use trajectory::{Coordinate, Motion, Track, Trajectory, trajectory_figure};

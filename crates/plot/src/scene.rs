@@ -6,7 +6,7 @@ mod draw;
 mod fit;
 mod outline;
 mod sheet;
-mod symbols;
+pub(crate) mod symbols;
 
 use crate::figure::Figure;
 

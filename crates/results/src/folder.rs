@@ -7,6 +7,7 @@
 use crate::checkpoint;
 use crate::disk::{Disk, System};
 use crate::files::SUMMARY;
+use crate::theory::CONTACT;
 use std::fs::{self, DirEntry, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -15,6 +16,9 @@ use tempfile::{Builder, NamedTempFile};
 
 /// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
 const DRAWN: usize = 6;
+
+/// Files that say that all others are there: of a run, and of a contact by itself.
+const SUMMARIES: [&str; 2] = [SUMMARY, CONTACT];
 
 /// How long a draft was not touched that is taken for one of a command that was killed.
 const LEFT: Duration = Duration::from_secs(60);
@@ -127,10 +131,12 @@ impl Folder {
     /// # Errors
     /// What the system says; some of the files have their names then, but no summary says so.
     pub fn publish(mut self) -> io::Result<()> {
-        let is_summary = |(name, _): &(String, NamedTempFile)| name == SUMMARY;
-        let summary = self.staged.iter().position(is_summary).map(|place| self.staged.remove(place).1);
+        let is_summary = |(name, _): &(String, NamedTempFile)| SUMMARIES.contains(&name.as_str());
+        let summary = self.staged.iter().position(is_summary).map(|place| self.staged.remove(place));
         // What a power cut leaves of the old summary must not be the whole of it beside new tables.
-        if summary.is_some() && self.remove(SUMMARY)? {
+        if let Some((name, _)) = &summary
+            && self.remove(name)?
+        {
             self.disk.sync_folder(&self.path)?;
         }
         for stale in &self.stale {
@@ -142,8 +148,8 @@ impl Folder {
             self.disk.rename(file, &self.path.join(name))?;
         }
         self.disk.sync_folder(&self.path)?;
-        if let Some(file) = summary {
-            self.disk.rename(file, &self.path.join(SUMMARY))?;
+        if let Some((name, file)) = summary {
+            self.disk.rename(file, &self.path.join(name))?;
             self.disk.sync_folder(&self.path)?;
         }
         if self.stale_checkpoint { checkpoint::remove(&self.path) } else { Ok(()) }

@@ -19,6 +19,7 @@
 //!   [`Results`] (a folder), [`springs`] and [`curves`];
 //! * [`checkpoint`] – runs that go on after they were ended;
 //! * [`compare`] – two folders told apart;
+//! * [`theory`] – one contact by itself, without a run;
 //! * for those who tell of results: [`quantity()`] (numbers with units), [`provenance`] (where they come from), [`markdown`]
 //!   (pages), [`complaint`] (the words of the operating system).
 
@@ -64,6 +65,7 @@ pub mod springs;
 pub mod summary;
 mod synopsis;
 mod table;
+pub mod theory;
 mod tracks;
 mod trail;
 mod warning;

@@ -53,3 +53,4 @@ pub use scenario::{PlotName, Scenario};
 pub use schema::schema;
 pub use substance::{Substance, substance};
 pub use suggest::help as suggestion;
+pub use tables::{Pairs, pairs};

@@ -1,8 +1,11 @@
 //! Tables in files: read once, and from then on points of the scenario.
 
 mod head;
+mod pairs;
 mod profiles;
 mod sheet;
+
+pub use pairs::{Pairs, pairs};
 
 use crate::document::{Document, Source, SourceKind, shown};
 use crate::fault::Fault;

@@ -1,8 +1,8 @@
 //! `stickslip info`: what a scenario means, before it runs.
 
 mod columns;
-mod digits;
-mod tables;
+pub(super) mod digits;
+pub(super) mod tables;
 
 use crate::arguments::InfoArguments;
 use crate::console::answer::{complain, say, say_json, warn};

@@ -236,7 +236,8 @@ impl Drag {
 /// ∫f over a range, halved until what each half is off is below its share of `wanted`.
 fn adaptive(range: [f64; 2], wanted: f64, halvings: u32, f: &impl Fn(f64) -> f64) -> f64 {
     let (value, error) = kronrod(range, f);
-    if error <= wanted || halvings == 0 {
+    // Under a tip the pressure has no bound, and no halving makes it one.
+    if error <= wanted || halvings == 0 || !value.is_finite() {
         return value;
     }
     let middle = 0.5 * (range[0] + range[1]);

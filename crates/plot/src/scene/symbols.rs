@@ -3,7 +3,7 @@
 use crate::thin::Point;
 
 /// Lines of a symbol.
-pub(super) type Lines = Vec<Vec<Point>>;
+pub(crate) type Lines = Vec<Vec<Point>>;
 
 /// A straight way with places along and across it (to the left).
 struct Way {
@@ -114,7 +114,7 @@ pub(super) fn stroke(from: Point, to: Point, unit: f64) -> Lines {
 }
 
 /// An arrow; with a head at either end, if need be.
-pub(super) fn arrow(from: Point, to: Point, is_double: bool, unit: f64) -> Lines {
+pub(crate) fn arrow(from: Point, to: Point, is_double: bool, unit: f64) -> Lines {
     let mut lines = vec![vec![from, to], head(from, to, unit)];
     if is_double {
         lines.push(head(to, from, unit));
@@ -148,7 +148,7 @@ pub(super) fn wall(from: Point, at: Point, unit: f64) -> Lines {
 }
 
 /// A line with the hatches of what does not move, on its left.
-pub(super) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
+pub(crate) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
     let way = Way::new(from, to);
     let step = HATCH * unit;
     let mut lines = vec![vec![from, to]];

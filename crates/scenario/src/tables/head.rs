@@ -81,6 +81,11 @@ impl Head {
         self.bare == name
     }
 
+    /// The name without its unit.
+    pub(super) fn bare(&self) -> &str {
+        &self.bare
+    }
+
     /// What its numbers mean as times or values. Without a unit they are in SI.
     ///
     /// A unit that stands in brackets must be one, and of times if times it is to be. Behind a slash or an underscore it counts

@@ -155,7 +155,7 @@ fn words(freed: &Freed) -> String {
 }
 
 /// A table with its heads; nothing without rows.
-pub(super) fn grid(
+pub(crate) fn grid(
     head: impl IntoIterator<Item = impl Into<String>>,
     rows: impl IntoIterator<Item = Vec<String>>,
 ) -> String {

@@ -1,0 +1,122 @@
+//! `stickslip contact`: what the theory says of one contact, without a run.
+
+mod page;
+
+use crate::arguments::ContactArguments;
+use crate::console::answer::{complain, say, say_json};
+use crate::console::verdict::Verdict;
+use std::path::{Path, PathBuf};
+use stickslip_contact::TangentialGiven;
+use stickslip_figures::FigureError;
+use stickslip_figures::theory;
+use stickslip_results::complaint::words;
+use stickslip_results::folder::{Folder, sweep};
+use stickslip_results::theory::{
+    CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, write,
+};
+use stickslip_results::{Job, Refusal};
+use thiserror::Error;
+
+/// Points of the tables that are printed, and of those that are written.
+const PRINTED: usize = 11;
+const WRITTEN: usize = 201;
+
+/// Why there is no answer.
+#[derive(Debug, Error)]
+enum ContactFailure {
+    /// The scenario.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The contact, or what is asked of it.
+    #[error(transparent)]
+    Theory(#[from] TheoryError),
+    /// A picture.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+}
+
+/// Answers for a contact.
+pub(crate) fn contact(arguments: &ContactArguments) -> Verdict {
+    match answer(arguments) {
+        Ok(()) => Verdict::Done,
+        Err(failure) => {
+            complain(format_args!("{failure}"));
+            failure.verdict()
+        }
+    }
+}
+
+fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
+    let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
+    let subject = Subject::find(&job, arguments.contact.as_deref())?;
+    let normal = arguments.pressed.given().unwrap_or_else(|| subject.pressed());
+    let pushed = arguments.pushed.given();
+    let history = history(arguments)?;
+    let sheet = Sheet::of(&subject, normal, pushed, PRINTED)?;
+    let asked = match (&history, &sheet.loading) {
+        // A first loading is a history of one corner.
+        (None, Some(found)) if arguments.out.is_some() => {
+            let tangential = Tangential::Displacement(found.u.0);
+            Some(History { corners: vec![Corner { normal: None, tangential }] })
+        }
+        (None, None) if arguments.out.is_some() => Some(History { corners: Vec::new() }),
+        _ => history,
+    };
+    let walk = asked.map(|history| Walk::of(&subject, normal, &history)).transpose()?;
+    if arguments.json {
+        // Numbers and strings only: there is nothing that JSON could refuse.
+        say_json(&serde_json::to_string(&sheet).unwrap_or_default());
+    } else if !arguments.quiet {
+        say(format_args!("{}", page::text(&sheet)));
+    }
+    let Some(walk) = walk else { return Ok(()) };
+    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-contact", job.name)));
+    let names = files(arguments, (&subject, &walk), pushed, &out)?;
+    if !arguments.quiet && !arguments.json {
+        say(format_args!("\n{}\n\n{}: {}", page::corners(&walk), out.display(), names.join(", ")));
+    }
+    Ok(())
+}
+
+/// The history asked for: a file where there is one of that name, else corners.
+fn history(arguments: &ContactArguments) -> Result<Option<History>, TheoryError> {
+    let Some(text) = &arguments.history else { return Ok(None) };
+    let path = Path::new(text);
+    let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let history = if is_table { History::read(path) } else { History::parse(text) };
+    history.map(Some)
+}
+
+/// Writes tables and pictures; returns the names.
+fn files(
+    arguments: &ContactArguments,
+    (subject, walk): (&Subject<'_>, &Walk),
+    pushed: Option<TangentialGiven>,
+    out: &PathBuf,
+) -> Result<Vec<String>, ContactFailure> {
+    let failed = |source| TheoryError::Write { path: out.display().to_string(), words: words(&source), source };
+    let normal = arguments.pressed.given().unwrap_or_else(|| subject.pressed());
+    let sheet = Sheet::of(subject, normal, pushed, WRITTEN)?;
+    let (mut pictures, mut notes) = (Vec::new(), Vec::new());
+    if !sheet.constants.axisymmetric {
+        notes.push("a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned());
+    }
+    for drawn in theory::draw(subject, &sheet, walk, &arguments.look.look()) {
+        pictures.extend(drawn?);
+    }
+    let folder = Folder::make(out).map_err(failed)?;
+    // A command that was killed has left its drafts.
+    let stale = theory::all_files();
+    let tables = TABLES.iter().map(|name| (*name).to_owned()).chain([CONTACT.to_owned()]);
+    sweep(out, &tables.chain(stale.iter().cloned()).collect::<Vec<_>>());
+    Ok(write(folder, &sheet, walk, (&pictures, stale, notes)).map_err(failed)?)
+}
+
+impl ContactFailure {
+    fn verdict(&self) -> Verdict {
+        match self {
+            Self::Theory(TheoryError::Write { .. }) | Self::Figure(_) => Verdict::Stopped,
+            Self::Refused(_) | Self::Theory(_) => Verdict::BadInput,
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Pictures of a contact by itself: what a history does to it.
+//!
+//! Made of plain series by the builders of `stickslip-plot`, which take a run's just as well.
+
+mod moments;
+
+use crate::look::{Look, Pen, Picture};
+use crate::pictures::FigureError;
+use moments::Shown;
+use stickslip_contact::{Apex, Curve, Fields, Interface, Memory};
+use stickslip_plot::{
+    Figure, FrictionWork, HysteresisLoop, PlotError, ProfilePair, anchors_figure, fields_figure,
+    friction_figure, marked_loop_figure, profile_figure, substitute_figure,
+};
+use stickslip_results::program::this_program;
+use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_results::theory::{Sheet, Stop, Subject, Walk};
+
+/// Names of the pictures.
+pub const NAMES: [&str; 6] = ["substitute", "fields", "loop", "profile", "memory", "friction"];
+
+/// Points of the profile.
+const POINTS: usize = 301;
+/// How far it is drawn, of the largest contact radius.
+const BEYOND: f64 = 1.5;
+
+/// Names of all files that any look gives to them.
+pub fn all_files() -> Vec<String> {
+    Look::all_files_of(&NAMES)
+}
+
+/// Draws them all. What is wrong with one does not keep the others from being drawn.
+pub fn draw(
+    subject: &Subject<'_>,
+    sheet: &Sheet,
+    walk: &Walk,
+    look: &Look,
+) -> Vec<Result<Vec<Picture>, FigureError>> {
+    let pen = Pen { look, provenance: provenance(subject) };
+    let title = format!("{}, contact {}", subject.job.title(), subject.name);
+    let shown = Shown::of(subject.law, walk);
+    let drawn = |plot: &'static str, figure: Figure<'_>| {
+        pen.draw_as(plot, figure).map_err(|source: PlotError| FigureError::Plot { plot, source })
+    };
+    vec![
+        drawn(NAMES[0], substitute_figure(&title, &shown.substitutes())),
+        drawn(NAMES[1], fields_figure(&title, &shown.fields())),
+        hysteresis(subject.law, walk, |course, marks| drawn(NAMES[2], marked_loop_figure(&title, course, marks))),
+        profile(subject.law, sheet, walk, |pair| drawn(NAMES[3], profile_figure(&title, pair))),
+        drawn(NAMES[4], anchors_figure(&title, &shown.anchors())),
+        friction(walk, |work| drawn(NAMES[5], friction_figure(&title, work))),
+    ]
+}
+
+/// Where the pictures come from: keys and texts.
+fn provenance(subject: &Subject<'_>) -> Vec<(String, String)> {
+    let job = subject.job;
+    let entries = [
+        (TITLE, job.title().to_owned()),
+        (PROGRAM, this_program()),
+        ("Contact", subject.name.to_owned()),
+        (HASH, job.hash.clone()),
+        (SCENARIO, job.resolved.clone()),
+    ];
+    entries.map(|(key, text)| (key.to_owned(), text)).to_vec()
+}
+
+/// Force over displacement, with the corners marked.
+fn hysteresis<T>(
+    law: &Interface,
+    walk: &Walk,
+    drawn: impl FnOnce(HysteresisLoop<'_>, &[(f64, f64, String)]) -> T,
+) -> T {
+    let u: Vec<f64> = walk.stops.iter().map(|stop| stop.apex.u).collect();
+    let force: Vec<f64> = walk.stops.iter().map(|stop| stop.force).collect();
+    let first = walk.stops.first().map(|stop| stop.apex.d);
+    let depth = first.filter(|d| walk.stops.iter().all(|stop| stop.apex.d == *d));
+    let marks: Vec<(f64, f64, String)> = walk
+        .moments
+        .iter()
+        .map(|moment| (moment.stop.apex.u, moment.stop.force, moment.stop.corner.to_string()))
+        .collect();
+    let course = HysteresisLoop {
+        name: "corners marked by their numbers",
+        u: &u,
+        force: &force,
+        gross_slip: depth.map(|d| law.gross_slip_displacement(d)),
+        limit: depth.map(|d| law.friction() * law.normal_force(d)),
+    };
+    drawn(course, &marks)
+}
+
+/// f(r) beside g(x).
+fn profile<T>(
+    law: &Interface,
+    sheet: &Sheet,
+    walk: &Walk,
+    drawn: impl FnOnce(&ProfilePair<'_>) -> T,
+) -> T {
+    let reach = BEYOND * law.profile().radius(walk.deepest);
+    let x: Vec<f64> = (0..POINTS).map(|k| reach * k as f64 / (POINTS - 1) as f64).collect();
+    let g: Vec<f64> = x.iter().map(|x| law.profile().depth(*x)).collect();
+    let f = gaps(law, &x);
+    let (d, a) = (sheet.pressed.d.0, sheet.pressed.a.0);
+    drawn(&ProfilePair { x: &x, f: f.as_deref(), g: &g, d, a })
+}
+
+/// f at some distances: by its formula or else from what a contact that reaches so far does to the surface, d - f(r).
+fn gaps(law: &Interface, x: &[f64]) -> Option<Vec<f64>> {
+    let farthest = x.last().copied().unwrap_or(0.0);
+    let d = law.profile().depth(farthest);
+    let memory = Memory::Curve(Curve::new(law, Apex { d: if d.is_finite() { d } else { 0.0 }, u: 0.0 }));
+    let fields = Fields::of(law, &memory)?;
+    let gap = |r: f64| match law.profile().gap(r) {
+        Some(gap) => gap,
+        None if d.is_finite() => d - fields.at(r).deflection,
+        None => f64::NAN,
+    };
+    Some(x.iter().map(|r| gap(*r)).collect())
+}
+
+/// Friction work by place along the way.
+fn friction<T>(walk: &Walk, drawn: impl FnOnce(&FrictionWork<'_>) -> T) -> T {
+    let along = |corner: usize, share: f64| corner as f64 - 1.0 + share;
+    let (mut moments, mut work) = (Vec::new(), Vec::new());
+    let radii = walk.friction.as_ref().map_or(&[][..], |course| &course.radii);
+    for step in walk.friction.iter().flat_map(|course| &course.steps) {
+        moments.push(along(step.corner, step.share));
+        work.extend_from_slice(&step.work);
+    }
+    let corner = |stop: &Stop| (stop.corner as f64, format!("corner {}", stop.corner));
+    let marks: Vec<(f64, String)> =
+        walk.moments.iter().filter(|moment| moment.stop.corner > 0).map(|moment| corner(&moment.stop)).collect();
+    drawn(&FrictionWork { axis: ("corner", ""), moments: &moments, r: radii, work: &work, marks: &marks })
+}

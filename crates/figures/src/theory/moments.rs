@@ -1,0 +1,157 @@
+//! Corners of a history as the series that their pictures are drawn from.
+
+use stickslip_contact::{Interface, SpringState, Zone, ZoneKind};
+use stickslip_plot::{AnchorMoment, FieldsMoment, FieldsZone, SpringCondition, SubstituteMoment};
+use stickslip_results::theory::{Moment, Walk};
+use stickslip_results::{Real, quantity};
+
+/// Corners in one picture, at most.
+const MOST: usize = 6;
+
+/// The corners that are shown.
+pub(super) struct Shown<'a> {
+    law: &'a Interface,
+    moments: Vec<Columns>,
+    /// Scales that all share: radius and indentation, stretch, m.
+    scale: (f64, f64, f64),
+}
+
+/// One corner, column by column.
+struct Columns {
+    heading: String,
+    moment: Moment,
+    r: Vec<f64>,
+    pressure: Vec<f64>,
+    shear: Vec<f64>,
+    displacement: Vec<f64>,
+    slip: Vec<f64>,
+    zones: Vec<FieldsZone>,
+    /// Of all springs: places, heights, stretches, states.
+    x: Vec<f64>,
+    g: Vec<f64>,
+    stretch: Vec<f64>,
+    conditions: Vec<SpringCondition>,
+    /// Of those that touch: places, heights, anchors.
+    anchored: [Vec<f64>; 3],
+}
+
+impl<'a> Shown<'a> {
+    /// The last corners, and the start where there are few.
+    pub(super) fn of(law: &'a Interface, walk: &Walk) -> Self {
+        let first = walk.moments.len().saturating_sub(MOST);
+        // An unstretched start shows nothing that the others do not.
+        let first = if walk.moments.len() > 1 { first.max(1) } else { first };
+        let moments: Vec<Columns> = walk.moments[first..].iter().map(Columns::of).collect();
+        let stretches = moments.iter().flat_map(|moment| &moment.stretch);
+        let largest = stretches.fold(0.0_f64, |most, stretch| most.max(stretch.abs()));
+        let stretch = law.gross_slip_displacement(walk.deepest).max(largest);
+        let scale = (law.profile().radius(walk.deepest), walk.deepest, stretch);
+        Self { law, moments, scale }
+    }
+
+    pub(super) fn fields(&self) -> Vec<FieldsMoment<'_>> {
+        let moments = self.moments.iter().map(|columns| FieldsMoment {
+            heading: &columns.heading,
+            r: &columns.r,
+            pressure: &columns.pressure,
+            shear: &columns.shear,
+            displacement: &columns.displacement,
+            slip: &columns.slip,
+            friction: self.law.friction(),
+            zones: &columns.zones,
+        });
+        moments.collect()
+    }
+
+    pub(super) fn anchors(&self) -> Vec<AnchorMoment<'_>> {
+        let moments = self.moments.iter().map(|columns| AnchorMoment {
+            heading: &columns.heading,
+            apex: (columns.moment.stop.apex.d, columns.moment.stop.apex.u),
+            slope: self.law.stick_slope(),
+            corners: &columns.moment.knots,
+            x: &columns.anchored[0],
+            g: &columns.anchored[1],
+            p: &columns.anchored[2],
+        });
+        moments.collect()
+    }
+
+    pub(super) fn substitutes(&self) -> Vec<SubstituteMoment<'_>> {
+        let (scale, deepest, largest_stretch) = self.scale;
+        let moments = self.moments.iter().map(|columns| {
+            let stop = &columns.moment.stop;
+            SubstituteMoment {
+                heading: &columns.heading,
+                d: stop.apex.d,
+                radii: (stop.a, stop.c),
+                scale,
+                deepest,
+                largest_stretch,
+                forces: (stop.normal_force, stop.force),
+                limit: self.law.friction() * stop.normal_force,
+                x: &columns.x,
+                g: &columns.g,
+                stretch: &columns.stretch,
+                conditions: &columns.conditions,
+            }
+        });
+        moments.collect()
+    }
+}
+
+impl Columns {
+    fn of(moment: &Moment) -> Self {
+        let apex = moment.stop.apex;
+        let fields = |value: fn(&stickslip_contact::Field) -> f64| moment.fields.iter().map(value).collect();
+        let touching = || moment.springs.iter().filter(|spring| spring.state != SpringState::Open);
+        Self {
+            heading: heading(moment),
+            r: fields(|field| field.r),
+            pressure: fields(|field| field.pressure),
+            shear: fields(|field| field.shear),
+            displacement: fields(|field| field.displacement),
+            slip: fields(|field| field.slip),
+            zones: moment.zones.iter().map(ring).collect(),
+            x: moment.springs.iter().map(|spring| spring.x).collect(),
+            g: moment.springs.iter().map(|spring| spring.g).collect(),
+            stretch: moment.springs.iter().map(|spring| spring.stretch).collect(),
+            conditions: moment.springs.iter().map(|spring| condition(spring.state)).collect(),
+            anchored: [
+                touching().map(|spring| spring.x).collect(),
+                touching().map(|spring| spring.g).collect(),
+                touching().map(|spring| apex.u - spring.stretch).collect(),
+            ],
+            moment: moment.clone(),
+        }
+    }
+}
+
+/// Number of the corner, and where it is.
+fn heading(moment: &Moment) -> String {
+    let stop = &moment.stop;
+    let words = format!("{}: u = {}", stop.corner, quantity(Real(stop.apex.u), "m"));
+    // With the minus of the axes.
+    words.replace('-', "−")
+}
+
+/// A ring as pictures know it.
+fn ring(zone: &Zone) -> FieldsZone {
+    let slips = |sense: i8| {
+        if sense < 0 { SpringCondition::SlipBackward } else { SpringCondition::SlipForward }
+    };
+    let (condition, frozen) = match zone.kind {
+        ZoneKind::Stick => (SpringCondition::Stick, false),
+        ZoneKind::Frozen(_) => (SpringCondition::Stick, true),
+        ZoneKind::Slip(sense) => (slips(sense), false),
+    };
+    FieldsZone { radii: [zone.from, zone.to], condition, frozen }
+}
+
+fn condition(state: SpringState) -> SpringCondition {
+    match state {
+        SpringState::Open => SpringCondition::Open,
+        SpringState::Stick => SpringCondition::Stick,
+        SpringState::SlipForward => SpringCondition::SlipForward,
+        SpringState::SlipBackward => SpringCondition::SlipBackward,
+    }
+}

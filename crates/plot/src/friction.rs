@@ -1,0 +1,106 @@
+//! Where friction does its work: over the radius, along the way.
+
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Mosaic, Panel, Reference, Series};
+use crate::theme::{Colour, Dash, Ink, Style};
+use crate::{Label, scale::quantity};
+
+/// Friction work per area by place, so far, at some moments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrictionWork<'a> {
+    /// What the moments are counted by, such as "time t", and its unit.
+    pub axis: (&'a str, &'a str),
+    /// Moments, ascending.
+    pub moments: &'a [f64],
+    /// Distances from the axis, m, ascending.
+    pub r: &'a [f64],
+    /// Work per area so far, J/m², moment by moment.
+    pub work: &'a [f64],
+    /// Moments to be marked, with their names.
+    pub marks: &'a [(f64, String)],
+}
+
+/// Classes of the map.
+const CLASSES: usize = 9;
+/// Curves over r at most.
+const MOST_CURVES: usize = 6;
+/// From next to nothing to the most: the middle of the ramp viridis (Smith, van der Walt 2015), told apart in grey.
+const RAMP: [Colour; CLASSES] = [
+    Colour(0x44, 0x01, 0x54),
+    Colour(0x47, 0x2D, 0x7B),
+    Colour(0x3B, 0x52, 0x8B),
+    Colour(0x2C, 0x72, 0x8E),
+    Colour(0x21, 0x91, 0x8C),
+    Colour(0x28, 0xAE, 0x80),
+    Colour(0x5E, 0xC9, 0x62),
+    Colour(0xAD, 0xDC, 0x30),
+    Colour(0xFD, 0xE7, 0x25),
+];
+
+/// Above, work per area over place and moment as a map; below, over place at the moments that are marked, the last darkest.
+pub fn friction_figure<'a>(title: &str, work: &FrictionWork<'a>) -> Figure<'a> {
+    let most = work.work.iter().copied().filter(|w| w.is_finite()).fold(0.0, f64::max);
+    if most <= 0.0 {
+        return Figure::without_data(title, "no friction work: nothing has slipped");
+    }
+    Figure {
+        title: Label::plain(title),
+        panels: vec![map(work, most), profiles(work)],
+        arrangement: Arrangement::Column { share_x: false },
+        size: Figure::size_for(300, 520, 2),
+        ..Figure::default()
+    }
+    .with_room_for_legends()
+}
+
+fn map<'a>(work: &FrictionWork<'a>, most: f64) -> Panel<'a> {
+    let class = |value: &f64| {
+        let share = if value.is_finite() { (value / most).clamp(0.0, 1.0) } else { 1.0 };
+        // Nothing is a class of its own, so that what has never slipped is seen.
+        (share * (CLASSES - 1) as f64).ceil() as u8
+    };
+    let label = |place: usize| match place {
+        0 => "no work".to_owned(),
+        place => format!("≤ {}", quantity(most * place as f64 / (CLASSES - 1) as f64, "J/m²", 3)),
+    };
+    let named = |place: usize| place % 2 == 0;
+    let classes = RAMP.iter().enumerate().map(|(place, colour)| {
+        let label = if named(place) { Label::plain(&label(place)) } else { Label::default() };
+        (label, Ink::Colour(*colour))
+    });
+    let mark = |(at, _): &(f64, String)| Reference::Vertical { x: *at, label: Label::default() };
+    Panel {
+        x: Axis { tight: true, ..Axis::new(Label::plain(work.axis.0), work.axis.1) },
+        y: Axis { tight: true, ..Axis::new(Label::plain("r"), "m") },
+        mosaic: Some(Mosaic {
+            xs: work.moments.into(),
+            ys: work.r.into(),
+            cells: work.work.iter().map(class).collect::<Vec<u8>>().into(),
+            classes: classes.collect(),
+        }),
+        references: work.marks.iter().map(mark).collect(),
+        ..Panel::default()
+    }
+}
+
+fn profiles<'a>(work: &FrictionWork<'a>) -> Panel<'a> {
+    let nearest = |at: f64| {
+        let off = |place: &usize| (work.moments[*place] - at).abs();
+        (0..work.moments.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
+    };
+    let stride = work.marks.len().div_ceil(MOST_CURVES).max(1);
+    // The last is always among them.
+    let marks = work.marks.iter().rev().step_by(stride).rev();
+    let curves = marks.enumerate().filter_map(|(place, (at, name))| {
+        let moment = nearest(*at)?;
+        let values = work.work.get(moment * work.r.len()..(moment + 1) * work.r.len())?;
+        let style = Style { ink: Some(Ink::Palette(place)), dash: Some(Dash::at(place)), width: 0.9 };
+        Some(Series { style, ..Series::new(Label::plain(name), work.r, values) })
+    });
+    Panel {
+        x: Axis { tight: true, ..Axis::new(Label::plain("r"), "m") },
+        y: Axis::new(Label::plain("friction work per area"), "J/m²"),
+        series: curves.collect(),
+        ..Panel::default()
+    }
+}

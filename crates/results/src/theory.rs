@@ -1,0 +1,24 @@
+//! What the theory says of one contact of a scenario, without a run: section 4.4 of the handbook, answered.
+//!
+//! In reading order: [`Subject`] (which contact); [`Sheet`] (its constants and curves) with [`Loading`] (one first loading:
+//! nine ways to ask for it); [`History`] (where it is to go) and [`Walk`] (what happens on the way: forces, fields, springs,
+//! friction); [`write()`] (all that as files).
+//!
+//! It is the profile's law on the exact curve, whatever engine the scenario names: a row of springs differs from it by the size
+//! of its cells.
+
+mod history;
+mod loading;
+mod sheet;
+mod state;
+mod subject;
+mod walk;
+mod write;
+
+pub use history::{Corner, History, Normal, Tangential};
+pub use loading::Loading;
+pub use sheet::{Constants, NormalRow, Pressed, Sheet, UniversalRow};
+pub use state::{LoadedSpring, contact_word, spring_word};
+pub use subject::{Subject, TheoryError};
+pub use walk::{FrictionCourse, FrictionStep, Moment, Stop, Walk};
+pub use write::{CONTACT, TABLES, write};

@@ -1,0 +1,309 @@
+//! A contact led along a history.
+
+use super::history::{Corner, History, Normal, Tangential};
+use super::loading::worked;
+use super::state::LoadedSpring;
+use super::{Subject, TheoryError};
+use stickslip_contact::{
+    Apex, ContactState, Curve, Field, Fields, FirstLoadingError, FrictionMap, Interface, Memory, NormalGiven,
+    Segment, Springs, Zone,
+};
+
+/// Rows of a leg.
+const ROWS: usize = 64;
+/// Steps of a leg in the map of friction work.
+const STEPS: usize = 24;
+/// Radii of the fields, out to [`BEYOND`] of the largest contact.
+const RADII: usize = 241;
+/// Radii of the map of friction work.
+const MAP_RADII: usize = 81;
+/// How far fields and springs reach beyond the largest contact radius.
+const BEYOND: f64 = 1.5;
+/// Springs of the row, over as much.
+const SPRINGS: usize = 121;
+/// How near to a force is on it, of the limit: a contact that slips has the limit but for rounding.
+const ON_IT: f64 = 1e-15;
+
+/// What happened on the way.
+#[derive(Debug, Clone)]
+pub struct Walk {
+    /// From the start to the last corner, so many between two corners.
+    pub stops: Vec<Stop>,
+    /// The start and the corners.
+    pub moments: Vec<Moment>,
+    /// Where friction did its work; none for a list of springs.
+    pub friction: Option<FrictionCourse>,
+    /// Largest indentation on the way, m.
+    pub deepest: f64,
+}
+
+/// A place on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    /// Number of the corner that the leg leads to; 0 at the start.
+    pub corner: usize,
+    /// Share of the leg behind.
+    pub share: f64,
+    /// Where the contact stands.
+    pub apex: Apex,
+    /// Normal force, N.
+    pub normal_force: f64,
+    /// `F_x`, N.
+    pub force: f64,
+    /// Contact radius, m.
+    pub a: f64,
+    /// Radius inside which no spring is at its limit, m.
+    pub c: f64,
+    /// State of the whole contact.
+    pub state: ContactState,
+    /// Elastic energy of the tangential deformation, J.
+    pub elastic: f64,
+    /// Friction work since the start, J.
+    pub friction: f64,
+}
+
+/// A contact at a corner.
+#[derive(Debug, Clone)]
+pub struct Moment {
+    /// Its last stop.
+    pub stop: Stop,
+    /// Fields from the centre outwards; none for a list of springs.
+    pub fields: Vec<Field>,
+    /// Its rings.
+    pub zones: Vec<Zone>,
+    /// The row of springs.
+    pub springs: Vec<LoadedSpring>,
+    /// Corners (h, p) of the memory curve, m, from the centre to the edge; none while open.
+    pub knots: Vec<(f64, f64)>,
+}
+
+/// Friction work by place, along the way.
+#[derive(Debug, Clone)]
+pub struct FrictionCourse {
+    /// Distances from the axis, m.
+    pub radii: Vec<f64>,
+    /// So many in each leg.
+    pub steps: Vec<FrictionStep>,
+}
+
+/// Friction work by place, so far.
+#[derive(Debug, Clone)]
+pub struct FrictionStep {
+    /// Number of the corner that the leg leads to.
+    pub corner: usize,
+    /// Share of the leg behind.
+    pub share: f64,
+    /// Friction work per area, J/m².
+    pub work: Vec<f64>,
+    /// Way that the surfaces have slid over each other, m.
+    pub way: Vec<f64>,
+}
+
+impl Walk {
+    /// Leads a contact that is pressed so, and was never pushed, along a history.
+    ///
+    /// # Errors
+    /// A corner that cannot be reached.
+    pub fn of(subject: &Subject<'_>, normal: NormalGiven, history: &History) -> Result<Self, TheoryError> {
+        let law = subject.law;
+        let route = route(law, normal.indentation(law)?, history)?;
+        let deepest = route.iter().map(|apex| apex.d).fold(0.0, f64::max);
+        let reach = BEYOND * law.profile().radius(deepest);
+        let row = row(law, 2.0 * reach);
+        let mut memory = Memory::Curve(Curve::new(law, route[0]));
+        let mut map = (Fields::of(law, &memory).is_some() && reach > 0.0)
+            .then(|| FrictionMap::new(rings(reach / BEYOND, MAP_RADII)));
+        let mut steps = Vec::new();
+        let moment = |stop: Stop, memory: &Memory| Moment::at(law, memory, stop, (reach, row.as_ref()));
+        let mut friction = 0.0;
+        let start = Stop::at(law, &memory, route[0], (0, 1.0, friction));
+        let (mut stops, mut moments) = (vec![start], vec![moment(start, &memory)]);
+        for (corner, pair) in route.windows(2).enumerate().map(|(k, pair)| (k + 1, pair)) {
+            let on = |share: f64| between(pair[0], pair[1], share);
+            let shares = (1..=ROWS).map(|k| k as f64 / ROWS as f64);
+            stops.extend(shares.map(|share| Stop::at(law, &memory, on(share), (corner, share, friction))));
+            if let Some(map) = &mut map {
+                follow(law, &memory, map, pair, |share, map| {
+                    let (work, way) = (map.work().to_vec(), map.way().to_vec());
+                    steps.push(FrictionStep { corner, share, work, way });
+                });
+            }
+            let done = memory.commit(law, Segment::Straight(pair[1]));
+            friction += done.map_err(|_| refused(corner, FirstLoadingError::Displacement(pair[1].u)))?;
+            // As committed: a preview knows no state of a move that is none.
+            let stop = Stop::at(law, &memory, pair[1], (corner, 1.0, friction));
+            if let Some(last) = stops.last_mut() {
+                *last = stop;
+            }
+            moments.push(moment(stop, &memory));
+        }
+        let friction = map.map(|map| FrictionCourse { radii: map.radii().to_vec(), steps });
+        Ok(Self { stops, moments, friction, deepest })
+    }
+}
+
+/// So many places from 0 to an end, m.
+fn grid(end: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| end * k as f64 / (count - 1) as f64).collect()
+}
+
+/// Middles of so many rings up to a radius, m: neither the tip nor the edge, where pressures may have no bound, is one.
+fn rings(radius: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| radius * (k as f64 + 0.5) / count as f64).collect()
+}
+
+/// A row of springs to look at, and its width, m; none while nothing ever touches.
+fn row(law: &Interface, span: f64) -> Option<(Springs, f64)> {
+    // A list has springs of its own, and as much length as they have together.
+    let whole = if Fields::of(law, &Memory::Curve(Curve::new(law, Apex::default()))).is_some() {
+        span
+    } else {
+        law.profile().reduced_stiffness(f64::MAX)
+    };
+    Springs::new(law.profile(), SPRINGS, span).ok().map(|springs| (springs, whole))
+}
+
+/// A point of a leg.
+fn between(from: Apex, to: Apex, share: f64) -> Apex {
+    if share == 1.0 {
+        return to;
+    }
+    Apex { d: from.d + (to.d - from.d) * share, u: from.u + (to.u - from.u) * share }
+}
+
+/// Follows a leg in steps, on a memory of its own.
+fn follow(
+    law: &Interface,
+    memory: &Memory,
+    map: &mut FrictionMap,
+    leg: &[Apex],
+    mut told: impl FnMut(f64, &FrictionMap),
+) {
+    let mut memory = memory.clone();
+    for step in 1..=STEPS {
+        let share = step as f64 / STEPS as f64;
+        let segment = Segment::Straight(between(leg[0], leg[1], share));
+        map.follow(law, &memory, segment);
+        // The leg itself is committed after this, and says what is wrong with it.
+        if memory.commit(law, segment).is_err() {
+            return;
+        }
+        told(share, map);
+    }
+}
+
+fn refused(corner: usize, source: FirstLoadingError) -> TheoryError {
+    TheoryError::Corner { corner, source }
+}
+
+/// The path as places of the (d, u) plane, its start first.
+fn route(law: &Interface, pressed: f64, history: &History) -> Result<Vec<Apex>, TheoryError> {
+    let corners = &history.corners;
+    let depth = |k: usize, normal: Normal| {
+        let given = match normal {
+            Normal::Indentation(d) => NormalGiven::Indentation(d),
+            Normal::Force(force) => NormalGiven::Force(force),
+        };
+        given.indentation(law).map_err(|error| refused(k + 1, error))
+    };
+    let mut at = Apex { d: pressed, u: 0.0 };
+    let mut first = 0;
+    if let Some(Corner { normal: Some(normal), tangential }) = corners.first() {
+        at.d = depth(0, *normal)?;
+        // Of one corner alone there would be no way; a force other than none is a way, too.
+        let begins = match *tangential {
+            _ if corners.len() == 1 => None,
+            Tangential::Displacement(u) => Some(u),
+            Tangential::Force(force) => (force == 0.0).then_some(0.0),
+        };
+        if let Some(u) = begins {
+            (at.u, first) = (u, 1);
+        }
+    }
+    let mut memory = Memory::Curve(Curve::new(law, at));
+    let mut route = vec![at];
+    for (k, corner) in corners.iter().enumerate().skip(first) {
+        let d = corner.normal.map_or(Ok(at.d), |normal| depth(k, normal))?;
+        let u = match corner.tangential {
+            Tangential::Displacement(u) => u,
+            Tangential::Force(force) => push(law, &memory, d, force).map_err(|error| refused(k + 1, error))?,
+        };
+        at = Apex { d, u };
+        let done = memory.commit(law, Segment::Straight(at));
+        done.map_err(|_| refused(k + 1, FirstLoadingError::Displacement(u)))?;
+        route.push(at);
+    }
+    Ok(route)
+}
+
+/// Displacement at which a chord to the indentation d (m) gives the force (N): of several the nearest.
+fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, FirstLoadingError> {
+    let from = memory.apex();
+    let limit = law.friction() * law.normal_force(d);
+    if force.is_nan() || force.abs() > limit {
+        return Err(FirstLoadingError::TangentialForce { force, limit });
+    }
+    let reached = |u: f64| memory.force(law, Apex { d, u });
+    let at_rest = reached(from.u);
+    if at_rest == force {
+        return Ok(from.u);
+    }
+    let sense = if force > at_rest { 1.0 } else { -1.0 };
+    // Beyond both wedges everything slips.
+    let most = 2.0 * law.gross_slip_displacement(from.d.max(d));
+    let is_there = |u: f64| sense * (reached(u) - force) >= -ON_IT * limit;
+    let (mut near, mut far) = (from.u, from.u + sense * most);
+    loop {
+        let middle = 0.5 * (near + far);
+        if middle == near || middle == far {
+            return Ok(far);
+        }
+        if is_there(middle) { far = middle } else { near = middle }
+    }
+}
+
+impl Stop {
+    /// Where a chord from the memory leads; `friction` (J) is the work before it.
+    fn at(
+        law: &Interface,
+        memory: &Memory,
+        apex: Apex,
+        (corner, share, friction): (usize, f64, f64),
+    ) -> Self {
+        let outcome = memory.preview(law, apex);
+        Self {
+            corner,
+            share,
+            apex,
+            normal_force: law.normal_force(apex.d),
+            force: outcome.force,
+            a: law.profile().radius(apex.d),
+            c: outcome.stick_radius,
+            state: outcome.state,
+            elastic: outcome.elastic,
+            friction: friction + worked(&outcome),
+        }
+    }
+}
+
+impl Moment {
+    fn at(
+        law: &Interface,
+        memory: &Memory,
+        stop: Stop,
+        (reach, row): (f64, Option<&(Springs, f64)>),
+    ) -> Self {
+        let fields = Fields::of(law, memory);
+        let radii = if reach > 0.0 { grid(reach, RADII) } else { Vec::new() };
+        let Memory::Curve(curve) = memory else {
+            return Self { stop, fields: Vec::new(), zones: Vec::new(), springs: Vec::new(), knots: Vec::new() };
+        };
+        Self {
+            stop,
+            zones: fields.as_ref().map(Fields::zones).unwrap_or_default(),
+            fields: fields.map(|fields| radii.iter().map(|r| fields.at(*r)).collect()).unwrap_or_default(),
+            springs: row.map(|(row, span)| LoadedSpring::of(law, memory, row, *span)).unwrap_or_default(),
+            knots: curve.knots().collect(),
+        }
+    }
+}

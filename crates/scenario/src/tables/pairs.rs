@@ -1,0 +1,123 @@
+//! Two columns of a CSV file on its own, such as a history: no scenario names it.
+
+use super::head::{Column, Head};
+use super::sheet;
+use crate::error::{Report, ScenarioError};
+use crate::excerpt::Excerpt;
+use crate::units::{self, Kind};
+use crate::{suggest, syntax, text};
+use std::ops::Range;
+use std::path::Path;
+
+/// Two columns of a table, in SI; of one column both are the same.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pairs {
+    /// Which of the names asked for the first column goes by; none where the table has no such column.
+    pub first: Option<usize>,
+    /// The same of the second, which is there.
+    pub second: usize,
+    /// The numbers, line by line.
+    pub values: Vec<[f64; 2]>,
+}
+
+/// Reads two columns of a CSV file, each by one of the names asked for, whatever their case, with the SI unit of its numbers.
+/// Heads of columns may have their unit, as in `u (nm)`; without one the numbers are in SI. The first column may be missing.
+///
+/// # Errors
+/// A file that cannot be read, is no table, lacks the second column, has two that would do, or a unit of something else.
+pub fn pairs(
+    path: &Path,
+    first: &[(&str, &str)],
+    second: &[(&str, &str)],
+) -> Result<Pairs, ScenarioError> {
+    let name = path.display().to_string();
+    let read = text::read(path, syntax::MAX_BYTES);
+    // What is near by is told of scenarios only.
+    let bytes = read.map_err(|error| at_file(&name, (text::unreadable(path, &error).0, None)))?;
+    let most = syntax::MAX_BYTES;
+    let bytes = bytes.ok_or_else(|| at_file(&name, (format!("a table has at most {most} bytes"), None)))?;
+    let text = text::decode(bytes).map_err(|garbled| {
+        in_text(&name, &garbled.text, garbled.range, (garbled.message, Some(garbled.help)))
+    })?;
+    let slipped = |slip: sheet::Slip| in_text(&name, &text, slip.range, (slip.message, slip.help));
+    let header: Vec<Head> = sheet::header(&text).map_err(slipped)?.iter().map(|head| Head::new(head)).collect();
+    let table = Table { name: &name, text: &text, header: &header };
+    let (given, found) = (table.column(first)?, table.column(second)?);
+    let Some((second_place, second_name)) = found else {
+        let names: Vec<&str> = second.iter().map(|(name, _)| *name).collect();
+        let message = format!("expected a column {}", names.join(" or "));
+        let help = suggest::help(names[0], header.iter().map(|head| head.full.as_str()));
+        return Err(in_text(&name, &text, sheet::head(&text, 0), (message, help)));
+    };
+    let first_place = given.map_or(second_place, |(place, _)| place);
+    let unit = |place: usize, name: usize, names: &[(&str, &str)]| table.scale(place, names[name].1);
+    let second_scale = unit(second_place, second_name, second)?;
+    let first_scale = given.map_or(Ok(second_scale), |(place, name)| unit(place, name, first))?;
+    let columns = [(first_place, first_scale), (second_place, second_scale)];
+    let values = sheet::numbers(&text, columns, header.len()).map_err(slipped)?;
+    Ok(Pairs { first: given.map(|(_, name)| name), second: second_name, values })
+}
+
+/// A table with its heads.
+struct Table<'a> {
+    name: &'a str,
+    text: &'a str,
+    header: &'a [Head],
+}
+
+impl Table<'_> {
+    /// The column of one of these names, and which it is.
+    fn column(&self, names: &[(&str, &str)]) -> Result<Option<(usize, usize)>, ScenarioError> {
+        let goes_by = |head: &Head, (name, _): &(&str, &str)| {
+            let is = |text: &str| text.eq_ignore_ascii_case(name);
+            is(&head.full) || is(head.bare())
+        };
+        let named = |head: &Head| names.iter().position(|name| goes_by(head, name));
+        let mut found = self.header.iter().enumerate().filter_map(|(place, head)| Some((place, named(head)?)));
+        let column = found.next();
+        match found.next() {
+            None => Ok(column),
+            Some((place, _)) => {
+                let message = "another column stands for the same already".to_owned();
+                Err(self.fault(place, (message, Some("keep one of them".to_owned()))))
+            }
+        }
+    }
+
+    /// How the numbers of a column become SI.
+    fn scale(&self, place: usize, si: &str) -> Result<units::Scale, ScenarioError> {
+        let measure = self.header[place].measure(Column::Value);
+        let Some(wanted) = units::of_si(si) else { return Ok(units::Scale::Ten(0)) };
+        match measure {
+            Ok(measure) if measure.kind.is_none_or(|kind| kind == wanted) => Ok(measure.scale),
+            _ => {
+                let symbols: Vec<&str> = units::symbols(Some(wanted)).collect();
+                let message = format!("expected the unit of {}", Kind::article(wanted));
+                let help = format!("units here: {}", symbols.join(", "));
+                Err(self.fault(place, (message, Some(help))))
+            }
+        }
+    }
+
+    fn fault(&self, place: usize, words: (String, Option<String>)) -> ScenarioError {
+        in_text(self.name, self.text, sheet::head(self.text, place), words)
+    }
+}
+
+/// Something wrong with a whole file.
+fn at_file(file: &str, (message, help): (String, Option<String>)) -> ScenarioError {
+    let (file, path) = (file.to_owned(), String::new());
+    Report { file, is_override: false, excerpt: None, path, message, help }.into()
+}
+
+/// Something wrong at a place of its text.
+fn in_text(
+    file: &str,
+    text: &str,
+    range: Range<usize>,
+    (message, help): (String, Option<String>),
+) -> ScenarioError {
+    let (file, path) = (file.to_owned(), String::new());
+    let excerpt = Some(Excerpt::of(text, range));
+    Report { file, is_override: false, excerpt, path, message, help }.into()
+}
