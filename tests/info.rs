@@ -198,9 +198,9 @@ fn what_is_expected_is_what_runs_bring() {
 /// What a run says of a pair is what `info` says of it.
 #[test]
 fn a_summary_tells_how_far_the_theory_holds() {
-    let out = tempfile::tempdir().unwrap();
+    let out = tempdir().unwrap();
     for (name, contact, similar) in [("quickstart", "ball", false), ("oblique_loading", "ball", true)] {
-        let folder = crate::program::run_example(name, out.path(), &["plots=[]"]);
+        let folder = run_example(name, out.path(), &["plots=[]"]);
         let told = summary(&folder)["contacts"][contact]["similarity"].clone();
         let known = &info(&scenario(name), &[])["contacts"][contact];
         assert_eq!(told["means"], known["similarity"], "{name}");

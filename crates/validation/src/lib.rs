@@ -6,7 +6,8 @@
 //! for beforehand, and a [`Check`] says whether it is kept.
 //!
 //! In reading order: `subject` (the list), `page` and `check`, `table` and `picture` (what they are made of), `data` (what others
-//! published, with its source), `bounce` (impacts, run as a user runs them), then a module for each subject.
+//! published, with its source), `bounce` (impacts, run as a user runs them), then a module for each subject,
+//! and `worked`, numbers of closed forms.
 
 mod bounce;
 mod check;
@@ -21,6 +22,7 @@ mod page;
 mod picture;
 mod subject;
 mod table;
+mod worked;
 
 pub use check::Check;
 pub use page::{Page, index};
