@@ -82,6 +82,11 @@ fn the_ruby_drive_has_its_closed_forms() {
     is(&info, &ball("start/contact_resonance_Hz"), 4151.0, 2e-4);
     is(&info, &ball("dundurs_beta"), -0.076, 5e-3);
     assert_eq!(info["contacts"]["ball"]["elastically_similar"], false);
+    // Mossakovskii's factor of a stuck contact, artanh(β)/β.
+    let beta: f64 = (part(RUBY) - part(STEEL)) / (whole(RUBY) + whole(STEEL));
+    is(&info, &ball("neglected_stiffness"), beta.atanh() / beta - 1.0, 1e-9);
+    let words = info["contacts"]["ball"]["similarity"].as_str().unwrap();
+    assert!(words.starts_with("not elastically similar (β = -0.0764): "), "{words}");
     // One mass on one spring: the mode is the contact's resonance; fixed steps end at 2/ω and √8/ω.
     let omega = (count * 2.0 * tangential * a / mass).sqrt();
     is(&info, "/modes/0/frequency_Hz", omega / TAU, 1e-12);
@@ -187,5 +192,20 @@ fn what_is_expected_is_what_runs_bring() {
         let size = std::fs::metadata(folder.join("trace.csv")).unwrap().len() as f64;
         let ratio = number(&info, "/expected/trace_B") / size;
         assert!((0.7..=1.4).contains(&ratio), "{name}: {ratio} of {size} B");
+    }
+}
+
+/// What a run says of a pair is what `info` says of it.
+#[test]
+fn a_summary_tells_how_far_the_theory_holds() {
+    let out = tempdir().unwrap();
+    for (name, contact, similar) in [("quickstart", "ball", false), ("oblique_loading", "ball", true)] {
+        let folder = run_example(name, out.path(), &["plots=[]"]);
+        let told = summary(&folder)["contacts"][contact]["similarity"].clone();
+        let known = &info(&scenario(name), &[])["contacts"][contact];
+        assert_eq!(told["means"], known["similarity"], "{name}");
+        assert_eq!(told["dundurs_beta"], known["dundurs_beta"], "{name}");
+        assert_eq!(told["neglected_stiffness"], known["neglected_stiffness"], "{name}");
+        assert_eq!(told["means"] == "elastically similar (β = 0): the theory is exact", similar, "{name}");
     }
 }

@@ -27,4 +27,5 @@ mod results;
 mod scenarios;
 mod soak;
 mod strangers;
+mod validation;
 mod warnings;

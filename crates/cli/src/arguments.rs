@@ -7,6 +7,7 @@ pub(crate) mod look;
 mod pictures;
 pub(crate) mod run;
 pub(crate) mod soak;
+pub(crate) mod validate;
 
 use crate::commands::new;
 use clap::builder::PossibleValuesParser;
@@ -19,6 +20,7 @@ pub(crate) use contact::ContactArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
 pub(crate) use soak::SoakArguments;
+pub(crate) use validate::ValidateArguments;
 
 /// Exit codes, as every command keeps them.
 const EXIT_CODES: &str = "\
@@ -126,6 +128,9 @@ pub(crate) enum Command {
     /// Draw scenes, run them all, and judge them: do they end, and are they right?
     #[command(long_about = soak::ABOUT, after_long_help = soak::EXAMPLES)]
     Soak(SoakArguments),
+    /// Compute what is known from elsewhere, and write pages that show both
+    #[command(long_about = validate::ABOUT, after_long_help = validate::EXAMPLES)]
+    Validate(ValidateArguments),
 }
 
 const CHECK_EXAMPLES: &str = "\

@@ -13,3 +13,4 @@ pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod soak;
+pub(crate) mod validate;

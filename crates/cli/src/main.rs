@@ -9,7 +9,9 @@ mod console;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use commands::{bench, check, compare, contact, gallery, info, new, plot, repro, resume, run, schema, soak};
+use commands::{
+    bench, check, compare, contact, gallery, info, new, plot, repro, resume, run, schema, soak, validate,
+};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -27,6 +29,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::bench(&arguments),
         Command::Soak(arguments) => soak::soak(&arguments),
         Command::Gallery(arguments) => gallery::gallery(&arguments),
+        Command::Validate(arguments) => validate::validate(&arguments),
     };
     ExitCode::from(verdict.max(console::answer::verdict()).code())
 }

@@ -4,7 +4,8 @@
 //!
 //! * `F_N` = E\*M(d), d = g(a);
 //! * G\*u = μE\*[d-g(c)], that is g(c) = d - u/κ, with gross slip from u = `u_c` = κd on;
-//! * `F_x` = μ[`F_N`(d) - `F_N`(g(c))] (4.39), the force of a smaller contact taken from that of the whole.
+//! * `F_x` = μ[`F_N`(d) - `F_N`(g(c))] (4.38), the force of a smaller contact taken from that of the whole; the handbook's other
+//!   way, the integral of the line load q_x (4.39), is the test of it.
 
 mod approaches;
 

@@ -11,7 +11,7 @@
 //! questions; [`Fields`] of a moment; [`Words`] of those who keep memories.
 //!
 //! Forces are those of half-spaces in contact over a small round area, without adhesion, under Coulomb's law at every point;
-//! between elastically similar bodies they are exact, between others as good as the similarity ([`Pair::dundurs_beta`]).
+//! between elastically similar bodies they are exact, between others as good as the similarity ([`Similarity`]).
 //!
 //! Theory: Popov, Heß, Willert, *Handbook of Contact Mechanics* (2019), section 4.4 and chapter 11; equation
 //! numbers are the handbook's. SI units throughout.
@@ -27,6 +27,7 @@ mod pressure;
 mod profile;
 mod quadrature;
 mod row;
+mod similarity;
 mod words;
 
 pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Merged};
@@ -40,4 +41,5 @@ pub use motion::{
 };
 pub use profile::{Profile, ProfileError, RoughnessError, SelfAffine};
 pub use row::{Change, Lull, Row, Slack, Springs, SpringsError};
+pub use similarity::Similarity;
 pub use words::Words;

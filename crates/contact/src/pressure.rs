@@ -16,7 +16,7 @@ const SECTIONS: u32 = 48;
 impl Interface {
     /// Largest normal pressure at indentation d, Pa; 0 while the contact is open.
     ///
-    /// p(r) = (E\*/π) ∫ᵣᵃ g'(x)/√(x²-r²) dx (4.36). For g ~ xⁿ, 1 < n ≤ 2, it is largest in the middle,
+    /// p(r) = (E\*/π) ∫ᵣᵃ g'(x)/√(x²-r²) dx, the integral of (4.34). For g ~ xⁿ, 1 < n ≤ 2, it is largest in the middle,
     /// p = E\*d/(πa) n/(n-1), in Hertz' contact 2E\*d/(πa); for n > 2 between middle and edge, where it is searched for
     /// (relative error below 1e-9). Infinite at the tip of a cone and of anything sharper and at the edge of a flat
     /// punch; none for a list of springs, which has no shape in three dimensions.

@@ -41,7 +41,7 @@ fn difference(law: &Interface, left: &FirstLoading, right: &FirstLoading) -> f64
     .fold(0.0, |worst, e: f64| worst.max(e.abs()))
 }
 
-/// (4.38): 2∫₀ᶜ G*u dx + 2∫_c^a μE*(d-g(x)) dx by tanh-sinh quadrature over x.
+/// (4.39): 2∫₀ᶜ G*u dx + 2∫_c^a μE*(d-g(x)) dx by tanh-sinh quadrature over x.
 fn force_by_integration(law: &Interface, state: &FirstLoading) -> f64 {
     let half_pi = std::f64::consts::FRAC_PI_2;
     let stick = 2.0 * law.tangential_modulus() * state.u.abs() * state.c;
@@ -116,7 +116,7 @@ fn stepped_profiles_answer_to_depths_and_forces() {
 
 #[test]
 fn the_two_ways_to_the_force_agree() {
-    // (4.39) in the library, (4.38) by quadrature over x here.
+    // (4.38), superposition, in the library; (4.39), the integral, by quadrature over x here.
     for profile in convex() {
         let law = law(profile);
         for part in [-0.95, -0.2, 0.05, 0.5, 0.9, 1.0, 1.7] {

@@ -44,15 +44,24 @@ const TALL: f64 = 3.5;
 /// and slip. Rings are shaded by what they do. All moments have the same scales.
 pub fn fields_figure<'a>(title: &str, moments: &[FieldsMoment<'a>]) -> Figure<'a> {
     if moments.iter().all(|moment| moment.r.is_empty()) {
-        return Figure::without_data(title, "no fields: nothing touches, or the contact is a list of springs");
+        return Figure::without_data(
+            title,
+            "no fields: nothing touches, or the contact is a list of springs",
+        );
     }
     let tall = TALL * median(moments);
     let bounded = |value: f64| if value.abs() <= tall { value } else { f64::NAN };
     let stress = reach(moments.iter().flat_map(|moment| {
         let limits = moment.pressure.iter().map(|p| -moment.friction * bounded(*p));
-        moment.pressure.iter().map(|p| bounded(*p)).chain(limits).chain(moment.shear.iter().map(|t| bounded(*t)))
+        moment
+            .pressure
+            .iter()
+            .map(|p| bounded(*p))
+            .chain(limits)
+            .chain(moment.shear.iter().map(|t| bounded(*t)))
     }));
-    let ways = reach(moments.iter().flat_map(|moment| moment.displacement.iter().chain(moment.slip).copied()));
+    let ways =
+        reach(moments.iter().flat_map(|moment| moment.displacement.iter().chain(moment.slip).copied()));
     let pair = |moment| [stresses(moment, stress, bounded), displacements(moment, ways)];
     let mut panels: Vec<Panel<'a>> = moments.iter().flat_map(pair).collect();
     name_all(&mut panels);

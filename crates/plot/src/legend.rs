@@ -43,7 +43,7 @@ const ENTRY_GAP: f64 = 1.3;
 pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
     let curves = panel.series.iter().enumerate().map(|(place, series)| {
         let stroke = theme.stroke(series.style, place);
-        (&series.label, if series.xs.len() == 1 { Sample::Dot(stroke) } else { Sample::Line(stroke) })
+        (&series.label, if series.is_scattered() { Sample::Dot(stroke) } else { Sample::Line(stroke) })
     });
     let swatch = |ink| Sample::Swatch(theme.colour(ink));
     let classes = panel.mosaic.iter().flat_map(|mosaic| &mosaic.classes);

@@ -266,4 +266,11 @@ impl<'a> Series<'a> {
     ) -> Self {
         Self { label: label.into(), xs: xs.into(), ys: ys.into(), style: Style::default(), marked: false }
     }
+
+    /// Whether it is points that no line joins: one, or several with a gap between any two.
+    pub(crate) fn is_scattered(&self) -> bool {
+        let drawn = |(x, y): (&f64, &f64)| is_drawable(*x) && is_drawable(*y);
+        let drawn: Vec<bool> = self.xs.iter().zip(self.ys.iter()).map(drawn).collect();
+        drawn.contains(&true) && drawn.windows(2).all(|pair| pair != [true, true])
+    }
 }

@@ -70,7 +70,8 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
         say(format_args!("{}", page::text(&sheet)));
     }
     let Some(walk) = walk else { return Ok(()) };
-    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-contact", job.name)));
+    let out =
+        arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-contact", job.name)));
     let names = files(arguments, (&subject, &walk), pushed, &out)?;
     if !arguments.quiet && !arguments.json {
         say(format_args!("\n{}\n\n{}: {}", page::corners(&walk), out.display(), names.join(", ")));
@@ -94,12 +95,15 @@ fn files(
     pushed: Option<TangentialGiven>,
     out: &PathBuf,
 ) -> Result<Vec<String>, ContactFailure> {
-    let failed = |source| TheoryError::Write { path: out.display().to_string(), words: words(&source), source };
+    let failed =
+        |source| TheoryError::Write { path: out.display().to_string(), words: words(&source), source };
     let normal = arguments.pressed.given().unwrap_or_else(|| subject.pressed());
     let sheet = Sheet::of(subject, normal, pushed, WRITTEN)?;
     let (mut pictures, mut notes) = (Vec::new(), Vec::new());
     if !sheet.constants.axisymmetric {
-        notes.push("a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned());
+        notes.push(
+            "a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned(),
+        );
     }
     for drawn in theory::draw(subject, &sheet, walk, &arguments.look.look()) {
         pictures.extend(drawn?);

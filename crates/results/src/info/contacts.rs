@@ -8,9 +8,6 @@ use stickslip_contact::Interface;
 use stickslip_drive::facts;
 use stickslip_drive::scene::Side;
 
-/// Rounding of Dundurs' β of two materials that are similar.
-const ROUNDING: f64 = 1e-12;
-
 /// A contact.
 #[derive(Debug, Serialize)]
 pub struct ContactInfo {
@@ -32,6 +29,10 @@ pub struct ContactInfo {
     pub dundurs_beta: Real,
     /// Whether β is 0, which makes the theory exact.
     pub elastically_similar: bool,
+    /// By how much of itself the normal stiffness at a given contact radius is too low if nothing slips: artanh(β)/β - 1.
+    pub neglected_stiffness: Real,
+    /// What β means for the results, in words.
+    pub similarity: String,
     /// μ.
     pub friction: Real,
     /// κ = μE*/G*.
@@ -106,7 +107,7 @@ pub fn contacts(job: &Job) -> Parts<ContactInfo> {
 fn contact(job: &Job, c: usize, law: &Interface) -> Option<ContactInfo> {
     let contact = &job.scenario.scene.contacts.get(c)?.part;
     let depths = job.model.indentations(&job.start, c)?;
-    let beta = law.pair().dundurs_beta();
+    let similarity = law.pair().similarity();
     let varies = !job.has_constant_load(c);
     let pressed = |d: f64| facts::Pressed::of(job.setup(), c, d).map(Pressed::of);
     Some(ContactInfo {
@@ -116,8 +117,10 @@ fn contact(job: &Job, c: usize, law: &Interface) -> Option<ContactInfo> {
         count: contact.count,
         normal_modulus: Real(law.normal_modulus()),
         tangential_modulus: Real(law.tangential_modulus()),
-        dundurs_beta: Real(beta),
-        elastically_similar: beta.abs() < ROUNDING,
+        dundurs_beta: Real(similarity.dundurs_beta()),
+        elastically_similar: similarity.is_exact(),
+        neglected_stiffness: Real(similarity.neglected_stiffness()),
+        similarity: similarity.to_string(),
         friction: Real(law.friction()),
         stick_slope: Real(law.stick_slope()),
         start: pressed(depths.start)?,

@@ -32,12 +32,24 @@ pub struct ContactSummary {
     normal: Option<NormalMotion>,
     #[serde(rename = "friction_J")]
     friction: Real,
+    similarity: SimilaritySummary,
     /// Quantities of the last whole cycle; none where there is none, or where it does not come back to its start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fretting: Option<Fretting>,
     /// All cycles that come back along u; in a table of their own.
     #[serde(skip)]
     pub cycles: Vec<JudgedCycle>,
+}
+
+/// How far the theory holds for the two bodies.
+#[derive(Debug, Serialize)]
+struct SimilaritySummary {
+    /// Dundurs' β; 0 for elastically similar bodies.
+    dundurs_beta: Real,
+    /// By how much of itself the normal stiffness at a given contact radius is too low if nothing slips.
+    neglected_stiffness: Real,
+    /// What that means, in words.
+    means: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -99,8 +111,20 @@ fn contact(job: &Job, outcome: &Outcome, (c, name, law): (usize, &str, &Interfac
         peak_normal: peak("fn_N"),
         normal: if job.is_coupled(c) { normal_motion(series, name) } else { None },
         friction: Real(outcome.books.friction_of(c)),
+        similarity: SimilaritySummary::of(law),
         fretting: Fretting::of(&cycles, thresholds),
         cycles,
+    }
+}
+
+impl SimilaritySummary {
+    fn of(law: &Interface) -> Self {
+        let similarity = law.pair().similarity();
+        Self {
+            dundurs_beta: Real(similarity.dundurs_beta()),
+            neglected_stiffness: Real(similarity.neglected_stiffness()),
+            means: similarity.to_string(),
+        }
     }
 }
 

@@ -85,7 +85,7 @@ fn option(error: &FirstLoadingError) -> &'static str {
         FirstLoadingError::Displacement(_) => "--displacement  ",
         FirstLoadingError::StickRadius { .. } => "--stick-radius  ",
         FirstLoadingError::TangentialForce { .. } => "--tangential  ",
-        FirstLoadingError::BeyondSphere { .. } | FirstLoadingError::Undetermined => "",
+        FirstLoadingError::BeyondProfile { .. } | FirstLoadingError::Undetermined => "",
     }
 }
 
@@ -111,11 +111,13 @@ impl<'a> Subject<'a> {
                 let names = help.strip_prefix("known here: ").unwrap_or(&help).to_owned();
                 return Err(TheoryError::Several { file: job.name.clone(), count, names });
             }
-            (Some(asked), _) => contacts.iter().position(|contact| contact.name == asked).ok_or_else(|| {
-                let help = suggestion(asked, contacts.iter().map(|contact| contact.name.as_str()));
-                let help = help.map_or(String::new(), |help| format!("\n   help: {help}"));
-                TheoryError::Unknown { asked: asked.to_owned(), help }
-            })?,
+            (Some(asked), _) => {
+                contacts.iter().position(|contact| contact.name == asked).ok_or_else(|| {
+                    let help = suggestion(asked, contacts.iter().map(|contact| contact.name.as_str()));
+                    let help = help.map_or(String::new(), |help| format!("\n   help: {help}"));
+                    TheoryError::Unknown { asked: asked.to_owned(), help }
+                })?
+            }
         };
         let contact = &contacts[place];
         let law = &contact.part.interface;
@@ -126,7 +128,7 @@ impl<'a> Subject<'a> {
             law,
             start,
             materials: job.scenario.materials_of(place).unwrap_or_default().map(str::to_owned),
-            profile: job.scenario.profile_of(place).unwrap_or_default(),
+            profile: job.scenario.profile_of(place).unwrap_or_default().to_owned(),
         })
     }
 

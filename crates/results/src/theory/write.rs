@@ -15,13 +15,22 @@ pub const CONTACT: &str = "contact.json";
 pub const TABLES: [&str; 6] =
     ["history.csv", "fields.csv", "line.csv", "friction.csv", "normal.csv", "universal.csv"];
 
-const HISTORY_HEAD: &[&str] = &[
-    "corner", "share", "d_m", "u_m", "fn_N", "fx_N", "a_m", "c_m", "state", "elastic_J", "friction_J",
-];
+const HISTORY_HEAD: &[&str] =
+    &["corner", "share", "d_m", "u_m", "fn_N", "fx_N", "a_m", "c_m", "state", "elastic_J", "friction_J"];
 const FIELDS_HEAD: &[&str] =
     &["corner", "r_m", "pressure_Pa", "shear_Pa", "displacement_m", "slip_m", "deflection_m", "state"];
 const LINE_HEAD: &[&str] = &[
-    "corner", "x_m", "length_m", "g_m", "qz_N_m", "qx_N_m", "limit_N_m", "fz_N", "fx_N", "stretch_m", "state",
+    "corner",
+    "x_m",
+    "length_m",
+    "g_m",
+    "qz_N_m",
+    "qx_N_m",
+    "limit_N_m",
+    "fz_N",
+    "fx_N",
+    "stretch_m",
+    "state",
 ];
 const FRICTION_HEAD: &[&str] = &["corner", "share", "r_m", "work_J_m2", "way_m"];
 const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
@@ -150,8 +159,14 @@ fn line(sheet: &mut Sheet, walk: &Walk) {
     for moment in &walk.moments {
         for spring in &moment.springs {
             whole(sheet, moment.stop.corner);
-            numbers(sheet, [spring.x, spring.length, spring.g, spring.normal, spring.tangential, spring.limit]);
-            numbers(sheet, [spring.normal * spring.length, spring.tangential * spring.length, spring.stretch]);
+            numbers(
+                sheet,
+                [spring.x, spring.length, spring.g, spring.normal, spring.tangential, spring.limit],
+            );
+            numbers(
+                sheet,
+                [spring.normal * spring.length, spring.tangential * spring.length, spring.stretch],
+            );
             sheet.word(spring_word(spring.state));
             sheet.end_line();
         }

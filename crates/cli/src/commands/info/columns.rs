@@ -110,16 +110,31 @@ fn bounded(value: Real, unit: &str) -> String {
     if value.0.is_infinite() { "unbounded".to_owned() } else { quantity(value, unit) }
 }
 
+/// A sentence in lines that fit.
+fn broken(text: &str) -> String {
+    let (mut lines, mut room) = (String::new(), usize::from(WIDTH));
+    for word in text.split(' ') {
+        let needed = width(word) + 1;
+        if lines.is_empty() {
+            room += 1;
+        } else if needed > room {
+            lines.push('\n');
+            room = usize::from(WIDTH) + 1;
+        } else {
+            lines.push(' ');
+        }
+        lines += word;
+        room = room.saturating_sub(needed);
+    }
+    lines
+}
+
 /// What to know of pairs for which the theory is not exact, once for each pair.
 fn warnings(contacts: &[(String, ContactInfo)]) -> Vec<String> {
     let mut pairs: Vec<(String, Vec<&str>)> = Vec::new();
     for (name, contact) in contacts.iter().filter(|(_, contact)| !contact.elastically_similar) {
         let [first, second] = &contact.materials;
-        let pair = format!(
-            "warning: {first} and {second} are not elastically similar (β = {}): pressing and sliding are\n\
-             coupled, which the theory leaves out. Results are approximate, the more so the larger |β|.",
-            digits(contact.dundurs_beta.0)
-        );
+        let pair = broken(&format!("warning: {first} and {second} are {}.", contact.similarity));
         match pairs.iter_mut().find(|(known, _)| *known == pair) {
             Some((_, names)) => names.push(name),
             None => pairs.push((pair, vec![name])),

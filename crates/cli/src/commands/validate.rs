@@ -1,0 +1,93 @@
+//! `stickslip validate`: known results, and what the program makes of them.
+
+use crate::arguments::ValidateArguments;
+use crate::console::answer::{complain, say};
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
+use std::io;
+use std::path::PathBuf;
+use stickslip_drive::RunError;
+use stickslip_plot::PlotError;
+use stickslip_results::Watcher;
+use stickslip_results::complaint::words;
+use stickslip_results::folder::Folder;
+use stickslip_validation::{Page, Subject, ValidationError, index};
+use thiserror::Error;
+
+/// Name of the page of all pages.
+const INDEX: &str = "README.md";
+
+/// Why the pages are not there.
+#[derive(Debug, Error)]
+enum ValidateFailure {
+    /// A page.
+    #[error("{name}: {source}")]
+    Page { name: &'static str, source: ValidationError },
+    /// A picture.
+    #[error("{name}: {source}")]
+    Picture { name: &'static str, source: PlotError },
+    /// Writing.
+    #[error("{}: cannot be written: {}\n   help: choose another place with --out", .path.display(), words(.source))]
+    File { path: PathBuf, source: io::Error },
+}
+
+/// Computes the pages and writes them.
+pub(crate) fn validate(arguments: &ValidateArguments) -> Verdict {
+    match write(arguments) {
+        Ok(pages) => {
+            let lost = pages.iter().flat_map(|page| page.checks.iter().map(move |check| (page, check)));
+            let lost: Vec<_> = lost.filter(|(_, check)| !check.holds()).collect();
+            for (page, check) in &lost {
+                complain(format_args!("{}: not kept: {check}", page.name()));
+            }
+            if !arguments.quiet {
+                let asked: usize = pages.iter().map(|page| page.checks.len()).sum();
+                let (out, kept) = (arguments.out.display(), asked - lost.len());
+                say(format_args!("{out}: {} pages, {kept} of {asked} tolerances kept", pages.len()));
+            }
+            if lost.is_empty() { Verdict::Done } else { Verdict::Differs }
+        }
+        Err(failure) => {
+            complain(format_args!("{failure}"));
+            failure.verdict()
+        }
+    }
+}
+
+fn write(arguments: &ValidateArguments) -> Result<Vec<Page>, ValidateFailure> {
+    let failed = |source| ValidateFailure::File { path: arguments.out.clone(), source };
+    let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
+    let wanted = |subject: &Subject| arguments.pages.is_empty() || arguments.pages.contains(subject);
+    let subjects: Vec<Subject> = Subject::ALL.into_iter().filter(wanted).collect();
+    // Before anything is computed in vain.
+    let mut folder = Folder::make(&arguments.out).map_err(failed)?;
+    let bar = progress.budget("validate", subjects.len() as f64, &interrupt);
+    let mut pages = Vec::new();
+    for (done, subject) in subjects.iter().enumerate() {
+        bar.reached(done as f64);
+        let name = subject.name();
+        let page = subject.page(&bar).map_err(|source| ValidateFailure::Page { name, source })?;
+        let picture = page.picture().map_err(|source| ValidateFailure::Picture { name, source })?;
+        folder.write(&format!("{name}.png"), &picture).map_err(failed)?;
+        folder.write(&format!("{name}.md"), page.markdown().as_bytes()).map_err(failed)?;
+        pages.push(page);
+    }
+    drop(bar);
+    if subjects.len() == Subject::ALL.len() {
+        folder.write(INDEX, index(&pages).as_bytes()).map_err(failed)?;
+    }
+    folder.publish().map_err(failed)?;
+    Ok(pages)
+}
+
+impl ValidateFailure {
+    fn verdict(&self) -> Verdict {
+        match self {
+            Self::Page { source: ValidationError::Run(RunError::Interrupted { .. }), .. } => {
+                Verdict::Interrupted
+            }
+            Self::Page { .. } | Self::Picture { .. } | Self::File { .. } => Verdict::Stopped,
+        }
+    }
+}

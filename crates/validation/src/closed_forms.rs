@@ -1,0 +1,255 @@
+//! Closed forms of loading, unloading and loops at constant depth.
+
+use crate::check::{Check, worst};
+use crate::page::{Kind, Page};
+use crate::picture::{axis, curve, points};
+use crate::subject::ValidationError;
+use crate::table::{Table, places, significant};
+use stickslip_contact::{Apex, Curve, Interface, Pair, Profile, Segment};
+use stickslip_plot::{Arrangement, Axis, Figure, Ink, Label, Panel};
+
+pub(crate) const NAME: &str = "closed_forms";
+
+/// Depth of all contacts, m.
+const DEPTH: f64 = 1e-7;
+/// Where the loops turn, parts of `u_c`.
+const TURN: f64 = 0.8;
+/// Amplitudes of the table, parts of `u_c`.
+const AMPLITUDES: [f64; 7] = [0.01, 0.1, 0.3, 0.5, 0.8, 1.0, 1.5];
+
+/// A profile r^n and its contact, with `μF_N` and `u_c`.
+struct Contact {
+    n: f64,
+    name: &'static str,
+    law: Interface,
+    limit: f64,
+    gross: f64,
+}
+
+/// A place of a path: u/u_c, `F_x/(μF_N)` of the program, of the formula.
+type Place = (f64, f64, f64);
+
+impl Contact {
+    fn new(n: f64, name: &'static str, profile: Profile) -> Result<Self, ValidationError> {
+        let law = Interface::new(Pair::from_moduli(110e9, 90e9)?, profile, 0.3)?;
+        let (limit, gross) = (law.friction() * law.normal_force(DEPTH), law.gross_slip_displacement(DEPTH));
+        Ok(Self { n, name, law, limit, gross })
+    }
+
+    fn pressed(&self) -> Result<Curve, ValidationError> {
+        let mut contact = Curve::new(&self.law, Apex::default());
+        contact.commit(&self.law, Segment::Straight(Apex { d: DEPTH, u: 0.0 }))?;
+        Ok(contact)
+    }
+
+    /// Moves to a share of `u_c`; returns the friction work, J.
+    fn slide(&self, contact: &mut Curve, share: f64) -> Result<f64, ValidationError> {
+        Ok(contact.commit(&self.law, Segment::Straight(Apex { d: DEPTH, u: share * self.gross }))?)
+    }
+
+    /// First loading to [`TURN`], unloading to its mirror image, reloading; stick radii of the first loading that are off, parts of a.
+    fn path(&self) -> Result<(Vec<Place>, f64), ValidationError> {
+        let p = (self.n + 1.0) / self.n;
+        let first = |share: f64| 1.0 - (1.0 - share).powf(p);
+        let branch = |way: f64| 2.0 * (1.0 - (1.0 - 0.5 * way).powf(p));
+        let mut contact = self.pressed()?;
+        let (mut places, mut radius) = (Vec::new(), 0.0);
+        let mut go = |share: f64, known: f64, is_first: bool| -> Result<(), ValidationError> {
+            self.slide(&mut contact, share)?;
+            places.push((share, contact.force(&self.law) / self.limit, known));
+            if is_first {
+                let whole = self.law.profile().radius(DEPTH);
+                radius = worst([
+                    radius,
+                    contact.stick_radius(&self.law) / whole - (1.0 - share).powf(1.0 / self.n),
+                ]);
+            }
+            Ok(())
+        };
+        let share = |k: u32| TURN * f64::from(k) / 40.0;
+        for k in 1..=40 {
+            go(share(k), first(share(k)), true)?;
+        }
+        for k in 1..=80 {
+            go(TURN - share(k), first(TURN) - branch(share(k)), false)?;
+        }
+        for k in 1..=80 {
+            go(share(k) - TURN, branch(share(k)) - first(TURN), false)?;
+        }
+        Ok((places, radius))
+    }
+
+    /// Friction work of a loop of an amplitude in parts of `u_c`, J: of the program, of the formula.
+    fn work(&self, amplitude: f64) -> Result<(f64, f64), ValidationError> {
+        let mut contact = self.pressed()?;
+        self.slide(&mut contact, amplitude)?;
+        let work = self.slide(&mut contact, -amplitude)? + self.slide(&mut contact, amplitude)?;
+        Ok((work, 4.0 * self.limit * self.gross * loop_work(self.n, amplitude)))
+    }
+}
+
+/// Work of a loop over `4μF_N u_c`.
+fn loop_work(n: f64, amplitude: f64) -> f64 {
+    let p = (n + 1.0) / n;
+    if amplitude > 1.0 {
+        return amplitude - 2.0 / (p + 1.0);
+    }
+    // U + U(1-U)^p - 2/(p+1) [1-(1-U)^{p+1}] loses all its digits at small U: there by its power series in U, from U³ on.
+    let mut term = p;
+    let mut sum = 0.0;
+    for k in 2..400 {
+        // Coefficient of (-U)^k in (1-U)^p, and what is left of both brackets in U^{k+1}.
+        term *= (p - f64::from(k - 1)) / f64::from(k);
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let part = sign * term * (1.0 - 2.0 / f64::from(k + 1)) * amplitude.powi(k + 1);
+        sum += part;
+    }
+    if amplitude < 0.5 {
+        return sum;
+    }
+    let left = 1.0 - amplitude;
+    amplitude + amplitude * left.powf(p) - 2.0 / (p + 1.0) * (1.0 - left.powf(p + 1.0))
+}
+
+pub(crate) fn page() -> Result<Page, ValidationError> {
+    let contacts = [
+        Contact::new(1.0, "cone, n = 1", Profile::cone(0.02)?)?,
+        Contact::new(2.0, "paraboloid, n = 2", Profile::paraboloid(1e-3)?)?,
+        Contact::new(4.0, "fourth power, n = 4", Profile::power(5e9, 4.0)?)?,
+    ];
+    let mut paths = Vec::new();
+    let mut radii = Vec::new();
+    for contact in &contacts {
+        let (path, radius) = contact.path()?;
+        paths.push(path);
+        radii.push(radius);
+    }
+    let mut loops = Table::new(
+        "Friction work of a loop over 4μF_N u_c:",
+        &["amplitude/u_c", "cone", "formula", "paraboloid", "formula", "fourth power", "formula"],
+    );
+    let mut off = Vec::new();
+    for amplitude in AMPLITUDES {
+        let mut row = vec![amplitude.to_string()];
+        for contact in &contacts {
+            let (found, known) = contact.work(amplitude)?;
+            off.push(found / known - 1.0);
+            let whole = 4.0 * contact.limit * contact.gross;
+            row.extend([significant(found / whole, 9), significant(known / whole, 9)]);
+        }
+        loops.row(row);
+    }
+    let forces = worst(paths.iter().flatten().map(|(_, found, known)| found - known));
+    let checks = vec![
+        Check::new("F_x over first loading, unloading, reloading, parts of μF_N", "", forces, 1e-12),
+        Check::new("stick radius of the first loading, parts of a", "", worst(radii), 1e-12),
+        Check::new("friction work of loops, relative", "", worst(off), 1e-12),
+    ];
+    Ok(Page {
+        name: NAME,
+        title: "Closed forms of loading and loops",
+        setup: SETUP.to_owned(),
+        command: "The memory curve is moved in steps of u_c/50; loops are closed in two moves.".to_owned(),
+        reference: REFERENCE.to_owned(),
+        kind: vec![Kind::ClosedForm],
+        checks,
+        figure: figure(&contacts, &paths)?,
+        shows: "Left: forces of the program (curves) and the formulas (points). Right: work of loops, from cubic to linear in the \
+                amplitude."
+            .to_owned(),
+        tables: vec![forces_table(&paths), loops],
+        limits: LIMITS.to_owned(),
+    })
+}
+
+const SETUP: &str = "Profiles r, r² and r⁴, pressed to one depth and moved sideways: to 0.8 u_c, back to -0.8 u_c and to 0.8 u_c again; then \
+loops of amplitudes from 0.01 to 1.5 u_c.";
+const REFERENCE: &str = "With p = (n+1)/n: first loading F_x = μF_N[1-(1-u/u_c)^p], stick radius c/a = (1-u/u_c)^{1/n}; unloading from \
+(u₁, F₁) F₁ - 2μF_N[1-(1-(u₁-u)/(2u_c))^p], reloading its mirror image; work of a loop of amplitude U, Ũ = U/u_c, 4μF_N u_c \
+{Ũ + Ũ(1-Ũ)^p - (2/(p+1))[1-(1-Ũ)^{p+1}]} up to u_c, 4μF_N[U - 2u_c/(p+1)] beyond.\n\nSource: handbook, section 4.4 (4.26–4.28, 4.33), \
+with Masing's rule for the branches; the work is the integral.";
+const LIMITS: &str = "Constant depth only, where every history is made of such branches. The formulas are those of the theory that the \
+program computes: this page says that it computes them to rounding, not how well they describe a contact.";
+
+fn forces_table(paths: &[Vec<Place>]) -> Table {
+    let mut table = Table::new(
+        "F_x/(μF_N) at some places:",
+        &["u/u_c", "cone", "formula", "paraboloid", "formula", "fourth power", "formula"],
+    );
+    for place in [9, 24, 39, 59, 79, 99, 119, 139, 159, 179, 199] {
+        let at: Vec<Place> = paths.iter().filter_map(|path| path.get(place).copied()).collect();
+        let share = at.first().map_or(f64::NAN, |(share, ..)| *share);
+        let cells = at.iter().flat_map(|(_, found, known)| [places(*found, 9), places(*known, 9)]);
+        table.row(std::iter::once(places(share, 2)).chain(cells));
+    }
+    table
+}
+
+fn figure(contacts: &[Contact; 3], paths: &[Vec<Place>]) -> Result<Figure<'static>, ValidationError> {
+    let mut forces = Vec::new();
+    let mut works = Vec::new();
+    for (i, (contact, path)) in contacts.iter().zip(paths).enumerate() {
+        let own = std::iter::once((0.0, 0.0)).chain(path.iter().map(|(share, found, _)| (*share, *found)));
+        forces.push(curve(contact.name, own, Ink::Palette(i)));
+        forces.push(points(
+            "",
+            path.iter().skip(7).step_by(8).map(|(share, _, known)| (*share, *known)),
+            Ink::Palette(i),
+        ));
+        let whole = 4.0 * contact.limit * contact.gross;
+        let mut work = Vec::new();
+        for k in 0..=60 {
+            let amplitude = 0.01 * 300.0_f64.powf(f64::from(k) / 60.0);
+            work.push((amplitude, contact.work(amplitude)?));
+        }
+        works.push(curve(
+            contact.name,
+            work.iter().map(|(at, (found, _))| (*at, found / whole)),
+            Ink::Palette(i),
+        ));
+        let known = work.iter().step_by(6).map(|(at, (_, known))| (*at, known / whole));
+        works.push(points("", known, Ink::Palette(i)));
+    }
+    let panels = vec![
+        Panel { x: axis("u/u_c", ""), y: axis("force F_x/(μF_N)", ""), series: forces, ..Panel::default() },
+        Panel {
+            x: Axis { logarithmic: true, ..axis("amplitude U/u_c", "") },
+            y: Axis { logarithmic: true, ..axis("work of a loop/(4μF_N u_c)", "") },
+            series: works,
+            ..Panel::default()
+        },
+    ];
+    Ok(Figure {
+        title: Label::plain("Loading, unloading, loops: curves of the program, points of the formulas"),
+        panels,
+        arrangement: Arrangement::Row,
+        size: (1600, 850),
+        ..Figure::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is asked of this page, by numbers of its own.
+    #[test]
+    fn closed_forms_are_met() {
+        let page = page().unwrap();
+        let found: Vec<f64> = page.checks.iter().map(|check| check.found).collect();
+        let [forces, radii, works] = found[..] else { panic!("{found:?}") };
+        assert!(forces <= 1e-12 && radii <= 1e-12 && works <= 1e-12, "{found:?}");
+    }
+
+    /// (2/3)p(p-1)U³ over 4 where U is small.
+    #[test]
+    fn small_loops_are_cubic() {
+        for n in [1.0, 2.0, 4.0] {
+            let p = (n + 1.0) / n;
+            let cubic = p * (p - 1.0) / 6.0 * 1e-9;
+            assert!((loop_work(n, 1e-3) / cubic - 1.0).abs() < 2e-3, "{n}");
+            // Where series and formula meet.
+            assert!((loop_work(n, 0.5 - 1e-9) / loop_work(n, 0.5) - 1.0).abs() < 1e-8, "{n}");
+        }
+    }
+}
