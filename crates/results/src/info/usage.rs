@@ -136,7 +136,7 @@ impl Usage {
 
     fn couplings(&mut self, job: &Job) {
         let scene = &job.scenario.scene;
-        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free()));
+        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free() || b.part.is_balanced()));
         let spared = job.model.spared();
         let springs = scene.springs.iter().enumerate();
         let springs =
