@@ -57,7 +57,7 @@ pub enum SceneFault {
     #[error("nothing balances {}: no contact with friction and no spring acts along it", .0.key())]
     Unbalanceable(Axis),
     /// The load of t = 0 on a balanced coordinate is more than what holds it.
-    #[error("nothing balances {load:.6e} N {} at t = 0: the contacts hold {limit:.6e} N", way(*.axis))]
+    #[error("nothing balances {load:.3e} N {} at t = 0: the contacts hold {limit:.3e} N", way(*.axis))]
     Unbalanced {
         /// The coordinate.
         axis: Axis,

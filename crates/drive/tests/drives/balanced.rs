@@ -6,9 +6,9 @@
 use crate::parts::{column, contact, event, follower, named, trace, wave};
 use stickslip_contact::{Apex, Engine, Interface, Memory, Profile, Segment};
 use stickslip_drive::scene::{
-    Body, Coordinate, Direction, Freedom, Load, Normal, Point, Scene, Side, Spring, Varying,
+    Body, Coordinate, Direction, EngineChoice, Freedom, Load, Normal, Point, Scene, Side, Spring, Varying,
 };
-use stickslip_drive::{EventKind, Model, Plan, RunError, Shape, State, Timing, Trace, Waveform, run};
+use stickslip_drive::{EventKind, Model, Plan, Run, RunError, Shape, State, Timing, Trace, Waveform, run};
 
 const MU: f64 = 0.3;
 const FORCE: f64 = 10.0;
@@ -431,4 +431,121 @@ fn a_jump_of_the_load_is_a_jump_of_the_place() {
             assert!(error[i].abs() < 1e-13 * limit * u_c, "{from} {to}, {i}: {:e}", error[i]);
         }
     }
+}
+
+/// Everything at once: both coordinates, a spring, a load and a normal force that vary.
+fn full_rig() -> Scene {
+    let mut scene = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.3));
+    let press = Shape::Sine { amplitude: 0.4 * FORCE, phase: 0.0, offset: -FORCE };
+    scene.waveforms.push(wave("press", press, 1.7 * PERIOD));
+    scene.bodies[0].part.z = BALANCED;
+    scene.contacts[0].part.normal = Normal::Coupled;
+    scene.contacts[0].part.between = [Side::Ground, Side::Body(0)];
+    scene.loads[0].z = Varying::Follows(1);
+    scene.springs.push(named("leaf", spring([Side::Ground, Side::Body(0)], 1e6)));
+    scene
+}
+
+/// A run put down at any event and taken up from its bytes, with rows or without, is the whole run to the bit.
+#[test]
+fn a_run_taken_up_from_its_bytes_is_the_whole_run() {
+    for scene in [full_rig(), rig(Profile::sphere(1e-3).unwrap(), sine(0.8))] {
+        let model = Model::new(&scene).unwrap();
+        let plan = Plan { every: Some(PERIOD / 64.0), ..event(1e-6, 2.0 * PERIOD) };
+        let whole = |plan: &Plan| {
+            let mut state = model.start(plan).unwrap();
+            run(&model, plan, &mut state, &mut ()).unwrap();
+            state
+        };
+        let end = whole(&plan);
+        assert_eq!(end, whole(&Plan { every: None, ..plan }));
+        for part in [0.1, 0.3, 0.52, 0.9] {
+            let mut first = Run::new(
+                &model,
+                &Plan { duration: part * plan.duration, ..plan },
+                model.start(&plan).unwrap(),
+            )
+            .unwrap();
+            first.approach(&mut ()).unwrap();
+            let bytes = first.state().to_bytes(&model, &[7; 32]);
+            let state = State::from_bytes(&model, &[7; 32], &bytes).unwrap();
+            let mut second = Run::resume(&model, &plan, state).unwrap();
+            second.finish(&mut ()).unwrap();
+            assert_eq!(second.into_state(), end, "{part}");
+        }
+        // A caller who asks step by step meets the same places.
+        let mut held = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+        for i in 1..=40 {
+            held.advance(f64::from(i) * 0.05 * PERIOD, &mut ()).unwrap();
+        }
+        let place = |state: &State| state.body(&model, 0).unwrap().0;
+        let (u_c, _) = model.contact_scale(0).unwrap();
+        assert!((place(held.state()) - place(&end)).abs() < 1e-9 * u_c);
+    }
+}
+
+/// Rows of springs: the same load on a row is held where the row alone says, by halving its own forces.
+#[test]
+fn a_row_of_springs_holds_a_load_where_its_springs_say() {
+    let mut scene = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.8));
+    scene.contacts[0].part.engine = EngineChoice::Springs { count: 64, span: None };
+    let (model, state, rows) = trace(&scene, &event(1e-6, 2.0 * PERIOD), PERIOD / 64.0);
+    let model_of_curve = Model::new(&rig(Profile::paraboloid(1e-3).unwrap(), sine(0.8))).unwrap();
+    let u_c = model_of_curve.contact_scale(0).unwrap().0;
+    let (t, u) = (column(&model, &rows, "time_s"), column(&model, &rows, "ball.x_m"));
+    let force = column(&model, &rows, "ball.fx_N");
+    for i in 0..t.len() {
+        let pull = 0.8 * MU * FORCE * (std::f64::consts::TAU * t[i] / PERIOD).sin();
+        assert!((force[i] - pull).abs() < 1e-12 * FORCE, "{i}: {:e}", force[i] - pull);
+        // The row's cells make a difference of their own.
+        assert!((u[i] / u_c - masing(0.8, 1.5, t[i] / PERIOD)).abs() < 1e-2, "{i}");
+    }
+    println!("{:?}", state.counts());
+    let mut beyond = scene;
+    beyond.waveforms[0] = wave("load", sine(1.2), PERIOD);
+    let (_, state, _, error) = fails(&beyond, PERIOD);
+    let wanted = PERIOD * (1.0_f64 / 1.2).asin() / std::f64::consts::TAU;
+    assert!((state.time() / wanted - 1.0).abs() < 1e-10, "{error}: {:e}", state.time() / wanted - 1.0);
+}
+
+/// Lengths in other units: a scene magnified by s with moduli by 1/s carries the forces by s.
+#[test]
+fn scenes_of_any_size_walk_alike() {
+    for scale in [1e-9, 1e-3, 1e3, 1e6] {
+        let mut scene = rig(Profile::paraboloid(1e-3 * scale).unwrap(), sine(0.8));
+        scene.waveforms[0] = wave(
+            "load",
+            Shape::Sine { amplitude: 0.8 * MU * FORCE * scale * scale, phase: 0.0, offset: 0.0 },
+            PERIOD,
+        );
+        scene.contacts[0].part.normal = Normal::Force(Varying::Constant(FORCE * scale * scale));
+        let (model, state, rows) = trace(&scene, &event(1e-6, 2.0 * PERIOD), PERIOD / 64.0);
+        let u_c = model.contact_scale(0).unwrap().0;
+        let (t, u) = (column(&model, &rows, "time_s"), column(&model, &rows, "ball.x_m"));
+        for i in 0..t.len() {
+            assert!((u[i] / u_c - masing(0.8, 1.5, t[i] / PERIOD)).abs() < 1e-12, "{scale:e}: {i}");
+        }
+        assert!(state.counts().events <= 40);
+    }
+}
+
+/// What a balanced scene cannot have is refused, with the part and the field.
+#[test]
+fn a_place_that_nothing_can_balance_is_refused() {
+    use stickslip_drive::SceneFault;
+    let mut hanging = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.8));
+    hanging.bodies.push(named("end", Body { x: BALANCED, ..Body::default() }));
+    assert!(matches!(Model::new(&hanging).unwrap_err().fault, SceneFault::Unbalanceable(_)));
+    // A chain that ends on nothing.
+    hanging.bodies.push(named("other", Body { x: BALANCED, ..Body::default() }));
+    hanging.springs.push(named("rod", spring([Side::Body(1), Side::Body(2)], 1e6)));
+    assert!(matches!(Model::new(&hanging).unwrap_err().fault, SceneFault::Unbalanceable(_)));
+    let mut rod = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.8));
+    rod.bodies.push(rod.bodies[0].clone());
+    rod.contacts.push(named(
+        "second",
+        contact([Side::Body(1), Side::Ground], Profile::cone(0.01).unwrap(), MU, FORCE),
+    ));
+    rod.springs.push(named("rod", spring([Side::Body(0), Side::Body(1)], 1e6)));
+    assert!(matches!(Model::new(&rod).unwrap_err().fault, SceneFault::BalancedTogether));
 }
