@@ -13,6 +13,7 @@
 
 mod aim;
 mod allowance;
+mod balanced;
 mod ending;
 mod laws;
 mod leap;

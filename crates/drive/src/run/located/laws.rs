@@ -11,11 +11,10 @@ use super::Located;
 use super::watch::Fallen;
 use crate::RunError;
 use crate::contact::{Contact, Guard, Mode, Motion};
-use crate::equations::{Components, Equations, Instant};
+use crate::equations::{Components, Equations};
 use crate::event::{Event, EventKind, Source};
 use crate::model::Measure;
 use crate::record::Record;
-use crate::scene::Axis;
 use crate::state::State;
 use stickslip_contact::Course;
 use stickslip_stepper::{Attempt, System};
@@ -259,43 +258,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let now = state.memories[c].preview(&contact.interface, state.memories[c].apex());
             state.y[self.setting.layout.force(slot)] = now.force;
             state.y[self.setting.layout.elastic(slot)] = now.elastic;
-        }
-    }
-
-    /// Fails where nothing balances a coordinate any more: all that acts along it slips, or has parted.
-    pub(super) fn check_balance(&self, state: &State) -> Result<(), RunError> {
-        let (model, equations) = (self.setting.model, self.setting.plain(state));
-        let at = Instant { t: state.t, y: &|i| state.y[i] };
-        for b in 0..model.balanced.len() {
-            let along = model.balanced[b].axis;
-            let gone = |c: usize| match along {
-                Axis::Z => state.modes[c] == Mode::Open,
-                _ => state.modes[c].has_given_way(&model.contacts[c]),
-            };
-            if let Some(forces) = equations.given_way(b, &at, gone) {
-                return Err(model.unbalanced(b, state.t, forces));
-            }
-        }
-        Ok(())
-    }
-
-    /// The place of a balanced coordinate becomes a state where the first of its contacts grows: it begins where that stands.
-    fn carry(&self, state: &mut State, c: usize) {
-        let model = self.setting.model;
-        if state.modes[c] != Mode::Grow {
-            return;
-        }
-        for balanced in model.balanced.iter().filter(|b| b.axis == Axis::X) {
-            let joined = balanced.contacts.iter().find(|(own, _)| *own == c);
-            let (Some((_, a)), Some(slot)) = (joined, balanced.slot) else { continue };
-            let carried = |(other, _): &(usize, f64)| *other != c && state.modes[*other] == Mode::Grow;
-            if balanced.contacts.iter().any(carried) {
-                continue;
-            }
-            let at = Instant { t: state.t, y: &|i| state.y[i] };
-            let rest = self.setting.plain(state).rest_along(c, &at);
-            let place = a * (state.memories[c].apex().u - rest);
-            state.y[self.setting.layout.balanced(slot)] = place;
         }
     }
 
