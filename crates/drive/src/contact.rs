@@ -44,6 +44,8 @@ pub(crate) struct Contact {
     pub(crate) inert: bool,
     /// Whether nothing that it does ends a step: never pressed, or neither friction nor bodies that press it.
     pub(crate) unguarded: bool,
+    /// Whether its bodies' places are solved for from its force.
+    pub(crate) balanced: bool,
     /// Place among the growing contacts.
     pub(crate) slot: Option<usize>,
     pub(crate) natural: Natural,
@@ -149,8 +151,9 @@ impl Contact {
     /// Whether it is a row under a normal that moves, and its springs are few enough to end a step at each of their changes.
     // Under a constant load estimates see the kinks, which shrink with the springs. To end steps there, too, costs a slider that
     // travels far a hundred times as much: rounding of u lets springs change in turn at one moment.
+    // A place without mass is found on straight lines only: there a row ends a step at each of its springs whatever its load.
     pub(crate) fn has_lulls(&self) -> bool {
-        !self.is_constant() && (1..=MOST_SPRINGS).contains(&self.engine.springs())
+        (self.balanced || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
     }
 
     /// Whether the indentation never changes.

@@ -8,11 +8,13 @@
 //! Nothing here is written to but the slopes: a trial evaluation has no way to leave a trace. Nothing here
 //! chooses a law or knows an event: laws go on smoothly beyond the moment that will end them.
 
+mod balance;
 mod blocks;
 mod forces;
 mod sum;
 
 use crate::contact::{Contact, Mode, Motion, Press};
+pub(crate) use balance::Instant;
 pub(crate) use sum::{Components, Reading, View};
 
 use crate::interval::{Interval, Pull};
@@ -150,7 +152,7 @@ impl<'a> Equations<'a> {
 
     /// Prescribed indentation and its rate.
     #[inline(always)]
-    fn pressed(&self, contact: &Contact, t: f64) -> (f64, f64) {
+    pub(crate) fn pressed(&self, contact: &Contact, t: f64) -> (f64, f64) {
         match &contact.press {
             Press::Constant { d, .. } => (*d, 0.0),
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
@@ -219,6 +221,9 @@ impl System for Equations<'_> {
         }
         if !self.model.blocks.is_empty() {
             self.blocks(&at, &mut sum, extra);
+        }
+        if !self.model.balanced.is_empty() {
+            self.balance(&at, &mut sum, extra);
         }
         let (input, damping) = sum.accelerate(self.model);
         let first = layout.input() - 2 * layout.free;

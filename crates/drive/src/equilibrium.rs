@@ -8,6 +8,7 @@
 //! the books: what is stored then is where energies count from.
 
 mod balance;
+mod balanced;
 mod elimination;
 mod statics;
 
@@ -55,6 +56,7 @@ impl Model {
             Settling::new(self, &state).settle(&mut state)?;
             state.memories.iter_mut().for_each(Memory::make_room);
         }
+        self.balance_first(&mut state)?;
         // What pressed and lifted before the start is no work of the run: it is read off the present state,
         // and taken off here.
         let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());

@@ -6,6 +6,7 @@ mod part;
 pub use fault::SceneFault;
 pub use part::{Field, Part, SceneError};
 
+use crate::scene::Axis;
 use stickslip_contact::ContactError;
 use thiserror::Error;
 
@@ -83,6 +84,23 @@ pub enum RunError {
         contact: String,
         /// Why.
         source: ContactError,
+    },
+    /// Nothing balances the load on a coordinate without mass any more: gross slip, or a contact that has parted.
+    #[error(
+        "nothing balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: its contacts hold {limit:.3e} N",
+        .axis.key()
+    )]
+    Unbalanced {
+        /// Time, s.
+        t: f64,
+        /// Name of the body.
+        body: String,
+        /// Its coordinate.
+        axis: Axis,
+        /// What pulls, N.
+        load: f64,
+        /// What the contacts hold, N.
+        limit: f64,
     },
     /// A block cannot follow its inputs.
     #[error("block `{block}` at t = {t:e} s: {why}")]
@@ -162,6 +180,9 @@ impl RunError {
                 "give the profile points further out, or press it less"
             }
             Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
+            Self::Unbalanced { .. } => {
+                "lower the load or press harder; to see what comes after, hold the body by a spring or make it \"free\" with a mass"
+            }
             Self::Block { .. } => "look at what the block says of itself",
             Self::OutOfTime { .. } => "raise run.limits.wall or shorten the run",
             Self::Backwards { .. } => "advance to a time after the present one",

@@ -64,6 +64,8 @@ pub enum Treatment {
 pub(crate) struct SceneTraits {
     /// Number of free coordinates.
     pub(crate) free: usize,
+    /// Whether places without mass are solved for.
+    pub(crate) balanced: bool,
     /// Why forces depend on velocities, if they do.
     pub(crate) velocities: Option<Why>,
     /// Whether springs, dampers or actuators act.
@@ -91,6 +93,7 @@ impl SceneTraits {
     pub(crate) fn of(model: &Model) -> Self {
         Self {
             free: model.free.len(),
+            balanced: !model.balanced.is_empty(),
             velocities: velocities(model),
             links: !model.links.is_empty(),
             loads: !model.loads.is_empty(),
@@ -148,6 +151,7 @@ pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method,
 pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     match scene.velocities {
         // Only time goes on: steps then go from event to event of the contacts.
+        _ if scene.balanced => (Method::Walk, Why::Balanced),
         _ if scene.free == 0 => (Method::Walk, Why::NothingFree),
         None => (Method::Nystrom, Why::NoVelocities),
         Some(why) => (Method::DormandPrince, why),

@@ -5,6 +5,7 @@
 //! never changes; runs borrow it, and any number of them may at once. Lengths between bodies are linear forms
 //! of the coordinates ([`Measure`]) with constant coefficients: rotations are small.
 
+mod balanced;
 mod block;
 mod build;
 mod check;
@@ -17,6 +18,7 @@ mod scale;
 mod spare;
 mod used;
 
+pub(crate) use balanced::{Balanced, Pull};
 pub(crate) use block::{BlockState, MOST as MOST_OF_A_BLOCK, Signals, Wire, Wired};
 pub(crate) use measure::{Measure, Terms};
 pub use spare::{Pressing, Spared};
@@ -37,6 +39,8 @@ pub struct Model {
     /// In the scene's order.
     pub(crate) contacts: Vec<Contact>,
     pub(crate) blocks: Vec<Wired>,
+    /// Coordinates without mass, body by body, x and z.
+    pub(crate) balanced: Vec<Balanced>,
     /// Springs, then actuators, of those that act.
     pub(crate) links: Vec<Link>,
     /// Those that vary; constant ones are in the force of their coordinate.
@@ -47,6 +51,8 @@ pub struct Model {
     pub(crate) equilibrium: bool,
     /// What of the scene no run will ever look at.
     pub(crate) spared: Spared,
+    /// How far ahead and back rates of balanced coordinates are compared for their own rate, s.
+    pub(crate) moment: f64,
     /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
     pub(crate) fastest: f64,
 }

@@ -212,7 +212,8 @@ pub(crate) fn fill(
     // Constant forces do their work along the way whatever the time: read off the place it has no error of
     // integration.
     let input = y(layout.input()) + model.lifted(|i| state.shifts[i] + y(i)) + state.jumps;
-    let mut books = Books { input, ..Books::default() };
+    let laden = if model.balanced.is_empty() { 0.0 } else { equations.laden(t, y) };
+    let mut books = Books { input: input + laden, ..Books::default() };
     for (_, _, place) in model.moving() {
         let [position, rate] = equations.place(place, t, y);
         // From where the bodies started, as it is told: the run counts from near by.

@@ -37,7 +37,13 @@ impl Model {
         if self.free.is_empty() && !asked.locates_events() {
             return Stepper::Event { tolerance: WALK_TOLERANCE };
         }
-        asked
+        match asked {
+            // Places without mass are solved for, to rounding: their events are found as well, and nothing is gained by less.
+            Stepper::Event { tolerance } if !self.balanced.is_empty() => {
+                Stepper::Event { tolerance: tolerance.min(WALK_TOLERANCE) }
+            }
+            asked => asked,
+        }
     }
 }
 

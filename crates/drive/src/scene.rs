@@ -107,6 +107,9 @@ pub enum Freedom {
     /// Follows the waveform at this place of [`Scene::waveforms`] or, counted on from the last one, the signal of the block
     /// at this place of [`Scene::blocks`].
     Follows(usize),
+    /// Has no mass: it is where loads, springs and contacts balance at every moment. Its position at t = 0 is where it is
+    /// drawn; what acts at t = 0 moves it from there in no time.
+    Balanced,
 }
 
 /// A quantity that may vary in time.
@@ -228,6 +231,11 @@ impl Body {
     /// Whether any of its coordinates is free.
     pub fn is_free(&self) -> bool {
         self.coordinates().iter().any(|(_, coordinate)| coordinate.freedom == Freedom::Free)
+    }
+
+    /// Whether any of its coordinates has no mass and is balanced.
+    pub fn is_balanced(&self) -> bool {
+        self.coordinates().iter().any(|(_, coordinate)| coordinate.freedom == Freedom::Balanced)
     }
 
     /// Its coordinates with their axes.

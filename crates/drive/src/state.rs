@@ -17,7 +17,7 @@ pub(crate) use underway::{
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::method::Tally;
-use crate::model::{Binding, BlockState};
+use crate::model::{Balanced, Binding, BlockState};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError};
 use stickslip_contact::{Apex, ContactError, Memory, Move};
@@ -89,6 +89,12 @@ impl Model {
         let free = if i < 2 * self.free.len() { i % self.free.len() } else { 0 };
         let body = self.free.get(free).map(|f| self.bodies[f.body].name.clone());
         RunError::NotFinite { t, body: body.unwrap_or_default() }
+    }
+
+    /// The error of balanced coordinate `b` that nothing balances any more: what pulls at it and what its contacts hold, N.
+    pub(crate) fn unbalanced(&self, b: usize, t: f64, [load, limit]: [f64; 2]) -> RunError {
+        let Balanced { body, axis, .. } = self.balanced[b];
+        RunError::Unbalanced { t, body: self.bodies[body].name.clone(), axis, load, limit }
     }
 
     /// The error of contact `c` that cannot follow its path.

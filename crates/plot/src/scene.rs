@@ -32,6 +32,8 @@ pub enum Mobility<'a> {
     Fixed,
     /// Obey Newton.
     Free,
+    /// Be where forces balance, without a mass.
+    Balanced,
     /// Follow the waveform of this name.
     Follows(&'a str),
 }

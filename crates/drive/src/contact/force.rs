@@ -55,6 +55,76 @@ impl Contact {
         }
     }
 
+    /// F_x of one contact, N, with ∂F_x/∂u and ∂F_x/∂d, N/m, under its law, for whoever solves for u.
+    ///
+    /// Beyond gross slip a branch goes on with the stiffness of full stick, so that every force has its place and the moment
+    /// at which the contact gives way is found as any event is. `grown` as in [`Self::force`].
+    pub(crate) fn tangents(
+        &self,
+        (memory, mode): (&Memory, &Mode),
+        motion: &Motion,
+        grown: impl FnOnce() -> f64,
+    ) -> [f64; 3] {
+        let (d, u, law) = (motion.d, motion.u, &self.interface);
+        match mode {
+            Mode::Open => [0.0; 3],
+            Mode::Grow => [grown(), law.stick_stiffness(d), 0.0],
+            Mode::Slip(branch) if branch.covers(d, u) => {
+                let force = branch.force(law, d, u, law.reduced_force(d));
+                let [stiffness, coupling] = branch.tangents(law, d, u);
+                let beyond = branch.beyond(d, u);
+                if beyond > 0.0 {
+                    let (sense, whole) = (branch.sense(), law.stick_stiffness(d));
+                    let along = coupling - sense * whole * law.stick_slope();
+                    return [force + sense * whole * beyond, stiffness + whole, along];
+                }
+                [force, stiffness, coupling]
+            }
+            Mode::Slip(branch) => {
+                let Dragged { force, front } = self.dragged(memory, branch, motion);
+                let stiffness = law.stick_stiffness(front.clamp(0.0, d.max(0.0)));
+                let edge = branch.sense() * law.stick_slope();
+                [force, stiffness, edge * (law.stick_stiffness(d) - stiffness)]
+            }
+            Mode::Whole { .. } if self.inert => [0.0; 3],
+            Mode::Whole { .. } => {
+                let response = memory.trial(law, Move::Chord(motion.apex()));
+                [response.force, response.stiffness, response.coupling]
+            }
+            Mode::Lull { lull, .. } => {
+                let force = |d: f64| lull.force(law, Apex { d, u });
+                // Straight in d: any difference is its slope.
+                let step = self.natural.depth;
+                [force(d), lull.stiffness(law), (force(d + step) - force(d)) / step]
+            }
+        }
+    }
+
+    /// F_N of one contact, N, and ∂F_N/∂d, N/m, under its law; beyond a touch it goes on straight, as a pull.
+    pub(crate) fn press(&self, mode: &Mode, d: f64) -> [f64; 2] {
+        let modulus = self.interface.normal_modulus();
+        match mode {
+            Mode::Lull { lull, .. } => {
+                let reduced = lull.reduced_force(d);
+                [modulus * reduced, modulus / lull.depth(reduced).1]
+            }
+            _ if d > 0.0 => [self.interface.normal_force(d), self.interface.normal_stiffness(d)],
+            _ => {
+                let stiffness = self.interface.normal_stiffness(self.natural.depth);
+                [stiffness * d, stiffness]
+            }
+        }
+    }
+
+    /// d at which one contact presses with a force (N), the inverse of [`Self::press`], m.
+    pub(crate) fn depth(&self, mode: &Mode, force: f64) -> f64 {
+        match mode {
+            Mode::Lull { lull, .. } => lull.depth(force / self.interface.normal_modulus()).0,
+            _ if force > 0.0 => self.interface.indentation(force),
+            _ => force / self.interface.normal_stiffness(self.natural.depth),
+        }
+    }
+
     /// Force by the whole law on the committed memory.
     #[inline(never)]
     fn whole(&self, memory: &Memory, motion: &Motion) -> f64 {

@@ -46,6 +46,16 @@ impl Mode {
         matches!(self, Self::Slip(branch) if branch.is_gross())
     }
 
+    /// Whether a contact in this mode holds nothing more: apart, or all springs slip.
+    pub(crate) fn has_given_way(&self, contact: &Contact) -> bool {
+        match self {
+            Self::Open => true,
+            Self::Slip(branch) => branch.is_gross(),
+            Self::Lull { lull, .. } => lull.stiffness(&contact.interface) == 0.0,
+            Self::Grow | Self::Whole { .. } => false,
+        }
+    }
+
     /// Whether a contact in this mode has springs that stick.
     pub(crate) fn holds(&self) -> bool {
         !self.is_gross() && *self != Self::Open

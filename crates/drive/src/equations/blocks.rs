@@ -21,18 +21,22 @@ use arrayvec::ArrayVec;
 pub(crate) type Inputs = ArrayVec<Sample, MOST_OF_A_BLOCK>;
 
 impl Equations<'_> {
-    /// A signal: a waveform, or what a block makes; `y` reads a component.
+    /// A signal: a waveform, what a block makes, or a balanced coordinate; `y` reads a component.
     #[inline(always)]
     pub(crate) fn signal(&self, signal: usize, at: &impl View) -> Sample {
         if signal < self.pieces.len() { self.sample(signal, at.time()) } else { self.made(signal, at) }
     }
 
-    /// What a block makes.
+    /// What a block makes, or the place of a balanced coordinate.
     ///
     /// Blocks read only signals before their own, as the scene's check has seen to: the recursion ends.
     #[inline(never)]
     fn made(&self, signal: usize, at: &impl View) -> Sample {
-        self.ask_block(signal - self.pieces.len(), at, |block, standing, at| block.signal(standing, at))
+        let made = signal - self.pieces.len();
+        match made.checked_sub(self.blocks.len()) {
+            Some(balanced) => self.balanced(balanced, at),
+            None => self.ask_block(made, at, |block, standing, at| block.signal(standing, at)),
+        }
     }
 
     /// Asks block `k` something about a moment.

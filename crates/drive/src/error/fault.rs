@@ -35,6 +35,37 @@ pub enum SceneFault {
     /// A free z or pitch on which nothing acts.
     #[error("nothing holds {}, which is free", .0.key())]
     Unheld(Axis),
+    /// A balanced pitch.
+    #[error("a pitch cannot be balanced, only x and z can")]
+    BalancedPitch,
+    /// A mass of a body whose place satisfies a balance without one.
+    #[error("{} is balanced, without mass: forces alone set its place", .0.key())]
+    BalancedMass(Axis),
+    /// A balanced coordinate in a scene with free ones.
+    #[error("{} is balanced in a scene where other coordinates are free", .0.key())]
+    BalancedBesideFree(Axis),
+    /// A balanced coordinate in a scene with blocks.
+    #[error("{} is balanced in a scene whose stacks or drivers have states of their own", .0.key())]
+    BalancedBesideBlock(Axis),
+    /// A force that depends on the velocity of a balanced coordinate.
+    #[error("a damper cannot act on a balanced coordinate: its place would depend on its velocity")]
+    BalancedDamper,
+    /// Two balanced coordinates that must be solved for together.
+    #[error("two balanced bodies, each with a contact, act on each other")]
+    BalancedTogether,
+    /// A balanced coordinate on which nothing acts that could balance a load.
+    #[error("nothing balances {}: no contact with friction and no spring acts along it", .0.key())]
+    Unbalanceable(Axis),
+    /// The load of t = 0 on a balanced coordinate is more than what holds it.
+    #[error("nothing balances {load:.3e} N {} at t = 0: the contacts hold {limit:.3e} N", way(*.axis))]
+    Unbalanced {
+        /// The coordinate.
+        axis: Axis,
+        /// What pulls, N.
+        load: f64,
+        /// What the contacts hold, N.
+        limit: f64,
+    },
     /// A coupled contact between bodies that keep their distance.
     #[error(
         "neither body moves along the normal: a coupled contact needs a z or a pitch that is free or follows a waveform"
@@ -126,6 +157,25 @@ impl SceneFault {
                 "make the \"normal\" of a contact of this body \"coupled\", add a spring with \"direction\": \"z\", or \
                  make z \"fixed\""
             }
+            Self::BalancedPitch => "make pitch \"fixed\"",
+            Self::BalancedMass(axis) => {
+                return Some(format!("remove the mass, or make {} \"free\"", axis.key()));
+            }
+            Self::BalancedBesideFree(_) => {
+                "make the others \"balanced\" or \"fixed\", or let them follow a waveform"
+            }
+            Self::BalancedBesideBlock(_) => "take a stack that is linear and has no driver, or a spring",
+            Self::BalancedDamper => "remove the damping, or make the coordinate \"free\" and give it a mass",
+            Self::BalancedTogether => {
+                "let one of them follow a waveform, or join them to a body without a contact"
+            }
+            Self::Unbalanceable(_) => {
+                "give the body a contact (along z one whose \"normal\" is \"coupled\"), or a spring with stiffness"
+            }
+            Self::Unbalanced { axis: Axis::Z, .. } => {
+                "press the body onto its contacts, or hold it by a spring"
+            }
+            Self::Unbalanced { .. } => "lower the load, press harder, or hold the body by a spring",
             Self::Unmoved => {
                 "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
             }

@@ -196,7 +196,9 @@ fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
         contacts.chain(springs).chain(scene.actuators.iter().map(|part| part.part.between))
     };
     let is_free = |side: &Side| match side {
-        Side::Body(body) => scene.bodies.get(*body).is_some_and(|body| body.part.is_free()),
+        Side::Body(body) => {
+            scene.bodies.get(*body).is_some_and(|body| body.part.is_free() || body.part.is_balanced())
+        }
         Side::Ground => false,
     };
     let mut reached: Vec<Side> = contact.part.between.into_iter().filter(is_free).collect();
@@ -220,7 +222,7 @@ fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
     let followed = bodies.flat_map(|body| body.part.coordinates()).filter_map(|(_, coordinate)| {
         match coordinate.freedom {
             Freedom::Follows(waveform) => Some(waveform),
-            Freedom::Fixed | Freedom::Free => None,
+            Freedom::Fixed | Freedom::Free | Freedom::Balanced => None,
         }
     });
     let pressing =

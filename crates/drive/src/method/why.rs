@@ -7,6 +7,8 @@ use std::fmt;
 pub enum Why {
     /// No coordinate is free.
     NothingFree,
+    /// Places without mass are solved for.
+    Balanced,
     /// A single slider among paraboloids, all dragged alike along a line.
     OneQuadrature,
     /// Gross slip or flight under constant loads.
@@ -51,6 +53,9 @@ impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NothingFree => "nothing is free: contacts are walked along their path",
+            Self::Balanced => {
+                "nothing has a mass: places are solved from the balance of forces, contacts walked from event to event"
+            }
             Self::OneQuadrature => {
                 "one slider, paraboloids under constant load, straight waveforms: an interval is one quadrature"
             }

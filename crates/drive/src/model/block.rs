@@ -4,7 +4,7 @@
 //! other, so that what they make can be asked for in any order without a circle. Inputs and states are few enough to be read
 //! without a heap.
 
-use super::{Body, Measure, Model};
+use super::{Balanced, Body, Measure, Model};
 use crate::component::{Block, Input, Moment, SharedBlock, Standing, States};
 use crate::scene::{Named, Scene, Start};
 use crate::{Field, Part, Sample, SceneError, SceneFault, Waveform};
@@ -56,11 +56,12 @@ impl Wired {
     }
 }
 
-/// Signals that bodies and strokes may follow: waveforms, then what blocks make.
+/// Signals that bodies and strokes may follow: waveforms, then what blocks make, then places of balanced coordinates.
 #[derive(Clone, Copy)]
 pub(crate) struct Signals<'a> {
     pub(crate) waveforms: &'a [Waveform],
     pub(crate) blocks: &'a [Wired],
+    pub(crate) balanced: &'a [Balanced],
 }
 
 impl Signals<'_> {
@@ -68,6 +69,9 @@ impl Signals<'_> {
     ///
     /// A block's by its own start; since each reads only what is before it, that ends.
     pub(crate) fn first(&self, signal: usize) -> Sample {
+        if let Some(balanced) = self.balanced(signal) {
+            return Sample { value: balanced.first, rate: 0.0, acceleration: 0.0 };
+        }
         let Some(block) = self.block(signal) else { return self.waveforms[signal].first() };
         let inputs = self.first_inputs(block);
         let (states, memory) = block.block().start(&inputs);
@@ -86,8 +90,12 @@ impl Signals<'_> {
 
     /// Smallest and largest value of a signal.
     ///
-    /// A block's by its word for the ranges of what it reads; a length may be anything.
+    /// A block's by its word for the ranges of what it reads; a length may be anything. Of a balanced coordinate only where
+    /// it is drawn: how far it goes is a matter of forces.
     pub(crate) fn range(&self, signal: usize) -> (f64, f64) {
+        if let Some(balanced) = self.balanced(signal) {
+            return (balanced.first, balanced.first);
+        }
         let Some(block) = self.block(signal) else { return self.waveforms[signal].range() };
         let of = |wire: &Wire| match wire {
             Wire::Signal(signal) => self.range(*signal),
@@ -101,6 +109,11 @@ impl Signals<'_> {
         self.waveforms.get(signal).is_some_and(Waveform::has_jumps)
     }
 
+    /// The balanced coordinate that a signal is.
+    pub(crate) fn balanced(&self, signal: usize) -> Option<&'_ Balanced> {
+        signal.checked_sub(self.waveforms.len() + self.blocks.len()).and_then(|b| self.balanced.get(b))
+    }
+
     fn block(&self, signal: usize) -> Option<&Wired> {
         signal.checked_sub(self.waveforms.len()).and_then(|k| self.blocks.get(k))
     }
@@ -109,7 +122,7 @@ impl Signals<'_> {
 impl Model {
     /// The signals of the model.
     pub(crate) fn signals(&self) -> Signals<'_> {
-        Signals { waveforms: &self.waveforms, blocks: &self.blocks }
+        Signals { waveforms: &self.waveforms, blocks: &self.blocks, balanced: &self.balanced }
     }
 }
 

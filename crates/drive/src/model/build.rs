@@ -6,9 +6,10 @@
 
 use super::contact::{self, Surroundings};
 use super::{
-    Binding, Body, Free, Link, Load, Measure, Model, Signals, Spared, Stroke, block, check, dampers, held,
-    reach, scale, used,
+    Balanced, Binding, Body, Free, Link, Load, Measure, Model, Signals, Spared, Stroke, balanced, block,
+    check, dampers, held, reach, scale, used,
 };
+use crate::contact::Contact;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
 
@@ -21,14 +22,18 @@ impl Model {
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         check::check(scene)?;
         let mut waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();
-        let (bodies, mut free) = bodies(scene)?;
+        balanced::check_company(scene)?;
+        let first = waveforms.len() + scene.blocks.len();
+        let Moving { bodies, mut free, mut balanced } = bodies(scene)?;
         let mut links = links(scene, &bodies);
         let loads = loads(scene, &bodies, &mut free);
+        balanced::load(scene, &bodies, (first, &mut balanced));
+        let stiffness = balanced::springs(&links, (first, &mut balanced));
         let equilibrium = scene.start == Start::Equilibrium;
         let blocks = block::wire(scene, &bodies)?;
         let piled = reach::piled(scene, &free);
         let around = Surroundings {
-            signals: Signals { waveforms: &waveforms, blocks: &blocks },
+            signals: Signals { waveforms: &waveforms, blocks: &blocks, balanced: &balanced },
             bodies: &bodies,
             free: &free,
             links: &links,
@@ -36,21 +41,14 @@ impl Model {
             piled: &piled,
             equilibrium,
         };
-        let mut contacts = Vec::with_capacity(scene.contacts.len());
-        let mut deepest = Vec::with_capacity(scene.contacts.len());
-        let mut growing = 0;
-        for (place, named) in scene.contacts.iter().enumerate() {
-            let (mut contact, deep) = contact::build(place, named, &around)?;
-            if !contact.is_constant() && !contact.inert {
-                contact.slot = Some(growing);
-                growing += 1;
-            }
-            contacts.push(contact);
-            deepest.push(deep);
-        }
+        let Touching { mut contacts, deepest, growing } = touching(scene, &around)?;
         let pushes: Vec<f64> = (0..free.len()).map(|i| reach::pressing(i, &around)).collect();
         dampers::check(scene, &links, &contacts, around.signals)?;
         held::check(&free, &contacts, &links)?;
+        if !balanced.is_empty() {
+            balanced::check_dampers(scene, (&links, &contacts), first)?;
+            balanced::assign(&contacts, &stiffness, (first, &mut balanced))?;
+        }
         let mut spared = Spared { loads: spared_loads(scene, &bodies), ..Spared::default() };
         for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {
             match i.checked_sub(scene.springs.len()) {
@@ -63,32 +61,68 @@ impl Model {
             link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
         }
         spared.waveforms =
-            used::hold_the_others(&mut waveforms, (&bodies, &blocks), &contacts, &links, &loads);
+            used::hold_the_others(&mut waveforms, (&bodies, &blocks), &contacts, &links, (&loads, &balanced));
         scale::assign(&mut contacts, &mut free, &links, &waveforms, (&deepest, &pushes));
+        let moment = balanced::moment(&waveforms);
         let constants = Self {
             waveforms,
             bodies,
             free,
             contacts,
             blocks,
+            balanced,
             links,
             loads,
             growing,
             equilibrium,
             spared,
+            moment,
             fastest: 0.0,
         };
-        Ok(Self { fastest: constants.largest_rate(), ..constants })
+        Ok(Self { fastest: constants.largest_rate(), ..constants.settled() })
     }
 }
 
-/// The bodies and their free coordinates, with the weight that gravity gives each.
+/// The contacts of a scene.
+struct Touching {
+    contacts: Vec<Contact>,
+    /// The largest indentation of each, m.
+    deepest: Vec<f64>,
+    /// Number of those whose force is a state while they grow.
+    growing: usize,
+}
+
+fn touching(scene: &Scene, around: &Surroundings<'_>) -> Result<Touching, SceneError> {
+    let count = scene.contacts.len();
+    let mut all =
+        Touching { contacts: Vec::with_capacity(count), deepest: Vec::with_capacity(count), growing: 0 };
+    for (place, named) in scene.contacts.iter().enumerate() {
+        let (mut contact, deepest) = contact::build(place, named, around)?;
+        if !contact.is_constant() && !contact.inert {
+            contact.slot = Some(all.growing);
+            all.growing += 1;
+        }
+        all.contacts.push(contact);
+        all.deepest.push(deepest);
+    }
+    Ok(all)
+}
+
+/// Bodies and what of them moves by forces.
+struct Moving {
+    bodies: Vec<Body>,
+    free: Vec<Free>,
+    balanced: Vec<Balanced>,
+}
+
+/// The bodies, their free coordinates, with the weight that gravity gives each, and their balanced ones.
 ///
 /// On an incline α gravity g pulls with -mg sin α along x and -mg cos α along z. Fails where a free
 /// coordinate has no mass or moment of inertia.
-fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
+fn bodies(scene: &Scene) -> Result<Moving, SceneError> {
     let mut bodies = Vec::with_capacity(scene.bodies.len());
-    let mut free = Vec::new();
+    let (mut free, mut balanced) = (Vec::new(), Vec::new());
+    let signals = scene.waveforms.len() + scene.blocks.len();
     let (along, normal) = scene.gravity.incline.sin_cos();
     for (body, Named { name, part }) in scene.bodies.iter().enumerate() {
         let mut bindings = [Binding::Held(0.0); 3];
@@ -96,6 +130,7 @@ fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
             *place = match coordinate.freedom {
                 Freedom::Fixed => Binding::Held(coordinate.position),
                 Freedom::Follows(waveform) => Binding::Driven(waveform),
+                Freedom::Balanced => balanced::bind((body, part), axis, (signals, &mut balanced))?,
                 Freedom::Free => {
                     let mass = inertia(body, part, axis)?;
                     let weight = -mass * scene.gravity.acceleration;
@@ -111,7 +146,7 @@ fn bodies(scene: &Scene) -> Result<(Vec<Body>, Vec<Free>), SceneError> {
         }
         bodies.push(Body { name: name.clone(), bindings });
     }
-    Ok((bodies, free))
+    Ok(Moving { bodies, free, balanced })
 }
 
 /// A coordinate along x travels until a link is found on it; scales are assigned when contacts and links are
@@ -185,7 +220,9 @@ fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
 /// Loads on bodies that nothing lets move.
 /// By their places in the scene: for `info`, since no run looks at them.
 fn spared_loads(scene: &Scene, bodies: &[Body]) -> Vec<usize> {
-    let is_held =
-        |load: &scene::Load| !bodies[load.on].bindings.iter().any(|p| matches!(p, Binding::Free(_)));
+    let is_held = |load: &scene::Load| {
+        let moves = bodies[load.on].bindings.iter().any(|p| matches!(p, Binding::Free(_)));
+        !moves && !scene.bodies[load.on].part.is_balanced()
+    };
     scene.loads.iter().enumerate().filter(|(_, load)| is_held(load)).map(|(i, _)| i).collect()
 }

@@ -64,6 +64,7 @@ pub(super) fn build(
     let start = start(part, &law, known).map_err(refused)?;
     let mut u = Measure::between([(first, part.at[0]), (second, part.at[1])], Direction::X, around.bodies);
     u.constant -= around.at_start(&u) - start;
+    let balanced = around.is_balanced(&u) || matches!(&pressed, Press::Coupled(d) if around.is_balanced(d));
     let contact = Contact {
         name: name.clone(),
         place,
@@ -75,6 +76,7 @@ pub(super) fn build(
         start,
         inert,
         unguarded: known.deepest <= 0.0 || inert && part.normal != Normal::Coupled,
+        balanced,
         slot: None,
         natural: Natural::default(),
     };
@@ -82,6 +84,11 @@ pub(super) fn build(
 }
 
 impl Surroundings<'_> {
+    /// Whether a measure depends on a balanced coordinate.
+    pub(super) fn is_balanced(&self, measure: &Measure) -> bool {
+        measure.driven.iter().any(|(signal, _)| self.signals.balanced(*signal).is_some())
+    }
+
     /// A measure at t = 0.
     pub(super) fn at_start(&self, measure: &Measure) -> f64 {
         measure.value(|i| self.free[i].start.0, |w| self.signals.first(w).value)

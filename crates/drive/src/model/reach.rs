@@ -42,11 +42,23 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
         .sum();
     // How deep followers alone press: their range counted from where they start.
     let driven = if d.driven.is_empty() { first } else { first + driven };
-    if d.free.is_empty() && driven < 0.0 {
+    let settled = settled(law, count, d, around);
+    if d.free.is_empty() && driven < 0.0 && settled == 0.0 {
         return driven;
     }
-    let deepest = MARGIN * dynamic.max(driven).max(first);
+    let deepest = MARGIN * dynamic.max(driven).max(first).max(settled);
     if deepest > 0.0 { deepest } else { SHALLOW }
+}
+
+/// Indentation at which one of `count` contacts alone carries all that pulls at balanced coordinates along its normal, m; 0
+/// where none presses it.
+fn settled(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
+    if !around.is_balanced(d) {
+        return 0.0;
+    }
+    let along = around.signals.balanced.iter().filter(|b| b.axis == Axis::Z);
+    let push: f64 = along.map(|b| b.own.widest(|w| around.signals.range(w))).sum();
+    if push > 0.0 { law.indentation(push / count) } else { 0.0 }
 }
 
 /// Of each free coordinate along z those of all other bodies that coupled contacts join to its own, however many lie between.

@@ -1,6 +1,6 @@
 //! Waveforms that nothing follows.
 
-use super::{Binding, Body, Link, Load, Stroke, Wire, Wired};
+use super::{Balanced, Binding, Body, Link, Load, Stroke, Wire, Wired};
 use crate::Waveform;
 use crate::contact::Contact;
 
@@ -12,7 +12,7 @@ pub(super) fn hold_the_others(
     (bodies, blocks): (&[Body], &[Wired]),
     contacts: &[Contact],
     links: &[Link],
-    loads: &[Load],
+    (loads, balanced): (&[Load], &[Balanced]),
 ) -> Vec<usize> {
     let mut used = vec![false; waveforms.len()];
     let places = bodies.iter().flat_map(|body| body.bindings).filter_map(|place| match place {
@@ -24,7 +24,8 @@ pub(super) fn hold_the_others(
         Stroke::Constant(_) => None,
     });
     let pressing = contacts.iter().filter_map(|contact| contact.press.waveform());
-    let pulling = loads.iter().map(|load| load.waveform);
+    let balancing = balanced.iter().flat_map(|b| b.pull.loads.iter().map(|(w, _)| *w));
+    let pulling = loads.iter().map(|load| load.waveform).chain(balancing);
     let read = blocks.iter().flat_map(|block| &block.wires).filter_map(|wire| match wire {
         Wire::Signal(w) => Some(*w),
         Wire::Length(_) => None,

@@ -13,6 +13,7 @@
 
 mod aim;
 mod allowance;
+mod balanced;
 mod ending;
 mod laws;
 mod leap;
@@ -251,10 +252,13 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         if is_corner {
-            self.turn_corners(state, record);
+            self.turn_corners(state, record)?;
             self.turned(state);
         }
         self.handle_fallen(state, is_corner, record)?;
+        if !self.setting.model.balanced.is_empty() {
+            self.check_balance(state)?;
+        }
         // Here and nowhere else: the solver starts anew at once and keeps no place counted from before.
         shift::shift(self.setting.model, state);
         self.restart(state);

@@ -4,7 +4,8 @@ use super::State;
 use crate::Model;
 use crate::model::Wired;
 
-/// Places of the components: positions, velocities, forces of growing contacts, states of blocks; then the integrals on whose
+/// Places of the components: positions, velocities, forces of growing contacts, states of blocks, places of balanced
+/// coordinates whose contacts grow; then the integrals on whose
 /// value nothing depends: input work, dissipation, and for each growing contact elastic energy and friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
@@ -14,12 +15,14 @@ pub(crate) struct Layout {
     pub(crate) growing: usize,
     /// States of blocks.
     pub(crate) own: usize,
+    /// Balanced coordinates that a state carries while their contacts grow.
+    pub(crate) balanced: usize,
 }
 
 impl Layout {
     /// Number of components on which slopes depend.
     pub(crate) fn dimension(self) -> usize {
-        2 * self.free + self.growing + self.own
+        2 * self.free + self.growing + self.own + self.balanced
     }
     /// The same with the integrals.
     pub(crate) fn total(self) -> usize {
@@ -36,6 +39,10 @@ impl Layout {
     /// Place of a state among those of all blocks.
     pub(crate) fn block(self, state: usize) -> usize {
         2 * self.free + self.growing + state
+    }
+    /// Place of a balanced coordinate while a contact of its own grows, m.
+    pub(crate) fn balanced(self, slot: usize) -> usize {
+        2 * self.free + self.growing + self.own + slot
     }
     /// Place of the work put in, J.
     pub(crate) fn input(self) -> usize {
@@ -61,6 +68,7 @@ impl Model {
             free: self.free.len(),
             growing: self.growing,
             own: self.blocks.iter().map(Wired::count).sum(),
+            balanced: self.balanced.iter().filter(|b| b.slot.is_some()).count(),
         }
     }
 }

@@ -11,6 +11,7 @@
 mod parts;
 
 mod abuse;
+mod balanced;
 mod benchmark_drive;
 mod closed_forms;
 mod contact_damping;

@@ -48,6 +48,7 @@ impl<'a> Sketch<'a> {
         let mobility = |freedom: Freedom| match freedom {
             Freedom::Fixed => Mobility::Fixed,
             Freedom::Free => Mobility::Free,
+            Freedom::Balanced => Mobility::Balanced,
             Freedom::Follows(place) => Mobility::Follows(self.waveform(place)),
         };
         let has_weight = [part.x, part.z].iter().any(|coordinate| coordinate.freedom == Freedom::Free);

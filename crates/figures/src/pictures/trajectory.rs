@@ -54,7 +54,7 @@ fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<Track<'a>>, 
             Freedom::Fixed => continue,
             Freedom::Follows(_) => &mut feet,
             Freedom::Free if has_actuator(job, place) => &mut feet,
-            Freedom::Free => &mut sliders,
+            Freedom::Free | Freedom::Balanced => &mut sliders,
         };
         tracks.push(track(series, &body.name, quantity(axis)));
     }

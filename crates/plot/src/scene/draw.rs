@@ -49,6 +49,7 @@ fn inks(mobility: Mobility<'_>) -> Option<(Ink, Ink, &'static str)> {
     match mobility {
         Mobility::Fixed => None,
         Mobility::Free => Some((Ink::Palette(0), Ink::Pale(0), "free")),
+        Mobility::Balanced => Some((Ink::Palette(0), Ink::Pale(0), "balanced")),
         Mobility::Follows(_) => Some((Ink::Palette(1), Ink::Pale(1), "follows a waveform")),
     }
 }
@@ -56,7 +57,7 @@ fn inks(mobility: Mobility<'_>) -> Option<(Ink, Ink, &'static str)> {
 /// A body's area with its feet; its place among the shapes.
 fn outline(draft: &Draft<'_, '_>, plan: &Arrangement, body: usize, sheet: &mut Sheet) -> usize {
     let SceneBody { x, z, pitch, .. } = draft.scene.bodies[body];
-    let free = [x, z, pitch].into_iter().find(|mobility| *mobility == Mobility::Free);
+    let free = [x, z, pitch].into_iter().find(|it| matches!(it, Mobility::Free | Mobility::Balanced));
     let moving = free.or([x, z, pitch].into_iter().find(|mobility| *mobility != Mobility::Fixed));
     let (ink, label) = moving.and_then(inks).map_or((Ink::Shade(1), "fixed"), |(_, ink, label)| (ink, label));
     let rect = plan.outlines[body];

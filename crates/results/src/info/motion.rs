@@ -26,6 +26,8 @@ pub enum Freed {
     Fixed,
     /// Moves by its equation of motion.
     Free,
+    /// Has no mass and is where forces balance.
+    Balanced,
     /// Follows this waveform.
     Follows(String),
 }
@@ -82,6 +84,7 @@ impl Freed {
         match freedom {
             Freedom::Fixed => Self::Fixed,
             Freedom::Free => Self::Free,
+            Freedom::Balanced => Self::Balanced,
             Freedom::Follows(w) => {
                 Self::Follows(scene.waveforms.get(w).map(|w| w.name.clone()).unwrap_or_default())
             }

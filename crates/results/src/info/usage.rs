@@ -57,7 +57,16 @@ impl Usage {
             } else {
                 ", whatever stepper is asked for"
             };
-            self.skips("equations of motion", "", format!("{}{asked}", Why::NothingFree));
+            let balanced = balanced(job);
+            let why = if balanced.is_empty() { Why::NothingFree } else { Why::Balanced };
+            self.skips("equations of motion", "", format!("{why}{asked}"));
+            for name in balanced {
+                self.uses(
+                    "place",
+                    &name,
+                    "balanced: solved from loads, springs and contacts where it is asked for",
+                );
+            }
             return;
         }
         names.iter().for_each(|name| self.uses("motion", name, format!("free, stepper {stepper}")));
@@ -136,7 +145,7 @@ impl Usage {
 
     fn couplings(&mut self, job: &Job) {
         let scene = &job.scenario.scene;
-        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free()));
+        let is_free = |side: &Side| matches!(side, Side::Body(b) if scene.bodies.get(*b).is_some_and(|b| b.part.is_free() || b.part.is_balanced()));
         let spared = job.model.spared();
         let springs = scene.springs.iter().enumerate();
         let springs =
@@ -210,6 +219,15 @@ impl Usage {
 /// Whether events are located: they are crossed by all other steppers.
 fn is_located(expected: &Expected) -> bool {
     !expected.takes(Method::AskedFor)
+}
+
+/// Coordinates without mass, as `BODY.x`.
+fn balanced(job: &Job) -> Vec<String> {
+    let of = |body: &Named<Body>| {
+        let balanced = body.part.coordinates().into_iter().filter(|(_, c)| c.freedom == Freedom::Balanced);
+        balanced.map(|(axis, _)| format!("{}.{}", body.name, axis.key())).collect::<Vec<_>>()
+    };
+    job.scenario.scene.bodies.iter().flat_map(of).collect()
 }
 
 /// Adds to what stands there for the same reason, if anything does.

@@ -21,12 +21,12 @@ pub(crate) struct BodyForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"250 g mm^2", transform = above_zero)]
     pub(crate) inertia: Option<Inertia>,
-    /// The coordinate along the slide: "fixed", "free", or one that follows a waveform of lengths.
+    /// The coordinate along the slide: "fixed", "free", "balanced", or one that follows a waveform of lengths.
     #[serde(default)]
     #[schemars(example = &"free", example = json!({ "follows": "drive" }))]
     pub(crate) x: FreedomForm,
-    /// The coordinate normal to the slide, up: "fixed" by default, "free", or one that follows a waveform of lengths. While it is
-    /// fixed, its guide carries weight and loads.
+    /// The coordinate normal to the slide, up: "fixed" by default, "free", "balanced", or one that follows a waveform of
+    /// lengths. While it is fixed, its guide carries weight and loads.
     #[serde(default, skip_serializing_if = "FreedomForm::is_fixed")]
     #[schemars(example = &"free", example = json!({ "follows": "lift" }))]
     pub(crate) z: FreedomForm,
@@ -41,7 +41,7 @@ pub(crate) struct BodyForm {
     pub(crate) start: Option<BodyStartForm>,
 }
 
-/// What a coordinate does: "fixed", "free", or {"follows": waveform}.
+/// What a coordinate does: "fixed", "free", "balanced", or {"follows": waveform}.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum FreedomForm {
@@ -50,6 +50,9 @@ pub(crate) enum FreedomForm {
     Fixed,
     /// Obeys Newton; needs a mass, a pitch a moment of inertia.
     Free,
+    /// Force control without mass: x or z is where loads, springs and contacts balance at every moment. What acts at t = 0
+    /// moves it there from where it is drawn. Takes no mass and no damping, and no other coordinate may be free.
+    Balanced,
     /// Follows a waveform of lengths, m, a pitch one of angles, rad: its name, or one written out here.
     #[schemars(example = json!({ "follows": "drive" }))]
     Follows(WaveformRef),

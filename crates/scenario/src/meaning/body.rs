@@ -60,6 +60,7 @@ impl Builder<'_> {
         let freedom = match freedom {
             FreedomForm::Fixed => Freedom::Fixed,
             FreedomForm::Free => Freedom::Free,
+            FreedomForm::Balanced => Freedom::Balanced,
             FreedomForm::Follows(waveform) => {
                 Freedom::Follows(self.follow(&at.key(axis.key()), waveform, kind)?)
             }
@@ -85,6 +86,10 @@ impl Builder<'_> {
         let refused = |key: &str, message: &str| Err(at.key(key).fault(message).on_key());
         if position.is_some() && matches!(freedom, Freedom::Follows(_)) {
             return refused(key, &format!("{key} follows a waveform, which says where it starts"));
+        }
+        if position.is_some() && freedom == Freedom::Balanced {
+            return refused(key, &format!("{key} is balanced: forces say where it is"))
+                .map_err(|fault| fault.help("let the load of t = 0 move it there, or remove it"));
         }
         if position.is_some() && (axis, freedom) == (Axis::Pitch, Freedom::Fixed) {
             return refused(key, "pitch is fixed: the body stays as it is drawn")

@@ -112,9 +112,10 @@ impl Oddities<'_> {
         let at = root.key("loads");
         for (i, load) in self.scene.loads.iter().enumerate() {
             let on = &self.scene.bodies[load.on];
-            if !on.part.is_free() {
+            if !on.part.is_free() && !on.part.is_balanced() {
                 let message = format!("this load moves nothing: \"{}\" is not free", on.name);
-                self.find("no_effect", at.index(i).key("on").fault(message).help("load a body that is free"));
+                let help = "load a body that is free or balanced";
+                self.find("no_effect", at.index(i).key("on").fault(message).help(help));
             }
         }
     }
@@ -153,7 +154,8 @@ impl Oddities<'_> {
         let scene = self.scene;
         let springs = scene.springs.iter().map(|spring| ("springs", &spring.name, spring.part.between));
         let actuators = scene.actuators.iter().map(|part| ("actuators", &part.name, part.part.between));
-        let is_free = |side: &Side| matches!(side, Side::Body(i) if scene.bodies[*i].part.is_free());
+        let moves = |i: &usize| scene.bodies[*i].part.is_free() || scene.bodies[*i].part.is_balanced();
+        let is_free = |side: &Side| matches!(side, Side::Body(i) if moves(i));
         for (key, name, between) in springs.chain(actuators) {
             if !between.iter().any(is_free) {
                 let root = At::ROOT;

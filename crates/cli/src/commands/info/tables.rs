@@ -150,6 +150,7 @@ fn words(freed: &Freed) -> String {
     match freed {
         Freed::Fixed => "fixed".to_owned(),
         Freed::Free => "free".to_owned(),
+        Freed::Balanced => "balanced".to_owned(),
         Freed::Follows(waveform) => format!("follows {waveform}"),
     }
 }

@@ -53,6 +53,12 @@ impl Allowance {
                 scale[layout.force(slot)] = strict * if limit > 0.0 { limit } else { 1.0 };
             }
         }
+        for balanced in &model.balanced {
+            if let Some(slot) = balanced.slot {
+                let lengths = balanced.contacts.iter().map(|(c, _)| model.contacts[*c].natural.displacement);
+                scale[layout.balanced(slot)] = strict * lengths.fold(f64::INFINITY, f64::min);
+            }
+        }
         for wired in &model.blocks {
             let first = layout.block(wired.first);
             // Blocks name their own natural scales: the run knows none of them by kind.

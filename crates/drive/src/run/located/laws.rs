@@ -250,6 +250,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             (true, false) => state.step = state.step.min(state.stuck_step),
             _ => {}
         }
+        if contact.balanced {
+            self.carry(state, c);
+        }
         if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
             // Force and energy start as what the memory has at its apex: the slopes add to them.
             let now = state.memories[c].preview(&contact.interface, state.memories[c].apex());

@@ -46,10 +46,19 @@ impl Turning {
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves every waveform whose piece ends now to its next piece, and books jumps. Events are noted when all of it
     /// has happened: the state after them is whole.
-    pub(super) fn turn_corners(&mut self, state: &mut State, record: &mut dyn Record) {
+    ///
+    /// Fails where a load has jumped beyond what balances it.
+    pub(super) fn turn_corners(
+        &mut self,
+        state: &mut State,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
         // The energy of all contacts costs a preview of each: corners are many, and most waveforms never
         // jump.
-        let before = if self.turning.jumps == Jumps::Possible { self.stored(state) } else { 0.0 };
+        let before = match self.turning.jumps {
+            Jumps::Possible => (self.stored(state), self.laden(state)),
+            Jumps::Never => (0.0, 0.0),
+        };
         self.turning.before.clone_from(&state.modes);
         let turned = &mut self.turning.turned;
         turned.clear();
@@ -65,12 +74,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             }
         }
         if turned.iter().any(|(_, kind)| *kind == EventKind::Jump) {
-            self.jump(state, before);
+            self.jump(state, before)?;
         }
         for i in 0..self.turning.turned.len() {
             let (w, kind) = self.turning.turned[i];
             self.note(state, Source::Waveform(w), kind, record);
         }
+        Ok(())
     }
 
     /// Turns what an input has been given since the run stopped here.
@@ -97,8 +107,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// Free coordinates stay where they are: in no time no finite force moves a mass. Links and contacts with
     /// dampers are refused by the model where something they join jumps.
-    fn jump(&mut self, state: &mut State, before: f64) {
+    ///
+    /// Fails where nothing balances what has jumped.
+    fn jump(&mut self, state: &mut State, (before, laden): (f64, f64)) -> Result<(), RunError> {
         let mut friction = 0.0;
+        self.balance_jump(state)?;
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
             // A jump is as finite as its waveform.
@@ -118,6 +131,35 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             }
         }
         state.jumps += self.stored(state) - before + friction;
+        if !self.setting.model.balanced.is_empty() {
+            // Read off the places, the work of loads has jumped already.
+            state.jumps -= self.laden(state) - laden;
+        }
+        Ok(())
+    }
+
+    /// Puts the contacts of balanced bodies on the whole law of their memories: a jump may close or open whatever it likes,
+    /// and its end is where that law balances.
+    fn balance_jump(&self, state: &mut State) -> Result<(), RunError> {
+        let model = self.setting.model;
+        if model.balanced.is_empty() {
+            return Ok(());
+        }
+        for contact in model.contacts.iter().filter(|contact| contact.balanced) {
+            state.modes[contact.place] = Mode::Whole { sense: 0.0 };
+        }
+        match self.setting.plain(state).overloaded(state.t, &|i| state.y[i]) {
+            Some((b, forces)) => Err(model.unbalanced(b, state.t, forces)),
+            None => Ok(()),
+        }
+    }
+
+    /// Work of loads on balanced coordinates that is read off their places, J.
+    fn laden(&self, state: &State) -> f64 {
+        if self.setting.model.balanced.is_empty() {
+            return 0.0;
+        }
+        self.setting.plain(state).laden(state.t, &|i| state.y[i])
     }
 
     /// Energy of contacts and links, J, at the committed state; without that of a prescribed normal load.

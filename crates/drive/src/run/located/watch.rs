@@ -168,6 +168,12 @@ impl Watch {
             return lull_end(contact, eq.law(c), &motion, second);
         }
         let Mode::Slip(branch) = mode else { return f64::INFINITY };
+        // Where a load comes back to its crest the last bits of u stand still long before it: no step should wait for them.
+        if contact.balanced
+            && branch.margin(motion.d, motion.u) < Guard::Piece.bands(contact, self.tolerance, motion.u).1
+        {
+            return f64::INFINITY;
+        }
         let speed = Guard::Drag.value(contact, eq.law(c), &motion);
         let pull = Guard::Drag.rate(contact, mode, &motion, second);
         reached(branch.margin(motion.d, motion.u), speed, pull)

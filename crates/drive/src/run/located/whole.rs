@@ -114,7 +114,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return Err(RunError::StepTooSmall { t: state.t, step: to - state.t });
         }
         state.t = to;
-        self.turn_in_detour(state, record);
+        self.turn_in_detour(state, record)?;
         if to >= detour.end {
             self.arrive(state, detour);
         }
@@ -122,12 +122,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// What the waveforms do where a step ends at a corner.
-    fn turn_in_detour(&mut self, state: &mut State, record: &mut dyn Record) {
+    fn turn_in_detour(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         if state.t == self.horizon.corner && !state.waits_for_input(self.setting.model) {
-            self.turn_corners(state, record);
+            self.turn_corners(state, record)?;
             self.turned(state);
             self.take_whole(state);
         }
+        Ok(())
     }
 
     fn room(&self, state: &State) -> Halves {
@@ -241,7 +242,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         state.counts.steps += 1;
         state.tally.step(Method::Whole);
-        self.turn_in_detour(state, record);
+        self.turn_in_detour(state, record)?;
         Ok(())
     }
 

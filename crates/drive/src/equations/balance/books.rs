@@ -1,0 +1,83 @@
+//! What balanced coordinates change in slopes and books, and when nothing holds them.
+
+use super::super::sum::{Components, Sum, View};
+use super::super::{Equations, Sample};
+use super::Instant;
+use crate::model::Balanced;
+use crate::scene::Axis;
+
+impl Equations<'_> {
+    /// What balanced coordinates change in the sums: the slopes of those that are carried, and the power of their loads.
+    ///
+    /// Contacts and springs take the power L q̇ of a load L, and have been asked. Near gross slip q̇ grows without bound, and
+    /// no step would be short enough for it: booked is L q, read off the present place, less the integral of q L̇.
+    pub(in crate::equations) fn balance(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
+        let read = |i: usize| at.component(i);
+        let at = Components { t: at.time(), y: &read as &dyn Fn(usize) -> f64 };
+        for (b, balanced) in self.model.balanced.iter().enumerate() {
+            let place = self.place_and_rates(b, &at);
+            let load = self.load(balanced, at.t);
+            sum.input -= load.value * place.rate + place.value * load.rate;
+            if let Some(slot) = balanced.slot.filter(|_| self.carries(balanced)) {
+                extra[self.layout.balanced(slot) - 2 * self.layout.free] = place.rate;
+            }
+        }
+    }
+
+    /// What loads pull at a balanced coordinate, N.
+    fn load(&self, balanced: &Balanced, t: f64) -> Sample {
+        let mut sum = Sample { value: balanced.own.force, rate: 0.0, acceleration: 0.0 };
+        for &(w, a) in &balanced.own.loads {
+            let sample = self.sample(w, t);
+            sum.value += a * sample.value;
+            sum.rate += a * sample.rate;
+        }
+        sum
+    }
+
+    /// Σ L q over balanced coordinates, J: the work of their loads, but for the integral of q L̇.
+    pub(crate) fn laden(&self, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
+        let read = |i: usize| y(i);
+        let at = Components { t, y: &read as &dyn Fn(usize) -> f64 };
+        let of = |(b, balanced): (usize, &Balanced)| self.load(balanced, t).value * self.place_value(b, &at);
+        self.model.balanced.iter().enumerate().map(of).sum()
+    }
+
+    pub(crate) fn place_value(&self, b: usize, at: &Instant<'_>) -> f64 {
+        let balanced = &self.model.balanced[b];
+        if !balanced.contacts.is_empty() {
+            return self.place_of(b, at);
+        }
+        let led = balanced.led.iter().map(|(other, a)| a * self.place_of(*other, at));
+        self.pull(&balanced.pull, at).value + led.sum::<f64>()
+    }
+
+    /// What pulls at balanced coordinate `b`, N, and the most that its contacts hold where nothing else does; none where a
+    /// spring holds it, or a contact still does.
+    ///
+    /// `gone` says of a contact that it holds no more than its limit.
+    pub(crate) fn given_way(
+        &self,
+        b: usize,
+        at: &Instant<'_>,
+        gone: impl Fn(usize) -> bool,
+    ) -> Option<[f64; 2]> {
+        let balanced = &self.model.balanced[b];
+        if balanced.contacts.is_empty()
+            || balanced.stiffness > 0.0
+            || !balanced.contacts.iter().all(|(c, _)| gone(*c))
+        {
+            return None;
+        }
+        let limit = |c: usize| match balanced.axis {
+            Axis::Z => 0.0,
+            _ => {
+                let contact = &self.model.contacts[c];
+                let pressed = contact.press(&self.modes[c], self.depth_of(contact, at).0)[0].max(0.0);
+                contact.count * contact.interface.friction() * pressed
+            }
+        };
+        let limit = balanced.contacts.iter().map(|(c, _)| limit(*c)).sum();
+        Some([self.pull(&balanced.pull, at).value, limit])
+    }
+}

@@ -1,0 +1,57 @@
+//! The places of coordinates without mass at t = 0.
+//!
+//! Bodies are drawn, and contacts loaded to what they start with, as if no load acted. Then all that acts at t = 0 is put
+//! on, and every contact goes straight to where it balances: no time passes, and the books begin after it.
+
+use crate::contact::Contact;
+use crate::equations::{Equations, Instant};
+use crate::model::Model;
+use crate::scene::Axis;
+use crate::state::State;
+use crate::{Field, Part, SceneError, SceneFault};
+use stickslip_contact::Segment;
+
+impl Model {
+    /// Moves balanced bodies to where they balance at t = 0.
+    ///
+    /// Fails where nothing balances what acts then.
+    pub(super) fn balance_first(&self, state: &mut State) -> Result<(), SceneError> {
+        if self.balanced.is_empty() {
+            return Ok(());
+        }
+        let equations = Equations::on(self, state, self.layout(), false);
+        if let Some((b, [load, limit])) = equations.overloaded(0.0, &|i| state.y[i]) {
+            let (part, axis) = (Part::Body(self.balanced[b].body), self.balanced[b].axis);
+            return Err(SceneFault::Unbalanced { axis, load, limit }.of(part, Field::Coordinate(axis)));
+        }
+        let apex = |contact: &Contact| equations.motion(contact, 0.0, |i| state.y[i]).apex();
+        let places: Vec<_> = self.contacts.iter().map(|c| c.balanced.then(|| apex(c))).collect();
+        for ((contact, memory), place) in self.contacts.iter().zip(&mut state.memories).zip(places) {
+            if let Some(to) = place {
+                let refused =
+                    |source| SceneFault::Settling(source).of(Part::Contact(contact.place), Field::Whole);
+                memory.commit(&contact.interface, Segment::Jump(to)).map_err(refused)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Equations<'_> {
+    /// The first balanced coordinate that more pulls at than its contacts can hold, whatever they are doing now, with what
+    /// pulls and what they hold, N.
+    pub(crate) fn overloaded(&self, t: f64, y: &dyn Fn(usize) -> f64) -> Option<(usize, [f64; 2])> {
+        let at = Instant { t, y };
+        (0..self.model.balanced.len()).find_map(|b| {
+            let [load, limit] = self.given_way(b, &at, |_| true)?;
+            let pressed =
+                self.model.balanced[b].contacts.iter().map(|(_, a)| a * load).all(|push| push > 0.0);
+            let holds = match self.model.balanced[b].axis {
+                Axis::Z => pressed,
+                // At the limit itself the contacts slip.
+                _ => load.abs() < limit || load == 0.0,
+            };
+            (!holds).then_some((b, [load, limit]))
+        })
+    }
+}

@@ -1,0 +1,115 @@
+//! Elimination of balanced bodies without a contact.
+//!
+//! Springs join balanced coordinates: K q = P - F, K symmetric. With the coordinates that contacts act on (s) and the others
+//! (l), q_l = K_ll⁻¹(P_l - K_ls q_s), and what is left for the former is K_ss - K_sl K_ll⁻¹ K_ls. It must be diagonal: two
+//! coordinates with contacts that also pull at each other would have to be solved for together.
+
+use super::{Balanced, Pull, is_balanced, measure_of, split};
+use crate::contact::Contact;
+use crate::model::Link;
+use crate::scene::Axis;
+use crate::{Field, Part, SceneError, SceneFault};
+use nalgebra::DMatrix;
+
+/// What is left of a stiffness by which two coordinates with contacts pull at each other, as a part of their own, counts as
+/// none: rounding of the elimination.
+const NONE: f64 = 1e-12;
+
+/// Finds what acts along each balanced coordinate: contacts, springs, and what others hand on. `first` is the signal of the
+/// first.
+///
+/// Fails where nothing holds a coordinate, or two that contacts act on depend on each other.
+pub(in crate::model) fn assign(
+    contacts: &[Contact],
+    stiffness: &DMatrix<f64>,
+    (first, all): (usize, &mut [Balanced]),
+) -> Result<(), SceneError> {
+    if all.is_empty() {
+        return Ok(());
+    }
+    join(contacts, first, all)?;
+    let (held, loose): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|b| !all[*b].contacts.is_empty());
+    let of = |rows: &[usize], columns: &[usize]| {
+        DMatrix::from_fn(rows.len(), columns.len(), |i, j| stiffness[(rows[i], columns[j])])
+    };
+    let Some(inverse) = of(&loose, &loose).cholesky().map(|it| it.inverse()) else {
+        // Without a spring of its own, or the first of a chain that hangs on nothing.
+        let free = loose.iter().find(|b| stiffness[(**b, **b)] == 0.0).or(loose.first()).unwrap_or(&0);
+        let (part, axis) = (Part::Body(all[*free].body), all[*free].axis);
+        return Err(SceneFault::Unbalanceable(axis).of(part, Field::Coordinate(axis)));
+    };
+    let handed = -(&inverse * of(&loose, &held));
+    let left = of(&held, &held) + of(&held, &loose) * &handed;
+    for i in 0..held.len() {
+        for j in 0..i {
+            let own = (stiffness[(held[i], held[i])] * stiffness[(held[j], held[j])]).sqrt();
+            if left[(i, j)].abs() > NONE * own {
+                let (body, axis) = (all[held[i]].body, all[held[i]].axis);
+                return Err(SceneFault::BalancedTogether.of(Part::Body(body), Field::Coordinate(axis)));
+            }
+        }
+    }
+    let own: Vec<Pull> = all.iter().map(|b| b.own.clone()).collect();
+    for (i, b) in held.iter().enumerate() {
+        let mut pull = own[*b].clone();
+        loose.iter().enumerate().for_each(|(l, other)| pull.add(&own[*other], handed[(l, i)]));
+        (all[*b].stiffness, all[*b].pull) = (rounded(left[(i, i)], stiffness[(*b, *b)]), pull);
+    }
+    let mut slots = 0..;
+    for b in &held {
+        let may_grow = |(c, _): &(usize, f64)| contacts[*c].slot.is_some();
+        if all[*b].axis == Axis::X && all[*b].contacts.iter().any(may_grow) {
+            all[*b].slot = slots.next();
+        }
+    }
+    for (l, b) in loose.iter().enumerate() {
+        let mut pull = Pull::default();
+        loose.iter().enumerate().for_each(|(m, other)| pull.add(&own[*other], inverse[(l, m)]));
+        let led = held.iter().enumerate().map(|(i, b)| (*b, handed[(l, i)]));
+        let led = led.filter(|(_, a)| *a != 0.0).collect();
+        (all[*b].stiffness, all[*b].pull, all[*b].led) = (1.0, pull, led);
+    }
+    Ok(())
+}
+
+/// Joins contacts to the coordinates that they act on.
+///
+/// Fails where a contact lies between two balanced bodies.
+fn join(contacts: &[Contact], first: usize, all: &mut [Balanced]) -> Result<(), SceneError> {
+    for (c, contact) in contacts.iter().enumerate() {
+        for axis in [Axis::X, Axis::Z] {
+            let Some(measure) = measure_of(contact, axis) else { continue };
+            let (own, _) = split(measure, first);
+            match own[..] {
+                [] => {}
+                [(b, a)] => all[b].contacts.push((c, a)),
+                _ => return Err(SceneFault::BalancedTogether.of(Part::Contact(c), Field::Between)),
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What an elimination has left of a stiffness: nothing, where it is rounding.
+// A chain that ends on nothing holds nothing: with what rounding leaves of it a contact past its limit would hang on a spring
+// of 1e-16 of its own.
+fn rounded(left: f64, whole: f64) -> f64 {
+    if left > NONE * whole { left } else { 0.0 }
+}
+
+/// The stiffness between balanced coordinates, N/m; what is left of the springs goes into their pulls.
+pub(in crate::model) fn springs(links: &[Link], (first, all): (usize, &mut [Balanced])) -> DMatrix<f64> {
+    let mut stiffness = DMatrix::zeros(all.len(), all.len());
+    for link in links.iter().filter(|link| is_balanced(&link.elongation, first)) {
+        let (own, rest) = split(&link.elongation, first);
+        for (b, a) in &own {
+            for (other, with) in &own {
+                stiffness[(*b, *other)] += link.stiffness * a * with;
+            }
+            // The force k(s - e) + preload along e, with what is left of e.
+            let end = Link { elongation: rest.clone(), ..link.clone() };
+            all[*b].own.links.push((end, *a));
+        }
+    }
+    stiffness
+}
