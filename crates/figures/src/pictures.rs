@@ -3,11 +3,14 @@
 
 mod energy;
 mod events;
+mod fields;
+mod friction;
 mod hysteresis;
 mod layout;
 mod memory;
 mod phase;
 mod state;
+mod substitute;
 mod trajectory;
 
 use crate::look::{Look, Pen, Picture};
@@ -102,6 +105,9 @@ fn kind(plot: PlotName) -> &'static Kind {
         PlotName::Events => &events::KIND,
         PlotName::State => &state::KIND,
         PlotName::Memory => &memory::KIND,
+        PlotName::Fields => &fields::KIND,
+        PlotName::Substitute => &substitute::KIND,
+        PlotName::Friction => &friction::KIND,
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Made of plain series by the builders of `stickslip-plot`, which take a run's just as well.
 
-mod moments;
+pub(crate) mod moments;
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;

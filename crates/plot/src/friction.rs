@@ -39,15 +39,29 @@ const RAMP: [Colour; CLASSES] = [
 
 /// Above, work per area over place and moment as a map; below, over place at the moments that are marked, the last darkest.
 pub fn friction_figure<'a>(title: &str, work: &FrictionWork<'a>) -> Figure<'a> {
-    let most = work.work.iter().copied().filter(|w| w.is_finite()).fold(0.0, f64::max);
-    if most <= 0.0 {
+    friction_figures(title, &[("", work)])
+}
+
+/// The same of several contacts by their names, one below the other; those that never slip are left out.
+pub fn friction_figures<'a>(title: &str, works: &[(&str, &FrictionWork<'a>)]) -> Figure<'a> {
+    let mut panels = Vec::new();
+    for (name, work) in works {
+        let most = work.work.iter().copied().filter(|w| w.is_finite()).fold(0.0, f64::max);
+        if most > 0.0 {
+            let heading = Label::plain(name);
+            panels.extend(
+                [map(work, most), profiles(work)].map(|panel| Panel { heading: heading.clone(), ..panel }),
+            );
+        }
+    }
+    if panels.is_empty() {
         return Figure::without_data(title, "no friction work: nothing has slipped");
     }
     Figure {
         title: Label::plain(title),
-        panels: vec![map(work, most), profiles(work)],
+        size: Figure::size_for(300, 520, panels.len()),
+        panels,
         arrangement: Arrangement::Column { share_x: false },
-        size: Figure::size_for(300, 520, 2),
         ..Figure::default()
     }
     .with_room_for_legends()

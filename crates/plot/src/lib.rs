@@ -70,7 +70,7 @@ pub use error::PlotError;
 pub use events::{EventTrack, events_figure};
 pub use fields::{FieldsMoment, FieldsZone, fields_figure};
 pub use figure::{Arrangement, Figure};
-pub use friction::{FrictionWork, friction_figure};
+pub use friction::{FrictionWork, friction_figure, friction_figures};
 pub use growth::{GrowthCurve, growth_figure};
 pub use hysteresis::{HysteresisLoop, loop_figure, marked_loop_figure};
 pub use label::Label;

@@ -46,6 +46,7 @@ mod kept;
 mod limits;
 pub mod markdown;
 mod marks;
+pub mod moments;
 mod outcome;
 mod parts;
 mod periods;

@@ -37,10 +37,7 @@ pub fn read(table: &SealedTable) -> Result<Vec<Springs>, FrameError> {
             contacts.push(Springs::of(contact));
             contacts.len() - 1
         });
-        let state = spring_state(rows.text(4)).ok_or_else(|| {
-            let text = rows.text(4).escape_debug();
-            rows.fault(format!("state: expected open, stick, slip+ or slip-, got \"{text}\""))
-        })?;
+        let state = spring_state(&rows, 4)?;
         let springs = &mut contacts[place];
         if springs.time.last() != Some(&t) {
             springs.check_whole(&rows)?;
@@ -90,13 +87,16 @@ impl Springs {
     }
 }
 
-/// State of a spring by its word.
-fn spring_state(word: &str) -> Option<SpringState> {
-    Some(match word {
+/// State of a spring by the word in a column.
+pub(crate) fn spring_state(rows: &Rows, column: usize) -> Result<SpringState, FrameError> {
+    Ok(match rows.text(column) {
         "open" => SpringState::Open,
         "stick" => SpringState::Stick,
         "slip+" => SpringState::SlipForward,
         "slip-" => SpringState::SlipBackward,
-        _ => return None,
+        text => {
+            let text = text.escape_debug();
+            return Err(rows.fault(format!("state: expected open, stick, slip+ or slip-, got \"{text}\"")));
+        }
     })
 }

@@ -41,11 +41,18 @@ pub enum PlotName {
     State,
     /// The memory curve of each contact at some moments, in its wedge; from `memory.csv`.
     Memory,
+    /// Pressure, shear stress, displacement and slip under each contact at some moments, rings of stick and slip shaded; from
+    /// `fields.csv`.
+    Fields,
+    /// Each contact as its row of springs at some moments, pressed and sheared; from `memory.csv`.
+    Substitute,
+    /// Friction work over radius and time; from `friction.csv`.
+    Friction,
 }
 
 impl PlotName {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Layout,
         Self::Loop,
         Self::Trajectory,
@@ -54,6 +61,9 @@ impl PlotName {
         Self::Events,
         Self::State,
         Self::Memory,
+        Self::Fields,
+        Self::Substitute,
+        Self::Friction,
     ];
 
     /// The name in the file.
@@ -67,6 +77,9 @@ impl PlotName {
             Self::Events => "events",
             Self::State => "state",
             Self::Memory => "memory",
+            Self::Fields => "fields",
+            Self::Substitute => "substitute",
+            Self::Friction => "friction",
         }
     }
 }

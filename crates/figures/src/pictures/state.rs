@@ -2,7 +2,7 @@
 
 use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
-use stickslip_contact::SpringState;
+use crate::theory::moments::condition;
 use stickslip_plot::{SpringCondition, SpringMap, state_figure};
 use stickslip_results::files::SPRINGS;
 use stickslip_results::springs::{self, Springs};
@@ -30,14 +30,4 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     });
     let maps: Vec<SpringMap<'_>> = maps.collect();
     Ok(pen.draw(PlotName::State, state_figure(job.title(), &maps))?)
-}
-
-/// A state as pictures name it.
-fn condition(state: SpringState) -> SpringCondition {
-    match state {
-        SpringState::Open => SpringCondition::Open,
-        SpringState::Stick => SpringCondition::Stick,
-        SpringState::SlipForward => SpringCondition::SlipForward,
-        SpringState::SlipBackward => SpringCondition::SlipBackward,
-    }
 }

@@ -147,7 +147,7 @@ fn ring(zone: &Zone) -> FieldsZone {
     FieldsZone { radii: [zone.from, zone.to], condition, frozen }
 }
 
-fn condition(state: SpringState) -> SpringCondition {
+pub(crate) fn condition(state: SpringState) -> SpringCondition {
     match state {
         SpringState::Open => SpringCondition::Open,
         SpringState::Stick => SpringCondition::Stick,

@@ -89,7 +89,9 @@ impl Builder<'_> {
         let (output, plots) = (root.key("output"), root.key("plots"));
         let at = output.key("memory");
         let form = &self.form.output.memory;
-        let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, &[PlotName::Memory])? else {
+        let Some(asked) =
+            self.asked(form.as_ref().map(|_| at), &plots, &[PlotName::Memory, PlotName::Substitute])?
+        else {
             return Ok(None);
         };
         let on_row = |engine: &EngineChoice| matches!(engine, EngineChoice::Springs { .. });
@@ -109,7 +111,7 @@ impl Builder<'_> {
         let (output, plots) = (root.key("output"), root.key("plots"));
         let at = output.key("fields");
         let form = &self.form.output.fields;
-        let names = [];
+        let names = [PlotName::Fields, PlotName::Friction];
         let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, &names)? else {
             return Ok(None);
         };

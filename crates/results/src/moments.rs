@@ -1,0 +1,71 @@
+//! `fields.csv` and `friction.csv` read back: what there was over the radius, moment by moment and contact by contact.
+
+use crate::files::{FIELD_HEAD, FRICTION_HEAD};
+use crate::frame::FrameError;
+use crate::limits::MOST_VALUES;
+use crate::rows::Rows;
+use crate::seal::SealedTable;
+use crate::springs::spring_state;
+use stickslip_contact::SpringState;
+
+/// What there was of a contact at a moment, over the distance r from its axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OverRadius {
+    /// Name of the contact.
+    pub contact: String,
+    /// Moment, s.
+    pub time: f64,
+    /// Numbers column by column, as the table has them from r on; words are left out.
+    pub columns: Vec<Vec<f64>>,
+    /// States, where the table has them.
+    pub states: Vec<SpringState>,
+}
+
+/// Place of the states in `fields.csv`.
+const STATE: usize = 8;
+
+/// Reads `fields.csv`: r, p, τ, u, slip, w.
+///
+/// # Errors
+/// A file that cannot be read, other columns, or a cell that is not what it should be.
+pub fn fields(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
+    read(table, FIELD_HEAD, (STATE, true))
+}
+
+/// Reads `friction.csv`: r, work per area, way.
+///
+/// # Errors
+/// As [`fields`].
+pub fn friction(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
+    read(table, FRICTION_HEAD, (FRICTION_HEAD.len(), false))
+}
+
+fn read(
+    table: &SealedTable,
+    head: &[&str],
+    (end, has_state): (usize, bool),
+) -> Result<Vec<OverRadius>, FrameError> {
+    let mut rows = Rows::open(table)?;
+    rows.check_head(head)?;
+    let (mut moments, mut values) = (Vec::<OverRadius>::new(), 0_u64);
+    while rows.advance()? {
+        let time = rows.number(0, head[0])?;
+        let contact = rows.text(1);
+        if moments.last().is_none_or(|last| last.time != time || last.contact != contact) {
+            let columns = vec![Vec::new(); end - 2];
+            moments.push(OverRadius { contact: contact.to_owned(), time, columns, states: Vec::new() });
+        }
+        values += end as u64;
+        if values > MOST_VALUES {
+            return Err(rows.fault(format!("expected at most {MOST_VALUES} values")));
+        }
+        let Some(moment) = moments.last_mut() else { continue };
+        for (k, column) in moment.columns.iter_mut().enumerate() {
+            column.push(rows.number(k + 2, head[k + 2])?);
+        }
+        if has_state {
+            moment.states.push(spring_state(&rows, end)?);
+        }
+    }
+    Ok(moments)
+}
