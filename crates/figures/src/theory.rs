@@ -45,7 +45,9 @@ pub fn draw(
     vec![
         drawn(NAMES[0], substitute_figure(&title, &shown.substitutes())),
         drawn(NAMES[1], fields_figure(&title, &shown.fields())),
-        hysteresis(subject.law, walk, |course, marks| drawn(NAMES[2], marked_loop_figure(&title, course, marks))),
+        hysteresis(subject.law, walk, |course, marks| {
+            drawn(NAMES[2], marked_loop_figure(&title, course, marks))
+        }),
         profile(subject.law, sheet, walk, |pair| drawn(NAMES[3], profile_figure(&title, pair))),
         drawn(NAMES[4], anchors_figure(&title, &shown.anchors())),
         friction(walk, |work| drawn(NAMES[5], friction_figure(&title, work))),
@@ -91,12 +93,7 @@ fn hysteresis<T>(
 }
 
 /// f(r) beside g(x).
-fn profile<T>(
-    law: &Interface,
-    sheet: &Sheet,
-    walk: &Walk,
-    drawn: impl FnOnce(&ProfilePair<'_>) -> T,
-) -> T {
+fn profile<T>(law: &Interface, sheet: &Sheet, walk: &Walk, drawn: impl FnOnce(&ProfilePair<'_>) -> T) -> T {
     let reach = BEYOND * law.profile().radius(walk.deepest);
     let x: Vec<f64> = (0..POINTS).map(|k| reach * k as f64 / (POINTS - 1) as f64).collect();
     let g: Vec<f64> = x.iter().map(|x| law.profile().depth(*x)).collect();
@@ -129,7 +126,11 @@ fn friction<T>(walk: &Walk, drawn: impl FnOnce(&FrictionWork<'_>) -> T) -> T {
         work.extend_from_slice(&step.work);
     }
     let corner = |stop: &Stop| (stop.corner as f64, format!("corner {}", stop.corner));
-    let marks: Vec<(f64, String)> =
-        walk.moments.iter().filter(|moment| moment.stop.corner > 0).map(|moment| corner(&moment.stop)).collect();
+    let marks: Vec<(f64, String)> = walk
+        .moments
+        .iter()
+        .filter(|moment| moment.stop.corner > 0)
+        .map(|moment| corner(&moment.stop))
+        .collect();
     drawn(&FrictionWork { axis: ("corner", ""), moments: &moments, r: radii, work: &work, marks: &marks })
 }

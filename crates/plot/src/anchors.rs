@@ -35,9 +35,9 @@ pub fn anchors_figure<'a>(title: &str, moments: &[AnchorMoment<'a>]) -> Figure<'
         [u - moment.slope * d, u + moment.slope * d]
     });
     let anchors = moments.iter().flat_map(|moment| moment.corners.iter().map(|(_, p)| *p));
-    let range = ends.chain(anchors).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-        (low.min(p), high.max(p))
-    });
+    let range = ends
+        .chain(anchors)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
     let deepest = moments.iter().map(|moment| moment.apex.0).fold(0.0, f64::max);
     let widest = moments.iter().flat_map(|moment| moment.x).fold(0.0_f64, |most, x| most.max(x.abs()));
     let pair = |moment| [over_height(moment, deepest, range), over_place(moment, widest, range)];

@@ -18,7 +18,7 @@ pub struct FieldsMoment<'a> {
     pub shear: &'a [f64],
     /// Displacement of the surface u, m.
     pub displacement: &'a [f64],
-    /// Local slip, m.
+    /// Local slip beyond that of the centre, m.
     pub slip: &'a [f64],
     /// Coefficient of friction μ.
     pub friction: f64,
@@ -44,15 +44,24 @@ const TALL: f64 = 3.5;
 /// and slip. Rings are shaded by what they do. All moments have the same scales.
 pub fn fields_figure<'a>(title: &str, moments: &[FieldsMoment<'a>]) -> Figure<'a> {
     if moments.iter().all(|moment| moment.r.is_empty()) {
-        return Figure::without_data(title, "no fields: nothing touches, or the contact is a list of springs");
+        return Figure::without_data(
+            title,
+            "no fields: nothing touches, or the contact is a list of springs",
+        );
     }
     let tall = TALL * median(moments);
     let bounded = |value: f64| if value.abs() <= tall { value } else { f64::NAN };
     let stress = reach(moments.iter().flat_map(|moment| {
         let limits = moment.pressure.iter().map(|p| -moment.friction * bounded(*p));
-        moment.pressure.iter().map(|p| bounded(*p)).chain(limits).chain(moment.shear.iter().map(|t| bounded(*t)))
+        moment
+            .pressure
+            .iter()
+            .map(|p| bounded(*p))
+            .chain(limits)
+            .chain(moment.shear.iter().map(|t| bounded(*t)))
     }));
-    let ways = reach(moments.iter().flat_map(|moment| moment.displacement.iter().chain(moment.slip).copied()));
+    let ways =
+        reach(moments.iter().flat_map(|moment| moment.displacement.iter().chain(moment.slip).copied()));
     let pair = |moment| [stresses(moment, stress, bounded), displacements(moment, ways)];
     let mut panels: Vec<Panel<'a>> = moments.iter().flat_map(pair).collect();
     name_all(&mut panels);
@@ -190,7 +199,11 @@ fn displacements<'a>(moment: &FieldsMoment<'a>, (low, high): (f64, f64)) -> Pane
                 (moment.r, moment.displacement.iter().copied()),
                 (Ink::Palette(0), Dash::Solid, 1.2),
             ),
-            curve("slip", (moment.r, moment.slip.iter().copied()), (Ink::Palette(2), Dash::LongDash, 0.9)),
+            curve(
+                "slip beyond the centre's",
+                (moment.r, moment.slip.iter().copied()),
+                (Ink::Palette(2), Dash::LongDash, 0.9),
+            ),
         ],
         ..Panel::default()
     }

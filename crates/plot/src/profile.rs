@@ -31,12 +31,15 @@ pub fn profile_figure<'a>(title: &str, pair: &ProfilePair<'a>) -> Figure<'a> {
     };
     let three = pair.f.map(|f| curve("f(r), in three dimensions", f, 1));
     let level = Reference::Horizontal { y: pair.d, label: Label::plain("indentation d") };
-    let rims = [-pair.a, pair.a].map(|x| Reference::Vertical { x, label: Label::plain("contact radius ±a") });
+    let rims =
+        [-pair.a, pair.a].map(|x| Reference::Vertical { x, label: Label::plain("contact radius ±a") });
     let references = if pair.a > 0.0 { [vec![level], rims.to_vec()].concat() } else { Vec::new() };
     let panel = Panel {
         x: Axis { tight: true, ..Axis::new(Label::plain("r, x"), "m") },
         y: Axis::new(Label::plain("height"), "m"),
-        series: std::iter::once(curve("g(x), pressed into the row of springs", pair.g, 0)).chain(three).collect(),
+        series: std::iter::once(curve("g(x), pressed into the row of springs", pair.g, 0))
+            .chain(three)
+            .collect(),
         references,
         ..Panel::default()
     };

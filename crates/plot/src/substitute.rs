@@ -67,7 +67,8 @@ pub fn substitute_figure(title: &str, moments: &[SubstituteMoment<'_>]) -> Figur
     let rows = moments.len().div_ceil(columns);
     let mut panels: Vec<Panel<'static>> = moments.iter().map(panel).collect();
     // One legend for all, which names what any of them shows.
-    let shown = |condition: &SpringCondition| moments.iter().any(|moment| moment.conditions.contains(condition));
+    let shown =
+        |condition: &SpringCondition| moments.iter().any(|moment| moment.conditions.contains(condition));
     for panel in &mut panels {
         panel.series.extend(ALL.iter().filter(|condition| shown(condition)).map(|condition| {
             let (label, ink) = look(*condition);
@@ -103,7 +104,8 @@ fn panel(moment: &SubstituteMoment<'_>) -> Panel<'static> {
     series.extend(drawn(vec![rim], Ink::Foreground, 0.7));
     sketch.dimensions(&mut series, &mut notes);
     sketch.forces(&mut series, &mut notes);
-    let axis = |(low, high)| Axis { unnumbered: true, tight: true, covers: Some((low, high)), ..Axis::default() };
+    let axis =
+        |(low, high)| Axis { unnumbered: true, tight: true, covers: Some((low, high)), ..Axis::default() };
     let [wide, high] = FRAME;
     Panel {
         heading: Label::plain(moment.heading),
@@ -256,7 +258,9 @@ impl Sketch<'_, '_> {
 
 /// A spring from its foot to its tip, its turns across the way up.
 fn zigzag(foot: Point, tip: Point) -> Vec<Point> {
-    let at = |share: f64, aside: f64| (foot.0 + (tip.0 - foot.0) * share + aside, foot.1 + (tip.1 - foot.1) * share);
+    let at = |share: f64, aside: f64| {
+        (foot.0 + (tip.0 - foot.0) * share + aside, foot.1 + (tip.1 - foot.1) * share)
+    };
     let (low, high) = (0.1, 0.9);
     let turns = (0..TURNS).flat_map(|k| {
         let step = (high - low) / TURNS as f64;

@@ -21,4 +21,4 @@ pub use sheet::{Constants, NormalRow, Pressed, Sheet, UniversalRow};
 pub use state::{LoadedSpring, contact_word, spring_word};
 pub use subject::{Subject, TheoryError};
 pub use walk::{FrictionCourse, FrictionStep, Moment, Stop, Walk};
-pub use write::{CONTACT, TABLES, write};
+pub use write::{CONTACT, TABLES, json, write};

@@ -12,7 +12,7 @@ use stickslip_figures::theory;
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::theory::{
-    CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, write,
+    CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, json, write,
 };
 use stickslip_results::{Job, Refusal};
 use thiserror::Error;
@@ -64,13 +64,15 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
     };
     let walk = asked.map(|history| Walk::of(&subject, normal, &history)).transpose()?;
     if arguments.json {
-        // Numbers and strings only: there is nothing that JSON could refuse.
-        say_json(&serde_json::to_string(&sheet).unwrap_or_default());
+        say_json(&json(&sheet, walk.as_ref()));
     } else if !arguments.quiet {
-        say(format_args!("{}", page::text(&sheet)));
+        // With a history its corners take the place of the curves.
+        let shown = if walk.is_some() { sheet.without_curves() } else { sheet };
+        say(format_args!("{}", page::text(&shown)));
     }
     let Some(walk) = walk else { return Ok(()) };
-    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-contact", job.name)));
+    let out =
+        arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-contact", job.name)));
     let names = files(arguments, (&subject, &walk), pushed, &out)?;
     if !arguments.quiet && !arguments.json {
         say(format_args!("\n{}\n\n{}: {}", page::corners(&walk), out.display(), names.join(", ")));
@@ -94,12 +96,15 @@ fn files(
     pushed: Option<TangentialGiven>,
     out: &PathBuf,
 ) -> Result<Vec<String>, ContactFailure> {
-    let failed = |source| TheoryError::Write { path: out.display().to_string(), words: words(&source), source };
+    let failed =
+        |source| TheoryError::Write { path: out.display().to_string(), words: words(&source), source };
     let normal = arguments.pressed.given().unwrap_or_else(|| subject.pressed());
     let sheet = Sheet::of(subject, normal, pushed, WRITTEN)?;
     let (mut pictures, mut notes) = (Vec::new(), Vec::new());
     if !sheet.constants.axisymmetric {
-        notes.push("a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned());
+        notes.push(
+            "a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned(),
+        );
     }
     for drawn in theory::draw(subject, &sheet, walk, &arguments.look.look()) {
         pictures.extend(drawn?);

@@ -109,7 +109,8 @@ mod tests {
             let loading = loaded(&law, 3e-3, share);
             let s = (1.0 - share).sqrt();
             let bracket = 2.0 / 15.0 - 2.0 * s * s / 3.0 + 2.0 * s.powi(3) / 3.0 - 2.0 * s.powi(5) / 15.0;
-            let scale = 2.0 * law.tangential_modulus() * law.gross_slip_displacement(3e-3).powi(2) * loading.a;
+            let scale =
+                2.0 * law.tangential_modulus() * law.gross_slip_displacement(3e-3).powi(2) * loading.a;
             let got = loading.outcome(&law).friction;
             assert!((got - scale * bracket).abs() <= 1e-15 * scale, "{share}: {got:e} {:e}", scale * bracket);
         }

@@ -97,7 +97,8 @@ fn corner(text: &str) -> Result<Corner, String> {
 fn either<T>(text: &str, length: fn(f64) -> T, force: fn(f64) -> T) -> Result<T, String> {
     let text = text.trim();
     if text.is_empty() {
-        return Err("expected a length or a force, got nothing\n   help: such as --history \"1 um, -1 um\"".to_owned());
+        return Err("expected a length or a force, got nothing\n   help: such as --history \"1 um, -1 um\""
+            .to_owned());
     }
     match (quantity(text, "m"), quantity(text, "N")) {
         (Ok(value), _) => Ok(length(value)),

@@ -111,11 +111,13 @@ impl<'a> Subject<'a> {
                 let names = help.strip_prefix("known here: ").unwrap_or(&help).to_owned();
                 return Err(TheoryError::Several { file: job.name.clone(), count, names });
             }
-            (Some(asked), _) => contacts.iter().position(|contact| contact.name == asked).ok_or_else(|| {
-                let help = suggestion(asked, contacts.iter().map(|contact| contact.name.as_str()));
-                let help = help.map_or(String::new(), |help| format!("\n   help: {help}"));
-                TheoryError::Unknown { asked: asked.to_owned(), help }
-            })?,
+            (Some(asked), _) => {
+                contacts.iter().position(|contact| contact.name == asked).ok_or_else(|| {
+                    let help = suggestion(asked, contacts.iter().map(|contact| contact.name.as_str()));
+                    let help = help.map_or(String::new(), |help| format!("\n   help: {help}"));
+                    TheoryError::Unknown { asked: asked.to_owned(), help }
+                })?
+            }
         };
         let contact = &contacts[place];
         let law = &contact.part.interface;

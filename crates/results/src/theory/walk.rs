@@ -226,7 +226,9 @@ fn route(law: &Interface, pressed: f64, history: &History) -> Result<Vec<Apex>, 
         let d = corner.normal.map_or(Ok(at.d), |normal| depth(k, normal))?;
         let u = match corner.tangential {
             Tangential::Displacement(u) => u,
-            Tangential::Force(force) => push(law, &memory, d, force).map_err(|error| refused(k + 1, error))?,
+            Tangential::Force(force) => {
+                push(law, &memory, d, force).map_err(|error| refused(k + 1, error))?
+            }
         };
         at = Apex { d, u };
         let done = memory.commit(law, Segment::Straight(at));
@@ -296,7 +298,13 @@ impl Moment {
         let fields = Fields::of(law, memory);
         let radii = if reach > 0.0 { grid(reach, RADII) } else { Vec::new() };
         let Memory::Curve(curve) = memory else {
-            return Self { stop, fields: Vec::new(), zones: Vec::new(), springs: Vec::new(), knots: Vec::new() };
+            return Self {
+                stop,
+                fields: Vec::new(),
+                zones: Vec::new(),
+                springs: Vec::new(),
+                knots: Vec::new(),
+            };
         };
         Self {
             stop,

@@ -15,13 +15,24 @@ pub const CONTACT: &str = "contact.json";
 pub const TABLES: [&str; 6] =
     ["history.csv", "fields.csv", "line.csv", "friction.csv", "normal.csv", "universal.csv"];
 
-const HISTORY_HEAD: &[&str] = &[
-    "corner", "share", "d_m", "u_m", "fn_N", "fx_N", "a_m", "c_m", "state", "elastic_J", "friction_J",
-];
+const HISTORY_HEAD: &[&str] =
+    &["corner", "share", "d_m", "u_m", "fn_N", "fx_N", "a_m", "c_m", "state", "elastic_J", "friction_J"];
 const FIELDS_HEAD: &[&str] =
     &["corner", "r_m", "pressure_Pa", "shear_Pa", "displacement_m", "slip_m", "deflection_m", "state"];
 const LINE_HEAD: &[&str] = &[
-    "corner", "x_m", "length_m", "g_m", "qz_N_m", "qx_N_m", "limit_N_m", "fz_N", "fx_N", "stretch_m", "state",
+    "corner",
+    "x_m",
+    "length_m",
+    "g_m",
+    "kz_N_m",
+    "kx_N_m",
+    "qz_N_m",
+    "qx_N_m",
+    "limit_N_m",
+    "fz_N",
+    "fx_N",
+    "stretch_m",
+    "state",
 ];
 const FRICTION_HEAD: &[&str] = &["corner", "share", "r_m", "work_J_m2", "way_m"];
 const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
@@ -38,6 +49,15 @@ struct Report<'a> {
     files: Vec<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
+}
+
+/// What a program says of it that prints JSON.
+#[derive(Serialize)]
+struct Answer<'a> {
+    #[serde(flatten)]
+    constants: &'a Constants,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    corners: Vec<CornerReport>,
 }
 
 #[derive(Serialize)]
@@ -68,6 +88,20 @@ struct TableReport {
     sha256: String,
 }
 
+/// All numbers on one line of JSON; the curves only where there is no history.
+pub fn json(constants: &Constants, walk: Option<&Walk>) -> String {
+    let (constants, corners) = match walk {
+        Some(walk) => (&constants.without_curves(), corners(walk)),
+        None => (constants, Vec::new()),
+    };
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    serde_json::to_string(&Answer { constants, corners }).unwrap_or_default()
+}
+
+fn corners(walk: &Walk) -> Vec<CornerReport> {
+    walk.moments.iter().map(|moment| CornerReport::of(&moment.stop)).collect()
+}
+
 /// Writes the tables, `contact.json` and the pictures given into a folder; files of before that are not among them go.
 /// Returns the names.
 ///
@@ -82,7 +116,7 @@ pub fn write(
     let tables: [(&'static str, &[&str], &dyn Fn(&mut Sheet)); 6] = [
         (TABLES[0], HISTORY_HEAD, &|sheet| history(sheet, walk)),
         (TABLES[1], FIELDS_HEAD, &|sheet| fields(sheet, walk)),
-        (TABLES[2], LINE_HEAD, &|sheet| line(sheet, walk)),
+        (TABLES[2], LINE_HEAD, &|sheet| line(sheet, constants, walk)),
         (TABLES[3], FRICTION_HEAD, &|sheet| friction(sheet, walk)),
         (TABLES[4], NORMAL_HEAD, &|sheet| normal(sheet, constants)),
         (TABLES[5], UNIVERSAL_HEAD, &|sheet| universal(sheet, constants)),
@@ -106,8 +140,13 @@ pub fn write(
     let mut files = folder.names();
     files.push(CONTACT.to_owned());
     folder.forget(TABLES.iter().map(|name| (*name).to_owned()).chain(stale).collect());
-    let corners = walk.moments.iter().map(|moment| CornerReport::of(&moment.stop)).collect();
-    let report = Report { constants, corners, tables: reports, files: files.clone(), notes };
+    let report = Report {
+        constants: &constants.without_curves(),
+        corners: corners(walk),
+        tables: reports,
+        files: files.clone(),
+        notes,
+    };
     let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
     json.push(b'\n');
     folder.write(CONTACT, &json)?;
@@ -146,12 +185,18 @@ fn fields(sheet: &mut Sheet, walk: &Walk) {
     }
 }
 
-fn line(sheet: &mut Sheet, walk: &Walk) {
+fn line(sheet: &mut Sheet, constants: &Constants, walk: &Walk) {
+    let moduli = [&constants.constants.normal_modulus, &constants.constants.tangential_modulus];
     for moment in &walk.moments {
         for spring in &moment.springs {
             whole(sheet, moment.stop.corner);
-            numbers(sheet, [spring.x, spring.length, spring.g, spring.normal, spring.tangential, spring.limit]);
-            numbers(sheet, [spring.normal * spring.length, spring.tangential * spring.length, spring.stretch]);
+            numbers(sheet, [spring.x, spring.length, spring.g]);
+            numbers(sheet, moduli.map(|modulus| modulus.0 * spring.length));
+            numbers(sheet, [spring.normal, spring.tangential, spring.limit]);
+            numbers(
+                sheet,
+                [spring.normal * spring.length, spring.tangential * spring.length, spring.stretch],
+            );
             sheet.word(spring_word(spring.state));
             sheet.end_line();
         }

@@ -25,11 +25,7 @@ pub struct Pairs {
 ///
 /// # Errors
 /// A file that cannot be read, is no table, lacks the second column, has two that would do, or a unit of something else.
-pub fn pairs(
-    path: &Path,
-    first: &[(&str, &str)],
-    second: &[(&str, &str)],
-) -> Result<Pairs, ScenarioError> {
+pub fn pairs(path: &Path, first: &[(&str, &str)], second: &[(&str, &str)]) -> Result<Pairs, ScenarioError> {
     let name = path.display().to_string();
     let read = text::read(path, syntax::MAX_BYTES);
     // What is near by is told of scenarios only.
@@ -40,7 +36,8 @@ pub fn pairs(
         in_text(&name, &garbled.text, garbled.range, (garbled.message, Some(garbled.help)))
     })?;
     let slipped = |slip: sheet::Slip| in_text(&name, &text, slip.range, (slip.message, slip.help));
-    let header: Vec<Head> = sheet::header(&text).map_err(slipped)?.iter().map(|head| Head::new(head)).collect();
+    let header: Vec<Head> =
+        sheet::header(&text).map_err(slipped)?.iter().map(|head| Head::new(head)).collect();
     let table = Table { name: &name, text: &text, header: &header };
     let (given, found) = (table.column(first)?, table.column(second)?);
     let Some((second_place, second_name)) = found else {
@@ -73,7 +70,8 @@ impl Table<'_> {
             is(&head.full) || is(head.bare())
         };
         let named = |head: &Head| names.iter().position(|name| goes_by(head, name));
-        let mut found = self.header.iter().enumerate().filter_map(|(place, head)| Some((place, named(head)?)));
+        let mut found =
+            self.header.iter().enumerate().filter_map(|(place, head)| Some((place, named(head)?)));
         let column = found.next();
         match found.next() {
             None => Ok(column),

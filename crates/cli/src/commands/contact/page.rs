@@ -15,7 +15,7 @@ pub(super) fn text(sheet: &Sheet) -> String {
     let mut sections = vec![constants(sheet)];
     match &sheet.loading {
         Some(found) => sections.push(loading(found)),
-        None if sheet.touches() => sections.extend([normal(sheet), universal(sheet)]),
+        None if !sheet.normal.is_empty() => sections.extend([normal(sheet), universal(sheet)]),
         None => {}
     }
     if !sheet.touches() {
@@ -53,7 +53,10 @@ fn constants(sheet: &Sheet) -> String {
             ("F_N, normal force (4.26)", quantity(pressed.normal_force, "N")),
             ("μF_N, holds at most", quantity(pressed.limit_force, "N")),
             ("u_c = κd, gross slip begins (4.28)", quantity(pressed.gross_slip, "m")),
-            ("p_max, largest pressure", pressed.peak_pressure.map_or("none: springs only".to_owned(), bounded)),
+            (
+                "p_max, largest pressure",
+                pressed.peak_pressure.map_or("none: springs only".to_owned(), bounded),
+            ),
             ("2G*a, tangential stiffness, stuck", quantity(pressed.tangential_stiffness, "N/m")),
             ("2E*a, normal stiffness", quantity(pressed.normal_stiffness, "N/m")),
             ("normal elastic energy", quantity(pressed.normal_energy, "J")),
@@ -114,15 +117,7 @@ fn universal(sheet: &Sheet) -> String {
             quantity(loading.friction_work, "J"),
         ]
     };
-    let head = [
-        "FIRST LOADING: c/a",
-        "u/u_c",
-        "F_x/(μF_N)",
-        "u",
-        "F_x (4.38)",
-        "F_x (4.39)",
-        "work (4.42)",
-    ];
+    let head = ["FIRST LOADING: c/a", "u/u_c", "F_x/(μF_N)", "u", "F_x (4.38)", "F_x (4.39)", "work (4.42)"];
     grid(head, sheet.universal.iter().map(row))
 }
 
