@@ -9,6 +9,7 @@
 
 mod history;
 mod loading;
+mod route;
 mod sheet;
 mod state;
 mod subject;
@@ -21,4 +22,4 @@ pub use sheet::{Constants, NormalRow, Pressed, Sheet, UniversalRow};
 pub use state::{LoadedSpring, contact_word, spring_word};
 pub use subject::{Subject, TheoryError};
 pub use walk::{FrictionCourse, FrictionStep, Moment, Stop, Walk};
-pub use write::{CONTACT, TABLES, json, write};
+pub use write::{Beside, CONTACT, TABLES, json, write};

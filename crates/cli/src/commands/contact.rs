@@ -5,14 +5,14 @@ mod page;
 use crate::arguments::ContactArguments;
 use crate::console::answer::{complain, say, say_json};
 use crate::console::verdict::Verdict;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stickslip_contact::TangentialGiven;
 use stickslip_figures::FigureError;
 use stickslip_figures::theory;
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::theory::{
-    CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, json, write,
+    Beside, CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, json, write,
 };
 use stickslip_results::{Job, Refusal};
 use thiserror::Error;
@@ -94,7 +94,7 @@ fn files(
     arguments: &ContactArguments,
     (subject, walk): (&Subject<'_>, &Walk),
     pushed: Option<TangentialGiven>,
-    out: &PathBuf,
+    out: &Path,
 ) -> Result<Vec<String>, ContactFailure> {
     let failed =
         |source| TheoryError::Write { path: out.display().to_string(), words: words(&source), source };
@@ -114,7 +114,7 @@ fn files(
     let stale = theory::all_files();
     let tables = TABLES.iter().map(|name| (*name).to_owned()).chain([CONTACT.to_owned()]);
     sweep(out, &tables.chain(stale.iter().cloned()).collect::<Vec<_>>());
-    Ok(write(folder, &sheet, walk, (&pictures, stale, notes)).map_err(failed)?)
+    Ok(write(folder, &sheet, walk, Beside { pictures: &pictures, stale, notes }).map_err(failed)?)
 }
 
 impl ContactFailure {

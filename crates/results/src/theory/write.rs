@@ -39,6 +39,20 @@ const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
 const UNIVERSAL_HEAD: &[&str] =
     &["c_a", "u_uc", "fx_mufn", "c_m", "u_m", "fx_N", "fx_by_integral_N", "friction_J"];
 
+/// What goes beside the tables.
+#[derive(Debug, Default)]
+pub struct Beside<'a> {
+    /// Names and bytes of pictures.
+    pub pictures: &'a [(String, Vec<u8>)],
+    /// Names of files of before that go.
+    pub stale: Vec<String>,
+    /// What is to be known of the rest.
+    pub notes: Vec<String>,
+}
+
+/// Fills a table.
+type Fill<'a> = &'a dyn Fn(&mut Sheet);
+
 /// What `contact.json` says.
 #[derive(Serialize)]
 struct Report<'a> {
@@ -111,9 +125,9 @@ pub fn write(
     mut folder: Folder,
     constants: &Constants,
     walk: &Walk,
-    (pictures, stale, notes): (&[(String, Vec<u8>)], Vec<String>, Vec<String>),
+    beside: Beside<'_>,
 ) -> io::Result<Vec<String>> {
-    let tables: [(&'static str, &[&str], &dyn Fn(&mut Sheet)); 6] = [
+    let tables: [(&'static str, &[&str], Fill<'_>); 6] = [
         (TABLES[0], HISTORY_HEAD, &|sheet| history(sheet, walk)),
         (TABLES[1], FIELDS_HEAD, &|sheet| fields(sheet, walk)),
         (TABLES[2], LINE_HEAD, &|sheet| line(sheet, constants, walk)),
@@ -136,16 +150,16 @@ pub fn write(
             reports.push(TableReport { name, rows, sha256 });
         }
     }
-    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    beside.pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let mut files = folder.names();
     files.push(CONTACT.to_owned());
-    folder.forget(TABLES.iter().map(|name| (*name).to_owned()).chain(stale).collect());
+    folder.forget(TABLES.iter().map(|name| (*name).to_owned()).chain(beside.stale).collect());
     let report = Report {
         constants: &constants.without_curves(),
         corners: corners(walk),
         tables: reports,
         files: files.clone(),
-        notes,
+        notes: beside.notes,
     };
     let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
     json.push(b'\n');
