@@ -228,6 +228,18 @@ fn a_history_of_forces_reaches_them_and_comes_from_a_table_as_well() {
 }
 
 #[test]
+fn an_animation_has_a_frame_for_every_step_of_its_legs() {
+    let folder = tempdir().unwrap();
+    let arguments = ["--history", "20 nm, -20 nm", "--animate"];
+    written(&scenario("quickstart"), &arguments, folder.path());
+    let bytes = std::fs::read(folder.path().join("cycle.png")).unwrap();
+    // The chunk acTL has the number of frames, and fcTL stands before each.
+    let count = |name: &[u8]| bytes.windows(4).filter(|four| *four == name).count();
+    let control = bytes.windows(4).position(|four| four == b"acTL").unwrap();
+    assert_eq!((&bytes[control + 4..control + 8], count(b"fcTL")), (&[0, 0, 0, 24][..], 24));
+}
+
+#[test]
 fn an_open_contact_is_an_answer_and_a_list_of_springs_has_no_fields() {
     let open = contact(&scenario("quickstart"), &["--indentation", "-1 um", "--tangential", "0 N"]);
     assert_eq!(open["loading"]["state"], "open");

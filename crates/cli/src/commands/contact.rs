@@ -106,7 +106,7 @@ fn files(
             "a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned(),
         );
     }
-    for drawn in theory::draw(subject, &sheet, walk, &arguments.look.look()) {
+    for drawn in theory::draw(subject, &sheet, walk, (&arguments.look.look(), arguments.animate)) {
         pictures.extend(drawn?);
     }
     let folder = Folder::make(out).map_err(failed)?;

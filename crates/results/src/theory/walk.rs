@@ -18,6 +18,9 @@ const STEPS: usize = 24;
 const RADII: usize = 241;
 /// Radii of the map of friction work.
 const MAP_RADII: usize = 81;
+/// Frames of a leg, and legs that have any: the last ones.
+const FRAMES: usize = 12;
+const FRAMED: usize = 5;
 /// How far fields and springs reach beyond the largest contact radius.
 const BEYOND: f64 = 1.5;
 /// Springs of the row, over as much.
@@ -30,6 +33,8 @@ pub struct Walk {
     pub stops: Vec<Stop>,
     /// The start and the corners.
     pub moments: Vec<Moment>,
+    /// The springs on the last legs, step by step.
+    pub frames: Vec<Frame>,
     /// Where friction did its work; none for a list of springs.
     pub friction: Option<FrictionCourse>,
     /// Largest indentation on the way, m.
@@ -76,6 +81,15 @@ pub struct Moment {
     pub knots: Vec<(f64, f64)>,
 }
 
+/// The springs of a contact on the way.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// Where the contact stands.
+    pub stop: Stop,
+    /// The row of springs.
+    pub springs: Vec<LoadedSpring>,
+}
+
 /// Friction work by place, along the way.
 #[derive(Debug, Clone)]
 pub struct FrictionCourse {
@@ -117,10 +131,17 @@ impl Walk {
         let mut friction = 0.0;
         let start = Stop::at(law, &memory, route[0], (0, 1.0, friction));
         let (mut stops, mut moments) = (vec![start], vec![moment(start, &memory)]);
+        let mut frames = Vec::new();
+        let legs = route.len() - 1;
         for (corner, pair) in route.windows(2).enumerate().map(|(k, pair)| (k + 1, pair)) {
             let on = |share: f64| between(pair[0], pair[1], share);
             let shares = (1..=ROWS).map(|k| k as f64 / ROWS as f64);
             stops.extend(shares.map(|share| Stop::at(law, &memory, on(share), (corner, share, friction))));
+            if corner + FRAMED > legs {
+                let stop = |share: f64| Stop::at(law, &memory, on(share), (corner, share, friction));
+                let stops = (1..=FRAMES).map(|k| stop(k as f64 / FRAMES as f64));
+                frames.extend(framed(law, &memory, stops, row.as_ref()));
+            }
             if let Some(map) = &mut map {
                 follow(law, &memory, map, pair, |share, map| {
                     let (work, way) = (map.work().to_vec(), map.way().to_vec());
@@ -137,7 +158,7 @@ impl Walk {
             moments.push(moment(stop, &memory));
         }
         let friction = map.map(|map| FrictionCourse { radii: map.radii().to_vec(), steps });
-        Ok(Self { stops, moments, friction, deepest })
+        Ok(Self { stops, moments, frames, friction, deepest })
     }
 }
 
@@ -168,6 +189,23 @@ fn between(from: Apex, to: Apex, share: f64) -> Apex {
         return to;
     }
     Apex { d: from.d + (to.d - from.d) * share, u: from.u + (to.u - from.u) * share }
+}
+
+/// The springs at stops of a leg, on a memory of their own.
+fn framed(
+    law: &Interface,
+    memory: &Memory,
+    stops: impl Iterator<Item = Stop>,
+    row: Option<&(Springs, f64)>,
+) -> Vec<Frame> {
+    let mut memory = memory.clone();
+    let frame = |stop: Stop| {
+        // The leg itself is committed after this, and says what is wrong with it.
+        memory.commit(law, Segment::Straight(stop.apex)).ok()?;
+        let (row, span) = row?;
+        Some(Frame { stop, springs: LoadedSpring::of(law, &memory, row, *span) })
+    };
+    stops.filter_map(frame).collect()
 }
 
 /// Follows a leg in steps, on a memory of its own.
