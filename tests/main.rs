@@ -8,6 +8,7 @@ mod checkpoint;
 mod checkpoint_endings;
 mod checkpoint_refusals;
 mod compare;
+mod contact;
 mod damaged_results;
 mod endings;
 mod gallery;

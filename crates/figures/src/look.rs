@@ -1,6 +1,6 @@
 //! How pictures are drawn: as what files, in what colours and size.
 
-use stickslip_plot::{Figure, PlotError, Theme, draw_png, draw_svg};
+use stickslip_plot::{Figure, PlotError, Theme, draw_animation, draw_png, draw_svg};
 use stickslip_scenario::PlotName;
 
 /// The look of pictures; names of their files say what is not the default.
@@ -92,8 +92,22 @@ impl Pen<'_> {
         self.draw_as(plot.name(), figure)
     }
 
-    /// The same under a name of its own.
-    pub(crate) fn draw_as(&self, plot: &str, mut figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
+    /// Draws figures as an animation under a name of its own, which is a PNG; none where no PNG is asked for.
+    pub(crate) fn animate(
+        &self,
+        plot: &str,
+        figures: Vec<Figure<'_>>,
+        delay: u16,
+    ) -> Result<Vec<Picture>, PlotError> {
+        if figures.is_empty() || !self.look.formats.contains(&Format::Png) {
+            return Ok(Vec::new());
+        }
+        let figures: Vec<Figure<'_>> = figures.into_iter().map(|figure| self.looking(figure)).collect();
+        Ok(vec![(self.look.file_of(plot, Format::Png), draw_animation(&figures, delay)?)])
+    }
+
+    /// A figure in the look.
+    fn looking<'f>(&self, mut figure: Figure<'f>) -> Figure<'f> {
         let (width, height) = figure.size;
         figure.size = (width * self.look.scale, height * self.look.scale);
         figure.theme = match self.look.theme {
@@ -101,6 +115,12 @@ impl Pen<'_> {
             Colours::Dark => Theme::dark(),
         };
         figure.provenance.clone_from(&self.provenance);
+        figure
+    }
+
+    /// The same under a name of its own.
+    pub(crate) fn draw_as(&self, plot: &str, figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
+        let figure = self.looking(figure);
         let picture = |format: &Format| {
             let bytes = match format {
                 Format::Png => draw_png(&figure)?,

@@ -6,7 +6,7 @@ pub(crate) mod moments;
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
-use moments::Shown;
+use moments::{Shown, frames};
 use stickslip_contact::{Apex, Curve, Fields, Interface, Memory};
 use stickslip_plot::{
     Figure, FrictionWork, HysteresisLoop, PlotError, ProfilePair, anchors_figure, fields_figure,
@@ -17,7 +17,11 @@ use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_results::theory::{Sheet, Stop, Subject, Walk};
 
 /// Names of the pictures.
-pub const NAMES: [&str; 6] = ["substitute", "fields", "loop", "profile", "memory", "friction"];
+pub const NAMES: [&str; 7] = ["substitute", "fields", "loop", "profile", "memory", "friction", "cycle"];
+
+/// Size of an animation and how long a frame of it is seen, px and ms.
+const ANIMATED: (u32, u32) = (800, 700);
+const DELAY: u16 = 120;
 
 /// Points of the profile.
 const POINTS: usize = 301;
@@ -29,12 +33,12 @@ pub fn all_files() -> Vec<String> {
     Look::all_files_of(&NAMES)
 }
 
-/// Draws them all. What is wrong with one does not keep the others from being drawn.
+/// Draws them all, the animation only where it is wanted: it takes longer than all others. What is wrong with one does not keep the others from being drawn.
 pub fn draw(
     subject: &Subject<'_>,
     sheet: &Sheet,
     walk: &Walk,
-    look: &Look,
+    (look, is_animated): (&Look, bool),
 ) -> Vec<Result<Vec<Picture>, FigureError>> {
     let pen = Pen { look, provenance: provenance(subject) };
     let title = format!("{}, contact {}", subject.job.title(), subject.name);
@@ -42,7 +46,7 @@ pub fn draw(
     let drawn = |plot: &'static str, figure: Figure<'_>| {
         pen.draw_as(plot, figure).map_err(|source: PlotError| FigureError::Plot { plot, source })
     };
-    vec![
+    let mut pictures = vec![
         drawn(NAMES[0], substitute_figure(&title, &shown.substitutes())),
         drawn(NAMES[1], fields_figure(&title, &shown.fields())),
         hysteresis(subject.law, walk, |course, marks| {
@@ -51,7 +55,12 @@ pub fn draw(
         profile(subject.law, sheet, walk, |pair| drawn(NAMES[3], profile_figure(&title, pair))),
         drawn(NAMES[4], anchors_figure(&title, &shown.anchors())),
         friction(walk, |work| drawn(NAMES[5], friction_figure(&title, work))),
-    ]
+    ];
+    if is_animated {
+        let animation = pen.animate(NAMES[6], cycle(subject.law, walk, &title), DELAY);
+        pictures.push(animation.map_err(|source| FigureError::Plot { plot: NAMES[6], source }));
+    }
+    pictures
 }
 
 /// Where the pictures come from: keys and texts.
@@ -65,6 +74,16 @@ fn provenance(subject: &Subject<'_>) -> Vec<(String, String)> {
         (SCENARIO, job.resolved.clone()),
     ];
     entries.map(|(key, text)| (key.to_owned(), text)).to_vec()
+}
+
+/// The springs on the last legs, frame by frame.
+fn cycle(law: &Interface, walk: &Walk, title: &str) -> Vec<Figure<'static>> {
+    let mut figures = Vec::new();
+    frames(law, walk, |moment| {
+        let figure = substitute_figure(title, std::slice::from_ref(moment));
+        figures.push(Figure { size: ANIMATED, ..figure });
+    });
+    figures
 }
 
 /// Force over displacement, with the corners marked.

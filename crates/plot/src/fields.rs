@@ -18,7 +18,7 @@ pub struct FieldsMoment<'a> {
     pub shear: &'a [f64],
     /// Displacement of the surface u, m.
     pub displacement: &'a [f64],
-    /// Local slip, m.
+    /// Local slip beyond that of the centre, m.
     pub slip: &'a [f64],
     /// Coefficient of friction μ.
     pub friction: f64,
@@ -199,7 +199,11 @@ fn displacements<'a>(moment: &FieldsMoment<'a>, (low, high): (f64, f64)) -> Pane
                 (moment.r, moment.displacement.iter().copied()),
                 (Ink::Palette(0), Dash::Solid, 1.2),
             ),
-            curve("slip", (moment.r, moment.slip.iter().copied()), (Ink::Palette(2), Dash::LongDash, 0.9)),
+            curve(
+                "slip beyond the centre's",
+                (moment.r, moment.slip.iter().copied()),
+                (Ink::Palette(2), Dash::LongDash, 0.9),
+            ),
         ],
         ..Panel::default()
     }

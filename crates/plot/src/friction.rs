@@ -77,7 +77,7 @@ fn map<'a>(work: &FrictionWork<'a>, most: f64) -> Panel<'a> {
         0 => "no work".to_owned(),
         place => format!("≤ {}", quantity(most * place as f64 / (CLASSES - 1) as f64, "J/m²", 3)),
     };
-    let named = |place: usize| place % 2 == 0;
+    let named = |place: usize| place.is_multiple_of(2);
     let classes = RAMP.iter().enumerate().map(|(place, colour)| {
         let label = if named(place) { Label::plain(&label(place)) } else { Label::default() };
         (label, Ink::Colour(*colour))

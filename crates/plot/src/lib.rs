@@ -77,7 +77,7 @@ pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
 pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Series, Shape};
 pub use phase::{PhasePath, phase_figure};
-pub use png::draw_png;
+pub use png::{draw_animation, draw_png};
 pub use profile::{ProfilePair, profile_figure};
 pub use scene::{
     Amount, Fixture, LinkKind, Mobility, Press, Scene, SceneBody, SceneContact, SceneGravity, SceneLink,

@@ -18,6 +18,26 @@ const PRINT_WIDTH_CM: f64 = 16.0;
 /// # Errors
 /// A figure that cannot be drawn, see [`PlotError`]; a provenance key that PNG does not allow.
 pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
+    encode(&[pixels(figure)?], figure, None)
+}
+
+/// Draws figures of one size one after the other as an animated PNG, `delay` (ms) each, for ever: one file, which viewers
+/// without animation show as its first figure. Texts are those of the first.
+///
+/// # Errors
+/// No figure, figures of different sizes, or one that cannot be drawn.
+pub fn draw_animation(figures: &[Figure<'_>], delay: u16) -> Result<Vec<u8>, PlotError> {
+    let Some(first) = figures.first() else { return Err(PlotError::NoPanels) };
+    if let Some(other) = figures.iter().find(|figure| figure.size != first.size) {
+        let (width, height) = other.size;
+        return Err(PlotError::Size { width, height });
+    }
+    let frames = figures.iter().map(pixels).collect::<Result<Vec<_>, _>>()?;
+    encode(&frames, first, Some(delay))
+}
+
+/// Red, green, blue of every pixel of a figure.
+fn pixels(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
     let layout = Layout::new(figure)?;
     let (width, height) = figure.size;
     let ground = figure.theme.background;
@@ -26,7 +46,7 @@ pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
         raster.paste(&image, (frame.left as usize, frame.top as usize));
     }
     paint(&mut raster, figure, &layout)?;
-    encode(&raster.rgb(), figure)
+    Ok(raster.rgb())
 }
 
 /// The text chunks, compressed or not: first what is Latin-1 as it stands, then what is compressed, then what is
@@ -52,7 +72,7 @@ pub(crate) fn read_png(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError>
     Ok(texts)
 }
 
-fn encode(rgb: &[u8], figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
+fn encode(frames: &[Vec<u8>], figure: &Figure<'_>, delay: Option<u16>) -> Result<Vec<u8>, PlotError> {
     let (width, height) = figure.size;
     let mut bytes = Vec::new();
     let mut encoder = encoder(&mut bytes, width, height);
@@ -62,13 +82,17 @@ fn encode(rgb: &[u8], figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
         yppu: per_metre,
         unit: png::Unit::Meter,
     }));
+    if let Some(delay) = delay {
+        encoder.set_animated(u32::try_from(frames.len()).unwrap_or(u32::MAX), 0)?;
+        encoder.set_frame_delay(delay, 1000)?;
+    }
     let mut writer = encoder.write_header()?;
     for (key, text) in texts(figure) {
         check_key(&key)?;
         // NUL ends a chunk's text early.
         write_text(&mut writer, &key, &text.replace('\0', " "))?;
     }
-    writer.write_image_data(rgb)?;
+    frames.iter().try_for_each(|rgb| writer.write_image_data(rgb))?;
     writer.finish()?;
     Ok(bytes)
 }

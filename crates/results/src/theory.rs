@@ -9,6 +9,7 @@
 
 mod history;
 mod loading;
+mod route;
 mod sheet;
 mod state;
 mod subject;
@@ -20,5 +21,5 @@ pub use loading::Loading;
 pub use sheet::{Constants, NormalRow, Pressed, Sheet, UniversalRow};
 pub use state::{LoadedSpring, contact_word, spring_word};
 pub use subject::{Subject, TheoryError};
-pub use walk::{FrictionCourse, FrictionStep, Moment, Stop, Walk};
-pub use write::{CONTACT, TABLES, write};
+pub use walk::{Frame, FrictionCourse, FrictionStep, Moment, Stop, Walk};
+pub use write::{Beside, CONTACT, TABLES, json, write};

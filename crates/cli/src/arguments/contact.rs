@@ -58,6 +58,9 @@ pub(crate) struct ContactArguments {
     /// Folder of the files [default: results/NAME-contact]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Draw cycle.png as well, an animation of the springs on the last five legs
+    #[arg(long)]
+    pub(crate) animate: bool,
     /// Print one line of JSON instead of tables; a number that is not finite is null
     #[arg(long)]
     pub(crate) json: bool,

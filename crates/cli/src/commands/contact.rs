@@ -5,14 +5,14 @@ mod page;
 use crate::arguments::ContactArguments;
 use crate::console::answer::{complain, say, say_json};
 use crate::console::verdict::Verdict;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stickslip_contact::TangentialGiven;
 use stickslip_figures::FigureError;
 use stickslip_figures::theory;
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::theory::{
-    CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, write,
+    Beside, CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, json, write,
 };
 use stickslip_results::{Job, Refusal};
 use thiserror::Error;
@@ -64,10 +64,11 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
     };
     let walk = asked.map(|history| Walk::of(&subject, normal, &history)).transpose()?;
     if arguments.json {
-        // Numbers and strings only: there is nothing that JSON could refuse.
-        say_json(&serde_json::to_string(&sheet).unwrap_or_default());
+        say_json(&json(&sheet, walk.as_ref()));
     } else if !arguments.quiet {
-        say(format_args!("{}", page::text(&sheet)));
+        // With a history its corners take the place of the curves.
+        let shown = if walk.is_some() { sheet.without_curves() } else { sheet };
+        say(format_args!("{}", page::text(&shown)));
     }
     let Some(walk) = walk else { return Ok(()) };
     let out =
@@ -93,7 +94,7 @@ fn files(
     arguments: &ContactArguments,
     (subject, walk): (&Subject<'_>, &Walk),
     pushed: Option<TangentialGiven>,
-    out: &PathBuf,
+    out: &Path,
 ) -> Result<Vec<String>, ContactFailure> {
     let failed =
         |source| TheoryError::Write { path: out.display().to_string(), words: words(&source), source };
@@ -105,7 +106,7 @@ fn files(
             "a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned(),
         );
     }
-    for drawn in theory::draw(subject, &sheet, walk, &arguments.look.look()) {
+    for drawn in theory::draw(subject, &sheet, walk, (&arguments.look.look(), arguments.animate)) {
         pictures.extend(drawn?);
     }
     let folder = Folder::make(out).map_err(failed)?;
@@ -113,7 +114,7 @@ fn files(
     let stale = theory::all_files();
     let tables = TABLES.iter().map(|name| (*name).to_owned()).chain([CONTACT.to_owned()]);
     sweep(out, &tables.chain(stale.iter().cloned()).collect::<Vec<_>>());
-    Ok(write(folder, &sheet, walk, (&pictures, stale, notes)).map_err(failed)?)
+    Ok(write(folder, &sheet, walk, Beside { pictures: &pictures, stale, notes }).map_err(failed)?)
 }
 
 impl ContactFailure {

@@ -42,11 +42,7 @@ impl<'a> Shown<'a> {
         // An unstretched start shows nothing that the others do not.
         let first = if walk.moments.len() > 1 { first.max(1) } else { first };
         let moments: Vec<Columns> = walk.moments[first..].iter().map(Columns::of).collect();
-        let stretches = moments.iter().flat_map(|moment| &moment.stretch);
-        let largest = stretches.fold(0.0_f64, |most, stretch| most.max(stretch.abs()));
-        let stretch = law.gross_slip_displacement(walk.deepest).max(largest);
-        let scale = (law.profile().radius(walk.deepest), walk.deepest, stretch);
-        Self { law, moments, scale }
+        Self { law, moments, scale: scale(law, walk) }
     }
 
     pub(super) fn fields(&self) -> Vec<FieldsMoment<'_>> {
@@ -97,6 +93,30 @@ impl<'a> Shown<'a> {
         });
         moments.collect()
     }
+}
+
+/// The springs of every frame, one by one, as the corners have them.
+pub(super) fn frames(law: &Interface, walk: &Walk, mut drawn: impl FnMut(&SubstituteMoment<'_>)) {
+    for frame in &walk.frames {
+        // A moment without fields and memory.
+        let moment = Moment {
+            stop: frame.stop,
+            fields: Vec::new(),
+            zones: Vec::new(),
+            springs: frame.springs.clone(),
+            knots: Vec::new(),
+        };
+        let shown = Shown { law, moments: vec![Columns::of(&moment)], scale: scale(law, walk) };
+        shown.substitutes().iter().for_each(&mut drawn);
+    }
+}
+
+/// Scales that all pictures of a history share: largest radius, indentation and stretch, m.
+fn scale(law: &Interface, walk: &Walk) -> (f64, f64, f64) {
+    let springs = walk.moments.iter().flat_map(|moment| &moment.springs);
+    let largest = springs.fold(0.0_f64, |most, spring| most.max(spring.stretch.abs()));
+    let stretch = law.gross_slip_displacement(walk.deepest).max(largest);
+    (law.profile().radius(walk.deepest), walk.deepest, stretch)
 }
 
 impl Columns {

@@ -22,8 +22,10 @@ pub struct Sheet {
     /// As it is pressed.
     pub pressed: Pressed,
     /// `F_N`(d) and a(d) up to that (4.26); nothing of an open contact.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub normal: Vec<NormalRow>,
     /// The universal curve (4.37) and what goes with it; nothing of an open contact.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub universal: Vec<UniversalRow>,
     /// The first loading that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -157,6 +159,12 @@ impl Sheet {
             universal: universal?,
             loading: loading.transpose()?,
         })
+    }
+
+    /// The same without its curves.
+    #[must_use]
+    pub fn without_curves(&self) -> Self {
+        Self { normal: Vec::new(), universal: Vec::new(), ..self.clone() }
     }
 
     /// Whether anything touches.

@@ -1,7 +1,8 @@
 //! A contact led along a history.
 
-use super::history::{Corner, History, Normal, Tangential};
+use super::history::History;
 use super::loading::worked;
+use super::route::{refused, route};
 use super::state::LoadedSpring;
 use super::{Subject, TheoryError};
 use stickslip_contact::{
@@ -17,12 +18,13 @@ const STEPS: usize = 24;
 const RADII: usize = 241;
 /// Radii of the map of friction work.
 const MAP_RADII: usize = 81;
+/// Frames of a leg, and legs that have any: the last ones.
+const FRAMES: usize = 12;
+const FRAMED: usize = 5;
 /// How far fields and springs reach beyond the largest contact radius.
 const BEYOND: f64 = 1.5;
 /// Springs of the row, over as much.
 const SPRINGS: usize = 121;
-/// How near to a force is on it, of the limit: a contact that slips has the limit but for rounding.
-const ON_IT: f64 = 1e-15;
 
 /// What happened on the way.
 #[derive(Debug, Clone)]
@@ -31,6 +33,8 @@ pub struct Walk {
     pub stops: Vec<Stop>,
     /// The start and the corners.
     pub moments: Vec<Moment>,
+    /// The springs on the last legs, step by step.
+    pub frames: Vec<Frame>,
     /// Where friction did its work; none for a list of springs.
     pub friction: Option<FrictionCourse>,
     /// Largest indentation on the way, m.
@@ -77,6 +81,15 @@ pub struct Moment {
     pub knots: Vec<(f64, f64)>,
 }
 
+/// The springs of a contact on the way.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// Where the contact stands.
+    pub stop: Stop,
+    /// The row of springs.
+    pub springs: Vec<LoadedSpring>,
+}
+
 /// Friction work by place, along the way.
 #[derive(Debug, Clone)]
 pub struct FrictionCourse {
@@ -118,10 +131,17 @@ impl Walk {
         let mut friction = 0.0;
         let start = Stop::at(law, &memory, route[0], (0, 1.0, friction));
         let (mut stops, mut moments) = (vec![start], vec![moment(start, &memory)]);
+        let mut frames = Vec::new();
+        let legs = route.len() - 1;
         for (corner, pair) in route.windows(2).enumerate().map(|(k, pair)| (k + 1, pair)) {
             let on = |share: f64| between(pair[0], pair[1], share);
             let shares = (1..=ROWS).map(|k| k as f64 / ROWS as f64);
             stops.extend(shares.map(|share| Stop::at(law, &memory, on(share), (corner, share, friction))));
+            if corner + FRAMED > legs {
+                let stop = |share: f64| Stop::at(law, &memory, on(share), (corner, share, friction));
+                let stops = (1..=FRAMES).map(|k| stop(k as f64 / FRAMES as f64));
+                frames.extend(framed(law, &memory, stops, row.as_ref()));
+            }
             if let Some(map) = &mut map {
                 follow(law, &memory, map, pair, |share, map| {
                     let (work, way) = (map.work().to_vec(), map.way().to_vec());
@@ -138,7 +158,7 @@ impl Walk {
             moments.push(moment(stop, &memory));
         }
         let friction = map.map(|map| FrictionCourse { radii: map.radii().to_vec(), steps });
-        Ok(Self { stops, moments, friction, deepest })
+        Ok(Self { stops, moments, frames, friction, deepest })
     }
 }
 
@@ -171,6 +191,23 @@ fn between(from: Apex, to: Apex, share: f64) -> Apex {
     Apex { d: from.d + (to.d - from.d) * share, u: from.u + (to.u - from.u) * share }
 }
 
+/// The springs at stops of a leg, on a memory of their own.
+fn framed(
+    law: &Interface,
+    memory: &Memory,
+    stops: impl Iterator<Item = Stop>,
+    row: Option<&(Springs, f64)>,
+) -> Vec<Frame> {
+    let mut memory = memory.clone();
+    let frame = |stop: Stop| {
+        // The leg itself is committed after this, and says what is wrong with it.
+        memory.commit(law, Segment::Straight(stop.apex)).ok()?;
+        let (row, span) = row?;
+        Some(Frame { stop, springs: LoadedSpring::of(law, &memory, row, *span) })
+    };
+    stops.filter_map(frame).collect()
+}
+
 /// Follows a leg in steps, on a memory of its own.
 fn follow(
     law: &Interface,
@@ -189,78 +226,6 @@ fn follow(
             return;
         }
         told(share, map);
-    }
-}
-
-fn refused(corner: usize, source: FirstLoadingError) -> TheoryError {
-    TheoryError::Corner { corner, source }
-}
-
-/// The path as places of the (d, u) plane, its start first.
-fn route(law: &Interface, pressed: f64, history: &History) -> Result<Vec<Apex>, TheoryError> {
-    let corners = &history.corners;
-    let depth = |k: usize, normal: Normal| {
-        let given = match normal {
-            Normal::Indentation(d) => NormalGiven::Indentation(d),
-            Normal::Force(force) => NormalGiven::Force(force),
-        };
-        given.indentation(law).map_err(|error| refused(k + 1, error))
-    };
-    let mut at = Apex { d: pressed, u: 0.0 };
-    let mut first = 0;
-    if let Some(Corner { normal: Some(normal), tangential }) = corners.first() {
-        at.d = depth(0, *normal)?;
-        // Of one corner alone there would be no way; a force other than none is a way, too.
-        let begins = match *tangential {
-            _ if corners.len() == 1 => None,
-            Tangential::Displacement(u) => Some(u),
-            Tangential::Force(force) => (force == 0.0).then_some(0.0),
-        };
-        if let Some(u) = begins {
-            (at.u, first) = (u, 1);
-        }
-    }
-    let mut memory = Memory::Curve(Curve::new(law, at));
-    let mut route = vec![at];
-    for (k, corner) in corners.iter().enumerate().skip(first) {
-        let d = corner.normal.map_or(Ok(at.d), |normal| depth(k, normal))?;
-        let u = match corner.tangential {
-            Tangential::Displacement(u) => u,
-            Tangential::Force(force) => {
-                push(law, &memory, d, force).map_err(|error| refused(k + 1, error))?
-            }
-        };
-        at = Apex { d, u };
-        let done = memory.commit(law, Segment::Straight(at));
-        done.map_err(|_| refused(k + 1, FirstLoadingError::Displacement(u)))?;
-        route.push(at);
-    }
-    Ok(route)
-}
-
-/// Displacement at which a chord to the indentation d (m) gives the force (N): of several the nearest.
-fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, FirstLoadingError> {
-    let from = memory.apex();
-    let limit = law.friction() * law.normal_force(d);
-    if force.is_nan() || force.abs() > limit {
-        return Err(FirstLoadingError::TangentialForce { force, limit });
-    }
-    let reached = |u: f64| memory.force(law, Apex { d, u });
-    let at_rest = reached(from.u);
-    if at_rest == force {
-        return Ok(from.u);
-    }
-    let sense = if force > at_rest { 1.0 } else { -1.0 };
-    // Beyond both wedges everything slips.
-    let most = 2.0 * law.gross_slip_displacement(from.d.max(d));
-    let is_there = |u: f64| sense * (reached(u) - force) >= -ON_IT * limit;
-    let (mut near, mut far) = (from.u, from.u + sense * most);
-    loop {
-        let middle = 0.5 * (near + far);
-        if middle == near || middle == far {
-            return Ok(far);
-        }
-        if is_there(middle) { far = middle } else { near = middle }
     }
 }
 

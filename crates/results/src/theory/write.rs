@@ -24,6 +24,8 @@ const LINE_HEAD: &[&str] = &[
     "x_m",
     "length_m",
     "g_m",
+    "kz_N_m",
+    "kx_N_m",
     "qz_N_m",
     "qx_N_m",
     "limit_N_m",
@@ -37,6 +39,20 @@ const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
 const UNIVERSAL_HEAD: &[&str] =
     &["c_a", "u_uc", "fx_mufn", "c_m", "u_m", "fx_N", "fx_by_integral_N", "friction_J"];
 
+/// What goes beside the tables.
+#[derive(Debug, Default)]
+pub struct Beside<'a> {
+    /// Names and bytes of pictures.
+    pub pictures: &'a [(String, Vec<u8>)],
+    /// Names of files of before that go.
+    pub stale: Vec<String>,
+    /// What is to be known of the rest.
+    pub notes: Vec<String>,
+}
+
+/// Fills a table.
+type Fill<'a> = &'a dyn Fn(&mut Sheet);
+
 /// What `contact.json` says.
 #[derive(Serialize)]
 struct Report<'a> {
@@ -47,6 +63,15 @@ struct Report<'a> {
     files: Vec<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
+}
+
+/// What a program says of it that prints JSON.
+#[derive(Serialize)]
+struct Answer<'a> {
+    #[serde(flatten)]
+    constants: &'a Constants,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    corners: Vec<CornerReport>,
 }
 
 #[derive(Serialize)]
@@ -77,6 +102,20 @@ struct TableReport {
     sha256: String,
 }
 
+/// All numbers on one line of JSON; the curves only where there is no history.
+pub fn json(constants: &Constants, walk: Option<&Walk>) -> String {
+    let (constants, corners) = match walk {
+        Some(walk) => (&constants.without_curves(), corners(walk)),
+        None => (constants, Vec::new()),
+    };
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    serde_json::to_string(&Answer { constants, corners }).unwrap_or_default()
+}
+
+fn corners(walk: &Walk) -> Vec<CornerReport> {
+    walk.moments.iter().map(|moment| CornerReport::of(&moment.stop)).collect()
+}
+
 /// Writes the tables, `contact.json` and the pictures given into a folder; files of before that are not among them go.
 /// Returns the names.
 ///
@@ -86,12 +125,12 @@ pub fn write(
     mut folder: Folder,
     constants: &Constants,
     walk: &Walk,
-    (pictures, stale, notes): (&[(String, Vec<u8>)], Vec<String>, Vec<String>),
+    beside: Beside<'_>,
 ) -> io::Result<Vec<String>> {
-    let tables: [(&'static str, &[&str], &dyn Fn(&mut Sheet)); 6] = [
+    let tables: [(&'static str, &[&str], Fill<'_>); 6] = [
         (TABLES[0], HISTORY_HEAD, &|sheet| history(sheet, walk)),
         (TABLES[1], FIELDS_HEAD, &|sheet| fields(sheet, walk)),
-        (TABLES[2], LINE_HEAD, &|sheet| line(sheet, walk)),
+        (TABLES[2], LINE_HEAD, &|sheet| line(sheet, constants, walk)),
         (TABLES[3], FRICTION_HEAD, &|sheet| friction(sheet, walk)),
         (TABLES[4], NORMAL_HEAD, &|sheet| normal(sheet, constants)),
         (TABLES[5], UNIVERSAL_HEAD, &|sheet| universal(sheet, constants)),
@@ -111,12 +150,17 @@ pub fn write(
             reports.push(TableReport { name, rows, sha256 });
         }
     }
-    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    beside.pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let mut files = folder.names();
     files.push(CONTACT.to_owned());
-    folder.forget(TABLES.iter().map(|name| (*name).to_owned()).chain(stale).collect());
-    let corners = walk.moments.iter().map(|moment| CornerReport::of(&moment.stop)).collect();
-    let report = Report { constants, corners, tables: reports, files: files.clone(), notes };
+    folder.forget(TABLES.iter().map(|name| (*name).to_owned()).chain(beside.stale).collect());
+    let report = Report {
+        constants: &constants.without_curves(),
+        corners: corners(walk),
+        tables: reports,
+        files: files.clone(),
+        notes: beside.notes,
+    };
     let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
     json.push(b'\n');
     folder.write(CONTACT, &json)?;
@@ -155,14 +199,14 @@ fn fields(sheet: &mut Sheet, walk: &Walk) {
     }
 }
 
-fn line(sheet: &mut Sheet, walk: &Walk) {
+fn line(sheet: &mut Sheet, constants: &Constants, walk: &Walk) {
+    let moduli = [&constants.constants.normal_modulus, &constants.constants.tangential_modulus];
     for moment in &walk.moments {
         for spring in &moment.springs {
             whole(sheet, moment.stop.corner);
-            numbers(
-                sheet,
-                [spring.x, spring.length, spring.g, spring.normal, spring.tangential, spring.limit],
-            );
+            numbers(sheet, [spring.x, spring.length, spring.g]);
+            numbers(sheet, moduli.map(|modulus| modulus.0 * spring.length));
+            numbers(sheet, [spring.normal, spring.tangential, spring.limit]);
             numbers(
                 sheet,
                 [spring.normal * spring.length, spring.tangential * spring.length, spring.stretch],

@@ -15,7 +15,7 @@ pub(super) fn text(sheet: &Sheet) -> String {
     let mut sections = vec![constants(sheet)];
     match &sheet.loading {
         Some(found) => sections.push(loading(found)),
-        None if sheet.touches() => sections.extend([normal(sheet), universal(sheet)]),
+        None if !sheet.normal.is_empty() => sections.extend([normal(sheet), universal(sheet)]),
         None => {}
     }
     if !sheet.touches() {
