@@ -48,13 +48,15 @@ pub struct Fields<'a> {
 pub struct Field {
     /// Distance r from the axis, m.
     pub r: f64,
-    /// Pressure p, Pa; infinite at a tip and at the edge of a flat punch.
+    /// Pressure p, Pa; infinite at a tip and at a worn edge, without bound towards the edge of a flat punch, from which on it
+    /// is 0.
     pub pressure: f64,
     /// Shear stress τ on the second body, Pa, along the slide.
     pub shear: f64,
     /// Displacement u of the surface along the slide, that of both bodies against each other, m.
     pub displacement: f64,
-    /// Local slip: how far the indenter's surface has slid over the other body's, m; outside the contact the way between them.
+    /// Local slip: how far the indenter's surface has slid over the other body's, m, counted from what the centre has slid; 0 in
+    /// the centre, also in gross slip. Outside the contact the way between the surfaces.
     pub slip: f64,
     /// Displacement of the surface along the normal, that of both bodies together, m.
     pub deflection: f64,
@@ -133,14 +135,14 @@ impl<'a> Fields<'a> {
             if piece.to.x <= r {
                 break;
             }
+            // Nothing times an infinite pressure is nothing: springs that were never moved carry nothing.
+            if piece.share == 0.0 || limit == 0.0 {
+                outer = None;
+                continue;
+            }
             let outermost = piece.to.h == self.apex.d;
             if outermost && piece.from.x <= r {
                 return (self.law.friction() * piece.share * pressure, 0.0);
-            }
-            // Nothing times an infinite pressure is nothing: springs that were never moved carry nothing.
-            if piece.share == 0.0 {
-                outer = None;
-                continue;
             }
             let upper = outer.unwrap_or_else(|| self.kernel.pressure(piece.to, r));
             let lower = self.kernel.pressure(piece.from, r);

@@ -320,6 +320,93 @@ fn every_other_profile_has_fields_by_quadrature_that_add_up() {
 }
 
 #[test]
+fn a_sum_of_powers_is_the_sum_of_its_fields_also_at_its_tip() {
+    // p of Σ Bₖxⁿ is Σ of (4.34): at r = 0 (E*/π) Σ n/(n-1) B aⁿ⁻¹, finite for n > 1 however blunt.
+    for terms in [vec![(0.4, 1.2), (0.3, 2.0)], vec![(0.4, 1.5), (1.0, 6.0)], vec![(0.3, 1.0), (0.5, 2.0)]] {
+        let law = interface(Profile::powers(&terms).unwrap(), 0.4);
+        let (a, d) = (0.5, law.profile().depth(0.5));
+        let memory = pushed(&law, d, &[0.5 * law.gross_slip_displacement(d)]);
+        let fields = Fields::of(&law, &memory).unwrap();
+        let c = fields.stick_radius();
+        // Terms are given by f = A rⁿ; one term alone tells its B.
+        let foundation =
+            |(coefficient, n): (f64, f64)| (Profile::power(coefficient, n).unwrap().depth(1.0), n);
+        let parts: Vec<(f64, f64)> = terms.iter().copied().map(foundation).collect();
+        let between = |from: f64, r: f64| -> f64 {
+            let part = |&(b, n): &(f64, f64)| match r {
+                0.0 if n == 1.0 => b * (a / from).ln(),
+                0.0 => n / (n - 1.0) * b * (a.powf(n - 1.0) - from.powf(n - 1.0)),
+                _ => {
+                    PI * (pressure(|x| n * b * x.powf(n - 1.0), a, r)
+                        - pressure(|x| n * b * x.powf(n - 1.0), from, r))
+                }
+            };
+            parts.iter().map(part).sum()
+        };
+        for r in [0.0, 1e-12, 1e-3, 0.2, 0.45] {
+            let field = fields.at(r);
+            let has_tip = r == 0.0 && parts.iter().any(|(_, n)| *n <= 1.0);
+            if has_tip {
+                assert_eq!(field.pressure, f64::INFINITY);
+            } else if r != 1e-12 {
+                assert_relative_eq!(field.pressure, MODULI.0 / PI * between(0.0, r), max_relative = 1e-9);
+            }
+            if r < c {
+                let want = 0.4 * MODULI.0 / PI * between(c, r.max(0.0).min(if r < 1e-6 { 0.0 } else { r }));
+                assert_relative_eq!(field.shear, want, max_relative = 1e-8);
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_that_is_told_is_not_a_number() {
+    // Tips, worn edges, punches; unsheared, without friction, in partial and in gross slip; on every border and in the centre.
+    let profiles = [
+        Profile::cone(0.1),
+        Profile::power(1.0, 0.5),
+        Profile::flat(0.5),
+        Profile::sphere(2.0),
+        Profile::truncated_cone(0.2, 0.5),
+        Profile::truncated_paraboloid(0.2, 1.5),
+        Profile::rounded_flat(0.2, 1.5),
+        Profile::tipped_paraboloid(1.5, 0.2),
+        Profile::powers(&[(0.3, 1.0), (0.2, 2.5)]),
+        Profile::table(&[(0.0, 0.0), (0.3, 0.1), (0.6, 0.3), (1.0, 0.7)], &[]),
+    ];
+    for profile in profiles.map(Result::unwrap) {
+        for friction in [0.0, 0.4] {
+            let law = interface(profile.clone(), friction);
+            let d = 0.2;
+            for u in [0.0, 0.5 * law.gross_slip_displacement(d), 1.0] {
+                let memory = pushed(&law, d, &[u]);
+                let fields = Fields::of(&law, &memory).unwrap();
+                let mut radii = vec![0.0, 1e-300, 0.1, fields.stick_radius(), fields.radius(), 0.9];
+                radii.extend(law.profile().borders());
+                for &r in &radii {
+                    let field = fields.at(r);
+                    let told =
+                        [field.pressure, field.shear, field.displacement, field.slip, field.deflection];
+                    assert!(
+                        told.iter().all(|value| !value.is_nan()),
+                        "{profile:?} μ {friction} u {u}: {field:?}"
+                    );
+                    assert!(field.shear == 0.0 || friction > 0.0 && u > 0.0, "{field:?}");
+                }
+                let mut map = FrictionMap::new(radii);
+                for to in [Apex { d, u: -1.0 }, Apex { d: 0.1, u: 0.3 }] {
+                    map.follow(&law, &memory, Segment::Straight(to));
+                }
+                assert!(
+                    map.work().iter().all(|work| *work >= 0.0),
+                    "{profile:?} μ {friction} u {u}: {map:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn ten_thousand_random_histories_add_up_and_keep_the_limit() {
     let mut random = Random(15);
     let mut rings = 0;

@@ -53,11 +53,15 @@ impl<'a> Kernel<'a> {
 
     /// The same of one rim less that of a lower one, both above r, where each for itself may be infinite.
     pub(super) fn pressure_between(&self, low: Rim, high: Rim, r: f64) -> Estimate {
-        if let Self::Power(power) = self
-            && low.h > 0.0
-            && low.x > r
-        {
-            return (FRAC_1_PI * power.slope_between((low.h, low.x), (high.h, high.x), r), 0.0);
+        if low.h > 0.0 && low.x > r {
+            let between = match self {
+                Self::Flat(_) => None,
+                Self::Power(power) => Some((power.slope_between((low.h, low.x), (high.h, high.x), r), 0.0)),
+                Self::Any(profile) => Some(smooth::slope_between(profile, [low.x, high.x], r)),
+            };
+            if let Some((value, error)) = between {
+                return (FRAC_1_PI * value, FRAC_1_PI * error);
+            }
         }
         let (upper, lower) = (self.pressure(high, r), self.pressure(low, r));
         (upper.0 - lower.0, upper.1 + lower.1)

@@ -8,10 +8,12 @@ use crate::Profile;
 use crate::quadrature::kronrod;
 use std::f64::consts::FRAC_2_PI;
 
-/// How near to a border, as a share of the radius, is on it.
+/// Of a place on a border the distance, as a share of the radius, from which on inwards the integrand is a power of it.
 const ON_BORDER: f64 = 1e-9;
-/// What is left per unit of the logarithm there, as a share of the mean slope, of an integral that is finite.
-const FADED: f64 = 1e-6;
+/// What the distance is divided by to learn of that power.
+const CLOSER: f64 = 1e3;
+/// Least power of an integral that is taken for finite.
+const LEAST_POWER: f64 = 1e-3;
 
 /// A value and an estimate of its error.
 pub(super) type Estimate = (f64, f64);
@@ -34,17 +36,49 @@ pub(super) fn slope_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
         let part = if i > 0 {
             // r lies below this border: dξ/√(ξ²-r²) = s dt/ξ.
             by_logarithm(delta, span, |s, _| profile.depth_slope(at(s)) * s / at(s))
-        } else if delta > ON_BORDER * x {
+        } else if delta > 0.0 {
             by_logarithm(delta, span, |s, rate| profile.depth_slope(at(s)) / at(s) * rate)
         } else {
-            let delta = ON_BORDER * x;
-            let per_unit = profile.depth_slope(at(delta)) / at(delta) * delta;
-            if per_unit > FADED * profile.depth(x) / x {
-                return (f64::INFINITY, 0.0);
-            }
-            by_logarithm(delta, span, |s, rate| profile.depth_slope(at(s)) / at(s) * rate)
+            from_border(ON_BORDER * x, span, |s| profile.depth_slope(at(s)) * s / at(s))
         };
         total = (total.0 + part.0, total.1 + part.1);
+    }
+    total
+}
+
+/// The same from one radius to another, both above r: finite wherever r lies.
+pub(super) fn slope_between(profile: &Profile, [from, to]: [f64; 2], r: f64) -> Estimate {
+    let inside = profile.borders().iter().copied().filter(|border| *border > from && *border < to);
+    let ends: Vec<f64> = std::iter::once(from).chain(inside).chain([to]).collect();
+    let mut total = (0.0, 0.0);
+    for pair in ends.windows(2) {
+        let (low, high) = (pair[0], pair[1]);
+        let (span, delta) = (((high - low) * (high + low)).sqrt(), ((low - r) * (low + r)).sqrt());
+        let at = |s: f64| (low * low + s * s).sqrt();
+        let part = by_logarithm(delta, span, |s, _| profile.depth_slope(at(s)) * s / at(s));
+        total = (total.0 + part.0, total.1 + part.1);
+    }
+    total
+}
+
+/// ∫ h(s) ds/s from 0 to `span`, h ~ sᵉ below `delta`: h/e from there, the rest in panels of about a unit of ln s. Infinite
+/// where h does not fade.
+fn from_border(delta: f64, span: f64, h: impl Fn(f64) -> f64) -> Estimate {
+    let [near, nearer] = [h(delta), h(delta / CLOSER)];
+    let power = (near / nearer).ln() / CLOSER.ln();
+    let tail = match near {
+        near if near <= 0.0 => 0.0,
+        _ if power < LEAST_POWER => return (f64::INFINITY, 0.0),
+        near => near / power,
+    };
+    let end = (span / delta).ln();
+    let panels = end.ceil().max(1.0);
+    let mut total = (tail, 0.0);
+    for k in 0..panels as u32 {
+        let share = |k: f64| end * k / panels;
+        let (value, error) =
+            kronrod([share(f64::from(k)), share(f64::from(k) + 1.0)], |t| h(delta * t.exp()));
+        total = (total.0 + value, total.1 + error);
     }
     total
 }
