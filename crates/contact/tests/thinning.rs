@@ -197,3 +197,64 @@ fn a_full_memory_read_from_its_words_goes_on_to_the_same_bits() {
         assert_eq!(written(&read), written(&memory));
     }
 }
+
+/// A million steps of smooth oblique loading, as chords and as pieces of growth: the force of the path is that of its closed
+/// form, and what was merged is booked.
+#[test]
+fn a_million_steps_of_oblique_loading_stay_within_the_capacity() {
+    let law = paraboloid();
+    let path = Path { beta: 0.1, bend: 0.6 };
+    let limit = law.friction() * law.normal_force(DEPTH);
+    let (grown, _) = grown(&law, &path, 1_000_000, Curve::DEFAULT_CAPACITY);
+    assert!((grown.force(&law) - path.force(1.0)).abs() < 1e-12 * limit);
+    let mut chords = Curve::new(&law, Apex::default());
+    for k in 1..=1_000_000 {
+        let x = f64::from(k) * 1e-6;
+        let to = Apex { d: DEPTH * x, u: path.u(x) };
+        assert_eq!(chords.commit(&law, Segment::Straight(to)).unwrap(), 0.0);
+        assert!(chords.knot_count() <= Curve::DEFAULT_CAPACITY);
+    }
+    let off = (chords.force(&law) - path.force(1.0)).abs() / limit;
+    for (what, curve) in [("grown", &grown), ("chords", &chords)] {
+        let merged = curve.merged();
+        println!("{what}: {} knots merged, {:.1e} of the limit booked", merged.knots, merged.force / limit);
+        assert!(merged.knots > 900_000 && merged.force < 1e-9 * limit, "{what}: {merged:?}");
+    }
+    println!("chords: off by {off:.1e} of the limit");
+    assert!(off < 1e-9, "{off:e}");
+}
+
+#[test]
+fn a_million_random_corners_stay_within_the_capacity() {
+    let law = paraboloid();
+    let (limit, u_c) = (law.friction() * law.normal_force(DEPTH), law.gross_slip_displacement(DEPTH));
+    let mut random = 0x5EED_u64;
+    let mut unit = || {
+        // Marsaglia's xorshift.
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        (random >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut curve = Curve::with_capacity(&law, Apex { d: DEPTH, u: 0.0 }, 10);
+    let mut whole = Curve::new(&law, Apex { d: DEPTH, u: 0.0 });
+    let mut worst: f64 = 0.0;
+    for k in 0..1_000_000_u32 {
+        // Zigzags that shrink and begin anew: corners are kept, and cut.
+        let swing = u_c * (1.0 - f64::from(k % 500) / 500.0);
+        let to = Apex { d: DEPTH * (0.8 + 0.2 * unit()), u: swing * (2.0 * unit() - 1.0) };
+        curve.commit(&law, Segment::Straight(to)).unwrap();
+        whole.commit(&law, Segment::Straight(to)).unwrap();
+        assert!(curve.knot_count() <= 10 && whole.knot_count() <= Curve::DEFAULT_CAPACITY);
+        worst = worst.max((curve.force(&law) - whole.force(&law)).abs());
+    }
+    let merged = curve.merged();
+    println!(
+        "{} knots merged: off by {:.1e}, {:.1e} booked",
+        merged.knots,
+        worst / limit,
+        merged.force / limit
+    );
+    assert!(merged.knots > 1000 && whole.merged().knots == 0);
+    assert!(worst <= merged.force.max(1e-12 * limit), "{worst:e} {merged:?}");
+}
