@@ -99,6 +99,9 @@ impl Model {
             let (method, why) = stepping(&scene);
             expected.add((method, if expected.takes(Method::Swing) { Why::AtRest } else { why }));
         }
+        if !self.free.is_empty() && self.contacts.iter().any(|contact| contact.interface.damping() > 0.0) {
+            expected.add((Method::Whole, Why::Turns));
+        }
         if self.contacts.iter().any(Contact::ends_singularly) {
             expected.add((Method::Graded, Why::SingularMoment));
         }

@@ -21,6 +21,8 @@ pub enum Why {
     Damper,
     /// The force of a contact's stuck springs depends on a velocity.
     ContactDamping,
+    /// Damped springs that stick and slip by turns, so that no step is long enough between two events.
+    Turns,
     /// The power of a load that varies depends on a velocity.
     VaryingLoad,
     /// The force of a contact that grows in full stick depends on its path.
@@ -80,6 +82,7 @@ impl fmt::Display for Why {
             Self::VaryingIndentation => "the indentation varies",
             Self::NoFriction => "no friction",
             Self::BetweenSprings => "forces of a row are straight until one of its springs changes",
+            Self::Turns => "damped springs may stick and slip by turns",
             Self::WholeLaw => "the memory is asked at every evaluation",
         })
     }
