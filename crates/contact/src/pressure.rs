@@ -19,7 +19,7 @@ impl Interface {
     /// p(r) = (E\*/π) ∫ᵣᵃ g'(x)/√(x²-r²) dx, the integral of (4.34). For g ~ xⁿ, 1 < n ≤ 2, it is largest in the middle,
     /// p = E\*d/(πa) n/(n-1), in Hertz' contact 2E\*d/(πa); for n > 2 between middle and edge, where it is searched for
     /// (relative error below 1e-9). Infinite at the tip of a cone and of anything sharper and at the edge of a flat
-    /// punch; none for a list of springs, which has no shape in three dimensions.
+    /// punch; none for a list of springs and a normal law, which have no shape in three dimensions.
     pub fn peak_pressure(&self, d: f64) -> Option<f64> {
         let profile = self.profile();
         let peak = profile.peak()?;

@@ -252,9 +252,12 @@ impl Profile {
         of_kind!(self, kind => kind.punch())
     }
 
-    /// Whether it is a list of springs, which has no shape in three dimensions.
-    pub fn is_list(&self) -> bool {
-        self.as_foundation().is_some()
+    /// Whether it has a shape in three dimensions, and so a gap, a pressure and fields: all but lists of springs and normal laws, of
+    /// which nothing but the forces is known.
+    // A normal law has a foundation, and Abel's inversion makes of it the one axisymmetric shape that it could belong to. No one has
+    // said that the contact is axisymmetric.
+    pub fn has_shape(&self) -> bool {
+        self.peak().is_some()
     }
 
     /// The foundation, where it is given spring by spring.
