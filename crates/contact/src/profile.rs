@@ -27,6 +27,7 @@ pub(crate) use kappa::kappa;
 pub(crate) use kind::Peak;
 pub use self_affine::{RoughnessError, SelfAffine};
 
+use crate::ContactError;
 use crate::quadrature::GAUSS;
 use chart::Chart;
 use flat::Flat;
@@ -212,6 +213,15 @@ impl Profile {
     /// Whether it ends at the last of the points that it is given by, beyond which nothing is known of it.
     pub fn ends_at_a_point(&self) -> bool {
         matches!(self.shape, Shape::Chart(_))
+    }
+
+    /// Fails where an indentation lies beyond the last of the points that it is given by.
+    #[inline]
+    pub(crate) fn check_end(&self, d: f64) -> Result<(), ContactError> {
+        match &self.shape {
+            Shape::Chart(chart) => chart.check_end(d),
+            _ => Ok(()),
+        }
     }
 
     /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use stickslip_contact::{
-    Apex, ContactError, Curve, Interface, Move, Pair, Profile, ProfileError, Row, Segment, Springs,
+    Apex, ContactError, Curve, FirstLoadingError, Interface, Move, NormalGiven, Pair, Profile, ProfileError,
+    Row, Segment, Springs,
 };
 
 /// A profile of closed form, its f, the last radius of its table, its kinks.
@@ -150,6 +151,52 @@ fn a_table_ends_at_its_last_point() {
     assert_eq!(error, Err(ContactError::Beyond { d: to.d, reach }));
     assert_eq!(curve, before);
     assert!(table.reduced_energy(2.0 * reach).is_finite() && table.depth_slope(1.0).is_infinite());
+}
+
+#[test]
+fn the_last_point_can_be_used() {
+    let law_points = [(0.0, 0.0), (5e-8, 2e-13), (1e-7, 6e-13)];
+    let [paraboloid, .., truncated] = specimens();
+    for profile in [paraboloid.table(50), truncated.table(60), Profile::normal_law(&law_points).unwrap()] {
+        let reach = profile.reach().unwrap();
+        let law = Interface::new(Pair::from_moduli(1e11, 0.8e11).unwrap(), profile, 0.3).unwrap();
+        let mut given = vec![
+            NormalGiven::Indentation(reach),
+            NormalGiven::Indentation(reach.next_up()),
+            NormalGiven::Force(law.normal_force(reach)),
+            NormalGiven::Force(law.normal_force(reach).next_up()),
+        ];
+        if law.profile().is_strictly_convex() {
+            given.push(NormalGiven::Radius(law.profile().radius(reach)));
+        }
+        for normal in given {
+            let d = normal.indentation(&law).unwrap();
+            assert!(d <= reach && d >= reach * (1.0 - 1e-13), "{normal:?}: {d:e} {reach:e}");
+            let mut curve = Curve::new(&law, Apex::default());
+            assert!(curve.commit(&law, Segment::Straight(Apex { d, u: 0.0 })).is_ok());
+        }
+        let d = reach * (1.0 + 1e-9);
+        let beyond = NormalGiven::Indentation(d).indentation(&law);
+        assert_eq!(beyond, Err(FirstLoadingError::BeyondProfile { d, reach }));
+    }
+}
+
+#[test]
+fn a_row_pressed_beyond_the_points_says_so_and_one_outgrown_before_says_that() {
+    let [paraboloid, ..] = specimens();
+    let table = paraboloid.table(50);
+    let reach = table.reach().unwrap();
+    let law = Interface::new(Pair::from_moduli(1e11, 0.8e11).unwrap(), table, 0.3).unwrap();
+    let to = |d| Segment::Straight(Apex { d, u: 0.0 });
+    let wide = Springs::new(law.profile(), 64, 4.0 * paraboloid.end).unwrap();
+    let narrow = Springs::new(law.profile(), 64, paraboloid.end).unwrap();
+    let (mut row, d) = (Row::new(&wide), 1.01 * reach);
+    assert!(row.commit(&wide, &law, to(reach)).is_ok());
+    assert_eq!(row.commit(&wide, &law, to(d)), Err(ContactError::Beyond { d, reach }));
+    let mut row = Row::new(&narrow);
+    assert_eq!(row.commit(&narrow, &law, to(d)), Err(ContactError::Beyond { d, reach }));
+    let outgrown = row.commit(&narrow, &law, to(0.9 * reach));
+    assert!(matches!(outgrown, Err(ContactError::Outgrown { .. })), "{outgrown:?}");
 }
 
 #[test]

@@ -7,6 +7,7 @@
 use super::Sums;
 use super::kind::{Kind, Peak};
 use super::outline::Outline;
+use crate::ContactError;
 use crate::quadrature::GAUSS;
 
 /// Panels by ascending height, from the height 0 on.
@@ -139,6 +140,15 @@ impl Chart {
             borders,
             outline,
         }
+    }
+
+    /// Fails where an indentation lies beyond the last point.
+    #[inline(never)]
+    pub(super) fn check_end(&self, d: f64) -> Result<(), ContactError> {
+        // What a unit, a waveform at its crest and the inverses of M and g may leave of the last point. There all goes on straight.
+        const ROUNDING: f64 = 1e-12;
+        let reach = self.reach;
+        if d > reach * (1.0 + ROUNDING) { Err(ContactError::Beyond { d, reach }) } else { Ok(()) }
     }
 
     /// The panel of a height and the place in it; none beyond the last.
