@@ -224,7 +224,8 @@ impl Profile {
         }
     }
 
-    /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
+    /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them, a normal law
+    /// where two straight stretches of it meet.
     // Methods of high order see such kinks late: runs with lists came out 20 to 1000 times their tolerance off before anybody
     // asked for this.
     pub fn has_kinks(&self) -> bool {

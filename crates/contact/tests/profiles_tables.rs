@@ -288,6 +288,37 @@ fn a_normal_law_is_met_at_its_points_and_tends_to_the_profile() {
 }
 
 #[test]
+fn the_stiffness_of_a_normal_law_jumps_only_where_two_straight_lines_meet() {
+    // Secants, and whether two pairs of them leave no other way.
+    let cases: [(&[f64], bool); 8] = [
+        (&[1.0, 1.0, 2.0], false),
+        (&[1.0, 2.0, 2.0], false),
+        (&[0.5, 1.0, 1.0, 1.0, 3.0], false),
+        (&[1.0, 1.0, 1.5, 2.0, 2.0], false),
+        (&[1.0, 1.0 + 1e-12, 2.0, 3.0], false),
+        (&[1.0, 5.0], false),
+        (&[1.0, 1.0], false),
+        (&[1.0, 1.0, 2.0, 2.0], true),
+    ];
+    for (secants, has_kinks) in cases {
+        let mut points = vec![(0.0, 0.0)];
+        for (k, secant) in secants.iter().enumerate() {
+            points.push((1.0 + k as f64, points[k].1 + secant));
+        }
+        let law = Profile::normal_law(&points).unwrap();
+        assert_eq!(law.has_kinks(), has_kinks, "{secants:?}");
+        let mut largest = 0.0_f64;
+        for (k, &(h, force)) in points.iter().enumerate().skip(1) {
+            assert!((law.reduced_force(h) / force - 1.0).abs() < 1e-9, "{secants:?} {k}");
+            let beside = [h * (1.0 - 1e-9), h * (1.0 + 1e-9)].map(|h| law.reduced_stiffness(h));
+            largest = largest.max(beside[1] - beside[0]);
+        }
+        // Straight lines as steep as 20 per unit move by 4e-7 at most.
+        assert_eq!(largest > 1e-6, has_kinks, "{secants:?}: {largest:e}");
+    }
+}
+
+#[test]
 fn what_is_no_profile_is_refused() {
     let table = |points: &[(f64, f64)]| Profile::table(points, &[]).unwrap_err();
     assert_eq!(table(&[]), ProfileError::Points(0));
