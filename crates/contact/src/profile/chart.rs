@@ -23,7 +23,7 @@ pub(super) struct Chart {
     last: Sums,
     /// Its height, m.
     reach: f64,
-    /// Radii above 0 at which panels meet, m, ascending.
+    /// Radii above 0 at which a quadrature is to be parted, m, ascending.
     borders: Vec<f64>,
     /// Whether the radius jumps from one panel to the next.
     has_jumps: bool,
@@ -100,8 +100,8 @@ fn solve(c: &[f64; 4], wanted: f64) -> f64 {
 
 impl Chart {
     /// Panels in ascending order, each beginning where the one before ends, the first at the height 0; at least one. Neither
-    /// radius nor height falls, and heights rise.
-    pub(super) fn new(ends: &[Ends], outline: Option<Outline>) -> Self {
+    /// radius nor height falls, and heights rise. `borders` are radii above 0 at which a quadrature is to be parted, m, ascending.
+    pub(super) fn new(ends: &[Ends], borders: Vec<f64>, outline: Option<Outline>) -> Self {
         let (mut force, mut energy) = (0.0, 0.0);
         let panel = |ends: &Ends| {
             let radius = rising_cubic(ends.radius, ends.radius_slope);
@@ -113,8 +113,6 @@ impl Chart {
         };
         let panels: Vec<Panel> = ends.iter().map(panel).collect();
         let (radius, reach) = ends.last().map_or((0.0, 0.0), |ends| (ends.radius[1], ends.height[1]));
-        let mut borders: Vec<f64> = ends.iter().map(|ends| ends.radius[0]).filter(|a| *a > 0.0).collect();
-        borders.dedup();
         // Rounding is no jump.
         let jumps = |pair: &[Ends]| pair[1].radius[0] > pair[0].radius[1] * (1.0 + 1e-6);
         Self {
@@ -168,6 +166,12 @@ impl Chart {
     fn of_radius(&self, a: f64) -> Option<(&Panel, f64)> {
         let panel = self.panels.get(self.ends.partition_point(|end| *end < a))?;
         Some((panel, solve(&panel.radius, a)))
+    }
+
+    /// Number of panels.
+    #[cfg(test)]
+    pub(super) fn count(&self) -> usize {
+        self.panels.len()
     }
 
     /// The shape in three dimensions, where there is one.

@@ -33,7 +33,10 @@ impl Profile {
             }
         }
         panels.retain(|panel| panel.height[0] < panel.height[1]);
-        Ok(Self { shape: Shape::Chart(Arc::new(Chart::new(&panels, None))) })
+        let mut borders: Vec<f64> =
+            panels.iter().map(|panel| panel.radius[0]).filter(|radius| *radius > 0.0).collect();
+        borders.dedup();
+        Ok(Self { shape: Shape::Chart(Arc::new(Chart::new(&panels, borders, None))) })
     }
 }
 
