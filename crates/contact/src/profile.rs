@@ -181,6 +181,11 @@ impl Profile {
         of_kind!(self, kind => kind.peak())
     }
 
+    /// ∫₀ᵃ g'/x dx, dimensionless: the pressure in the middle times π/E\*, where there is a closed form.
+    pub(crate) fn middle_slope_integral(&self, a: f64) -> Option<f64> {
+        of_kind!(self, kind => kind.middle_slope_integral(a))
+    }
+
     /// Height at which the length m (m) is reached, m: g(m/2), with the conventions of [`Self::depth`].
     pub fn height_of_reduced_stiffness(&self, m: f64) -> f64 {
         self.depth(0.5 * m)
