@@ -209,12 +209,7 @@ impl Curve {
             return Ok(0.0);
         }
         // Only here and in no trial: a stepper may look beyond, and go another way.
-        if law.profile().ends_at_a_point()
-            && let Some(reach) = law.profile().reach()
-            && to.d > reach
-        {
-            return Err(ContactError::Beyond { d: to.d, reach });
-        }
+        law.profile().check_end(to.d)?;
         // Before the move: a knot made first would carry the sums of the stack as it was, the error be hidden in a
         // step at the apex and booked again by every later merge.
         while self.knots.len() + KNOTS_PER_MOVE > self.capacity {

@@ -67,7 +67,7 @@ pub struct Field {
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of a contact; none of a list of springs, which has no shape in three dimensions.
+    /// The fields of a contact; none of a list of springs and of a normal law, which have no shape in three dimensions.
     ///
     /// An open contact has fields, which are 0.
     pub fn of(law: &'a Interface, memory: &Memory) -> Option<Self> {

@@ -148,10 +148,17 @@ impl NormalGiven {
                 }
             }
         };
-        match law.profile().reach() {
-            Some(reach) if d >= reach => Err(FirstLoadingError::BeyondProfile { d, reach }),
-            _ => Ok(d),
-        }
+        within(law, d)
+    }
+}
+
+/// An indentation that the profile allows. A sphere stops short of its equator, points are given to be used up to the last.
+fn within(law: &Interface, d: f64) -> Result<f64, FirstLoadingError> {
+    let profile = law.profile();
+    match profile.reach() {
+        Some(reach) if profile.ends_at_a_point() && profile.check_end(d).is_ok() => Ok(d.min(reach)),
+        Some(reach) if d >= reach => Err(FirstLoadingError::BeyondProfile { d, reach }),
+        _ => Ok(d),
     }
 }
 

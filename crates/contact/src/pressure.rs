@@ -1,25 +1,32 @@
 //! The largest normal pressure of a contact.
 
-use crate::Interface;
 use crate::profile::Peak;
 use crate::quadrature::GAUSS;
+use crate::{Interface, Profile};
 use std::f64::consts::PI;
 
-/// Panels of the quadrature, drawn together towards the edge, where the steep profiles are steepest.
-// 4096 change nothing above 5e-13, up to exponents of 40 000 and spheres pressed to 0.9999 of their radius; 16 would do for all
-// but the steepest (5e-14 at n = 4000).
-const PANELS: u32 = 64;
-/// Sections of the search for the largest pressure: each leaves 0.618 of the range.
-// Half of them leave 2e-10 for n = 40 and 4e-4 for n = 40 000, whose hill is narrow; 80 change nothing above 1e-14.
-const SECTIONS: u32 = 48;
+/// Panels of the quadrature over all parts between two borders, drawn together towards both ends of each: the steep profiles are
+/// steepest at the edge, and at a border g' may have a root.
+// 4096 change nothing above 5e-13, up to exponents of 40 000 and spheres pressed to 0.9999 of their radius.
+const PANELS: usize = 64;
+/// Panels of a part at least.
+const FEWEST: usize = 8;
+/// Panels at least for each unit of v, x = r cosh v, of which there are many close to the middle.
+const PER_UNIT: f64 = 4.0;
+/// Places between middle and edge among which the hill is looked for, drawn together towards the edge.
+const PLACES: u32 = 32;
+/// Most borders beside which it is looked for, too: only tables have more than one.
+const MOST: usize = 2;
+/// Sections of the search for the largest pressure beside the highest of the places: each leaves 0.618 of the range.
+const SECTIONS: u32 = 40;
 
 impl Interface {
     /// Largest normal pressure at indentation d, Pa; 0 while the contact is open.
     ///
     /// p(r) = (E\*/π) ∫ᵣᵃ g'(x)/√(x²-r²) dx, the integral of (4.34). For g ~ xⁿ, 1 < n ≤ 2, it is largest in the middle,
-    /// p = E\*d/(πa) n/(n-1), in Hertz' contact 2E\*d/(πa); for n > 2 between middle and edge, where it is searched for
-    /// (relative error below 1e-9). Infinite at the tip of a cone and of anything sharper and at the edge of a flat
-    /// punch; none for a list of springs, which has no shape in three dimensions.
+    /// p = E\*d/(πa) n/(n-1), in Hertz' contact 2E\*d/(πa); for n > 2, sums of powers, rounded edges and tables it is searched for
+    /// between middle and edge (relative error below 1e-9, of a table that of its g' besides). Infinite at the tip of a cone and of anything sharper and at the edge of a flat
+    /// punch; none for a list of springs and a normal law, which have no shape in three dimensions.
     pub fn peak_pressure(&self, d: f64) -> Option<f64> {
         let profile = self.profile();
         let peak = profile.peak()?;
@@ -31,32 +38,75 @@ impl Interface {
         Some(match peak {
             Peak::Unbounded => f64::INFINITY,
             Peak::Middle(n) => mean_slope * n / (n - 1.0),
-            Peak::Between => self.normal_modulus() / PI * largest(|t| self.slope_integral(a, t)),
+            Peak::Between => self.normal_modulus() / PI * self.largest_slope_integral(a),
         })
     }
 
-    /// ∫ᵣᵃ g'(x)/√(x²-r²) dx at r² = ta², by x² = r² + (a²-r²)s²: then √(a²-r²) ∫₀¹ g'(x)/x ds, without singularity.
-    fn slope_integral(&self, a: f64, t: f64) -> f64 {
-        let panel = |k: u32| {
-            let node = |&(x, weight): &(f64, f64)| {
-                let left = 1.0 - (f64::from(k) + 0.5 * (1.0 + x)) / f64::from(PANELS);
-                let s = 1.0 - left.powi(3);
-                let at = a * (t + (1.0 - t) * s * s).sqrt();
-                1.5 / f64::from(PANELS) * weight * left * left * self.profile().depth_slope(at) / at
-            };
-            2.0 * GAUSS.iter().map(node).sum::<f64>()
-        };
-        a * (1.0 - t).sqrt() * (0..PANELS).map(panel).sum::<f64>()
+    /// The largest of ∫ᵣᵃ g'(x)/√(x²-r²) dx over r: in the middle, or on the hill beside the highest of some places.
+    fn largest_slope_integral(&self, a: f64) -> f64 {
+        let profile = self.profile();
+        let at = |r: f64| slope_integral(profile, a, r);
+        // Some of the places at a border and beside it: an edge that is rounded lifts the pressure there, however far inside it is.
+        let beside = |border: &f64| [0.7, 0.95, 1.0, 1.05, 1.3].map(|share| share * border);
+        let even = (1..PLACES).map(|k| a * (1.0 - (f64::from(k) / f64::from(PLACES)).powi(4)).sqrt());
+        let mut places: Vec<f64> = profile.borders().iter().take(MOST).flat_map(beside).chain(even).collect();
+        places.retain(|r| *r > 0.0 && *r < a);
+        places.sort_by(f64::total_cmp);
+        places.insert(0, 0.0);
+        let values: Vec<f64> = places.iter().map(|r| at(*r)).collect();
+        let highest = (0..values.len()).fold(0, |best, i| if values[i] > values[best] { i } else { best });
+        let from = places[highest.saturating_sub(1)];
+        let to = places.get(highest + 1).copied().unwrap_or(a);
+        largest([from, to], at).max(values[highest])
     }
 }
 
-/// Largest value on [0, 1] of a function with one hill, by golden sections.
-fn largest(f: impl Fn(f64) -> f64) -> f64 {
+/// ∫ᵣᵃ g'(x)/√(x²-r²) dx, in parts between the borders of the profile.
+fn slope_integral(profile: &Profile, a: f64, r: f64) -> f64 {
+    if r == 0.0
+        && let Some(middle) = profile.middle_slope_integral(a)
+    {
+        return middle;
+    }
+    let inside = profile.borders().iter().copied().filter(|border| *border > r && *border < a);
+    let ends: Vec<f64> = std::iter::once(r).chain(inside).chain([a]).collect();
+    let panels = (PANELS / (ends.len() - 1)).max(FEWEST);
+    let part = |pair: &[f64]| {
+        let (from, to) = (pair[0], pair[1]);
+        if r == 0.0 {
+            return graded([from, to], panels, |x| profile.depth_slope(x) / x);
+        }
+        // x = r cosh v takes the root away, however small r is.
+        let angle = |x: f64| (((x - r) * (x + r)).sqrt() / r).asinh();
+        let range = [angle(from), angle(to)];
+        let panels = panels.max((PER_UNIT * (range[1] - range[0])).ceil() as usize);
+        graded(range, panels, |v| profile.depth_slope((r * v.cosh()).clamp(from, to)))
+    };
+    ends.windows(2).map(part).sum()
+}
+
+/// ∫f over a range in panels drawn together towards both its ends, by s = y³(10-15y+6y²).
+fn graded([from, to]: [f64; 2], panels: usize, f: impl Fn(f64) -> f64) -> f64 {
+    let panel = |k: usize| {
+        let node = |&(x, weight): &(f64, f64)| {
+            let y = (k as f64 + 0.5 * (1.0 + x)) / panels as f64;
+            // From the end that is nearer, so that no digit of the distance is lost.
+            let rest = 1.0 - y;
+            let s = |y: f64| y * y * y * (10.0 - y * (15.0 - 6.0 * y));
+            let at = if y < 0.5 { from + (to - from) * s(y) } else { to - (to - from) * s(rest) };
+            30.0 * y * y * rest * rest * weight * f(at)
+        };
+        GAUSS.iter().map(node).sum::<f64>()
+    };
+    (to - from) * (0..panels).map(panel).sum::<f64>() / panels as f64
+}
+
+/// Largest value in a range of a function with one hill in it, by golden sections.
+fn largest([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let (mut from, mut to) = (0.0, 1.0);
-    let (mut left, mut right) = (1.0 - GOLDEN, GOLDEN);
+    let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
     let (mut at_left, mut at_right) = (f(left), f(right));
-    let mut best = f(0.0).max(at_left).max(at_right);
+    let mut best = at_left.max(at_right);
     for _ in 0..SECTIONS {
         if at_left >= at_right {
             (to, right, at_right) = (right, left, at_left);
@@ -74,6 +124,7 @@ fn largest(f: impl Fn(f64) -> f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use crate::profile::kappa;
     use crate::{Interface, Pair, Profile};
     use std::f64::consts::PI;
 
@@ -96,6 +147,111 @@ mod tests {
             peak(Profile::power(5.0, 6.0).unwrap(), 1e-4),
             (1.0 - t).sqrt() * 0.4 * (3.0 + 4.0 * t + 8.0 * t * t),
         );
+    }
+
+    /// p(0)π/E\* of g = xⁿ + x²/1000 pressed to a = 1, and of the largest p.
+    #[test]
+    fn sums_of_powers_have_theirs() {
+        let law = |terms: &[(f64, f64)]| {
+            let terms: Vec<(f64, f64)> = terms.iter().map(|(b, n)| (b / kappa(*n), *n)).collect();
+            let profile = Profile::powers(&terms).unwrap();
+            Interface::new(Pair::from_moduli(PI, 2.0).unwrap(), profile, 0.3).unwrap()
+        };
+        let peak = |terms: &[(f64, f64)]| {
+            let law = law(terms);
+            law.peak_pressure(law.profile().depth(1.0)).unwrap()
+        };
+        let close = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-9, "{got}, {want}");
+        // Σ n/(n-1) B aⁿ⁻¹: largest in the middle, where no exponent is above 2.
+        for n in [1.01, 1.2, 1.5, 1.9, 2.0] {
+            close(peak(&[(1.0, n), (1e-3, 2.0)]), n / (n - 1.0) + 2e-3);
+        }
+        close(peak(&[(1.0, 1.2), (1.0, 1.5), (1.0, 2.0)]), 11.0);
+        // x² and x⁶: √(1-t) [2 + 6((1-t)²/5 + 2t(1-t)/3 + t²)], t = r². A hill of its own beside one in the middle.
+        let of_six = |t: f64| 6.0 * ((1.0 - t) * (1.0 - t) / 5.0 + 2.0 * t * (1.0 - t) / 3.0 + t * t);
+        for six in [0.05, 0.3, 1.0, 10.0] {
+            let at = |k: u32| {
+                let t = f64::from(k) / 1e6;
+                (1.0 - t).sqrt() * (2.0 + six * of_six(t))
+            };
+            close(peak(&[(1.0, 2.0), (six, 6.0)]), (0..1_000_000).map(at).fold(0.0, f64::max));
+        }
+        // In the middle x^1.2 alone has its cusp of 6, the hill of 10x⁶ outside is higher or not.
+        let six = (0..1_000_000)
+            .map(|k| f64::from(k) / 1e6)
+            .map(|t| (1.0 - t).sqrt() * of_six(t))
+            .fold(0.0, f64::max);
+        close(peak(&[(1.0, 1.2), (1e-9, 6.0)]), 6.0 + 1.2e-9);
+        let both = peak(&[(1.0, 1.2), (10.0, 6.0)]);
+        assert!(both > 10.0 * six && both < 10.0 * six + 6.0 && both > 18.0, "{both}, {six}");
+        assert_eq!(peak(&[(1e-6, 1.0), (1.0, 2.0)]), f64::INFINITY);
+    }
+
+    /// The largest value of a function on [0, 1] with one hill, by looking closer and closer.
+    fn highest(f: impl Fn(f64) -> f64) -> f64 {
+        let (mut from, mut to) = (0.0, 1.0);
+        for _ in 0..5 {
+            let at = |k: u32| from + (to - from) * f64::from(k) / 100.0;
+            let k = (1..100).max_by(|i, k| f(at(*i)).total_cmp(&f(at(*k)))).unwrap();
+            (from, to) = (at(k - 1), at(k + 1));
+        }
+        f(0.5 * (from + to))
+    }
+
+    #[test]
+    fn a_rounded_edge_has_its_own() {
+        // R = 1: g' = 2w - b arctan(w/b), w² = x²-b²; beyond r by x² = r²+s², inside b by x² = b²+s², each with Simpson's rule
+        // over s = z³(10-15z+6z²), which makes the root at b smooth.
+        let b = 0.1_f64;
+        for a in [0.101, 0.12, 0.2, 1.0, 5.0] {
+            let pressure = |share: f64| {
+                let r = share * a;
+                let low = r.max(b);
+                let span = ((a - low) * (a + low)).sqrt();
+                let f = |z: f64| {
+                    let s = span * z * z * z * (10.0 - z * (15.0 - 6.0 * z));
+                    let rate = 30.0 * span * z * z * (1.0 - z) * (1.0 - z);
+                    let x = low.hypot(s);
+                    let w = (((low - b) * (low + b)) + s * s).sqrt();
+                    let root = (((low - r) * (low + r)) + s * s).sqrt();
+                    if root == 0.0 { 0.0 } else { (2.0 * w - b * (w / b).atan()) * s / (x * root) * rate }
+                };
+                let n = 4000;
+                let weight = |k: u32| f64::from([2, 4][k as usize % 2]);
+                (1..n).map(|k| weight(k) * f(f64::from(k) / f64::from(n))).sum::<f64>() / (3.0 * f64::from(n))
+            };
+            let profile = Profile::rounded_flat(b, 1.0).unwrap();
+            let law = Interface::new(Pair::from_moduli(PI, 2.0).unwrap(), profile, 0.3).unwrap();
+            let (got, want) = (law.peak_pressure(law.profile().depth(a)).unwrap(), highest(pressure));
+            assert!((got / want - 1.0).abs() < 1e-9, "{a}: {got}, {want}");
+        }
+    }
+
+    #[test]
+    fn a_table_of_a_ball_has_the_pressure_of_the_ball() {
+        let table = |cells: u32, end: f64, f: fn(f64) -> f64, kinks: &[f64]| {
+            let at = |k: u32| end * f64::from(k) / f64::from(cells);
+            let points: Vec<(f64, f64)> = (0..=cells).map(|k| (at(k), f(at(k)))).collect();
+            Profile::table(&points, kinks).unwrap()
+        };
+        for cells in 2..=200 {
+            let profile = table(cells, 4e-4, |r| r * r / 0.01, &[]);
+            let ratio = peak(profile, 7e-6);
+            assert!((ratio - 2.0).abs() < 1e-9, "{cells}: {ratio}");
+        }
+        // A kink that is none, and a profile that cubics do not follow.
+        let kink = 4e-4 * 30.0 / 60.0;
+        assert!((peak(table(60, 4e-4, |r| r * r / 0.01, &[kink]), 7e-6) - 2.0).abs() < 1e-9);
+        let sphere = peak(Profile::sphere(1.0).unwrap(), 0.1);
+        for cells in [10, 20, 50, 200] {
+            let ratio = peak(table(cells, 0.5, |r| 1.0 - (1.0 - r * r).sqrt(), &[]), 0.1);
+            let within = 0.1 / f64::from(cells * cells);
+            assert!((ratio / sphere - 1.0).abs() < within, "{cells}: {ratio}, {sphere}");
+        }
+        // A tip is one, and an edge.
+        assert_eq!(peak(table(60, 1.0, |r| r, &[]), 0.1), f64::INFINITY);
+        assert_eq!(peak(table(60, 1.0, |r| 1e-3 * r + r * r, &[]), 0.1), f64::INFINITY);
+        assert_eq!(peak(table(10, 1.0, |r| (r - 0.3).max(0.0), &[0.3]), 0.1), f64::INFINITY);
     }
 
     #[test]

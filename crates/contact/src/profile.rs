@@ -27,6 +27,7 @@ pub(crate) use kappa::kappa;
 pub(crate) use kind::Peak;
 pub use self_affine::{RoughnessError, SelfAffine};
 
+use crate::ContactError;
 use crate::quadrature::GAUSS;
 use chart::Chart;
 use flat::Flat;
@@ -180,6 +181,11 @@ impl Profile {
         of_kind!(self, kind => kind.peak())
     }
 
+    /// ∫₀ᵃ g'/x dx, dimensionless: the pressure in the middle times π/E\*, where there is a closed form.
+    pub(crate) fn middle_slope_integral(&self, a: f64) -> Option<f64> {
+        of_kind!(self, kind => kind.middle_slope_integral(a))
+    }
+
     /// Height at which the length m (m) is reached, m: g(m/2), with the conventions of [`Self::depth`].
     pub fn height_of_reduced_stiffness(&self, m: f64) -> f64 {
         self.depth(0.5 * m)
@@ -214,7 +220,17 @@ impl Profile {
         matches!(self.shape, Shape::Chart(_))
     }
 
-    /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them.
+    /// Fails where an indentation lies beyond the last of the points that it is given by.
+    #[inline]
+    pub(crate) fn check_end(&self, d: f64) -> Result<(), ContactError> {
+        match &self.shape {
+            Shape::Chart(chart) => chart.check_end(d),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them, a normal law
+    /// where two straight stretches of it meet.
     // Methods of high order see such kinks late: runs with lists came out 20 to 1000 times their tolerance off before anybody
     // asked for this.
     pub fn has_kinks(&self) -> bool {
@@ -252,9 +268,12 @@ impl Profile {
         of_kind!(self, kind => kind.punch())
     }
 
-    /// Whether it is a list of springs, which has no shape in three dimensions.
-    pub fn is_list(&self) -> bool {
-        self.as_foundation().is_some()
+    /// Whether it has a shape in three dimensions, and so a gap, a pressure and fields: all but lists of springs and normal laws, of
+    /// which nothing but the forces is known.
+    // A normal law has a foundation, and Abel's inversion makes of it the one axisymmetric shape that it could belong to. No one has
+    // said that the contact is axisymmetric.
+    pub fn has_shape(&self) -> bool {
+        self.peak().is_some()
     }
 
     /// The foundation, where it is given spring by spring.

@@ -142,7 +142,7 @@ impl Row {
     ///
     /// # Errors
     ///
-    /// If the end is not finite or outgrows the row; the state is then untouched.
+    /// If the end is not finite, outgrows the row or lies beyond the points of its profile; the state is then untouched.
     pub fn commit(
         &mut self,
         springs: &Springs,
@@ -153,6 +153,7 @@ impl Row {
         if !(to.d.is_finite() && to.u.is_finite()) {
             return Err(ContactError::NotFinite { d: to.d, u: to.u });
         }
+        law.profile().check_end(to.d)?;
         if to.d > springs.reach() {
             return Err(ContactError::Outgrown { d: to.d, reach: springs.reach() });
         }

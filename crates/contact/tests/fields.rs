@@ -278,8 +278,6 @@ fn walk(law: &Interface, memory: &mut Memory, depth: f64, corners: usize, random
 fn every_other_profile_has_fields_by_quadrature_that_add_up() {
     // What is a root at a worn edge, kinked at a node, sharp at a tip: ∫p = F_N, ∫τ = F_x, u and w by (4.25), w = d - f inside.
     let table: Vec<(f64, f64)> = (0..=12).map(|k| f64::from(k) / 12.0).map(|r| (r, r * r / 3.0)).collect();
-    let law_points: Vec<(f64, f64)> =
-        (0..=10).map(|k| f64::from(k) / 10.0).map(|d| (d, d.powf(1.5))).collect();
     let profiles = [
         ("truncated cone", Profile::truncated_cone(0.2, 0.5), 1e-9),
         ("truncated paraboloid", Profile::truncated_paraboloid(0.2, 1.5), 1e-9),
@@ -287,7 +285,6 @@ fn every_other_profile_has_fields_by_quadrature_that_add_up() {
         ("tipped paraboloid", Profile::tipped_paraboloid(1.5, 0.2), 1e-9),
         ("powers", Profile::powers(&[(0.3, 1.0), (0.2, 2.5), (1.0, 6.0)]), 1e-9),
         ("table", Profile::table(&table, &[]), 1e-8),
-        ("normal law", Profile::normal_law(&law_points), 1e-6),
     ];
     for (name, profile, within) in profiles {
         let law = interface(profile.unwrap(), 0.4);
@@ -404,6 +401,23 @@ fn nothing_that_is_told_is_not_a_number() {
             }
         }
     }
+}
+
+#[test]
+fn what_has_no_shape_has_no_fields() {
+    let points: Vec<(f64, f64)> = (0..=10).map(|k| f64::from(k) / 10.0).map(|d| (d, d.powf(1.5))).collect();
+    let shapeless = [
+        Profile::normal_law(&points),
+        Profile::foundation(&[0.0, 0.1], &[0.5, 0.5]),
+        Profile::rough(&[0.0, 0.1, 0.05], 0.5),
+    ];
+    for profile in shapeless {
+        let law = interface(profile.unwrap(), 0.4);
+        let memory = pushed(&law, 0.5, &[0.1]);
+        assert!(!law.profile().has_shape() && law.peak_pressure(0.5).is_none());
+        assert!(Fields::of(&law, &memory).is_none(), "{:?}", law.profile());
+    }
+    assert!(Profile::flat(0.1).unwrap().has_shape() && Profile::cone(0.1).unwrap().has_shape());
 }
 
 #[test]

@@ -74,6 +74,15 @@ fn a_line_is_the_foundation_of_what_each_height_lacks_of_the_highest() {
     assert!((flat.reduced_force(1e-9) / 7e-15 - 1.0).abs() < 1e-14);
 }
 
+#[test]
+fn a_line_of_as_many_points_as_are_made_is_a_profile() {
+    let points = SelfAffine::MAX_POINTS;
+    let heights = SelfAffine { points, ..LINE }.heights().unwrap();
+    let rough = Profile::rough(&heights, LINE.length / points as f64).unwrap();
+    // Pressed flat it is as long as the line.
+    assert!((rough.reduced_stiffness(1.0) / LINE.length - 1.0).abs() < 1e-13);
+}
+
 const LINE: SelfAffine = SelfAffine {
     rms: 20e-9,
     hurst: 0.8,
@@ -139,5 +148,5 @@ fn what_is_no_line_is_refused() {
     assert_eq!(Profile::rough(&[0.0], f64::INFINITY), Err(ProfileError::Spacing(f64::INFINITY)));
     assert!(matches!(Profile::rough(&[0.0, f64::NAN], 1.0), Err(ProfileError::LineHeight { .. })));
     let many = vec![0.0; Profile::MAX_HEIGHTS + 1];
-    assert_eq!(Profile::rough(&many, 1.0), Err(ProfileError::TooManyHeights(1_000_001)));
+    assert_eq!(Profile::rough(&many, 1.0), Err(ProfileError::TooManyHeights(1_048_577)));
 }

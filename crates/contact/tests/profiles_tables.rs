@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use stickslip_contact::{
-    Apex, ContactError, Curve, Interface, Move, Pair, Profile, ProfileError, Row, Segment, Springs,
+    Apex, ContactError, Curve, FirstLoadingError, Interface, Move, NormalGiven, Pair, Profile, ProfileError,
+    Row, Segment, Springs,
 };
 
 /// A profile of closed form, its f, the last radius of its table, its kinks.
@@ -153,6 +154,52 @@ fn a_table_ends_at_its_last_point() {
 }
 
 #[test]
+fn the_last_point_can_be_used() {
+    let law_points = [(0.0, 0.0), (5e-8, 2e-13), (1e-7, 6e-13)];
+    let [paraboloid, .., truncated] = specimens();
+    for profile in [paraboloid.table(50), truncated.table(60), Profile::normal_law(&law_points).unwrap()] {
+        let reach = profile.reach().unwrap();
+        let law = Interface::new(Pair::from_moduli(1e11, 0.8e11).unwrap(), profile, 0.3).unwrap();
+        let mut given = vec![
+            NormalGiven::Indentation(reach),
+            NormalGiven::Indentation(reach.next_up()),
+            NormalGiven::Force(law.normal_force(reach)),
+            NormalGiven::Force(law.normal_force(reach).next_up()),
+        ];
+        if law.profile().is_strictly_convex() {
+            given.push(NormalGiven::Radius(law.profile().radius(reach)));
+        }
+        for normal in given {
+            let d = normal.indentation(&law).unwrap();
+            assert!(d <= reach && d >= reach * (1.0 - 1e-13), "{normal:?}: {d:e} {reach:e}");
+            let mut curve = Curve::new(&law, Apex::default());
+            assert!(curve.commit(&law, Segment::Straight(Apex { d, u: 0.0 })).is_ok());
+        }
+        let d = reach * (1.0 + 1e-9);
+        let beyond = NormalGiven::Indentation(d).indentation(&law);
+        assert_eq!(beyond, Err(FirstLoadingError::BeyondProfile { d, reach }));
+    }
+}
+
+#[test]
+fn a_row_pressed_beyond_the_points_says_so_and_one_outgrown_before_says_that() {
+    let [paraboloid, ..] = specimens();
+    let table = paraboloid.table(50);
+    let reach = table.reach().unwrap();
+    let law = Interface::new(Pair::from_moduli(1e11, 0.8e11).unwrap(), table, 0.3).unwrap();
+    let to = |d| Segment::Straight(Apex { d, u: 0.0 });
+    let wide = Springs::new(law.profile(), 64, 4.0 * paraboloid.end).unwrap();
+    let narrow = Springs::new(law.profile(), 64, paraboloid.end).unwrap();
+    let (mut row, d) = (Row::new(&wide), 1.01 * reach);
+    assert!(row.commit(&wide, &law, to(reach)).is_ok());
+    assert_eq!(row.commit(&wide, &law, to(d)), Err(ContactError::Beyond { d, reach }));
+    let mut row = Row::new(&narrow);
+    assert_eq!(row.commit(&narrow, &law, to(d)), Err(ContactError::Beyond { d, reach }));
+    let outgrown = row.commit(&narrow, &law, to(0.9 * reach));
+    assert!(matches!(outgrown, Err(ContactError::Outgrown { .. })), "{outgrown:?}");
+}
+
+#[test]
 fn uneven_points_and_hidden_flats_are_no_trouble() {
     // A worn ball by points that crowd at its edge, twice as dense from cell to cell.
     let mut points = vec![(0.0, 0.0), (0.5 * FLAT, 0.0), (FLAT, 0.0)];
@@ -238,6 +285,37 @@ fn a_normal_law_is_met_at_its_points_and_tends_to_the_profile() {
     let flat = Profile::normal_law(&[(0.0, 0.0), (1e-6, 4e-9), (2e-6, 8e-9)]).unwrap();
     assert_eq!((flat.radius(5e-7), flat.depth(1e-3), flat.is_strictly_convex()), (2e-3, 0.0, false));
     assert!((flat.reduced_energy(1.5e-6) / (0.5 * 4e-3 * 1.5e-6 * 1.5e-6) - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn the_stiffness_of_a_normal_law_jumps_only_where_two_straight_lines_meet() {
+    // Secants, and whether two pairs of them leave no other way.
+    let cases: [(&[f64], bool); 8] = [
+        (&[1.0, 1.0, 2.0], false),
+        (&[1.0, 2.0, 2.0], false),
+        (&[0.5, 1.0, 1.0, 1.0, 3.0], false),
+        (&[1.0, 1.0, 1.5, 2.0, 2.0], false),
+        (&[1.0, 1.0 + 1e-12, 2.0, 3.0], false),
+        (&[1.0, 5.0], false),
+        (&[1.0, 1.0], false),
+        (&[1.0, 1.0, 2.0, 2.0], true),
+    ];
+    for (secants, has_kinks) in cases {
+        let mut points = vec![(0.0, 0.0)];
+        for (k, secant) in secants.iter().enumerate() {
+            points.push((1.0 + k as f64, points[k].1 + secant));
+        }
+        let law = Profile::normal_law(&points).unwrap();
+        assert_eq!(law.has_kinks(), has_kinks, "{secants:?}");
+        let mut largest = 0.0_f64;
+        for (k, &(h, force)) in points.iter().enumerate().skip(1) {
+            assert!((law.reduced_force(h) / force - 1.0).abs() < 1e-9, "{secants:?} {k}");
+            let beside = [h * (1.0 - 1e-9), h * (1.0 + 1e-9)].map(|h| law.reduced_stiffness(h));
+            largest = largest.max(beside[1] - beside[0]);
+        }
+        // Straight lines as steep as 20 per unit move by 4e-7 at most.
+        assert_eq!(largest > 1e-6, has_kinks, "{secants:?}: {largest:e}");
+    }
 }
 
 #[test]

@@ -103,7 +103,8 @@ fn files(
     let (mut pictures, mut notes) = (Vec::new(), Vec::new());
     if !sheet.constants.axisymmetric {
         notes.push(
-            "a list of springs has no shape in three dimensions: no fields, no map of friction".to_owned(),
+            "a list of springs or a normal law has no shape in three dimensions: no fields, no map of friction"
+                .to_owned(),
         );
     }
     for drawn in theory::draw(subject, &sheet, walk, (&arguments.look.look(), arguments.animate)) {

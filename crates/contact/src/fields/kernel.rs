@@ -26,9 +26,9 @@ pub(super) enum Kernel<'a> {
 }
 
 impl<'a> Kernel<'a> {
-    /// Of a profile; none for a list of springs, which has no shape in three dimensions.
+    /// Of a profile; none for a list of springs and a normal law, which have no shape in three dimensions.
     pub(super) fn of(profile: &'a Profile) -> Option<Self> {
-        if profile.as_foundation().is_some() {
+        if !profile.has_shape() {
             return None;
         }
         Some(match (profile.exponent(), profile.punch()) {

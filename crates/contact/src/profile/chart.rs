@@ -6,7 +6,9 @@
 
 use super::Sums;
 use super::kind::{Kind, Peak};
+use super::newton::between;
 use super::outline::Outline;
+use crate::ContactError;
 use crate::quadrature::GAUSS;
 
 /// Panels by ascending height, from the height 0 on.
@@ -21,8 +23,10 @@ pub(super) struct Chart {
     last: Sums,
     /// Its height, m.
     reach: f64,
-    /// Radii above 0 at which panels meet, m, ascending.
+    /// Radii above 0 at which a quadrature is to be parted, m, ascending.
     borders: Vec<f64>,
+    /// Whether the radius jumps from one panel to the next.
+    has_jumps: bool,
     /// The shape in three dimensions, where there is one.
     outline: Option<Outline>,
 }
@@ -85,38 +89,19 @@ fn integral<const P: usize, const I: usize>(start: f64, factor: f64, p: &[f64; P
 
 /// The s in [0, 1] at which a rising cubic takes a value between those at its ends.
 fn solve(c: &[f64; 4], wanted: f64) -> f64 {
-    // Newton's method inside a bracket: seldom more than four steps, and halves where a slope is none.
-    const STEPS: usize = 80;
     let rise = wanted - c[0];
     if rise <= 0.0 {
         return 0.0;
     }
     // Of the parabola: the cubic's part is small in a panel.
     let guess = 2.0 * rise / (c[1] + (c[1] * c[1] + 4.0 * c[2] * rise).max(0.0).sqrt());
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut s = if guess > 0.0 && guess < 1.0 { guess } else { 0.5 };
-    for _ in 0..STEPS {
-        let error = ((c[3] * s + c[2]) * s + c[1]) * s - rise;
-        if error > 0.0 {
-            high = s;
-        } else {
-            low = s;
-        }
-        let next = s - error / slope(c, s);
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        let step = (next - s).abs();
-        s = next;
-        if step <= 2.0 * f64::EPSILON * s {
-            break;
-        }
-    }
-    s
+    between(guess, |s| (((c[3] * s + c[2]) * s + c[1]) * s - rise, slope(c, s)))
 }
 
 impl Chart {
     /// Panels in ascending order, each beginning where the one before ends, the first at the height 0; at least one. Neither
-    /// radius nor height falls, and heights rise.
-    pub(super) fn new(ends: &[Ends], outline: Option<Outline>) -> Self {
+    /// radius nor height falls, and heights rise. `borders` are radii above 0 at which a quadrature is to be parted, m, ascending.
+    pub(super) fn new(ends: &[Ends], borders: Vec<f64>, outline: Option<Outline>) -> Self {
         let (mut force, mut energy) = (0.0, 0.0);
         let panel = |ends: &Ends| {
             let radius = rising_cubic(ends.radius, ends.radius_slope);
@@ -128,9 +113,10 @@ impl Chart {
         };
         let panels: Vec<Panel> = ends.iter().map(panel).collect();
         let (radius, reach) = ends.last().map_or((0.0, 0.0), |ends| (ends.radius[1], ends.height[1]));
-        let mut borders: Vec<f64> = ends.iter().map(|ends| ends.radius[0]).filter(|a| *a > 0.0).collect();
-        borders.dedup();
+        // Rounding is no jump.
+        let jumps = |pair: &[Ends]| pair[1].radius[0] > pair[0].radius[1] * (1.0 + 1e-6);
         Self {
+            has_jumps: ends.windows(2).any(jumps),
             heights: ends.iter().map(|ends| ends.height[0]).collect(),
             ends: ends.iter().map(|ends| ends.radius[1]).collect(),
             panels,
@@ -139,6 +125,15 @@ impl Chart {
             borders,
             outline,
         }
+    }
+
+    /// Fails where an indentation lies beyond the last point.
+    #[inline(never)]
+    pub(super) fn check_end(&self, d: f64) -> Result<(), ContactError> {
+        // What a unit, a waveform at its crest and the inverses of M and g may leave of the last point. There all goes on straight.
+        const ROUNDING: f64 = 1e-12;
+        let reach = self.reach;
+        if d > reach * (1.0 + ROUNDING) { Err(ContactError::Beyond { d, reach }) } else { Ok(()) }
     }
 
     /// The panel of a height and the place in it; none beyond the last.
@@ -173,6 +168,12 @@ impl Chart {
         Some((panel, solve(&panel.radius, a)))
     }
 
+    /// Number of panels.
+    #[cfg(test)]
+    pub(super) fn count(&self) -> usize {
+        self.panels.len()
+    }
+
     /// The shape in three dimensions, where there is one.
     pub(super) fn outline(&self) -> Option<&Outline> {
         self.outline.as_ref()
@@ -200,28 +201,15 @@ impl Kind for Chart {
 
     /// By halves among the panels and then in one of them: dM/ds = 2a dh/ds.
     fn height_of_reduced_force(&self, force: f64) -> f64 {
-        const STEPS: usize = 80;
         if force >= self.last.reduced_force {
             return self.reach + (force - self.last.reduced_force) / self.last.reduced_stiffness;
         }
         let index = self.panels.partition_point(|panel| panel.force[0] <= force).max(1) - 1;
         let Panel { radius, height, force: c, .. } = &self.panels[index];
-        let (mut low, mut high, mut s) = (0.0, 1.0, 0.5);
-        for _ in 0..STEPS {
+        let s = between(0.5, |s| {
             let error = c[1..].iter().rev().fold(0.0, |sum, c| (sum + c) * s) - (force - c[0]);
-            if error > 0.0 {
-                high = s;
-            } else {
-                low = s;
-            }
-            let next = s - error / (2.0 * value(radius, s) * slope(height, s));
-            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-            let step = (next - s).abs();
-            s = next;
-            if step <= 2.0 * f64::EPSILON * s {
-                break;
-            }
-        }
+            (error, 2.0 * value(radius, s) * slope(height, s))
+        });
         value(height, s)
     }
 
@@ -255,6 +243,10 @@ impl Kind for Chart {
         let starts = self.panels.first().is_some_and(|panel| panel.radius[0] == 0.0);
         let rises = |end: &f64| *end > std::mem::replace(&mut before, *end);
         starts && self.ends.iter().all(rises)
+    }
+
+    fn has_kinks(&self) -> bool {
+        self.has_jumps
     }
 
     fn reach(&self) -> Option<f64> {

@@ -39,6 +39,11 @@ pub(super) trait Kind {
     /// Where its pressure is largest; none without a shape in three dimensions.
     fn peak(&self) -> Option<Peak>;
 
+    /// ∫₀ᵃ g'/x dx, where there is a closed form.
+    fn middle_slope_integral(&self, _a: f64) -> Option<f64> {
+        None
+    }
+
     /// Whether each contact radius belongs to one indentation only.
     fn is_strictly_convex(&self) -> bool;
 

@@ -33,7 +33,10 @@ impl Profile {
             }
         }
         panels.retain(|panel| panel.height[0] < panel.height[1]);
-        Ok(Self { shape: Shape::Chart(Arc::new(Chart::new(&panels, None))) })
+        let mut borders: Vec<f64> =
+            panels.iter().map(|panel| panel.radius[0]).filter(|radius| *radius > 0.0).collect();
+        borders.dedup();
+        Ok(Self { shape: Shape::Chart(Arc::new(Chart::new(&panels, borders, None))) })
     }
 }
 
@@ -77,9 +80,31 @@ fn secants(points: &[(f64, f64)]) -> Result<Vec<f64>, ProfileError> {
     Ok(secants)
 }
 
-/// Stiffness at each point, m: of the parabola through its neighbours, which lies between the secants beside it.
+/// Two secants that differ by no more are one: points in a straight line, but for their digits.
+const ALIKE: f64 = 1e-9;
+
+/// Whether three points lie in a straight line, so that the stiffness is their secant throughout: any other that never falls would
+/// miss a point.
+fn are_alike(left: f64, right: f64) -> bool {
+    right - left <= ALIKE * right
+}
+
+/// Stiffness at each point, m: of the parabola through its neighbours, which lies between the secants beside it; at an end of a
+/// straight line the secant of that.
+// Where two straight lines meet no stiffness is both: there it jumps, and whoever steps over it is told so.
 fn stiffnesses(points: &[(f64, f64)], secants: &[f64]) -> Vec<f64> {
+    let is_straight = |cell: usize| {
+        let own = secants[cell];
+        cell > 0 && are_alike(secants[cell - 1], own)
+            || secants.get(cell + 1).is_some_and(|next| are_alike(own, *next))
+    };
     let inner = secants.windows(2).enumerate().map(|(i, pair)| {
+        if is_straight(i) {
+            return pair[0];
+        }
+        if is_straight(i + 1) {
+            return pair[1];
+        }
         let (left, right) = (points[i + 1].0 - points[i].0, points[i + 2].0 - points[i + 1].0);
         (pair[0] + (pair[1] - pair[0]) * (left / (left + right))).clamp(pair[0], pair[1])
     });

@@ -18,12 +18,21 @@ pub(super) struct Outline {
     slopes: Vec<[f64; 2]>,
     /// Indices of the points at which f has a kink, ascending, neither end among them.
     kinks: Vec<usize>,
+    /// How far g may be off at the points, m.
+    error: f64,
 }
 
 /// Points of the polynomial whose slope is taken.
 // With 200 points three leave g of a sphere up to a/R = 1/2 off by 3e-7 of its last value, five by 1.3e-10; seven gain nothing, for
 // between the points f is a cubic.
 const STENCIL: usize = 5;
+
+/// What a slope is at most, of the mean slope, that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Share of a slope in the middle, or of its jump, by which every second point alone would have it otherwise where the points do not
+/// hold it: r^{4/3} and smoother, and what is left of the cubics' error.
+const FADES: f64 = 0.25;
 
 impl Outline {
     /// Through points (r, f), m, with kinks at some of them.
@@ -42,7 +51,36 @@ impl Outline {
         at.sort_unstable();
         at.dedup();
         let slopes = slopes(&radii, &gaps, &at);
-        Ok(Self { radii, gaps, slopes, kinks: at })
+        let mut outline = Self { radii, gaps, slopes, kinks: at, error: 0.0 };
+        let thinned = outline.thinned();
+        outline.smooth(&thinned);
+        outline.error = outline.distance(&thinned);
+        Ok(outline)
+    }
+
+    /// Takes tips and edges away that are not in the points but in what is made of them: slopes that are rounding, or that every second
+    /// point would have quite different.
+    // Left in, they are no more than the error of g, but a pressure without bound: that of a table of r²/2R at every second distance of
+    // points, and of a sphere's at most.
+    fn smooth(&mut self, thinned: &Self) {
+        let mean = self.gaps[self.gaps.len() - 1] / self.radii[self.radii.len() - 1];
+        // Of rⁿ half the distance takes 2ⁿ⁻¹ from the slope, of a tip it leaves what is there.
+        let fades =
+            |own: f64, coarse: f64| own.abs() <= ROUNDING * mean || (coarse - own).abs() >= FADES * own.abs();
+        let (_, secant, [tip, _]) = self.cell(0);
+        // Where the points bend down from the first, or not at all, it is a tip they show.
+        if tip < 0.5 * secant && fades(tip, thinned.slopes[0][0]) {
+            self.slopes[0][0] = 0.0;
+        }
+        for i in 0..self.kinks.len() {
+            let kink = self.kinks[i];
+            let coarse = thinned.kinks.get(i).map_or(0.0, |kink| thinned.jump(*kink));
+            if fades(self.jump(kink), coarse) {
+                let limit = 3.0 * self.cell(kink - 1).1.min(self.cell(kink).1);
+                let slope = (0.5 * (self.slopes[kink - 1][1] + self.slopes[kink][0])).min(limit);
+                (self.slopes[kink - 1][1], self.slopes[kink][0]) = (slope, slope);
+            }
+        }
     }
 
     /// The same through every second point between two kinks.
@@ -57,7 +95,7 @@ impl Outline {
         let (radii, gaps): (Vec<f64>, Vec<f64>) = kept.iter().map(|&i| (self.radii[i], self.gaps[i])).unzip();
         let kinks: Vec<usize> = self.kinks.iter().filter_map(|kink| kept.binary_search(kink).ok()).collect();
         let slopes = slopes(&radii, &gaps, &kinks);
-        Self { radii, gaps, slopes, kinks }
+        Self { radii, gaps, slopes, kinks, error: 0.0 }
     }
 
     /// Radii of the points, m.
@@ -146,7 +184,11 @@ impl Outline {
 
     /// How far g may be off at the points, m: what is left of the difference to g through every second point, at third order.
     pub(super) fn error(&self) -> f64 {
-        let thinned = self.thinned();
+        self.error
+    }
+
+    /// That of a thinned one.
+    fn distance(&self, thinned: &Self) -> f64 {
         let at = |x: &f64| (self.foundation(0.0, *x)[0] - thinned.foundation(0.0, *x)[0]).abs();
         thinned.radii[1..].iter().map(at).fold(0.0, f64::max) / 7.0
     }

@@ -2,7 +2,7 @@
 
 use super::foundation::{Foundation, Sums};
 use super::kind::{Kind, Peak};
-use super::{Profile, ProfileError, Shape};
+use super::{Profile, ProfileError, SelfAffine, Shape};
 use std::sync::Arc;
 
 /// Steps of the index per height.
@@ -33,8 +33,8 @@ struct Level {
 }
 
 impl Profile {
-    /// Most heights of a rough line.
-    pub const MAX_HEIGHTS: usize = 1_000_000;
+    /// Most heights of a rough line: as many as [`SelfAffine`] makes.
+    pub const MAX_HEIGHTS: usize = SelfAffine::MAX_POINTS;
 
     /// A rough line given by heights (m, outwards from the body, above any level) at equal distances (m): the highest touches first, and
     /// g at each is what it lacks of the highest.

@@ -18,7 +18,7 @@ pub struct SelfAffine {
     pub hurst: f64,
     /// Longest wavelength, m, at most the length.
     pub longest: f64,
-    /// Shortest wavelength, m, below the longest and two distances of points at least.
+    /// Shortest wavelength, m, at most the longest and two distances of points at least.
     pub shortest: f64,
     /// Length L of the line, m, after which it repeats.
     pub length: f64,
@@ -51,8 +51,8 @@ pub enum RoughnessError {
         /// Length of the line, m.
         length: f64,
     },
-    /// The shortest wavelength is shorter than the longest, m.
-    #[error("expected a shortest wavelength below the longest of {longest} m, got {shortest} m")]
+    /// The shortest wavelength is no longer than the longest, m.
+    #[error("expected a shortest wavelength of at most the longest of {longest} m, got {shortest} m")]
     Swapped {
         /// Asked for, m.
         shortest: f64,

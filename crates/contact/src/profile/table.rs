@@ -5,9 +5,14 @@ use super::outline::Outline;
 use super::{Profile, ProfileError, Shape};
 use std::sync::Arc;
 
-/// What a panel may miss of the transform, relative to g at the last point.
-// What 200 points leave of a sphere or a fourth power.
+/// What a panel may miss of the transform, relative to g at the last point, or more: as much as the points leave open of g themselves.
+// What 200 points leave of a sphere or a fourth power. Of points that scatter by a hundredth it would take 43 panels per cell.
 const TOLERANCE: f64 = 1e-10;
+
+/// Parts between two kinks at most that a quadrature over g is parted into.
+// What is not smooth at the other points is the second derivative of cubics that meet, which a part of several cells takes well; 4000
+// parts take as many quadratures for the pressure at one place.
+const PARTS: usize = 16;
 
 /// Most halvings of a cell. Behind a kink and nowhere else are some needed.
 const HALVINGS: u32 = 8;
@@ -28,7 +33,8 @@ impl Profile {
     pub fn table(points: &[(f64, f64)], kinks: &[f64]) -> Result<Self, ProfileError> {
         let outline = Outline::new(points, kinks)?;
         let panels = panels(&outline)?;
-        Ok(Self { shape: Shape::Chart(Arc::new(Chart::new(&panels, Some(outline)))) })
+        let borders = borders(&outline, panels.first().map_or(0.0, |panel| panel.radius[0]));
+        Ok(Self { shape: Shape::Chart(Arc::new(Chart::new(&panels, borders, Some(outline)))) })
     }
 
     /// How far g of a table may be off because of the distance of its points, m: an estimate from every second of them. None of
@@ -64,7 +70,7 @@ struct Stretch<'a> {
 fn panels(outline: &Outline) -> Result<Vec<Ends>, ProfileError> {
     let radii = outline.radii();
     let end = radii[radii.len() - 1];
-    let tolerance = TOLERANCE * outline.foundation(0.0, end)[0];
+    let tolerance = (TOLERANCE * outline.foundation(0.0, end)[0]).max(outline.error());
     let mut panels = Vec::with_capacity(radii.len());
     let mut last = 0.0;
     for (cell, pair) in radii.windows(2).enumerate() {
@@ -81,6 +87,20 @@ fn panels(outline: &Outline) -> Result<Vec<Ends>, ProfileError> {
         last = to.height;
     }
     Ok(panels)
+}
+
+/// Where a quadrature over g is to be parted: at the end of the flat, at the kinks, and at some of the points between.
+fn borders(outline: &Outline, flat: f64) -> Vec<f64> {
+    let radii = outline.radii();
+    let every = radii.len().div_ceil(PARTS);
+    let last = radii.len() - 1;
+    let is_kept = |(i, r): &(usize, &f64)| {
+        **r > 0.0
+            && *i < last
+            && **r >= flat
+            && (**r == flat || i % every == 0 || outline.kink_below(*i) == **r)
+    };
+    radii.iter().enumerate().filter(is_kept).map(|(_, r)| *r).collect()
 }
 
 impl Stretch<'_> {
@@ -126,5 +146,46 @@ impl Stretch<'_> {
             self.fill(from, middle, halvings - 1, panels);
             self.fill(middle, to, halvings - 1, panels);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Panels of a table.
+    fn count(table: &Profile) -> usize {
+        let Shape::Chart(chart) = &table.shape else { unreachable!() };
+        chart.count()
+    }
+
+    #[test]
+    fn points_that_scatter_take_hardly_more_panels_than_cells_and_few_borders() {
+        let mut draws = 5_u64;
+        let mut draw = || {
+            draws = draws.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (draws >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for (points, scatter) in [(60, 0.01), (400, 0.1), (4000, 0.02)] {
+            // A ball whose slope scatters from cell to cell.
+            let (mut gap, mut table) = (0.0, vec![(0.0, 0.0)]);
+            for k in 1..points {
+                let r = f64::from(k) / f64::from(points);
+                gap += (f64::from(k) - 0.5) * (1.0 + scatter * (draw() - 0.5)) / f64::from(points * points);
+                table.push((r, gap));
+            }
+            let profile = Profile::table(&table, &[]).unwrap();
+            let (cells, panels) = (table.len() - 1, count(&profile));
+            assert!(panels >= cells && panels <= cells + cells / 20, "{cells}: {panels}");
+            assert!(profile.borders().len() <= PARTS, "{}", profile.borders().len());
+            // And it is still the ball: g = x² with f = r²/2.
+            let error = (profile.depth(0.5) / 0.25 - 1.0).abs();
+            assert!(error < 0.3 * scatter, "{points}: {error:e}");
+        }
+        // A kink and the end of a flat are borders, however many points there are.
+        let at = |k: u32| f64::from(k) / 1000.0;
+        let worn: Vec<(f64, f64)> = (0..=1000).map(|k| (at(k), (at(k) - 0.203).max(0.0))).collect();
+        let worn = Profile::table(&worn, &[0.203]).unwrap();
+        assert!(worn.borders().contains(&0.203) && worn.borders()[0] == 0.203, "{:?}", worn.borders());
     }
 }

@@ -148,7 +148,8 @@ impl Springs {
         &self.positions
     }
 
-    /// Largest indentation that the row can follow, m; infinite for a flat punch and for a list.
+    /// Largest indentation that the row can follow, m; infinite for a flat punch, for a list, and where it spans all points that the
+    /// profile is given by.
     pub fn reach(&self) -> f64 {
         self.reach
     }
@@ -245,7 +246,9 @@ fn reach(profile: &Profile, span: f64) -> Result<f64, SpringsError> {
     let depth = profile.depth(0.5 * span * (1.0 + 4.0 * f64::EPSILON));
     // Only a flat punch has no depth at a radius.
     if depth > 0.0 {
-        return Ok(depth.min(profile.reach().unwrap_or(f64::INFINITY)));
+        // A row that holds all points of a profile is never outgrown: what ends is the profile, and a move says so.
+        let end = profile.reach().filter(|_| !profile.ends_at_a_point());
+        return Ok(depth.min(end.unwrap_or(f64::INFINITY)));
     }
     let width = profile.reduced_stiffness(1.0);
     Err(SpringsError::Narrow { span, width })

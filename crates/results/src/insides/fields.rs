@@ -37,8 +37,8 @@ impl<'a> FieldTables<'a> {
         };
         let contacts = job.model.contacts().zip(job.start.memories()).enumerate();
         let follow = |(c, ((name, law), memory)): (usize, ((&'a str, &'a Interface), &Memory))| {
-            // A contact without width is never pressed, a list of springs has no radii.
-            let width = job.model.contact_width(c).filter(|_| !law.profile().is_list());
+            // A contact without width is never pressed, a list of springs and a normal law have no shape.
+            let width = job.model.contact_width(c).filter(|_| law.profile().has_shape());
             let radii = width.map(|width| radii(asked, asked.extent.unwrap_or(EXTENT * 0.5 * width)));
             Followed { name, law, memory: memory.clone(), map: radii.map(FrictionMap::new) }
         };

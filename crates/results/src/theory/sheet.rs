@@ -182,7 +182,7 @@ impl Constants {
             profile: subject.profile.clone(),
             f: formulas.map(|[f, _]| f),
             g: formulas.map(|[_, g]| g),
-            axisymmetric: law.peak_pressure(0.0).is_some(),
+            axisymmetric: law.profile().has_shape(),
             normal_modulus: Real(law.normal_modulus()),
             tangential_modulus: Real(law.tangential_modulus()),
             friction: Real(law.friction()),

@@ -107,7 +107,7 @@ pub(crate) struct SelfAffineForm {
     /// Longest wavelength, m, at most the length.
     #[schemars(example = &"20 um", transform = above_zero)]
     pub(crate) longest: Length,
-    /// Shortest wavelength, m, below the longest and at least two distances of points.
+    /// Shortest wavelength, m, at most the longest and at least two distances of points.
     #[schemars(example = &"1 um", transform = above_zero)]
     pub(crate) shortest: Length,
     /// Length of the line, m, above 0.

@@ -108,6 +108,9 @@ pub(super) fn rough(at: &At<'_>, form: &RoughForm) -> Result<Profile, Fault> {
     };
     Profile::rough(&heights, spacing).map_err(|error| match error {
         ProfileError::Empty => heights_at.fault(error.to_string()).ask(Help::Shape),
+        ProfileError::TooManyHeights(_) if form.self_affine.is_some() => {
+            at.key("self_affine").key("points").fault(error.to_string())
+        }
         ProfileError::TooManyHeights(_) => heights_at.fault(error.to_string()),
         ProfileError::LineHeight { index, .. } => heights_at.index(index).fault(error.to_string()),
         _ => at.fault(error.to_string()),
@@ -142,7 +145,7 @@ fn made(at: &At<'_>, form: &SelfAffineForm) -> Result<Vec<f64>, Fault> {
         }
         RoughnessError::Swapped { longest, .. } => {
             let wanted =
-                format!("a wavelength above 0 m and below the longest of {} m", range::short(longest));
+                format!("a wavelength above 0 m and at most the longest of {} m", range::short(longest));
             at.key("shortest").expected(wanted).help("are \"longest\" and \"shortest\" swapped?")
         }
         RoughnessError::Shortest { least, .. } => {

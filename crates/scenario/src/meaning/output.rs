@@ -115,11 +115,11 @@ impl Builder<'_> {
         let Some(asked) = self.asked(form.as_ref().map(|_| at), &plots, &names)? else {
             return Ok(None);
         };
-        let shapeless = |contact: &Named<Contact>| contact.part.interface.profile().is_list();
+        let shapeless = |contact: &Named<Contact>| !contact.part.interface.profile().has_shape();
         if self.scene.contacts.iter().all(shapeless) {
             let fault = asked.fault("no contact here has a shape in three dimensions");
             return Err(
-                fault.help("a list of springs has forces and no stress; springs.csv has those of each")
+                fault.help("lists of springs and normal laws have forces and no stress; springs.csv has the force of each spring")
             );
         }
         let FieldsOutputForm { radii, extent, every, at: times } = form.clone().unwrap_or_default();

@@ -124,16 +124,17 @@ fn beyond_profile(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<F
         Varying::Follows(w) => scene.waveforms.get(w)?.part.range().1,
     };
     let (most, high, unit) = (range::short(most), range::short(high), address::kind(error)?.si());
-    let (end, help) = if interface.profile().ends_at_a_point() {
+    let (within, end, help) = if interface.profile().ends_at_a_point() {
         (
+            "at most",
             "the last point of its profile",
             "half-spaces touch in circles smaller than what is known of the profile",
         )
     } else {
-        ("the sphere's equator", "half-spaces touch in circles much smaller than the sphere")
+        ("less than", "the sphere's equator", "half-spaces touch in circles much smaller than the sphere")
     };
     let message =
-        format!("expected less than {most} {unit}, where the contact reaches {end}, got {high} {unit}");
+        format!("expected {within} {most} {unit}, where the contact reaches {end}, got {high} {unit}");
     Some(Fault::new(path.clone(), message).help(help))
 }
 
