@@ -14,7 +14,7 @@ use stickslip_plot::{
 };
 use stickslip_results::program::this_program;
 use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
-use stickslip_results::theory::{Sheet, Stop, Subject, Walk};
+use stickslip_results::theory::{BEYOND, Sheet, Stop, Subject, Walk};
 
 /// Names of the pictures.
 pub const NAMES: [&str; 7] = ["substitute", "fields", "loop", "profile", "memory", "friction", "cycle"];
@@ -25,8 +25,6 @@ const DELAY: u16 = 120;
 
 /// Points of the profile.
 const POINTS: usize = 301;
-/// How far it is drawn, of the largest contact radius.
-const BEYOND: f64 = 1.5;
 
 /// Names of all files that any look gives to them.
 pub fn all_files() -> Vec<String> {

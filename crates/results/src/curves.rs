@@ -66,8 +66,8 @@ fn survey(table: &SealedTable) -> Result<(Vec<f64>, usize), FrameError> {
     Ok((times, curves))
 }
 
-/// At most `most` of some moments.
-fn chosen(times: &[f64], most: usize) -> Vec<f64> {
+/// At most `most` of some moments, evenly chosen, the first (of more than one) and the last among them.
+pub fn chosen(times: &[f64], most: usize) -> Vec<f64> {
     if times.len() <= most {
         return times.to_vec();
     }

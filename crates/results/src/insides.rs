@@ -143,8 +143,8 @@ fn curves(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     }
 }
 
-/// Word for the state of a spring in `springs.csv`.
-fn state_name(state: SpringState) -> &'static str {
+/// Word for the state of a spring in all tables.
+pub(crate) fn state_name(state: SpringState) -> &'static str {
     match state {
         SpringState::Open => "open",
         SpringState::Stick => "stick",

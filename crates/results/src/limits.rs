@@ -1,6 +1,7 @@
 //! What a run would leave behind, estimated before it starts.
 
 use crate::files::{FIELD_HEAD, MEMORY_HEAD, SPRING_HEAD};
+use crate::theory::LINE_WIDTH;
 use std::sync::Arc;
 use stickslip_contact::{Curve, Interface, Memory, Springs};
 use stickslip_drive::{Model, State};
@@ -88,4 +89,41 @@ pub(crate) fn check_curves(scenario: &Scenario) -> Result<(), ScenarioError> {
     );
     let help = "give output.memory a larger interval \"every\", or a list \"at\"";
     Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
+}
+
+/// Refuses a history of a contact by itself whose springs would fill the memory: at `moments` they are kept and written, in
+/// `frames` they are kept.
+pub(crate) fn check_history(springs: usize, moments: usize, frames: usize) -> Result<(), String> {
+    let (looks, most) = (moments + frames, MOST_VALUES / LINE_WIDTH as u64);
+    let lines = springs as u64 * looks as u64;
+    if lines <= most {
+        return Ok(());
+    }
+    let room = most / springs as u64;
+    let help = match (room.saturating_sub(2), frames) {
+        (_, 1..) => "leave out --animate, or give the list fewer springs".to_owned(),
+        (0, _) => format!("give the list at most {} springs", most / 2),
+        (corners, _) => format!("give at most {corners} corners, or the list fewer springs"),
+    };
+    Err(format!(
+        "{springs} springs at {looks} moments make {lines} lines, expected at most {most}\n   help: {help}"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check_history;
+
+    #[test]
+    fn springs_of_a_history_have_a_bound_that_their_refusal_names() {
+        assert_eq!(check_history(0, 1001, 60), Ok(()));
+        assert_eq!(check_history(121, 1001, 60), Ok(()));
+        // 250 million numbers in lines of 13.
+        assert_eq!(check_history(1_000_000, 19, 0), Ok(()));
+        let refused = check_history(1_000_000, 20, 0).unwrap_err();
+        assert!(refused.contains("20000000 lines, expected at most 19230769"), "{refused}");
+        assert!(refused.contains("at most 17 corners"), "{refused}");
+        assert!(check_history(1_000_000, 2, 60).unwrap_err().contains("leave out --animate"));
+        assert!(check_history(20_000_000, 2, 0).unwrap_err().contains("at most 9615384 springs"));
+    }
 }

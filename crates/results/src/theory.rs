@@ -19,7 +19,12 @@ mod write;
 pub use history::{Corner, History, Normal, Tangential};
 pub use loading::Loading;
 pub use sheet::{Constants, NormalRow, Pressed, Sheet, UniversalRow};
-pub use state::{LoadedSpring, contact_word, spring_word};
+pub use state::{LoadedSpring, contact_word};
 pub use subject::{Subject, TheoryError};
 pub use walk::{Frame, FrictionCourse, FrictionStep, Moment, Stop, Walk};
+pub(crate) use write::LINE_WIDTH;
 pub use write::{Beside, CONTACT, TABLES, json, write};
+
+/// How far fields, springs and profiles are shown where nothing else is asked for, of the largest contact radius: the surface is
+/// displaced beyond the contact, too.
+pub const BEYOND: f64 = 1.5;

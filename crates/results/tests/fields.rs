@@ -46,8 +46,11 @@ fn over_area(rows: &Rows, contact: &str, column: &str) -> f64 {
     points.windows(2).map(ring).sum()
 }
 
+/// An example, its contact, how many that is, and what of it is set otherwise.
+type Case = (&'static str, &'static str, f64, &'static [(&'static str, &'static str)]);
+
 /// Quasi-static and dynamic, curve and row, constant and varying load, long ways: examples with a ball each.
-const CASES: [(&str, &str, f64, &[(&str, &str)]); 6] = [
+const CASES: [Case; 6] = [
     ("fretting_sphere", "800 nm", 1.0, &[]),
     ("quickstart", "ball", 3.0, &[("run.duration", "30 ms")]),
     (
@@ -78,12 +81,6 @@ fn stresses_and_the_map_of_friction_add_up_to_forces_and_friction() {
         let shear = over_area(&tables["fields.csv"], contact, "tau_Pa");
         let work = over_area(&tables["friction.csv"], contact, "work_J_m2");
         let limit = of("fn_N").max(1e-30);
-        println!(
-            "{name}: F_N {normal:e} of {:e}, F_x {shear:e} of {:e}, friction {work:e} of {:e}",
-            of("fn_N"),
-            of("fx_N"),
-            of("friction_J")
-        );
         assert!((normal - of("fn_N")).abs() < 1e-3 * limit, "{name}: F_N {normal}");
         assert!((shear - of("fx_N")).abs() < 1e-3 * limit, "{name}: F_x {shear}");
         assert!((work / of("friction_J") - 1.0).abs() < 1e-3, "{name}: friction {work}");

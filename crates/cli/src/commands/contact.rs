@@ -62,7 +62,7 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
         (None, None) if arguments.out.is_some() => Some(History { corners: Vec::new() }),
         _ => history,
     };
-    let walk = asked.map(|history| Walk::of(&subject, normal, &history)).transpose()?;
+    let walk = asked.map(|history| Walk::of(&subject, normal, &history, arguments.animate)).transpose()?;
     if arguments.json {
         say_json(&json(&sheet, walk.as_ref()));
     } else if !arguments.quiet {

@@ -1,6 +1,6 @@
 //! `stickslip info`: what a scenario means, before it runs.
 
-mod columns;
+pub(super) mod columns;
 pub(super) mod digits;
 pub(super) mod tables;
 

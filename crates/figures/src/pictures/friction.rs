@@ -3,6 +3,7 @@
 use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{FrictionWork, friction_figures};
+use stickslip_results::curves;
 use stickslip_results::files::FRICTION;
 use stickslip_results::moments::{self, OverRadius};
 use stickslip_results::{Real, quantity};
@@ -10,6 +11,8 @@ use stickslip_scenario::PlotName;
 
 /// Contacts in one picture, at most.
 const MOST: usize = 4;
+/// Moments that are marked, at most.
+const MARKED: usize = 6;
 
 pub(super) const KIND: Kind =
     Kind { shows: "where friction has done its work, over the radius and time", needs: |_| Vec::new(), draw };
@@ -20,7 +23,6 @@ struct Course {
     moments: Vec<f64>,
     r: Vec<f64>,
     work: Vec<f64>,
-    marks: Vec<(f64, String)>,
 }
 
 /// Two panels for each contact.
@@ -33,14 +35,16 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
             None => {}
         }
     }
+    let marks: Vec<Vec<(f64, String)>> = courses.iter().map(Course::marks).collect();
     let works: Vec<FrictionWork<'_>> = courses
         .iter()
-        .map(|course| FrictionWork {
+        .zip(&marks)
+        .map(|(course, marks)| FrictionWork {
             axis: ("time t", "s"),
             moments: &course.moments,
             r: &course.r,
             work: &course.work,
-            marks: &course.marks,
+            marks,
         })
         .collect();
     let named = courses.len() > 1;
@@ -55,15 +59,20 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
 impl Course {
     fn of(moment: OverRadius) -> Self {
         let (name, r) = (moment.contact.clone(), moment.columns[0].clone());
-        let mut course = Self { name, moments: Vec::new(), r, work: Vec::new(), marks: Vec::new() };
+        let mut course = Self { name, moments: Vec::new(), r, work: Vec::new() };
         course.push(moment);
         course
+    }
+
+    /// Some of its moments, evenly chosen: with a line for each a long run would be a hatching.
+    fn marks(&self) -> Vec<(f64, String)> {
+        let mark = |time: f64| (time, format!("t = {}", quantity(Real(time), "s")));
+        curves::chosen(&self.moments, MARKED).into_iter().map(mark).collect()
     }
 
     fn push(&mut self, mut moment: OverRadius) {
         // Radii stay the same throughout a run.
         if moment.columns[1].len() == self.r.len() {
-            self.marks.push((moment.time, format!("t = {}", quantity(Real(moment.time), "s"))));
             self.moments.push(moment.time);
             self.work.append(&mut moment.columns[1]);
         }

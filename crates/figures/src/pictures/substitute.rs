@@ -79,9 +79,12 @@ impl<'a> Row<'a> {
         let above = h.partition_point(|corner| *corner <= height).clamp(1, h.len() - 1);
         let slope = (p[above] - p[above - 1]) / (h[above] - h[above - 1]);
         let stretch = u - (p[above] - slope * (h[above] - height));
-        // What slips is the outermost piece, if it lies along an edge of the wedge.
+        // What slips is the outermost piece, if it lies along an edge of the wedge. The table has no front: whether such a piece
+        // still slips, or has stuck since a contact that had slipped came to rest or took the other way, it cannot tell; nor
+        // which of its springs do where several drags have become one piece. It is shown as slipping, as it last did. Without
+        // friction every piece lies along both edges, and none bears anything.
         let limit = self.law.stick_slope();
-        let slips = above + 1 == h.len() && (slope.abs() - limit).abs() <= AT_LIMIT * limit;
+        let slips = limit > 0.0 && above + 1 == h.len() && (slope.abs() - limit).abs() <= AT_LIMIT * limit;
         let condition = match (slips, slope < 0.0) {
             (false, _) => SpringCondition::Stick,
             (true, false) => SpringCondition::SlipForward,

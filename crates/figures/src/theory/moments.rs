@@ -11,15 +11,15 @@ const MOST: usize = 6;
 /// The corners that are shown.
 pub(super) struct Shown<'a> {
     law: &'a Interface,
-    moments: Vec<Columns>,
+    moments: Vec<Columns<'a>>,
     /// Scales that all share: radius and indentation, stretch, m.
     scale: (f64, f64, f64),
 }
 
 /// One corner, column by column.
-struct Columns {
+struct Columns<'a> {
     heading: String,
-    moment: Moment,
+    moment: &'a Moment,
     r: Vec<f64>,
     pressure: Vec<f64>,
     shear: Vec<f64>,
@@ -37,11 +37,11 @@ struct Columns {
 
 impl<'a> Shown<'a> {
     /// The last corners, and the start where there are few.
-    pub(super) fn of(law: &'a Interface, walk: &Walk) -> Self {
+    pub(super) fn of(law: &'a Interface, walk: &'a Walk) -> Self {
         let first = walk.moments.len().saturating_sub(MOST);
         // An unstretched start shows nothing that the others do not.
         let first = if walk.moments.len() > 1 { first.max(1) } else { first };
-        let moments: Vec<Columns> = walk.moments[first..].iter().map(Columns::of).collect();
+        let moments: Vec<Columns<'a>> = walk.moments[first..].iter().map(Columns::of).collect();
         Self { law, moments, scale: scale(law, walk) }
     }
 
@@ -114,16 +114,16 @@ pub(super) fn frames(law: &Interface, walk: &Walk, mut drawn: impl FnMut(&Substi
 /// Scales that all pictures of a history share: largest radius, indentation and stretch, m.
 fn scale(law: &Interface, walk: &Walk) -> (f64, f64, f64) {
     let springs = walk.moments.iter().flat_map(|moment| &moment.springs);
-    let largest = springs.fold(0.0_f64, |most, spring| most.max(spring.stretch.abs()));
+    let largest = springs.fold(0.0_f64, |most, spring| most.max(spring.spring.stretch.abs()));
     let stretch = law.gross_slip_displacement(walk.deepest).max(largest);
     (law.profile().radius(walk.deepest), walk.deepest, stretch)
 }
 
-impl Columns {
-    fn of(moment: &Moment) -> Self {
+impl<'a> Columns<'a> {
+    fn of(moment: &'a Moment) -> Self {
         let apex = moment.stop.apex;
         let fields = |value: fn(&stickslip_contact::Field) -> f64| moment.fields.iter().map(value).collect();
-        let touching = || moment.springs.iter().filter(|spring| spring.state != SpringState::Open);
+        let touching = || moment.springs.iter().filter(|spring| spring.spring.state != SpringState::Open);
         Self {
             heading: heading(moment),
             r: fields(|field| field.r),
@@ -132,16 +132,16 @@ impl Columns {
             displacement: fields(|field| field.displacement),
             slip: fields(|field| field.slip),
             zones: moment.zones.iter().map(ring).collect(),
-            x: moment.springs.iter().map(|spring| spring.x).collect(),
-            g: moment.springs.iter().map(|spring| spring.g).collect(),
-            stretch: moment.springs.iter().map(|spring| spring.stretch).collect(),
-            conditions: moment.springs.iter().map(|spring| condition(spring.state)).collect(),
+            x: moment.springs.iter().map(|spring| spring.spring.x).collect(),
+            g: moment.springs.iter().map(|spring| spring.spring.height).collect(),
+            stretch: moment.springs.iter().map(|spring| spring.spring.stretch).collect(),
+            conditions: moment.springs.iter().map(|spring| condition(spring.spring.state)).collect(),
             anchored: [
-                touching().map(|spring| spring.x).collect(),
-                touching().map(|spring| spring.g).collect(),
-                touching().map(|spring| apex.u - spring.stretch).collect(),
+                touching().map(|spring| spring.spring.x).collect(),
+                touching().map(|spring| spring.spring.height).collect(),
+                touching().map(|spring| apex.u - spring.spring.stretch).collect(),
             ],
-            moment: moment.clone(),
+            moment,
         }
     }
 }

@@ -112,6 +112,12 @@ impl Usage {
                 }
             }
             self.pressing(job, c, name);
+            if let Some(asked) = &job.scenario.fields
+                && !contact.part.interface.profile().is_list()
+            {
+                let why = "radii for output.fields, on every path, quick while the normal rests";
+                self.uses("friction by place", name, format!("{} {why}", asked.radii));
+            }
             if let Some(why) = expected.treats(c, Treatment::Apart).filter(|_| job.is_coupled(c)) {
                 self.skips("forces", name, why.to_string());
             }

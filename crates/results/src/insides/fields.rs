@@ -5,12 +5,10 @@ use crate::files::{FIELD_HEAD, FIELDS, FRICTION, FRICTION_HEAD};
 use crate::folder::Folder;
 use crate::job::Job;
 use crate::sheet::{Sheet, Written};
+use crate::theory::BEYOND;
 use std::io;
 use stickslip_contact::{Fields, FrictionMap, Interface, Memory, Segment};
 use stickslip_scenario::FieldsOutput;
-
-/// Distances go so many contact radii far where nothing else is asked for: the surface is displaced beyond the contact, too.
-const EXTENT: f64 = 1.5;
 
 /// The two tables.
 pub(super) struct FieldTables<'a> {
@@ -39,7 +37,7 @@ impl<'a> FieldTables<'a> {
         let follow = |(c, ((name, law), memory)): (usize, ((&'a str, &'a Interface), &Memory))| {
             // A contact without width is never pressed, a list of springs and a normal law have no shape.
             let width = job.model.contact_width(c).filter(|_| law.profile().has_shape());
-            let radii = width.map(|width| radii(asked, asked.extent.unwrap_or(EXTENT * 0.5 * width)));
+            let radii = width.map(|width| radii(asked, asked.extent.unwrap_or(BEYOND * 0.5 * width)));
             Followed { name, law, memory: memory.clone(), map: radii.map(FrictionMap::new) }
         };
         let contacts = contacts.map(follow).collect();

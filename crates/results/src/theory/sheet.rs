@@ -5,9 +5,6 @@ use crate::real::Real;
 use serde::Serialize;
 use stickslip_contact::{FirstLoading, Interface, NormalGiven, TangentialGiven};
 
-/// Rounding of Dundurs' β of two materials that are similar.
-const ROUNDING: f64 = 1e-12;
-
 /// What holds of a contact whatever happens to it, and how it is pressed.
 #[derive(Debug, Clone, Serialize)]
 pub struct Sheet {
@@ -61,6 +58,10 @@ pub struct Constants {
     pub dundurs_beta: Real,
     /// Whether β is 0, which makes the theory exact.
     pub elastically_similar: bool,
+    /// By how much of itself the normal stiffness at a given radius is too low if nothing slips.
+    pub neglected_stiffness: Real,
+    /// What of the pair's elastic similarity the theory neglects, in words.
+    pub similarity: String,
 }
 
 /// A contact at an indentation. Of one contact, however many identical ones the scenario has.
@@ -176,7 +177,7 @@ impl Sheet {
 impl Constants {
     fn of(subject: &Subject<'_>) -> Self {
         let (law, formulas) = (subject.law, subject.formulas());
-        let beta = law.pair().dundurs_beta();
+        let similarity = law.pair().similarity();
         Self {
             materials: subject.materials.clone(),
             profile: subject.profile.clone(),
@@ -187,8 +188,10 @@ impl Constants {
             tangential_modulus: Real(law.tangential_modulus()),
             friction: Real(law.friction()),
             stick_slope: Real(law.stick_slope()),
-            dundurs_beta: Real(beta),
-            elastically_similar: beta.abs() < ROUNDING,
+            dundurs_beta: Real(similarity.dundurs_beta()),
+            elastically_similar: similarity.is_exact(),
+            neglected_stiffness: Real(similarity.neglected_stiffness()),
+            similarity: similarity.to_string(),
         }
     }
 }

@@ -1,64 +1,35 @@
-//! Springs of a contact with what they carry, and words for states.
+//! Springs of a contact with what they carry, and the word for its state.
 
-use stickslip_contact::{ContactState, Interface, Memory, SpringState, Springs};
+use stickslip_contact::{ContactState, Interface, Memory, Spring, Springs};
 
 /// A spring and what it carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadedSpring {
-    /// Position x, m.
-    pub x: f64,
-    /// Length Δx, m.
-    pub length: f64,
-    /// Height g(x), m.
-    pub g: f64,
-    /// Normal line load `q_z` = E\*(d-g), N/m (4.24); 0 where it does not touch.
-    pub normal: f64,
-    /// Tangential line load `q_x` = G\* times the stretch, N/m.
-    pub tangential: f64,
-    /// The most that it can be, μ `q_z`, N/m (4.22).
+    /// Where it is and what it does.
+    pub spring: Spring,
+    /// Normal force, N (4.23); 0 where it does not touch.
+    pub normal_force: f64,
+    /// Tangential force, N (4.23).
+    pub tangential_force: f64,
+    /// The most that it can be, μ times the normal force, N (4.22).
     pub limit: f64,
-    /// Stretch u - p, m.
-    pub stretch: f64,
-    /// What it does.
-    pub state: SpringState,
 }
 
 impl LoadedSpring {
-    /// The springs of `grid`, which is `span` (m) wide, in a contact as it stands; none where g is beyond the profile.
-    pub fn of(law: &Interface, memory: &Memory, grid: &Springs, span: f64) -> Vec<Self> {
+    /// The springs of `grid` in a contact as it stands; none where g is beyond the profile.
+    pub fn of(law: &Interface, memory: &Memory, grid: &Springs) -> Vec<Self> {
         let d = memory.apex().d;
-        // They lie side by side: each ends as far beyond its middle as it begins before it.
-        let mut edge = -0.5 * span;
-        let springs = memory.springs(law, grid).zip(grid.heights_by_position()).map(|(spring, g)| {
-            let length = 2.0 * (spring.x - edge);
-            edge += length;
-            let normal = law.normal_modulus() * (d - g).max(0.0);
-            Self {
-                x: spring.x,
-                length,
-                g,
-                normal,
-                tangential: law.tangential_modulus() * spring.stretch,
-                limit: law.friction() * normal,
-                stretch: spring.stretch,
-                state: spring.state,
-            }
-        });
-        springs.filter(|spring| spring.g.is_finite()).collect()
+        let springs = memory.springs(law, grid).filter(|spring| spring.height.is_finite());
+        let loaded = |spring: Spring| {
+            let normal_force = spring.normal_force(law, d);
+            let tangential_force = spring.tangential_force(law);
+            Self { spring, normal_force, tangential_force, limit: law.friction() * normal_force }
+        };
+        springs.map(loaded).collect()
     }
 }
 
-/// Word for the state of a spring, as in `springs.csv`.
-pub fn spring_word(state: SpringState) -> &'static str {
-    match state {
-        SpringState::Open => "open",
-        SpringState::Stick => "stick",
-        SpringState::SlipForward => "slip+",
-        SpringState::SlipBackward => "slip-",
-    }
-}
-
-/// Word for the state of a contact, as in `trace.csv`.
+/// Word for the state of a contact: that of its code in `trace.csv`.
 pub fn contact_word(state: ContactState) -> &'static str {
     match state {
         ContactState::Open => "open",

@@ -144,6 +144,16 @@ impl<'a> Subject<'a> {
             "cone" => ["r tanθ", "(π/2) x tanθ"],
             "paraboloid" => ["r²/2R", "x²/R"],
             "sphere" => ["R - √(R²-r²)", "(x/2) ln((R+x)/(R-x))"],
+            "truncated_cone" => ["0 up to b, (r-b) tanθ beyond", "0 up to b, x tanθ arccos(b/x) beyond"],
+            "truncated_paraboloid" => ["0 up to b, (r²-b²)/2R beyond", "0 up to b, (x/R) √(x²-b²) beyond"],
+            "rounded_flat" => {
+                ["0 up to b, (r-b)²/2R beyond", "0 up to b, (x/R) [√(x²-b²) - b arccos(b/x)] beyond"]
+            }
+            "tipped_paraboloid" => [
+                "br/R up to b, (r²+b²)/2R beyond",
+                "(π/2) bx/R up to b, (x/R) [√(x²-b²) + b arcsin(b/x)] beyond",
+            ],
+            "powers" => ["Σ A rⁿ", "Σ κₙ A xⁿ, κₙ = √π Γ(n/2+1)/Γ((n+1)/2)"],
             "power" => ["A rⁿ", "κₙ A xⁿ, κₙ = √π Γ(n/2+1)/Γ((n+1)/2)"],
             _ => return None,
         })

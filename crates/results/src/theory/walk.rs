@@ -4,7 +4,8 @@ use super::history::History;
 use super::loading::worked;
 use super::route::{refused, route};
 use super::state::LoadedSpring;
-use super::{Subject, TheoryError};
+use super::{BEYOND, Subject, TheoryError};
+use crate::limits::check_history;
 use stickslip_contact::{
     Apex, ContactState, Curve, Field, Fields, FirstLoadingError, FrictionMap, Interface, Memory, NormalGiven,
     Segment, Springs, Zone,
@@ -21,9 +22,7 @@ const MAP_RADII: usize = 81;
 /// Frames of a leg, and legs that have any: the last ones.
 const FRAMES: usize = 12;
 const FRAMED: usize = 5;
-/// How far fields and springs reach beyond the largest contact radius.
-const BEYOND: f64 = 1.5;
-/// Springs of the row, over as much.
+/// Springs of the row, out to as much.
 const SPRINGS: usize = 121;
 
 /// What happened on the way.
@@ -33,7 +32,7 @@ pub struct Walk {
     pub stops: Vec<Stop>,
     /// The start and the corners.
     pub moments: Vec<Moment>,
-    /// The springs on the last legs, step by step.
+    /// The springs on the last legs, step by step, where they were asked for.
     pub frames: Vec<Frame>,
     /// Where friction did its work; none for a list of springs.
     pub friction: Option<FrictionCourse>,
@@ -113,16 +112,25 @@ pub struct FrictionStep {
 }
 
 impl Walk {
-    /// Leads a contact that is pressed so, and was never pushed, along a history.
+    /// Leads a contact that is pressed so, and was never pushed, along a history; with frames for those who animate them.
     ///
     /// # Errors
-    /// A corner that cannot be reached.
-    pub fn of(subject: &Subject<'_>, normal: NormalGiven, history: &History) -> Result<Self, TheoryError> {
+    /// A corner that cannot be reached, or more springs at more corners than fit in the memory.
+    pub fn of(
+        subject: &Subject<'_>,
+        normal: NormalGiven,
+        history: &History,
+        has_frames: bool,
+    ) -> Result<Self, TheoryError> {
         let law = subject.law;
         let route = route(law, normal.indentation(law)?, history)?;
         let deepest = route.iter().map(|apex| apex.d).fold(0.0, f64::max);
         let reach = BEYOND * law.profile().radius(deepest);
-        let row = row(law, 2.0 * reach);
+        let row = Springs::new(law.profile(), SPRINGS, 2.0 * reach).ok();
+        let legs = route.len() - 1;
+        let framed_legs = if has_frames { FRAMED.min(legs) } else { 0 };
+        let springs = row.as_ref().map_or(0, Springs::count);
+        check_history(springs, route.len(), FRAMES * framed_legs).map_err(TheoryError::History)?;
         let mut memory = Memory::Curve(Curve::new(law, route[0]));
         let mut map = (Fields::of(law, &memory).is_some() && reach > 0.0)
             .then(|| FrictionMap::new(rings(reach / BEYOND, MAP_RADII)));
@@ -132,12 +140,11 @@ impl Walk {
         let start = Stop::at(law, &memory, route[0], (0, 1.0, friction));
         let (mut stops, mut moments) = (vec![start], vec![moment(start, &memory)]);
         let mut frames = Vec::new();
-        let legs = route.len() - 1;
         for (corner, pair) in route.windows(2).enumerate().map(|(k, pair)| (k + 1, pair)) {
             let on = |share: f64| between(pair[0], pair[1], share);
             let shares = (1..=ROWS).map(|k| k as f64 / ROWS as f64);
             stops.extend(shares.map(|share| Stop::at(law, &memory, on(share), (corner, share, friction))));
-            if corner + FRAMED > legs {
+            if corner + framed_legs > legs {
                 let stop = |share: f64| Stop::at(law, &memory, on(share), (corner, share, friction));
                 let stops = (1..=FRAMES).map(|k| stop(k as f64 / FRAMES as f64));
                 frames.extend(framed(law, &memory, stops, row.as_ref()));
@@ -172,17 +179,6 @@ fn rings(radius: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| radius * (k as f64 + 0.5) / count as f64).collect()
 }
 
-/// A row of springs to look at, and its width, m; none while nothing ever touches.
-fn row(law: &Interface, span: f64) -> Option<(Springs, f64)> {
-    // A list has springs of its own, and as much length as they have together.
-    let whole = if Fields::of(law, &Memory::Curve(Curve::new(law, Apex::default()))).is_some() {
-        span
-    } else {
-        law.profile().reduced_stiffness(f64::MAX)
-    };
-    Springs::new(law.profile(), SPRINGS, span).ok().map(|springs| (springs, whole))
-}
-
 /// A point of a leg.
 fn between(from: Apex, to: Apex, share: f64) -> Apex {
     if share == 1.0 {
@@ -196,14 +192,13 @@ fn framed(
     law: &Interface,
     memory: &Memory,
     stops: impl Iterator<Item = Stop>,
-    row: Option<&(Springs, f64)>,
+    row: Option<&Springs>,
 ) -> Vec<Frame> {
     let mut memory = memory.clone();
     let frame = |stop: Stop| {
         // The leg itself is committed after this, and says what is wrong with it.
         memory.commit(law, Segment::Straight(stop.apex)).ok()?;
-        let (row, span) = row?;
-        Some(Frame { stop, springs: LoadedSpring::of(law, &memory, row, *span) })
+        Some(Frame { stop, springs: LoadedSpring::of(law, &memory, row?) })
     };
     stops.filter_map(frame).collect()
 }
@@ -254,12 +249,7 @@ impl Stop {
 }
 
 impl Moment {
-    fn at(
-        law: &Interface,
-        memory: &Memory,
-        stop: Stop,
-        (reach, row): (f64, Option<&(Springs, f64)>),
-    ) -> Self {
+    fn at(law: &Interface, memory: &Memory, stop: Stop, (reach, row): (f64, Option<&Springs>)) -> Self {
         let fields = Fields::of(law, memory);
         let radii = if reach > 0.0 { grid(reach, RADII) } else { Vec::new() };
         let Memory::Curve(curve) = memory else {
@@ -275,7 +265,7 @@ impl Moment {
             stop,
             zones: fields.as_ref().map(Fields::zones).unwrap_or_default(),
             fields: fields.map(|fields| radii.iter().map(|r| fields.at(*r)).collect()).unwrap_or_default(),
-            springs: row.map(|(row, span)| LoadedSpring::of(law, memory, row, *span)).unwrap_or_default(),
+            springs: row.map(|row| LoadedSpring::of(law, memory, row)).unwrap_or_default(),
             knots: curve.knots().collect(),
         }
     }

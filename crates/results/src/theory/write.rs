@@ -1,8 +1,9 @@
 //! What was found of a contact as files, published together.
 
-use super::state::{contact_word, spring_word};
+use super::state::contact_word;
 use super::{Sheet as Constants, Walk};
 use crate::folder::Folder;
+use crate::insides::state_name;
 use crate::real::Real;
 use crate::seal::Seal;
 use crate::sheet::Sheet;
@@ -34,6 +35,8 @@ const LINE_HEAD: &[&str] = &[
     "stretch_m",
     "state",
 ];
+/// Numbers and words of a line of a spring.
+pub(crate) const LINE_WIDTH: usize = LINE_HEAD.len();
 const FRICTION_HEAD: &[&str] = &["corner", "share", "r_m", "work_J_m2", "way_m"];
 const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
 const UNIVERSAL_HEAD: &[&str] =
@@ -193,7 +196,7 @@ fn fields(sheet: &mut Sheet, walk: &Walk) {
             whole(sheet, moment.stop.corner);
             numbers(sheet, [field.r, field.pressure, field.shear, field.displacement]);
             numbers(sheet, [field.slip, field.deflection]);
-            sheet.word(spring_word(field.state));
+            sheet.word(state_name(field.state));
             sheet.end_line();
         }
     }
@@ -204,14 +207,13 @@ fn line(sheet: &mut Sheet, constants: &Constants, walk: &Walk) {
     for moment in &walk.moments {
         for spring in &moment.springs {
             whole(sheet, moment.stop.corner);
-            numbers(sheet, [spring.x, spring.length, spring.g]);
-            numbers(sheet, moduli.map(|modulus| modulus.0 * spring.length));
-            numbers(sheet, [spring.normal, spring.tangential, spring.limit]);
-            numbers(
-                sheet,
-                [spring.normal * spring.length, spring.tangential * spring.length, spring.stretch],
-            );
-            sheet.word(spring_word(spring.state));
+            let forces = [spring.normal_force, spring.tangential_force];
+            let spring_length = spring.spring.length;
+            numbers(sheet, [spring.spring.x, spring_length, spring.spring.height]);
+            numbers(sheet, moduli.map(|modulus| modulus.0 * spring_length));
+            numbers(sheet, [forces[0], forces[1], spring.limit].map(|force| force / spring_length));
+            numbers(sheet, [forces[0], forces[1], spring.spring.stretch]);
+            sheet.word(state_name(spring.spring.state));
             sheet.end_line();
         }
     }

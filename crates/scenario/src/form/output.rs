@@ -73,10 +73,12 @@ fn default_count() -> Count {
 /// Where and when stress and displacement are written; by default at the moments at which memory curves are by default.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("not" = { "required": ["every", "at"] }))]
 pub(crate) struct FieldsOutputForm {
-    /// Distances from the axis, 2 to 1 000 000, evenly from 0 to `extent`.
+    /// Distances from the axis, 2 to 10 000, evenly from 0 to `extent`. Wherever the contact moves friction is followed at
+    /// each of them, not only at the moments written.
     #[serde(default = "default_radii")]
-    #[schemars(range(min = 2, max = 1_000_000), example = 200)]
+    #[schemars(range(min = 2, max = 10_000), example = 200)]
     pub(crate) radii: Count,
     /// The largest of them, m, above 0; by default 1.5 times the largest contact radius that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]

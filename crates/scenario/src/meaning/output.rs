@@ -13,6 +13,8 @@ use stickslip_drive::{Moments, Plan, Waveform};
 
 /// Most springs shown of one contact.
 const MAX_COUNT: u64 = 1_000_000;
+/// Most distances from the axis: friction is followed at each of them on every path, whatever is written of it.
+const MAX_RADII: u64 = 10_000;
 /// Moments of the springs in a run without rows.
 const STATES: f64 = 400.0;
 /// Moments of the memory where none are given.
@@ -123,7 +125,7 @@ impl Builder<'_> {
             );
         }
         let FieldsOutputForm { radii, extent, every, at: times } = form.clone().unwrap_or_default();
-        let radii = range::count_between(&at.key("radii"), radii.0, 2, MAX_COUNT)? as usize;
+        let radii = range::count_between(&at.key("radii"), radii.0, 2, MAX_RADII)? as usize;
         let extent = extent.map(|extent| range::above_zero(&at.key("extent"), extent)).transpose()?;
         let moments = self.moments(&at, (every, times.as_deref()), plan, figures)?;
         Ok(Some(FieldsOutput { radii, extent, moments, asked_by: asked.path().to_string() }))

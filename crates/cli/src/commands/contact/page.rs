@@ -1,5 +1,6 @@
 //! What is known of a contact as tables for people.
 
+use crate::commands::info::columns::broken;
 use crate::commands::info::digits::digits;
 use crate::commands::info::tables::grid;
 use stickslip_results::theory::{Loading, Sheet, Walk, contact_word};
@@ -22,11 +23,8 @@ pub(super) fn text(sheet: &Sheet) -> String {
         sections.push(OPEN.to_owned());
     }
     if !sheet.constants.elastically_similar {
-        sections.push(format!(
-            "note: the bodies are not elastically similar (β = {}): pressing and sliding are coupled,\n\
-             which the theory leaves out",
-            digits(sheet.constants.dundurs_beta.0)
-        ));
+        let [first, second] = &sheet.constants.materials;
+        sections.push(broken(&format!("note: {first} and {second} are {}.", sheet.constants.similarity)));
     }
     sections.retain(|section| !section.is_empty());
     sections.join("\n\n")

@@ -111,7 +111,7 @@ fn bounded(value: Real, unit: &str) -> String {
 }
 
 /// A sentence in lines that fit.
-fn broken(text: &str) -> String {
+pub(crate) fn broken(text: &str) -> String {
     let (mut lines, mut room) = (String::new(), usize::from(WIDTH));
     for word in text.split(' ') {
         let needed = width(word) + 1;
