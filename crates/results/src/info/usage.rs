@@ -113,7 +113,7 @@ impl Usage {
             }
             self.pressing(job, c, name);
             if let Some(asked) = &job.scenario.fields
-                && !contact.part.interface.profile().is_list()
+                && contact.part.interface.profile().has_shape()
             {
                 let why = "radii for output.fields, on every path, quick while the normal rests";
                 self.uses("friction by place", name, format!("{} {why}", asked.radii));
