@@ -305,7 +305,7 @@ fn what_cannot_be_answered_is_refused_and_leaves_nothing() {
         ("quickstart", &["--force", "1 N", "--radius", "1 um"], "", "cannot be used with"),
         ("quickstart", &["--contact", "bal"], "", "did you mean \"ball\"?"),
         ("fretting_sphere", &[], "", "expected --contact, for the scenario has 5"),
-        ("fretting_sphere", &["--contact", "200 nm", "--indentation", "1 m"], "", "beyond the sphere"),
+        ("fretting_sphere", &["--contact", "200 nm", "--indentation", "1 m"], "", "beyond the profile"),
         ("quickstart", &["--history", "1 um, , 2 um"], "", "expected a length or a force, got nothing"),
         ("quickstart", &["--history", "1 um, 3 s"], "", "--history  expected a length"),
         ("quickstart", &["--history", "10 mN, 70 mN"], "", "corner 2 of the history: expected a tangential"),
