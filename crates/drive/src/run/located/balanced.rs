@@ -26,6 +26,29 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
+    /// How far the whole law may be taken, s: to `to`, or to the last moment before nothing balances a coordinate any more.
+    ///
+    /// No mode says there that a contact has given way, and beyond it there is no place to go to. What pulls and what holds
+    /// depend on the time alone. Fails where that moment is now.
+    pub(super) fn until_overloaded(&self, state: &State, to: f64) -> Result<f64, RunError> {
+        let (model, equations, from) = (self.setting.model, self.setting.plain(state), state.t);
+        let over = |t: f64| equations.overloaded(t, &|i| state.y[i]);
+        let tried = [from + 0.5 * (to - from), to];
+        let Some(mut high) = tried.into_iter().find(|t| over(*t).is_some()) else { return Ok(to) };
+        let mut low = from;
+        loop {
+            let middle = low + 0.5 * (high - low);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if over(middle).is_some() { high = middle } else { low = middle }
+        }
+        match over(high) {
+            Some((b, forces)) if low <= from => Err(model.unbalanced(b, from, forces)),
+            _ => Ok(low),
+        }
+    }
+
     /// The place of a balanced coordinate becomes a state where the first of its contacts grows: it begins where that stands.
     pub(super) fn carry(&self, state: &mut State, c: usize) {
         let model = self.setting.model;
