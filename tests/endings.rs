@@ -133,3 +133,67 @@ fn an_answer_that_is_lost_is_told_and_a_closed_pipe_is_not() {
         assert_eq!((code(&output), stderr(&output)), (0, String::new()), "{arguments:?}");
     }
 }
+
+/// Places without mass past μF_N = 6 N: sin 2πt = 6/7.2, told with what pulls and what holds, and all until then is there.
+#[test]
+fn a_load_past_the_limit_of_friction_ends_a_run_and_leaves_what_it_computed() {
+    let out = tempdir().unwrap();
+    let output = run(&scenario("fretting_force"), out.path(), &["waveforms.pull.sine.amplitude=7.2 N"]);
+    assert_eq!((code(&output), stdout(&output)), (3, String::new()));
+    let said = stderr(&output);
+    assert!(said.starts_with("fretting_force: stopped: "), "{said}");
+    assert!(said.contains("holder") && said.contains("6.000e0 N"), "{said}");
+    assert!(said.contains("help: lower the load or press harder"), "{said}");
+    let folder = out.path().join("fretting_force");
+    let summary = summary(&folder);
+    assert_eq!(summary["status"], "stopped");
+    let wanted = (6.0_f64 / 7.2).asin() / std::f64::consts::TAU;
+    let reached = number(&summary, "/simulated_s");
+    assert!((reached / wanted - 1.0).abs() < 1e-10, "{reached} {wanted}");
+    let trace = Table::read(&folder.join("trace.csv"));
+    let times = trace.column("time_s");
+    // Rows every 5 ms, and the last one where it stopped.
+    assert_eq!(times.len(), (wanted / 5e-3).floor() as usize + 2);
+    assert_eq!(times.last().unwrap().parse::<f64>().unwrap(), reached);
+    let events = Table::read(&folder.join("events.csv"));
+    assert!(!events.rows.is_empty());
+}
+
+/// A normal law by points that a contact leaves in the run: how deep a body that hangs back will be pressed into is not known
+/// before. It rests at 62 nm, by F = 20 mN + 40 mN (d - 50 nm)/50 nm, and the anvil rises by another 60 nm.
+#[test]
+fn a_contact_beyond_the_last_point_of_its_law_ends_a_run_and_leaves_what_it_computed() {
+    let out = tempdir().unwrap();
+    let file = out.path().join("anvil.json");
+    let scene = r#"{
+      "stickslip": 1,
+      "materials": { "steel": { "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 } },
+      "waveforms": { "rise": { "table": { "points": [["0 s", "0 nm"], ["1 ms", "0 nm"], ["1.1 ms", "60 nm"]] } } },
+      "bodies": {
+        "ball": { "mass": "100 g", "z": "free" },
+        "anvil": { "z": { "follows": "rise" } }
+      },
+      "contacts": { "tip": {
+        "between": ["anvil", "ball"], "materials": ["steel", "steel"], "friction": 0.3,
+        "profile": { "normal_law": { "points": [[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]] } },
+        "normal": "coupled" } },
+      "loads": [{ "on": "ball", "z": "-30 mN" }],
+      "run": { "duration": "2 ms", "start": "equilibrium" },
+      "output": { "every": "0.1 ms" }
+    }"#;
+    std::fs::write(&file, scene).unwrap();
+    let output = run(&file, out.path(), &[]);
+    assert_eq!((code(&output), stdout(&output)), (3, String::new()), "{}", stderr(&output));
+    let said = stderr(&output);
+    assert!(said.starts_with("anvil: stopped: ") && said.contains("tip"), "{said}");
+    assert!(said.contains("beyond the last point of the profile, which reaches 1e-7 m"), "{said}");
+    assert!(said.contains("help: give the profile points further out, or press it less"), "{said}");
+    let folder = out.path().join("anvil");
+    let summary = summary(&folder);
+    assert_eq!(summary["status"], "stopped");
+    let reached = number(&summary, "/simulated_s");
+    assert!(reached > 1e-3 && reached < 1.1e-3, "{reached}");
+    let trace = Table::read(&folder.join("trace.csv"));
+    let depths = trace.column("tip.d_m");
+    assert!(depths.len() >= 11 && depths.iter().all(|d| d.parse::<f64>().unwrap() <= 1e-7), "{depths:?}");
+}

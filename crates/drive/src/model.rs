@@ -178,7 +178,8 @@ impl Model {
 
     /// Natural scale of work, J: μF_N u_c of the smallest contact.
     ///
-    /// Where no contact has friction, the largest mv² of a free coordinate at its natural speed; 1 J where that is nothing, too.
+    /// Where no contact has friction, the largest mv² of a free coordinate at its natural speed, or what balanced coordinates
+    /// store; 1 J where that is nothing, too.
     pub(crate) fn work_scale(&self) -> f64 {
         let work = |c: &Contact| c.friction_limit() * c.natural.displacement;
         let smallest = self.contacts.iter().map(work).filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
@@ -186,7 +187,7 @@ impl Model {
             return smallest;
         }
         let swing = self.free.iter().map(|free| free.mass * free.scale.1 * free.scale.1).fold(0.0, f64::max);
-        if swing.is_normal() { swing } else { 1.0 }
+        if swing.is_normal() { swing } else { self.stored_scale().unwrap_or(1.0) }
     }
 
     /// Work of gravity and constant loads on the way to the positions `x` from 0, J.

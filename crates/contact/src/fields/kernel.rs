@@ -20,7 +20,7 @@ pub(super) enum Kernel<'a> {
     /// A flat punch: every height has its radius, m.
     Flat(f64),
     /// A power law: closed forms.
-    Power(PowerField),
+    Power(Box<PowerField>),
     /// Any other: quadrature.
     Any(&'a Profile),
 }
@@ -32,7 +32,7 @@ impl<'a> Kernel<'a> {
             return None;
         }
         Some(match (profile.exponent(), profile.punch()) {
-            (Some(n), _) => Self::Power(PowerField::new(n)),
+            (Some(n), _) => Self::Power(Box::new(PowerField::new(n))),
             (None, Some(radius)) => Self::Flat(radius),
             (None, None) => Self::Any(profile),
         })

@@ -100,7 +100,8 @@ impl Contact {
         }
     }
 
-    /// F_N of one contact, N, and ∂F_N/∂d, N/m, under its law; beyond a touch it goes on straight, as a pull.
+    /// F_N of one contact, N, and ∂F_N/∂d, N/m, under its law; that of a pressed contact goes on straight, as a pull, beyond
+    /// the moment at which it parts.
     pub(crate) fn press(&self, mode: &Mode, d: f64) -> [f64; 2] {
         let modulus = self.interface.normal_modulus();
         match mode {
@@ -108,6 +109,8 @@ impl Contact {
                 let reduced = lull.reduced_force(d);
                 [modulus * reduced, modulus / lull.depth(reduced).1]
             }
+            // What is apart pulls at nothing, and presses from where it touches: another holds the body until then.
+            Mode::Open | Mode::Whole { .. } if d <= 0.0 => [0.0; 2],
             _ if d > 0.0 => [self.interface.normal_force(d), self.interface.normal_stiffness(d)],
             _ => {
                 let stiffness = self.interface.normal_stiffness(self.natural.depth);

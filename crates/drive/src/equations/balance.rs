@@ -19,6 +19,9 @@ use crate::scene::Axis;
 const STEPS: u32 = 200;
 /// Steps after which bounds are halved: a row of springs has kinks, between which Newton's steps may go to and fro.
 const NEWTON: u32 = 40;
+/// Farthest that bounds are looked for, in natural lengths: beyond it nothing holds.
+// A gap of a metre between contacts pressed by a nanometre is 1e9 of them.
+const FARTHEST: f64 = 1e15;
 
 /// Part of what is left to the end of a law over which rates are compared, and least of the time.
 const NEAR: f64 = 1e-3;
@@ -138,7 +141,8 @@ impl Equations<'_> {
             Axis::Z => (contact.natural.depth, contact.natural.depth),
             _ => (self.memories[c].apex().u, contact.natural.displacement),
         };
-        let mut place = a * (along - self.rest(c, balanced.axis, at).0);
+        let start = a * (along - self.rest(c, balanced.axis, at).0);
+        let mut place = start;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut reach = scale;
         for step in 0..STEPS {
@@ -160,6 +164,9 @@ impl Equations<'_> {
                 0.5 * (low + high)
             } else {
                 reach *= 2.0;
+                if reach > FARTHEST * scale {
+                    return start;
+                }
                 place - reach.copysign(excess)
             };
             let moved = (next - place).abs();

@@ -44,10 +44,8 @@ impl Equations<'_> {
         let at = Instant { t, y };
         (0..self.model.balanced.len()).find_map(|b| {
             let [load, limit] = self.given_way(b, &at, |_| true)?;
-            let pressed =
-                self.model.balanced[b].contacts.iter().map(|(_, a)| a * load).all(|push| push > 0.0);
             let holds = match self.model.balanced[b].axis {
-                Axis::Z => pressed,
+                Axis::Z => self.presses(b, &at, 0.0),
                 // At the limit itself the contacts slip.
                 _ => load.abs() < limit || load == 0.0,
             };

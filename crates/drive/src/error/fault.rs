@@ -157,25 +157,16 @@ impl SceneFault {
                 "make the \"normal\" of a contact of this body \"coupled\", add a spring with \"direction\": \"z\", or \
                  make z \"fixed\""
             }
-            Self::BalancedPitch => "make pitch \"fixed\"",
             Self::BalancedMass(axis) => {
                 return Some(format!("remove the mass, or make {} \"free\"", axis.key()));
             }
-            Self::BalancedBesideFree(_) => {
-                "make the others \"balanced\" or \"fixed\", or let them follow a waveform"
-            }
-            Self::BalancedBesideBlock(_) => "take a stack that is linear and has no driver, or a spring",
-            Self::BalancedDamper => "remove the damping, or make the coordinate \"free\" and give it a mass",
-            Self::BalancedTogether => {
-                "let one of them follow a waveform, or join them to a body without a contact"
-            }
-            Self::Unbalanceable(_) => {
-                "give the body a contact (along z one whose \"normal\" is \"coupled\"), or a spring with stiffness"
-            }
-            Self::Unbalanced { axis: Axis::Z, .. } => {
-                "press the body onto its contacts, or hold it by a spring"
-            }
-            Self::Unbalanced { .. } => "lower the load, press harder, or hold the body by a spring",
+            Self::BalancedPitch
+            | Self::BalancedBesideFree(_)
+            | Self::BalancedBesideBlock(_)
+            | Self::BalancedDamper
+            | Self::BalancedTogether
+            | Self::Unbalanceable(_)
+            | Self::Unbalanced { .. } => self.advice_on_balance(),
             Self::Unmoved => {
                 "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
             }
@@ -206,6 +197,28 @@ impl SceneFault {
             | Self::Loading(_) => return None,
         };
         Some(advice.to_owned())
+    }
+
+    /// What to try where a body is to be balanced.
+    fn advice_on_balance(&self) -> &'static str {
+        match self {
+            Self::BalancedPitch => "make pitch \"fixed\"",
+            Self::BalancedBesideFree(_) => {
+                "make the others \"balanced\" or \"fixed\", or let them follow a waveform"
+            }
+            Self::BalancedBesideBlock(_) => "take a stack that is linear and has no driver, or a spring",
+            Self::BalancedDamper => "remove the damping, or make the coordinate \"free\" and give it a mass",
+            Self::BalancedTogether => {
+                "let one of them follow a waveform, or join them to a body without a contact"
+            }
+            Self::Unbalanceable(_) => {
+                "give the body a contact (along z one whose \"normal\" is \"coupled\"), or a spring with stiffness"
+            }
+            Self::Unbalanced { axis: Axis::Z, .. } => {
+                "press the body onto its contacts, or hold it by a spring"
+            }
+            _ => "lower the load, press harder, or hold the body by a spring",
+        }
     }
 }
 

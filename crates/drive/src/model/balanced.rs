@@ -120,6 +120,24 @@ pub(super) fn moment(waveforms: &[Waveform]) -> f64 {
 }
 
 impl Model {
+    /// The smallest of what balanced coordinates can store, J: a contact at its natural depth, a spring under the widest pull.
+    pub(super) fn stored_scale(&self) -> Option<f64> {
+        let range = |w: usize| self.signals().range(w);
+        let of = |b: &Balanced| {
+            let pressed = |(c, _): &(usize, f64)| {
+                let contact = &self.contacts[*c];
+                contact.count * contact.interface.normal_energy(contact.natural.depth)
+            };
+            let contacts = b.contacts.iter().filter(|_| b.axis == Axis::Z).map(pressed).sum::<f64>();
+            let pull = b.pull.widest(range);
+            // Of one that has been eliminated the stiffness is 1, and its pull a length.
+            let springs =
+                if b.stiffness > 0.0 && !b.contacts.is_empty() { pull * pull / b.stiffness } else { 0.0 };
+            contacts + springs
+        };
+        self.balanced.iter().map(of).filter(|work| work.is_normal()).reduce(f64::min)
+    }
+
     /// The same with balanced coordinates along z where they are at t = 0.
     pub(super) fn settled(mut self) -> Self {
         if self.balanced.iter().any(|b| b.axis == Axis::Z) {

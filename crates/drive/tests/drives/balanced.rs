@@ -10,17 +10,18 @@ use stickslip_drive::scene::{
 };
 use stickslip_drive::{EventKind, Model, Plan, Run, RunError, Shape, State, Timing, Trace, Waveform, run};
 
-const MU: f64 = 0.3;
-const FORCE: f64 = 10.0;
-const PERIOD: f64 = 1e-2;
-const BALANCED: Coordinate = Coordinate { freedom: Freedom::Balanced, position: 0.0, velocity: 0.0 };
+pub(crate) const MU: f64 = 0.3;
+pub(crate) const FORCE: f64 = 10.0;
+pub(crate) const PERIOD: f64 = 1e-2;
+pub(crate) const BALANCED: Coordinate =
+    Coordinate { freedom: Freedom::Balanced, position: 0.0, velocity: 0.0 };
 
 fn pulled() -> Load {
     Load { on: 0, x: Varying::Follows(0), ..Load::default() }
 }
 
 /// A body without mass on the ground, pulled by a waveform.
-fn rig(profile: Profile, load: Shape) -> Scene {
+pub(crate) fn rig(profile: Profile, load: Shape) -> Scene {
     Scene {
         waveforms: vec![wave("load", load, PERIOD)],
         bodies: vec![named("ball", Body { x: BALANCED, ..Body::default() })],
@@ -30,7 +31,7 @@ fn rig(profile: Profile, load: Shape) -> Scene {
     }
 }
 
-fn sine(share: f64) -> Shape {
+pub(crate) fn sine(share: f64) -> Shape {
     Shape::Sine { amplitude: share * MU * FORCE, phase: 0.0, offset: 0.0 }
 }
 
@@ -79,7 +80,7 @@ fn a_sine_of_force_walks_the_closed_form() {
     }
 }
 
-fn spring(between: [Side; 2], stiffness: f64) -> Spring {
+pub(crate) fn spring(between: [Side; 2], stiffness: f64) -> Spring {
     Spring {
         between,
         at: [Point::default(); 2],
@@ -154,7 +155,7 @@ fn a_leaf_in_series_takes_its_part_of_the_stroke() {
     assert!(state.counts().events <= 40, "{:?}", state.counts());
 }
 
-fn fails(scene: &Scene, duration: f64) -> (Model, State, Trace, RunError) {
+pub(crate) fn fails(scene: &Scene, duration: f64) -> (Model, State, Trace, RunError) {
     let model = Model::new(scene).unwrap();
     let plan = Plan { every: Some(PERIOD / 64.0), ..event(1e-6, duration) };
     let mut state = model.start(&plan).unwrap();
@@ -252,7 +253,7 @@ impl Lot {
     }
 }
 
-fn table(name: &str, points: &[f64]) -> stickslip_drive::scene::Named<Waveform> {
+pub(crate) fn table(name: &str, points: &[f64]) -> stickslip_drive::scene::Named<Waveform> {
     let points = points.iter().enumerate().map(|(i, value)| (i as f64 * PERIOD, *value)).collect();
     named(name, Waveform::new(Shape::Table { points }, Timing::every(1.0)).unwrap())
 }

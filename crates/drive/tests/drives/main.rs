@@ -12,6 +12,7 @@ mod parts;
 
 mod abuse;
 mod balanced;
+mod balanced_bodies;
 mod benchmark_drive;
 mod closed_forms;
 mod contact_damping;

@@ -11,6 +11,8 @@ impl Equations<'_> {
     ///
     /// Contacts and springs take the power L q̇ of a load L, and have been asked. Near gross slip q̇ grows without bound, and
     /// no step would be short enough for it: booked is L q, read off the present place, less the integral of q L̇.
+    // Out of line: most scenes have none, and their slopes are no longer for it.
+    #[inline(never)]
     pub(in crate::equations) fn balance(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let read = |i: usize| at.component(i);
         let at = Components { t: at.time(), y: &read as &dyn Fn(usize) -> f64 };
@@ -50,6 +52,16 @@ impl Equations<'_> {
         }
         let led = balanced.led.iter().map(|(other, a)| a * self.place_of(*other, at));
         self.pull(&balanced.pull, at).value + led.sum::<f64>()
+    }
+
+    /// Whether what acts along z presses any contact of coordinate `b`, or nothing acts: a body between a floor and a ceiling
+    /// is held whatever pulls. A load of no more than `rounding` (N) is about to press, or to lift, as it changes.
+    pub(crate) fn presses(&self, b: usize, at: &Instant<'_>, rounding: f64) -> bool {
+        let balanced = &self.model.balanced[b];
+        let Sample { value, rate, acceleration } = self.pull(&balanced.pull, at);
+        let ahead = self.model.moment;
+        let push = if value.abs() > rounding { value } else { ahead * (rate + 0.5 * ahead * acceleration) };
+        push == 0.0 || balanced.contacts.iter().any(|(_, a)| a * push > 0.0)
     }
 
     /// What pulls at balanced coordinate `b`, N, and the most that its contacts hold where nothing else does; none where a

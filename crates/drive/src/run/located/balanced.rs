@@ -8,6 +8,10 @@ use crate::scene::Axis;
 use crate::state::State;
 use stickslip_stepper::Attempt;
 
+/// What is left of a load at the located moment at which it lifts a body off, as a part of the largest one.
+// Moments are located to 1e-11 of a period or better.
+const PARTING: f64 = 1e-9;
+
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Fails where nothing balances a coordinate any more: all that acts along it slips, or has parted.
     pub(super) fn check_balance(&self, state: &State) -> Result<(), RunError> {
@@ -19,11 +23,46 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 Axis::Z => state.modes[c] == Mode::Open,
                 _ => state.modes[c].has_given_way(&model.contacts[c]),
             };
-            if let Some(forces) = equations.given_way(b, &at, gone) {
+            // A load that sets out from 0 N has pressed nothing yet.
+            let sets_out = || along == Axis::Z && equations.presses(b, &at, self.rounding_of(b));
+            if let Some(forces) = equations.given_way(b, &at, gone).filter(|_| !sets_out()) {
                 return Err(model.unbalanced(b, state.t, forces));
             }
         }
         Ok(())
+    }
+
+    /// How far the whole law may be taken, s: to `to`, or to the last moment before nothing balances a coordinate any more.
+    ///
+    /// No mode says there that a contact has given way, and beyond it there is no place to go to. What pulls and what holds
+    /// depend on the time alone. Fails where that moment is now.
+    pub(super) fn until_overloaded(&self, state: &State, to: f64) -> Result<f64, RunError> {
+        let (model, equations, from) = (self.setting.model, self.setting.plain(state), state.t);
+        let over = |t: f64| equations.overloaded(t, &|i| state.y[i]);
+        let tried = [from + 0.5 * (to - from), to];
+        let Some(mut high) = tried.into_iter().find(|t| over(*t).is_some()) else { return Ok(to) };
+        let mut low = from;
+        loop {
+            let middle = low + 0.5 * (high - low);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if over(middle).is_some() { high = middle } else { low = middle }
+        }
+        match over(high) {
+            Some((b, forces)) if low <= from => Err(model.unbalanced(b, from, forces)),
+            _ => Ok(low),
+        }
+    }
+
+    /// What is rounding of a load where the last contact parts, N.
+    fn rounding_of(&self, b: usize) -> f64 {
+        let model = self.setting.model;
+        let force = |(c, _): &(usize, f64)| {
+            let contact = &model.contacts[*c];
+            contact.count * contact.interface.normal_force(contact.natural.depth)
+        };
+        PARTING * model.balanced[b].contacts.iter().map(force).sum::<f64>()
     }
 
     /// The place of a balanced coordinate becomes a state where the first of its contacts grows: it begins where that stands.

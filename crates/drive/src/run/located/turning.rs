@@ -108,18 +108,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Free coordinates stay where they are: in no time no finite force moves a mass. Links and contacts with
     /// dampers are refused by the model where something they join jumps.
     ///
-    /// Fails where nothing balances what has jumped.
+    /// Fails where nothing balances what has jumped, and where it leads a contact out of its row or its table.
     fn jump(&mut self, state: &mut State, (before, laden): (f64, f64)) -> Result<(), RunError> {
         let mut friction = 0.0;
         self.balance_jump(state)?;
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
-            // A jump is as finite as its waveform.
             let from = state.memories[c].apex();
             // Friction of the whole path, for contacts that integrate theirs too: no time passes to integrate
             // over.
             let work = contact.count
-                * state.memories[c].commit(&contact.interface, Segment::Jump(to)).unwrap_or(0.0);
+                * state.memories[c]
+                    .commit(&contact.interface, Segment::Jump(to))
+                    .map_err(|source| self.setting.model.refused(c, state.t, source))?;
             self.ledger.note(self.setting.model, state, c, Segment::Jump(to));
             state.friction[c] += work;
             friction += work;

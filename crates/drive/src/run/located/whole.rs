@@ -61,6 +61,12 @@ struct Times {
     to: f64,
 }
 
+impl Times {
+    fn halved(from: f64, to: f64) -> Self {
+        Self { from, middle: from + 0.5 * (to - from), to }
+    }
+}
+
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Puts every contact on its whole law.
     pub(super) fn take_whole(&mut self, state: &mut State) {
@@ -76,10 +82,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         mut detour: Detour,
         record: &mut dyn Record,
     ) -> Result<Progress, RunError> {
-        let times = self.times(state, &detour);
+        let mut times = self.times(state, &detour);
         let h = times.to - times.from;
         if self.horizon.is_beyond(times.to) {
             return Ok(Progress::Short);
+        }
+        if !self.setting.model.balanced.is_empty() {
+            times = Times::halved(times.from, self.until_overloaded(state, times.to)?);
         }
         if times.middle <= times.from || times.to <= times.middle {
             return self.step_instant(state, (times.to, &detour), record);
@@ -157,7 +166,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             step if 2.0 * step > left => from + 0.5 * left,
             step => from + step,
         };
-        Times { from, middle: from + 0.5 * (to - from), to }
+        Times::halved(from, to)
     }
 
     /// Tries a step and its halves; gives the error of the halves in units of what is allowed.

@@ -58,8 +58,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             |contact: &Contact| contact.slot.is_some() && !contact.engine.branches() && !contact.has_lulls();
         // Blocks have events of their own, which only a located run looks for.
         if model.blocks.is_empty() && model.contacts.iter().any(dense) {
-            let length = TAU / model.fastest;
-            self.detour = Some(Detour { end: f64::MAX, length, step: FIRST * length });
+            let period = TAU / model.fastest;
+            // Where nothing is free nothing swings, and a period of the waveforms tells how short a step may be.
+            let frequency = model.contacts.iter().map(|c| c.natural.frequency).fold(model.fastest, f64::max);
+            self.detour = Some(Detour { end: f64::MAX, length: TAU / frequency, step: FIRST * period });
             self.take_whole(state);
         }
     }
