@@ -193,8 +193,12 @@ fn slide(law: &Interface, d: f64, a: f64, given: TangentialGiven) -> Result<(f64
         }
         TangentialGiven::Force(force) => {
             let limit = law.friction() * law.normal_force(d);
-            if force.is_nan() || force.abs() > limit {
+            // μF_N as people reckon it may lie some last places beyond what its product comes to.
+            if force.is_nan() || force.abs() > limit * (1.0 + 4.0 * f64::EPSILON) {
                 return Err(FirstLoadingError::TangentialForce { force, limit });
+            }
+            if force.abs() >= limit && limit > 0.0 {
+                return Ok(((slope * depth_in_contact).copysign(force), 0.0));
             }
             if force == 0.0 {
                 return Ok((0.0, depth_in_contact));

@@ -16,7 +16,7 @@ mod subject;
 mod walk;
 mod write;
 
-pub use history::{Corner, History, Normal, Tangential};
+pub use history::{Corner, History, Normal, Tangential, asked};
 pub use loading::Loading;
 pub use sheet::{Constants, NormalRow, Pressed, Sheet, UniversalRow};
 pub use state::{LoadedSpring, contact_word};

@@ -5,7 +5,7 @@ use super::look::LookArguments;
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_contact::{NormalGiven, TangentialGiven};
-use stickslip_scenario::quantity;
+use stickslip_results::theory::asked;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
@@ -119,9 +119,9 @@ impl PushedArguments {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    quantity(text, "m")
+    asked(text, "m")
 }
 
 fn force(text: &str) -> Result<f64, String> {
-    quantity(text, "N")
+    asked(text, "N")
 }

@@ -93,6 +93,23 @@ fn corner(text: &str) -> Result<Corner, String> {
     Ok(Corner { normal, tangential: either(tangential, Tangential::Displacement, Tangential::Force)? })
 }
 
+/// Largest length or force that is taken, in SI, and least that is not 0: contacts of atoms and of mountains lie between.
+// Powers of what lies beyond are infinite or nothing, and quadratures of those do not end.
+const SIZES: [f64; 2] = [1e-24, 1e12];
+
+/// A quantity of people's: its value in SI, of a size that a contact may have.
+///
+/// # Errors
+/// No quantity of that unit, or one of no such size.
+pub fn asked(text: &str, unit: &str) -> Result<f64, String> {
+    let value = quantity(text, unit)?;
+    let [least, most] = SIZES;
+    if value == 0.0 || (least..=most).contains(&value.abs()) {
+        return Ok(value);
+    }
+    Err(format!("expected 0 or a size from {least:e} to {most:e} {unit}, got \"{}\"", text.escape_debug()))
+}
+
 /// A length or a force, which its unit tells; a number without is a length.
 fn either<T>(text: &str, length: fn(f64) -> T, force: fn(f64) -> T) -> Result<T, String> {
     let text = text.trim();
@@ -100,7 +117,7 @@ fn either<T>(text: &str, length: fn(f64) -> T, force: fn(f64) -> T) -> Result<T,
         return Err("expected a length or a force, got nothing\n   help: such as --history \"1 um, -1 um\""
             .to_owned());
     }
-    match (quantity(text, "m"), quantity(text, "N")) {
+    match (asked(text, "m"), asked(text, "N")) {
         (Ok(value), _) => Ok(length(value)),
         (_, Ok(value)) => Ok(force(value)),
         (Err(message), _) => Err(message),
