@@ -45,7 +45,7 @@ impl FirstLoading {
     }
 
     /// What the memory curve makes of it: force, elastic energy of the tangential deformation and friction work, which is (4.42)
-    /// 2G\*κ² ∫_c^a [d-g][g-g(c)] dx up to the onset of gross slip, and μ`F_N` for every metre beyond.
+    /// 2G\*κ² ∫_c^a (d-g)(g-g(c)) dx up to the onset of gross slip, and μ`F_N` for every metre beyond.
     ///
     /// The work is summed over what slips, not taken from a difference of energies, so that little of it is as exact as much.
     pub fn outcome(&self, law: &Interface) -> Outcome {
