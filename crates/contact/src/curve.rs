@@ -107,6 +107,14 @@ impl Curve {
         self.knots.reserve(room.saturating_sub(self.knots.len()));
     }
 
+    /// Remembers no more than so many knots (at least 8) from here on; with more of them the least go, and are booked.
+    pub fn bound(&mut self, law: &Interface, capacity: usize) {
+        self.capacity = capacity.max(Self::LEAST_CAPACITY);
+        while self.knots.len() > self.capacity {
+            self.thin(law);
+        }
+    }
+
     /// Where the contact stands.
     pub fn apex(&self) -> Apex {
         self.apex

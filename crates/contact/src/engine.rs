@@ -1,8 +1,8 @@
 //! The engines behind one contract.
 
 use crate::{
-    Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Move, Outcome, Response, Row, Segment,
-    SpringState, Springs, Timed,
+    Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Merged, Move, Outcome, Response, Row,
+    Segment, SpringState, Springs, Timed,
 };
 use std::sync::Arc;
 
@@ -137,7 +137,7 @@ impl Tangential for Curve {
     }
     #[inline]
     fn force(&self, law: &Interface, to: Apex) -> f64 {
-        Self::trial(self, law, Move::Chord(to)).force
+        self.force_at(law, to)
     }
     fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         Self::preview(self, law, to)
@@ -217,6 +217,29 @@ impl Memory {
             Self::Curve(curve) => curve.make_room(),
             // A row has all its springs.
             Self::Row(_) => {}
+        }
+    }
+
+    /// Remembers no more than so many turning points from here on; a row has all its springs, and none.
+    pub fn bound(&mut self, law: &Interface, capacity: usize) {
+        if let Self::Curve(curve) = self {
+            curve.bound(law, capacity);
+        }
+    }
+
+    /// Turning points that it remembers; of a row none.
+    pub fn knot_count(&self) -> usize {
+        match self {
+            Self::Curve(curve) => curve.knot_count(),
+            Self::Row(_) => 0,
+        }
+    }
+
+    /// What bounding its stack has cost so far; of a row nothing.
+    pub fn merged(&self) -> Merged {
+        match self {
+            Self::Curve(curve) => curve.merged(),
+            Self::Row(_) => Merged::default(),
         }
     }
 

@@ -44,7 +44,9 @@ impl Model {
         plan.check()?;
         // A free mass does not follow a jump: only a step that ends there can tell its two sides apart.
         let jumps = !self.free.is_empty() && self.waveforms.iter().any(crate::Waveform::has_jumps);
-        if jumps && !plan.stepper.locates_events() {
+        let follows =
+            plan.stepper.locates_events() || plan.stepper.ends_at_corners() && self.balanced.is_empty();
+        if jumps && !follows {
             return Err(SceneFault::UnlocatedJump.of(Part::Run, Field::Stepper));
         }
         self.check_step(plan.stepper)?;

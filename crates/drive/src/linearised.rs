@@ -4,6 +4,7 @@
 //! has 2G\*a along the slide and, where bodies press it, 2E\*a along the normal; one that slips only has less. So the
 //! fastest motion here bounds what a step must resolve, and its stability that of a fixed step.
 
+mod frame;
 mod parts;
 
 use crate::{Model, Sample, State, Stepper};

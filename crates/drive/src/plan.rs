@@ -51,6 +51,10 @@ impl Plan {
         match self.stepper.accuracy() {
             Accuracy::Tolerance(tolerance) => above_zero(Field::Tolerance, tolerance),
             Accuracy::Step(step) => above_zero(Field::Step, step),
+            Accuracy::Frame { length, error } => {
+                above_zero(Field::Frame, length)?;
+                above_zero(Field::FrameAccuracy, error)
+            }
         }
     }
 }
@@ -76,6 +80,16 @@ pub enum Stepper {
         /// Step, s.
         step: f64,
     },
+    /// Frames of one length, each of a bounded number of Runge–Kutta steps of order 4, for whoever has to keep real time.
+    ///
+    /// Steps end where waveforms have corners; jumps of waveforms are taken. Memories of contacts stay small. How many steps
+    /// a frame has is a constant of the model: [`Model::substeps`](crate::Model::substeps).
+    Frames {
+        /// Frame, s.
+        length: f64,
+        /// What may be lost of a stroke in a stroke, 1e-9 to 1e-1.
+        accuracy: f64,
+    },
     /// Dormand–Prince 5(4) of the crate `ode_solvers`, without events: the plain explicit reference.
     Dopri5 {
         /// Local error per step, 1e-13 to 1e-2.
@@ -90,6 +104,13 @@ pub enum Accuracy {
     Tolerance(f64),
     /// Fixed step, s.
     Step(f64),
+    /// Steps of one length, so many a frame that an error is kept.
+    Frame {
+        /// Frame, s.
+        length: f64,
+        /// What may be lost of a stroke in a stroke.
+        error: f64,
+    },
 }
 
 /// What is known of a stepper without a model.
@@ -120,6 +141,10 @@ impl Stepper {
             Self::Event { tolerance } => adaptive("event", tolerance, true),
             Self::Verlet { step } => fixed("verlet", step, Linearised::longest_verlet_step),
             Self::Rk4 { step } => fixed("rk4", step, Linearised::longest_rk4_step),
+            Self::Frames { length, accuracy } => Facts {
+                accuracy: Accuracy::Frame { length, error: accuracy },
+                ..fixed("frames", length, Linearised::longest_rk4_step)
+            },
             Self::Dopri5 { tolerance } => adaptive("dopri5", tolerance, false),
         }
     }
@@ -137,6 +162,11 @@ impl Stepper {
     /// Whether its steps end at events, jumps of waveforms among them; others step across them.
     pub fn locates_events(self) -> bool {
         self.facts().locates_events
+    }
+
+    /// Whether its steps end where waveforms have corners, so that a jump is a path of its own.
+    pub fn ends_at_corners(self) -> bool {
+        self.locates_events() || matches!(self, Self::Frames { .. })
     }
 
     /// What tells the longest step, s, with which small motions do not grow; none of steppers that choose their steps.

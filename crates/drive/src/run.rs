@@ -12,6 +12,7 @@ mod located;
 mod output;
 mod reference;
 mod steady;
+mod stored;
 
 pub use held::Run;
 

@@ -165,7 +165,7 @@ pub(crate) fn warning(books: &Books, stepper: Stepper, (work, is_asked): (f64, b
         _ if !is_asked => return None,
         Accuracy::Tolerance(tolerance) if has_dense_output => (tolerance, TOLERANCES),
         Accuracy::Tolerance(tolerance) => (tolerance, TOLERANCES_OF_A_REFERENCE),
-        Accuracy::Step(_) => return None,
+        Accuracy::Step(_) | Accuracy::Frame { .. } => return None,
     };
     let unit = tolerance * through.max(work);
     if is_open(most * unit) {
@@ -183,6 +183,9 @@ fn advice(stepper: Stepper) -> &'static str {
         Stepper::Event { .. } => "take a smaller tolerance and see which digits stay",
         Stepper::Dopri5 { .. } => {
             "its error estimate sees neither kinks nor growth of contacts: take the stepper \"event\""
+        }
+        Stepper::Frames { .. } => {
+            "ask for a better accuracy, which takes more steps a frame, or take the stepper \"event\""
         }
         Stepper::Verlet { .. } | Stepper::Rk4 { .. } => {
             "take a shorter step, or the stepper \"event\", which controls its error"

@@ -177,6 +177,10 @@ impl Job {
         match stepper.accuracy() {
             Accuracy::Tolerance(tolerance) => (stepper.name(), "tolerance", tolerance),
             Accuracy::Step(step) => (stepper.name(), "step_s", step),
+            // The longest of its steps.
+            Accuracy::Frame { length, error } => {
+                (stepper.name(), "step_s", length / self.model.substeps(length, error))
+            }
         }
     }
 }

@@ -13,7 +13,7 @@
 #[allow(dead_code, reason = "shared with other tests")]
 mod shared;
 
-use shared::{Stage, rk4, verlet};
+use shared::{Stage, frames, rk4, verlet};
 use stickslip_contact::Memory;
 use stickslip_drive::{Event, Plan, Record, Run, State, Stepper, UntilSteady};
 
@@ -38,7 +38,8 @@ const DOUBLINGS: u64 = 6;
 
 fn steppers(stage: &Stage) -> Vec<Stepper> {
     let fixed = [verlet, rk4].map(|make| stage.step(0.5, make).unwrap());
-    [1e-4, 1e-9].map(|tolerance| Stepper::Event { tolerance }).into_iter().chain(fixed).collect()
+    let located = [1e-4, 1e-9].map(|tolerance| Stepper::Event { tolerance });
+    located.into_iter().chain(fixed).chain([frames(20e-6)]).collect()
 }
 
 /// Most knots that a memory has.

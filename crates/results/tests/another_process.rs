@@ -15,7 +15,7 @@
 mod shared;
 
 use serde::{Deserialize, Serialize};
-use shared::{Lottery, Stage, drawn, example, rk4, scenarios, verlet};
+use shared::{Lottery, Stage, drawn, example, frames, rk4, scenarios, verlet};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
@@ -52,6 +52,7 @@ impl Pair {
         let stepper = match self.stepper.as_str() {
             "event" => Stepper::Event { tolerance: self.accuracy },
             "verlet" => verlet(self.accuracy),
+            "frames" => frames(self.accuracy),
             _ => rk4(self.accuracy),
         };
         Plan { limits: LIMITS, ..stage.plan(stepper, self.end) }
@@ -137,7 +138,8 @@ fn draw(files: &[std::path::PathBuf], lottery: &mut Lottery) -> Option<(Pair, St
     let stage = pair.stage()?;
     let share = 0.2 + 0.7 * lottery.share();
     let event = Stepper::Event { tolerance: 10_f64.powf(-3.0 - 8.0 * lottery.share()) };
-    let stepper = match lottery.draw(4) {
+    let stepper = match lottery.draw(5) {
+        4 => frames(2e-4 * base.plan.duration * share),
         0 => stage.step(share, verlet).unwrap_or(event),
         1 => stage.step(share, rk4).unwrap_or(event),
         _ => event,
@@ -145,6 +147,7 @@ fn draw(files: &[std::path::PathBuf], lottery: &mut Lottery) -> Option<(Pair, St
     pair.stepper = stepper.name().to_owned();
     pair.accuracy = match stepper {
         Stepper::Verlet { step } | Stepper::Rk4 { step } => step,
+        Stepper::Frames { length, .. } => length,
         Stepper::Event { tolerance } | Stepper::Dopri5 { tolerance } => tolerance,
     };
     Some((pair, stage))

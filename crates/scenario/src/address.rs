@@ -84,7 +84,8 @@ fn keys(field: Field, stepper: Stepper) -> Vec<&'static str> {
         Field::Interval => &["every"],
         Field::SteadyChange => &["until_steady"],
         Field::Stepper => &["stepper"],
-        Field::Tolerance | Field::Step => &["stepper", stepper.name(), accuracy(stepper)],
+        Field::Tolerance | Field::Step | Field::Frame => &["stepper", stepper.name(), accuracy(stepper)],
+        Field::FrameAccuracy => &["stepper", stepper.name(), "accuracy"],
     };
     keys.to_vec()
 }
@@ -94,5 +95,6 @@ fn accuracy(stepper: Stepper) -> &'static str {
     match stepper.accuracy() {
         Accuracy::Tolerance(_) => "tolerance",
         Accuracy::Step(_) => "step",
+        Accuracy::Frame { .. } => "length",
     }
 }

@@ -3,7 +3,9 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use stickslip_stepper::{Attempt, Completion, Dop853, FixedStep, Rk4, Step, System, Target, Verlet};
+use stickslip_stepper::{
+    Attempt, Completion, Dop853, FixedStep, Rk4, Step, Stepping, System, Target, Verlet,
+};
 
 /// `pairs` uncoupled oscillators ẍ = -x and two quadratures.
 struct Oscillators {
@@ -91,7 +93,7 @@ fn dop853(c: &mut Criterion, system: &Oscillators) {
     });
 }
 
-fn fixed<F: FixedStep>(c: &mut Criterion, system: &Oscillators, name: &str) {
+fn fixed<F: Stepping<Oscillators>>(c: &mut Criterion, system: &Oscillators, name: &str) {
     c.bench_function(&format!("{name} x100 steps, {} components", system.dimension()), |b| {
         let (mut stepper, mut y) =
             (F::sized(system.positions(), system.dimension(), system.total()), vec![1.0; system.total()]);

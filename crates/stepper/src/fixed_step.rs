@@ -1,15 +1,9 @@
 //! What a run at a fixed step asks of a method.
 
-use crate::System;
-
 /// A one-step method without an error estimate.
-///
-/// It evaluates through `&System` only; the owner moves the system's memory after a step.
 pub trait FixedStep {
     /// Workspace for systems of `positions` positions among `dimension` coupled components among `total`.
     fn sized(positions: usize, dimension: usize, total: usize) -> Self;
-    /// Moves `y` (`total` components) from `t` to `t + h`.
-    fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64);
     /// Forgets slopes of the last step, if it keeps any: due when they jump (a corner of a waveform, a state changed from
     /// outside).
     fn restart(&mut self);
@@ -23,4 +17,12 @@ pub trait FixedStep {
     }
     /// Evaluations of the slopes since construction.
     fn evaluations(&self) -> u64;
+}
+
+/// The same for the systems that it can step: some ask for slopes, some for accelerations alone.
+///
+/// It evaluates through `&S` only; the owner moves the system's memory after a step.
+pub trait Stepping<S: ?Sized>: FixedStep {
+    /// Moves `y` (all components) from `t` to `t + h`.
+    fn step(&mut self, system: &S, t: f64, y: &mut [f64], h: f64);
 }

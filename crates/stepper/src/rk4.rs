@@ -1,6 +1,6 @@
 //! The classical Runge–Kutta method of order 4 at a fixed step.
 
-use crate::{FixedStep, System};
+use crate::{FixedStep, Stepping, System};
 
 /// Classical Runge–Kutta method (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2): four evaluations
 /// per step, no error estimate.
@@ -58,7 +58,16 @@ impl FixedStep for Rk4 {
         Self::new(dimension, total)
     }
 
-    fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
+    /// It keeps none.
+    fn restart(&mut self) {}
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
+
+impl<S: System + ?Sized> Stepping<S> for Rk4 {
+    fn step(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
         let half = 0.5 * h;
         for (to, from) in self.stage.iter_mut().zip(y.iter()) {
             *to = *from;
@@ -75,12 +84,5 @@ impl FixedStep for Rk4 {
             *y += h / 6.0 * sum;
         }
         self.evaluations += 4;
-    }
-
-    /// It keeps none.
-    fn restart(&mut self) {}
-
-    fn evaluations(&self) -> u64 {
-        self.evaluations
     }
 }

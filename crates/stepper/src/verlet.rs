@@ -1,6 +1,6 @@
 //! Velocity Verlet at a fixed step.
 
-use crate::{FixedStep, System};
+use crate::{FixedStep, Stepping, System};
 
 /// Velocity Verlet (Swope et al., J. Chem. Phys. 76, 637, 1982): order 2, one evaluation per step.
 ///
@@ -51,7 +51,30 @@ impl FixedStep for Verlet {
         Self::new(positions, dimension, total)
     }
 
-    fn step<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
+    /// The next step evaluates its first slopes anew.
+    fn restart(&mut self) {
+        self.known = false;
+    }
+
+    fn kept(&self) -> Option<&[f64]> {
+        self.known.then_some(self.first.as_slice())
+    }
+
+    /// Slopes of another number than `total` are not taken.
+    fn keep(&mut self, slopes: &[f64]) {
+        self.known = slopes.len() == self.first.len();
+        if self.known {
+            self.first.copy_from_slice(slopes);
+        }
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
+
+impl<S: System + ?Sized> Stepping<S> for Verlet {
+    fn step(&mut self, system: &S, t: f64, y: &mut [f64], h: f64) {
         if !self.known {
             for (to, from) in self.stage.iter_mut().zip(y.iter()) {
                 *to = *from;
@@ -79,26 +102,5 @@ impl FixedStep for Verlet {
         }
         std::mem::swap(&mut self.first, &mut self.last);
         self.known = true;
-    }
-
-    /// The next step evaluates its first slopes anew.
-    fn restart(&mut self) {
-        self.known = false;
-    }
-
-    fn kept(&self) -> Option<&[f64]> {
-        self.known.then_some(self.first.as_slice())
-    }
-
-    /// Slopes of another number than `total` are not taken.
-    fn keep(&mut self, slopes: &[f64]) {
-        self.known = slopes.len() == self.first.len();
-        if self.known {
-            self.first.copy_from_slice(slopes);
-        }
-    }
-
-    fn evaluations(&self) -> u64 {
-        self.evaluations
     }
 }

@@ -2,7 +2,7 @@
 
 mod systems;
 
-use stickslip_stepper::{FixedStep, Rk4, System, Verlet};
+use stickslip_stepper::{FixedStep, Rk4, Stepping, System, Verlet};
 use systems::{Driven, Forced, Oscillator, order};
 
 fn rk4<S: System>(system: &S, mut y: Vec<f64>, t1: f64, steps: u32) -> Vec<f64> {

@@ -32,6 +32,19 @@ impl Curve {
         }
     }
 
+    /// F_x that a chord would give, N: [`Self::trial`] without its tangents.
+    #[inline]
+    pub fn force_at(&self, law: &Interface, to: Apex) -> f64 {
+        let Some(top) = self.knots.last() else { return self.trial(law, Move::Chord(to)).force };
+        let shear = match Drag::of(law, &self.knots, to) {
+            Drag::Open => return 0.0,
+            Drag::Rest => top.shear,
+            Drag::Stick => top.stick(law, to).shear,
+            Drag::Slip(edge) => edge.shear(law, &self.knots, to),
+        };
+        law.tangential_modulus() * shear
+    }
+
     /// Everything that a chord would give, its friction work included.
     // By reading, without a copy of the memory: 92 ns where a clone that commits takes 197, and allocates.
     pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {

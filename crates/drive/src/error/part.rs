@@ -109,6 +109,10 @@ pub enum Field {
     Tolerance,
     /// Step of the plan's stepper.
     Step,
+    /// Frame of the plan's stepper.
+    Frame,
+    /// What may be lost in a frame.
+    FrameAccuracy,
 }
 
 impl fmt::Display for Part {
@@ -162,6 +166,8 @@ impl fmt::Display for Field {
             Self::Stepper => "stepper",
             Self::Tolerance => "tolerance",
             Self::Step => "step",
+            Self::Frame => "frame",
+            Self::FrameAccuracy => "accuracy",
         })
     }
 }

@@ -19,6 +19,10 @@ pub fn rows(plan: &Plan) -> f64 {
 pub fn fixed_steps(model: &Model, plan: &Plan) -> Option<f64> {
     match model.effective(plan.stepper).accuracy() {
         Accuracy::Step(step) => Some((plan.duration / step - SAME).ceil()),
+        Accuracy::Frame { length, error } => {
+            let step = length / model.substeps(length, error);
+            Some((plan.duration / step - SAME).ceil())
+        }
         Accuracy::Tolerance(_) => None,
     }
 }

@@ -88,6 +88,13 @@ impl Closed<'_> {
         }
     }
 
+    /// Whether in this motion it still drags the same piece in the same sense.
+    #[inline(always)]
+    pub(crate) fn keeps(&self, motion: &Motion) -> bool {
+        self.branch.sense() * motion.du >= 0.0
+            && (self.branch.is_gross() || self.branch.margin(motion.u) >= 0.0)
+    }
+
     /// +1 forward, -1 backward.
     pub(crate) fn sense(&self) -> f64 {
         self.branch.sense()

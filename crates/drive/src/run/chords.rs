@@ -9,6 +9,8 @@
 //! second order at best by that, and so is every step across an event, whatever the method's name. Events are
 //! noticed after the fact, for the record alone.
 
+mod branches;
+mod corners;
 mod noticed;
 mod step;
 
@@ -22,7 +24,8 @@ use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway};
-use crate::{Plan, RunError};
+use crate::{Plan, RunError, Stepper};
+use branches::{Branches, KNOTS};
 pub(super) use step::Between;
 use stickslip_contact::{ContactState, Segment};
 
@@ -40,7 +43,12 @@ pub(super) struct Chords<'a> {
     standings: Vec<ContactState>,
     /// Whether somebody did at the last step.
     watched: bool,
-    /// The contacts at the end of the step.
+    /// Whether a step may cross corners of waveforms; otherwise it ends there.
+    crossing: bool,
+    /// Of frames: branches that contacts keep to.
+    branches: Option<Branches<'a>>,
+    /// The contacts at both ends of the step.
+    before: Vec<Motion>,
     motions: Vec<Motion>,
     /// The components there, where a run ends inside the step.
     last: Vec<f64>,
@@ -54,11 +62,15 @@ impl<'a> Chords<'a> {
         Self {
             horizon: Horizon::new(model, plan),
             output: Output::new(plan.every, layout),
-            ledger: Ledger::new(model, 0),
+            // A contact that turns in a step has a path to where it does, and one from there.
+            ledger: Ledger::new(model, model.contacts.len()),
             bounds: Bounds::new(model, plan.limits, 0.0),
             senses: vec![0.0; model.contacts.len()],
             standings: vec![ContactState::Open; model.contacts.len()],
             watched: false,
+            crossing: !plan.stepper.ends_at_corners(),
+            branches: matches!(plan.stepper, Stepper::Frames { .. }).then(|| Branches::of(model)),
+            before: Vec::with_capacity(model.contacts.len()),
             motions: Vec::with_capacity(model.contacts.len()),
             last: Vec::with_capacity(layout.total()),
             model,
@@ -73,9 +85,16 @@ impl<'a> Chords<'a> {
         state.carry_over(model, self.layout);
         // Steps without events have no moment at which an origin could move.
         state.come_back(model);
-        for mode in &mut state.modes {
+        let goes_on = matches!(state.underway, Some(Underway::Fixed(_)));
+        if self.branches.is_none() || !goes_on {
             // Without a sense: a chord may turn inside its step, and the memory sees it by itself.
-            *mode = Mode::Whole { sense: 0.0 };
+            state.modes.fill(Mode::Whole { sense: 0.0 });
+        }
+        if self.branches.is_some() {
+            for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
+                memory.bound(&contact.interface, KNOTS);
+            }
+            self.measure(state);
         }
         match &state.underway {
             Some(Underway::Fixed(way)) => self.take_up(way, state),
@@ -89,7 +108,7 @@ impl<'a> Chords<'a> {
             self.write_now(state, record);
         }
         self.ledger.begin_telling(record);
-        let eq = Equations::on(self.model, state, self.layout, true);
+        let eq = Equations::on(self.model, state, self.layout, self.crossing);
         self.output.begin_looks(&eq, (model, state), opening, record);
     }
 
@@ -111,8 +130,21 @@ impl<'a> Chords<'a> {
         way.steps = self.horizon.steps.so_far();
     }
 
+    pub(super) fn touched(&self) -> u64 {
+        self.ledger.touched
+    }
+
     pub(super) fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
-        Equations::on(self.model, state, self.layout, true)
+        let interval = self.branches.as_ref().filter(|branches| branches.current).map(|it| &it.interval);
+        Equations { interval, ..self.plain(state) }
+    }
+
+    /// The same by the general law alone.
+    fn plain<'s>(&self, state: &'s State) -> Equations<'s>
+    where
+        'a: 's,
+    {
+        Equations::on(self.model, state, self.layout, self.crossing)
     }
 
     /// Goes as far as a goal says.
@@ -126,34 +158,9 @@ impl<'a> Chords<'a> {
         state.t < self.horizon.limit()
     }
 
-    /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
-    /// that ends at a corner sees one side of it only. Tells whether any changed.
-    ///
-    /// By the middle, since either end may lie on a corner and round to its other side.
-    pub(super) fn enter(&self, state: &mut State, end: f64) -> bool {
-        let middle = 0.5 * (state.t + end);
-        let mut changed = false;
-        for (w, waveform) in self.model.waveforms.iter().enumerate() {
-            let piece = state.pieces[w];
-            if (piece.start..piece.end).contains(&middle) {
-                continue;
-            }
-            let next = match waveform.interpolation() {
-                None => Some(waveform.piece_at(middle)),
-                Some(_) if middle >= piece.end => state.supplied[w].take(),
-                Some(_) => None,
-            };
-            if let Some(next) = next {
-                state.pieces[w] = next;
-                changed = true;
-            }
-        }
-        changed
-    }
-
     /// Writes the row of where the run stands.
     pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
-        let eq = Equations::on(self.model, state, self.layout, true);
+        let eq = Equations::on(self.model, state, self.layout, self.crossing);
         self.output.write_now(&eq, state, record);
     }
 
@@ -215,20 +222,16 @@ impl<'a> Chords<'a> {
         if self.watched && !was_watched && state.counts.steps > 0 {
             // Who begins to watch sees what happens from here on, not how the contacts came to be where they are.
             for (c, memory) in state.memories.iter().enumerate() {
-                self.standings[c] = self.standing(c, memory);
+                self.standings[c] = self.standing(c, memory, self.before.get(c));
             }
         }
-        let eq = Equations::on(self.model, state, self.layout, true);
-        self.motions.clear();
-        self.motions.extend(self.model.contacts.iter().map(|c| eq.motion(c, t, |i| y[i])));
-        self.ledger.clear();
-        for (c, motion) in self.motions.iter().enumerate() {
-            self.ledger.push(c, t, Segment::Straight(motion.apex()));
-        }
+        self.move_contacts(state, t, y);
+        self.write_down(state, (t, t - state.t));
         self.ledger.commit((self.model, self.layout), t, state)?;
         self.ledger.tell(record);
         state.y.copy_from_slice(y);
         state.t = t;
+        self.branch(state);
         if !self.model.blocks.is_empty() {
             self.ledger.commit_blocks((self.model, self.layout), state)?;
             self.pass_guards(state, record);
@@ -238,7 +241,8 @@ impl<'a> Chords<'a> {
         if self.watched {
             self.notice(state, record);
         }
-        for (sense, motion) in self.senses.iter_mut().zip(&self.motions) {
+        std::mem::swap(&mut self.before, &mut self.motions);
+        for (sense, motion) in self.senses.iter_mut().zip(&self.before) {
             // At rest a contact keeps the sense it had: stopping is no reversal.
             if motion.du != 0.0 {
                 *sense = motion.du.signum();
@@ -251,7 +255,7 @@ impl<'a> Chords<'a> {
     ///
     /// Looks are shown copies of the memories, each led on one chord to its moment.
     fn write(&mut self, state: &State, t: f64, to: (f64, &[f64]), record: &mut dyn Record) {
-        let eq = Equations::on(self.model, state, self.layout, true);
+        let eq = Equations::on(self.model, state, self.layout, self.crossing);
         let step = Between { from: (state.t, &state.y), to, free: self.layout.free };
         while let Some(due) = self.output.grid.due(t) {
             self.output.grid.write(&eq, state, due, &|i| step.value(i, due), record);

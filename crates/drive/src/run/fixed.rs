@@ -6,13 +6,34 @@
 use super::chords::Chords;
 use super::horizon::{Goal, Progress};
 use super::output::Opening;
+use crate::equations::Equations;
 use crate::record::Record;
 use crate::state::{FixedWay, Grid, Layout, State, Underway};
 use crate::{Model, Plan, RunError};
-use stickslip_stepper::FixedStep;
+use stickslip_stepper::{FixedStep, Stepping};
 
 /// What is left of a step and below round-off belongs to it: this part of a step.
 const REMAINDER: f64 = 1e-9;
+
+/// The least part of a step to which one is cut where a contact's branch ends: what bounds the work.
+const LEAST: f64 = 0.125;
+
+/// Where corners of waveforms may lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Corners {
+    /// Inside steps, which see both sides.
+    Inside,
+    /// Where steps end.
+    EndSteps,
+}
+
+/// Which components a method moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Moved {
+    All,
+    /// Nothing takes energy by its rate.
+    WithoutDamping,
+}
 
 /// A run in steps of one length.
 ///
@@ -23,32 +44,43 @@ pub(super) struct Fixed<'a, F> {
     /// Made once the state is there.
     stepper: F,
     name: &'static str,
+    corners: Corners,
     grid: Grid,
-    /// Components at the end of the step under way.
+    /// Components at the end of the step under way, and how many of them, from the first on, the method moves.
     y: Vec<f64>,
+    moved: usize,
     /// Slopes kept at the start of a step that may be taken back.
     slopes: Vec<f64>,
     /// Evaluations counted so far.
     counted: u64,
 }
 
-impl<'a, F: FixedStep> Fixed<'a, F> {
+impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
     /// Fails where `step` is as long as the longest with which small motions do not grow.
-    pub(super) fn new(model: &'a Model, plan: &Plan, step: f64) -> Result<Self, RunError> {
+    ///
+    /// `moved` is how many components, from the first on, the method moves: none dissipates beyond those.
+    pub(super) fn new(model: &'a Model, plan: &Plan, step: f64, moved: Moved) -> Result<Self, RunError> {
         let limit = model.longest_step(plan.stepper).unwrap_or(f64::INFINITY);
         // Beyond it the stiffest motion grows at every step: refused instead of exploding.
         if step >= limit {
             return Err(RunError::Unstable { step, limit });
         }
         let chords = Chords::new(model, plan);
+        let corners = if plan.stepper.ends_at_corners() { Corners::EndSteps } else { Corners::Inside };
         let Layout { free, .. } = chords.layout;
         let (dimension, total) = (chords.layout.dimension(), chords.layout.total());
+        let moved = match moved {
+            Moved::All => total,
+            Moved::WithoutDamping => total - 1,
+        };
         let grid = Grid { start: 0.0, step, count: 0.0 };
         Ok(Self {
-            stepper: F::sized(free, dimension, total),
+            stepper: F::sized(free, dimension, moved),
             name: plan.stepper.name(),
+            corners,
             grid,
             y: vec![0.0; total],
+            moved,
             slopes: Vec::with_capacity(total),
             counted: 0,
             chords,
@@ -106,8 +138,15 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
         self.chords.output.marks.hand_over(record);
     }
 
-    /// Memories are where the state is after every step.
-    pub(super) fn settle_books(&mut self, _: &mut State) {}
+    /// Turning points of contacts made or given up.
+    pub(super) fn touched(&self) -> u64 {
+        self.chords.touched()
+    }
+
+    /// Memories are where the state is after every step, but those of contacts that keep to a branch.
+    pub(super) fn settle_books(&mut self, state: &mut State) {
+        self.chords.settle(state);
+    }
 
     /// One step, up to the next moment of the grid or to where the run is cut before it.
     fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
@@ -115,9 +154,17 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
         if self.chords.horizon.is_beyond(aim) {
             return Ok(Progress::Short);
         }
-        let stop = self.chords.horizon.until.min(state.next_input(self.chords.model));
-        let end = if aim > stop - REMAINDER * self.grid.step { stop } else { aim };
-        if self.chords.enter(state, end) {
+        let mut turned = self.corners == Corners::EndSteps && self.chords.turn(state, record)?;
+        let corner = match self.corners {
+            Corners::Inside => state.next_input(self.chords.model),
+            Corners::EndSteps => state.next_corner(),
+        };
+        let stop = self.chords.horizon.until.min(corner);
+        let mut end = if aim > stop - REMAINDER * self.grid.step { stop } else { aim };
+        if self.corners == Corners::Inside {
+            turned = self.chords.enter(state, end);
+        }
+        if turned {
             // Slopes kept from the step before belong to the other side of the corner.
             self.stepper.restart();
         }
@@ -128,7 +175,13 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
             self.slopes.clear();
             self.slopes.extend_from_slice(self.stepper.kept().unwrap_or_default());
         }
-        self.stepper.step(&self.chords.equations(state), state.t, &mut self.y, end - state.t);
+        self.chords.prepare(state);
+        self.attempt(state, end);
+        if !is_due && self.chords.glides(state, (end, &self.y), record) {
+            self.grid.count += if end >= aim - REMAINDER * self.grid.step { 1.0 } else { 0.0 };
+            return self.chords.bounds.step(state, record).map(|()| Progress::Made);
+        }
+        end = self.cut(state, end);
         if is_due {
             let goal = self.chords.horizon.end;
             self.chords.take_steps(state, end, &self.y);
@@ -150,6 +203,30 @@ impl<'a, F: FixedStep> Fixed<'a, F> {
             self.grid.count -= 1.0;
         }
         Ok(Progress::Made)
+    }
+
+    /// Takes a step to `end` anew, to where the first branch of a contact ends in it, but to no less than an eighth of a whole
+    /// one; gives the end, s.
+    fn cut(&mut self, state: &State, end: f64) -> f64 {
+        let Some(first) = self.chords.first_end(state, (end, &self.y)) else { return end };
+        let least = state.t + LEAST * self.grid.step;
+        let cut = first.max(least);
+        if cut > first || cut >= end {
+            self.chords.let_end_decide();
+        }
+        if cut >= end {
+            return end;
+        }
+        self.y.copy_from_slice(&state.y);
+        self.stepper.restart();
+        self.attempt(state, cut);
+        cut
+    }
+
+    /// The step from where the state is to `end`, s.
+    fn attempt(&mut self, state: &State, end: f64) {
+        let y = &mut self.y[..self.moved];
+        self.stepper.step(&self.chords.equations(state), state.t, y, end - state.t);
     }
 
     fn put_down(&mut self, state: &mut State) {

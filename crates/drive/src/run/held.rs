@@ -1,14 +1,15 @@
 //! A run that its caller holds.
 
-use super::fixed::Fixed;
+use super::fixed::{Fixed, Moved};
 use super::horizon::Goal;
 use super::located::LocatedRun;
 use super::output::Opening;
 use crate::equations::Equations;
+use crate::method::{self, Method, SceneTraits};
 use crate::record::{self, Record};
 use crate::{InputError, Model, Plan, RunError, State, Stepper};
 use stickslip_contact::Memory;
-use stickslip_stepper::{Rk4, Verlet};
+use stickslip_stepper::{Nystrom4, Rk4, Verlet};
 
 /// A run that its caller moves on: it owns the state and the workspace, and borrows the model.
 ///
@@ -31,14 +32,24 @@ enum Way<'m> {
     Located(LocatedRun<'m>),
     Verlet(Box<Fixed<'m, Verlet>>),
     Rk4(Box<Fixed<'m, Rk4>>),
+    Nystrom(Box<Fixed<'m, Nystrom4>>),
 }
 
 impl<'m> Way<'m> {
     fn new(model: &'m Model, plan: &Plan) -> Result<Self, RunError> {
         Ok(match model.effective(plan.stepper) {
             Stepper::Event { tolerance } => Self::Located(LocatedRun::new(model, plan, tolerance)),
-            Stepper::Verlet { step } => Self::Verlet(Box::new(Fixed::new(model, plan, step)?)),
-            Stepper::Rk4 { step } => Self::Rk4(Box::new(Fixed::new(model, plan, step)?)),
+            Stepper::Verlet { step } => Self::Verlet(Box::new(Fixed::new(model, plan, step, Moved::All)?)),
+            Stepper::Rk4 { step } => Self::Rk4(Box::new(Fixed::new(model, plan, step, Moved::All)?)),
+            Stepper::Frames { length, accuracy } => {
+                let step = length / model.substeps(length, accuracy);
+                match method::stepping(&SceneTraits::of(model)).0 {
+                    Method::Nystrom => {
+                        Self::Nystrom(Box::new(Fixed::new(model, plan, step, Moved::WithoutDamping)?))
+                    }
+                    _ => Self::Rk4(Box::new(Fixed::new(model, plan, step, Moved::All)?)),
+                }
+            }
             Stepper::Dopri5 { .. } => return Err(RunError::NotHeld { stepper: plan.stepper.name() }),
         })
     }
@@ -53,6 +64,7 @@ macro_rules! each {
             Way::Located(LocatedRun::General($run)) => $call,
             Way::Verlet($run) => $call,
             Way::Rk4($run) => $call,
+            Way::Nystrom($run) => $call,
         }
     };
 }
@@ -93,6 +105,10 @@ impl Way<'_> {
     /// The range of a body since its last mark is told: nobody remembers it beyond this call.
     fn hand_over(&mut self, record: &mut dyn Record) {
         each!(self, run => run.hand_over(record));
+    }
+
+    fn touched(&self) -> u64 {
+        each!(self, run => run.touched())
     }
 
     /// Memories come to where the state is.
@@ -208,6 +224,12 @@ impl<'m> Run<'m> {
     /// move leads them further.
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Turning points of contacts that this run has made or given up: with the steps of [`State::counts`] what a frame's work
+    /// is counted in.
+    pub fn touched(&self) -> u64 {
+        self.way.touched()
     }
 
     /// The same, given away.

@@ -20,6 +20,8 @@ pub(super) struct Ledger {
     segments: Vec<(usize, Timed<Segment>)>,
     /// Up to when that has been done.
     pub(super) booked: Booked,
+    /// Turning points that commits have made or given up.
+    pub(super) touched: u64,
     /// The blocks' paths.
     passages: Vec<Passage>,
     /// What was committed since the record was told last, where it wants to know.
@@ -37,6 +39,7 @@ impl Ledger {
         };
         Self {
             segments: Vec::with_capacity(model.contacts.len() + more),
+            touched: 0,
             booked: Booked { last: vec![0.0; model.contacts.len()], blocks: 0.0, books: Books::Current },
             passages: model.blocks.iter().map(passage).collect(),
             told: None,
@@ -104,6 +107,7 @@ impl Ledger {
         for k in 0..self.segments.len() {
             let (c, segment) = self.segments[k];
             let contact = &model.contacts[c];
+            let knots = state.memories[c].knot_count();
             let friction = state.memories[c]
                 .commit(&contact.interface, segment)
                 .map_err(|source| model.refused(c, t, source))?;
@@ -114,6 +118,8 @@ impl Ledger {
             {
                 state.friction[c] += contact.count * friction;
             }
+            // Two are made, of those that were there as many go.
+            self.touched += (knots + 2).saturating_sub(state.memories[c].knot_count()) as u64;
             self.note(model, state, c, segment.path);
             // Growth that goes on joins the piece before it; anything else ends that piece.
             state.grew[c] = matches!(segment.path, Segment::Grown { .. });

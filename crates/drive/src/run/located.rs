@@ -203,6 +203,10 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     }
 
     /// Brings memories that wait for an event to where the state is. For who will read them, at the end of a run.
+    pub(super) fn touched(&self) -> u64 {
+        self.ledger.touched
+    }
+
     pub(super) fn settle_books(&mut self, state: &mut State) {
         if self.ledger.booked.books == Books::Behind {
             self.settle(state);

@@ -23,6 +23,8 @@ use thiserror::Error;
 const MAGIC: [u8; 8] = *b"stickslp";
 /// Version of the format: 2 counts the steps whose estimate missed.
 const VERSION: u64 = 2;
+/// Steppers at fixed step, by their number.
+const FIXED: [&str; 3] = ["rk4", "verlet", "frames"];
 /// Bytes before the words.
 const HEAD: usize = 56;
 /// Bytes of a word.

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Body, Coordinate, Normal, Scene, Side, Spring, Varying};
 use stickslip_drive::{Field, Indentations, Linearised, Model, Part, Shape, State, Stepper};
-use stickslip_stepper::{FixedStep, Rk4, System, Verlet};
+use stickslip_stepper::{Rk4, Stepping, System, Verlet};
 
 const FOOT: Side = Side::Body(0);
 const SLIDER: Side = Side::Body(1);

@@ -16,6 +16,12 @@ pub struct Stepping {
     /// … or its step.
     #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
     pub step: Option<Real>,
+    /// Of frames, their length, …
+    #[serde(rename = "frame_s", skip_serializing_if = "Option::is_none")]
+    pub frame: Option<Real>,
+    /// … and the steps that a frame takes, without those that corners and contacts add.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub substeps: Option<Real>,
     /// Simulated time.
     #[serde(rename = "duration_s")]
     pub duration: Real,
@@ -35,11 +41,17 @@ impl Stepping {
     pub fn of(job: &Job) -> Self {
         let (stepper, word, value) = job.stepper();
         let value_if = |wanted| (word == wanted).then_some(Real(value));
+        let frame = match job.model.effective(job.scenario.plan.stepper) {
+            Stepper::Frames { length, accuracy } => Some((length, accuracy)),
+            _ => None,
+        };
         let longest = |stepper| job.model.longest_step(stepper).filter(|step| step.is_finite()).map(Real);
         Self {
             stepper,
             tolerance: value_if("tolerance"),
             step: value_if("step_s"),
+            frame: frame.map(|(length, _)| Real(length)),
+            substeps: frame.map(|(length, accuracy)| Real(job.model.substeps(length, accuracy))),
             duration: Real(job.scenario.plan.duration),
             until_steady: job.scenario.plan.until_steady.map(|asked| Real(asked.change)),
             longest_verlet: longest(Stepper::Verlet { step: 0.0 }),

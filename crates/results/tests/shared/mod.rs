@@ -166,3 +166,8 @@ pub(crate) fn verlet(step: f64) -> Stepper {
 pub(crate) fn rk4(step: f64) -> Stepper {
     Stepper::Rk4 { step }
 }
+
+/// Frames of a length, s, at a thousandth of a stroke.
+pub(crate) fn frames(length: f64) -> Stepper {
+    Stepper::Frames { length, accuracy: 1e-3 }
+}

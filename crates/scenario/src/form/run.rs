@@ -67,6 +67,10 @@ pub(crate) enum StepperForm {
     /// Classical Runge–Kutta of order 4 at a fixed step.
     #[schemars(example = json!({ "rk4": { "step": "1 us" } }))]
     Rk4(StepForm),
+    /// Frames of one length and bounded work, each of so many Runge–Kutta steps of order 4 that an accuracy is kept: for real
+    /// time. Steps end at corners of waveforms; contacts remember no more than 64 turning points.
+    #[schemars(example = json!({ "frames": { "length": "20 us", "accuracy": 1e-3 } }))]
+    Frames(FramesForm),
     /// Dormand–Prince 5(4) without events: the plain explicit reference.
     #[schemars(example = json!({ "dopri5": { "tolerance": 1e-8 } }))]
     Dopri5(ToleranceForm),
@@ -79,6 +83,7 @@ impl StepperForm {
             Self::Event(form) => Stepper::Event { tolerance: form.tolerance },
             Self::Verlet(form) => Stepper::Verlet { step: form.step.si },
             Self::Rk4(form) => Stepper::Rk4 { step: form.step.si },
+            Self::Frames(form) => Stepper::Frames { length: form.length.si, accuracy: form.accuracy },
             Self::Dopri5(form) => Stepper::Dopri5 { tolerance: form.tolerance },
         }
     }
@@ -107,6 +112,24 @@ pub(crate) struct StepForm {
     /// Step, s, above 0; typical 10 ns to 1 us.
     #[schemars(example = &"100 ns", transform = above_zero)]
     pub(crate) step: Time,
+}
+
+/// Stepping in frames.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FramesForm {
+    /// Frame, s, above 0; typical 10 us to 1 ms.
+    #[schemars(example = &"50 us", transform = above_zero)]
+    pub(crate) length: Time,
+    /// What may be lost of a stroke in a stroke, 1e-9 to 0.1; typical 1e-5 to 1e-3. A frame has as many steps as the fastest
+    /// swing of the scene needs for it; `stickslip info` says how many.
+    #[serde(default = "default_accuracy")]
+    #[schemars(range(min = 1e-9, max = 0.1), example = 1e-3)]
+    pub(crate) accuracy: f64,
+}
+
+fn default_accuracy() -> f64 {
+    1e-3
 }
 
 fn default_tolerance() -> f64 {

@@ -10,6 +10,8 @@ use stickslip_drive::{Accuracy, Limits, Plan, Stepper, UntilSteady};
 
 /// Tolerances that the steppers take.
 const TOLERANCE: (f64, f64) = (1e-13, 1e-2);
+/// Accuracies that a frame may be asked for.
+const FRAME_ACCURACY: (f64, f64) = (1e-9, 1e-1);
 /// Changes of a step that may count as none.
 const CHANGE: (f64, f64) = (1e-12, 0.1);
 
@@ -139,19 +141,34 @@ fn stepper(at: &At<'_>, form: &StepperForm) -> Result<Stepper, Fault> {
         range::number_between(&at.key(stepper.name()).key("tolerance"), tolerance, TOLERANCE.0, TOLERANCE.1)
             .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most scenes"))?;
     }
+    if let Accuracy::Frame { error, .. } = stepper.accuracy() {
+        range::number_between(
+            &at.key(stepper.name()).key("accuracy"),
+            error,
+            FRAME_ACCURACY.0,
+            FRAME_ACCURACY.1,
+        )
+        .map_err(|fault| {
+            fault.help("what may be lost of a stroke in a stroke; 1e-3 suits most controllers")
+        })?;
+    }
     Ok(stepper)
 }
 
 /// A fixed step is not longer than the run.
 fn within_run(at: &At<'_>, plan: Plan) -> Result<(), Fault> {
     let name = plan.stepper.name();
-    let Accuracy::Step(step) = plan.stepper.accuracy() else { return Ok(()) };
+    let (key, step) = match plan.stepper.accuracy() {
+        Accuracy::Step(step) => ("step", step),
+        Accuracy::Frame { length, .. } => ("length", length),
+        Accuracy::Tolerance(_) => return Ok(()),
+    };
     if step <= plan.duration {
         return Ok(());
     }
     let duration = range::short(plan.duration);
     let what = format!("a time up to the duration of the run, {duration} s");
-    Err(at.key(name).key("step").expected(what))
+    Err(at.key(name).key(key).expected(what))
 }
 
 fn limits(at: &At<'_>, form: &LimitsForm) -> Result<Limits, Fault> {

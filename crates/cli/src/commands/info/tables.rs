@@ -87,9 +87,15 @@ impl Info {
 
     fn run(&self) -> String {
         let (stepping, expected) = (&self.stepping, &self.expected);
-        let stepper = match (stepping.tolerance, stepping.step) {
-            (Some(tolerance), _) => format!("{}, tolerance {:e}", stepping.stepper, tolerance.0),
-            (_, Some(step)) => format!("{}, step {}", stepping.stepper, quantity(step, "s")),
+        let stepper = match (stepping.tolerance, stepping.step, stepping.frame.zip(stepping.substeps)) {
+            (Some(tolerance), ..) => format!("{}, tolerance {:e}", stepping.stepper, tolerance.0),
+            (_, _, Some((frame, steps))) => format!(
+                "{} of {}, of {} steps and those that corners and contacts add",
+                stepping.stepper,
+                quantity(frame, "s"),
+                whole(steps.0)
+            ),
+            (_, Some(step), _) => format!("{}, step {}", stepping.stepper, quantity(step, "s")),
             _ => stepping.stepper.to_owned(),
         };
         let stable = |step: Option<Real>| step.map(|step| format!("below {}", quantity(step, "s")));

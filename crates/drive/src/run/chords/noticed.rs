@@ -1,6 +1,7 @@
 //! What shows after a step: guards of blocks that are down, and events of contacts, for the record alone.
 
 use super::Chords;
+use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
 use crate::record::Record;
@@ -14,7 +15,7 @@ impl Chords<'_> {
     /// step.
     pub(super) fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {
         for (k, wired) in self.model.blocks.iter().enumerate() {
-            let eq = Equations::on(self.model, state, self.layout, true);
+            let eq = Equations::on(self.model, state, self.layout, self.crossing);
             let t = state.t;
             let guards = wired.block().guards(&state.blocks[k].law);
             let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
@@ -23,22 +24,24 @@ impl Chords<'_> {
             state.blocks[k].law = law;
             if record.wants_events() {
                 let event = Event { t, source: Source::Block(k), kind };
-                let eq = Equations::on(self.model, state, self.layout, true);
+                let eq = Equations::on(self.model, state, self.layout, self.crossing);
                 self.output.event(&eq, state, &event, record);
             }
         }
     }
 
-    /// State of contact `c` after the last step.
-    pub(super) fn standing(&self, c: usize, memory: &Memory) -> ContactState {
-        memory.preview(&self.model.contacts[c].interface, memory.apex()).state
+    /// State of contact `c` after the last step, which its memory may lag behind.
+    pub(super) fn standing(&self, c: usize, memory: &Memory, at: Option<&Motion>) -> ContactState {
+        let lags = self.branches.is_some();
+        let at = at.filter(|_| lags).map_or(memory.apex(), Motion::apex);
+        memory.preview(&self.model.contacts[c].interface, at).state
     }
 
     /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
     /// whether somebody watched.
     pub(super) fn notice(&mut self, state: &State, record: &mut dyn Record) {
         for (c, motion) in self.motions.iter().enumerate() {
-            let now = self.standing(c, &state.memories[c]);
+            let now = self.standing(c, &state.memories[c], Some(motion));
             let was = std::mem::replace(&mut self.standings[c], now);
             let turns = self.senses[c] * motion.du < 0.0;
             let kind = match (was, now) {
@@ -52,7 +55,7 @@ impl Chords<'_> {
                 _ => continue,
             };
             let event = Event { t: state.t, source: Source::Contact(c), kind };
-            let eq = Equations::on(self.model, state, self.layout, true);
+            let eq = Equations::on(self.model, state, self.layout, self.crossing);
             self.output.event(&eq, state, &event, record);
         }
     }

@@ -5,14 +5,15 @@
 //! from the velocities to its right.
 
 use super::Located;
-use crate::contact::{Contact, Mode, Motion};
+use crate::contact::{Mode, Motion};
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
 use crate::model::Model;
-use crate::record::{self, Record};
+use crate::record::Record;
+use crate::run::stored::stored;
 use crate::state::{Books, State};
 use crate::{RunError, Waveform};
-use stickslip_contact::{Memory, Segment};
+use stickslip_contact::Segment;
 use stickslip_stepper::Attempt;
 
 /// What waveforms do at a corner.
@@ -56,7 +57,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // The energy of all contacts costs a preview of each: corners are many, and most waveforms never
         // jump.
         let before = match self.turning.jumps {
-            Jumps::Possible => (self.stored(state), self.laden(state)),
+            Jumps::Possible => (stored(&self.setting.plain(state), state), self.laden(state)),
             Jumps::Never => (0.0, 0.0),
         };
         self.turning.before.clone_from(&state.modes);
@@ -131,7 +132,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 self.set_law(state, c, (course, &at), 0.0);
             }
         }
-        state.jumps += self.stored(state) - before + friction;
+        state.jumps += stored(&self.setting.plain(state), state) - before + friction;
         if !self.setting.model.balanced.is_empty() {
             // Read off the places, the work of loads has jumped already.
             state.jumps -= self.laden(state) - laden;
@@ -161,20 +162,5 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return 0.0;
         }
         self.setting.plain(state).laden(state.t, &|i| state.y[i])
-    }
-
-    /// Energy of contacts and links, J, at the committed state; without that of a prescribed normal load.
-    fn stored(&self, state: &State) -> f64 {
-        let (model, eq) = (self.setting.model, self.setting.plain(state));
-        let energy = |(contact, memory): (&Contact, &Memory)| {
-            let apex = memory.apex();
-            // What a prescribed load stores it has put in itself: it is read off the present depth, and no
-            // jump of the books.
-            let normal = contact.coupling().map_or(0.0, |_| contact.interface.normal_energy(apex.d));
-            contact.count * (normal + memory.preview(&contact.interface, apex).elastic)
-        };
-        let contacts = model.contacts.iter().zip(&state.memories).map(energy);
-        let links = model.links.iter().map(|l| record::link_energy(&eq, l, state.t, &|i| state.y[i]));
-        contacts.sum::<f64>() + links.sum::<f64>()
     }
 }

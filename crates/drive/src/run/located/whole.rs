@@ -21,7 +21,7 @@ use crate::record::{self, Record};
 use crate::run::horizon::Progress;
 use crate::state::{Detour, State};
 use stickslip_contact::{Memory, Segment, Timed};
-use stickslip_stepper::{Attempt, FixedStep, Rk4, System};
+use stickslip_stepper::{Attempt, FixedStep, Rk4, Stepping, System};
 use way::Way;
 
 /// Part of the step that would just meet the tolerance.

@@ -1,5 +1,6 @@
 //! A state from words, in the order in which [`write`](super::write) puts them. None where they are not of this model.
 
+use super::FIXED;
 use crate::contact::Mode;
 use crate::interval::PhasePoint;
 use crate::method::Tally;
@@ -183,7 +184,7 @@ fn detour(words: &mut Words<'_>) -> Option<Detour> {
 }
 
 fn fixed(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Option<FixedWay> {
-    let stepper = if words.flag()? { "verlet" } else { "rk4" };
+    let stepper = *FIXED.get(usize::try_from(words.word()?).ok()?)?;
     let [start, step, count] = numbers(words)?;
     let grid = Grid { start, step, count };
     if !is_on(grid, t) {

@@ -1,5 +1,6 @@
 //! A state into words, in the order in which [`read`](super::read) takes them.
 
+use super::FIXED;
 use crate::contact::Mode;
 use crate::model::Model;
 use crate::state::{Ahead, Books, Grip, Whereabouts};
@@ -138,7 +139,8 @@ impl Page<'_> {
 
     fn fixed(&mut self, way: &FixedWay) {
         // By its letters: there are few.
-        self.0.push(u64::from(way.stepper == "verlet"));
+        let stepper = FIXED.iter().position(|name| *name == way.stepper);
+        self.0.push(stepper.unwrap_or(0) as u64);
         self.reals([way.grid.start, way.grid.step, way.grid.count]);
         self.flag(!way.slopes.is_empty());
         self.reals(way.slopes.iter().copied());

@@ -1,0 +1,21 @@
+//! What a jump of a waveform does to the energy that is stored.
+
+use crate::contact::Contact;
+use crate::equations::Equations;
+use crate::record;
+use crate::state::State;
+use stickslip_contact::Memory;
+
+/// Energy of contacts and links, J, at the committed state; without that of a prescribed normal load.
+pub(super) fn stored(eq: &Equations<'_>, state: &State) -> f64 {
+    let energy = |(contact, memory): (&Contact, &Memory)| {
+        let apex = memory.apex();
+        // What a prescribed load stores it has put in itself: it is read off the present depth, and no
+        // jump of the books.
+        let normal = contact.coupling().map_or(0.0, |_| contact.interface.normal_energy(apex.d));
+        contact.count * (normal + memory.preview(&contact.interface, apex).elastic)
+    };
+    let contacts = eq.model.contacts.iter().zip(&state.memories).map(energy);
+    let links = eq.model.links.iter().map(|l| record::link_energy(eq, l, state.t, &|i| state.y[i]));
+    contacts.sum::<f64>() + links.sum::<f64>()
+}
