@@ -5,6 +5,8 @@
 //! [`Waveform::after`] it. A value that jumps does so between two pieces.
 //!
 //! An input has no chain: its pieces are supplied while it runs, and without a caller it has a single one, its initial value.
+//! A generator has the chain that it runs through without a caller; one that is commanded makes its pieces as it goes, and the
+//! state of the run knows them.
 
 mod corners;
 mod course;
@@ -16,7 +18,7 @@ mod timing;
 
 pub use error::WaveformError;
 pub use piece::Piece;
-pub use shape::{Harmonic, Interpolation, Shape};
+pub use shape::{Command, Cycle, Generator, Harmonic, Heading, Interpolation, Shape, Steps};
 pub use timing::Timing;
 
 use corners::Corners;
@@ -54,6 +56,7 @@ impl Waveform {
     /// [`WaveformError`] names the parameter, what was expected and what came.
     pub fn new(shape: Shape, timing: Timing) -> Result<Self, WaveformError> {
         let course = shape.course(&timing)?;
+        let timing = shape.timing(timing);
         let window = match &course.chain {
             Chain::Corners(corners) => corners.window(),
             Chain::Sines(_) => (timing.delay, timing.stop()),
@@ -165,6 +168,15 @@ impl Waveform {
         }
     }
 
+    /// What a caller may command of it; none for what is no generator.
+    #[must_use]
+    pub fn generator(&self) -> Option<&Generator> {
+        match &self.shape {
+            Shape::Generator(generator) => Some(generator),
+            _ => None,
+        }
+    }
+
     /// Whether the value ever jumps by design.
     #[must_use]
     pub fn has_jumps(&self) -> bool {
@@ -178,18 +190,21 @@ impl Waveform {
         self.course.range
     }
 
-    /// Period, s; none for a table or an input.
+    /// Period, s; none for a table or an input, or a generator that rests until it is commanded.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.course.period
     }
 
     /// Time after which it has shown all that it does, s: its period, or from its start to its stop; infinite where it never
-    /// moves.
+    /// moves. A generator at rest moves as soon as it is told to: the shortest of its periods.
     #[must_use]
     pub(crate) fn extent(&self) -> f64 {
         let (start, stop) = self.window;
-        let whole = stop - start;
+        let whole = match self.generator() {
+            Some(generator) => generator.frequencies.1.recip(),
+            None => stop - start,
+        };
         self.period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
     }
 

@@ -139,7 +139,7 @@ impl<'a> Chords<'a> {
                 continue;
             }
             let next = match waveform.interpolation() {
-                None => Some(waveform.piece_at(middle)),
+                None => Some(state.piece_at(w, waveform, middle)),
                 Some(_) if middle >= piece.end => state.supplied[w].take(),
                 Some(_) => None,
             };
