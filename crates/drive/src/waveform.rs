@@ -197,15 +197,19 @@ impl Waveform {
     }
 
     /// Time after which it has shown all that it does, s: its period, or from its start to its stop; infinite where it never
-    /// moves. A generator at rest moves as soon as it is told to: the shortest of its periods.
+    /// moves. Of a generator the shortest period: it moves as soon as it is told to.
     #[must_use]
     pub(crate) fn extent(&self) -> f64 {
         let (start, stop) = self.window;
-        let whole = match self.generator() {
-            Some(generator) => generator.frequencies.1.recip(),
-            None => stop - start,
-        };
-        self.period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
+        let whole = stop - start;
+        self.shortest_period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
+    }
+
+    /// Shortest period that it can have, s: of a generator that of the largest frequency that may be commanded.
+    #[must_use]
+    pub(crate) fn shortest_period(&self) -> Option<f64> {
+        let commanded = self.generator().map(|generator| generator.frequencies.1.recip());
+        commanded.filter(|period| period.is_finite()).or(self.period())
     }
 
     /// From when to when it moves, s; the second is infinite where that has no end.
