@@ -469,7 +469,8 @@ fn generators_that_make_no_sense_are_refused() {
     assert_eq!(refuse(Generator { frequencies: (-1.0, 5e3), ..good }), "frequency");
     assert_eq!(refuse(Generator { frequencies: (0.0, f64::INFINITY), ..good }), "frequency");
     assert_eq!(refuse(Generator { frequencies: (2e3, 5e3), ..good }), "frequency");
-    assert_eq!(refuse(Generator { strokes: (0.0, 1e308), ..good }), "stroke");
+    assert_eq!(refuse(Generator { strokes: (0.0, 1e308), ..good }), "range");
+    assert_eq!(refuse(Generator { strokes: (-1e308, 1e308), ..good }), "range");
     let of = |timing: Timing| Waveform::new(Shape::Generator(good), timing).map_err(|error| error.key());
     assert_eq!(of(Timing { delay: 1.0, ..Timing::every(1.0) }), Err("delay"));
     assert_eq!(of(Timing { phase: 1.0, ..Timing::every(1.0) }), Err("phase"));

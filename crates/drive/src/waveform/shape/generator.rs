@@ -7,7 +7,7 @@
 use super::Way;
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
-use crate::waveform::error::{finite, smooth, within};
+use crate::waveform::error::{finite, within};
 use crate::waveform::{Timing, WaveformError};
 
 /// A waveform of cycles that a caller commands.
@@ -167,7 +167,8 @@ impl Generator {
             }
         }
         let (low, high) = self.range();
-        smooth("stroke", stroke, (high - low) / self.cycle.shortest(highest))
+        let steepest = (high - low) / self.cycle.shortest(highest);
+        within("range", high - low, "strokes that are reached at a finite rate", steepest.is_finite())
     }
 }
 
