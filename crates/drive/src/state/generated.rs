@@ -3,9 +3,12 @@
 //! Cycles of the same parameters that follow each other are a *span*: cycle k begins at origin + k·period, a product and never
 //! a sum, as the corners of any periodic waveform. A command that changes the parameters ends the span at the end of its cycle.
 
+mod span;
+
 use super::State;
 use crate::waveform::{Command, Cycle, Generator, Steps};
 use crate::{Model, Piece, Waveform};
+pub(super) use span::Span;
 use thiserror::Error;
 
 /// Why a generator does not take a command.
@@ -71,63 +74,6 @@ pub(crate) struct Generating {
     pub(super) turned: bool,
     /// Cycles begun since t = 0.
     pub(super) begun: u64,
-}
-
-/// Cycles of one form, one after the other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Span {
-    /// Start of the first, s.
-    pub(super) origin: f64,
-    /// s.
-    pub(super) period: f64,
-    /// When after its start a cycle turns, s.
-    pub(super) top: f64,
-    /// Value there.
-    pub(super) stroke: f64,
-}
-
-impl Span {
-    /// Cycles of a command from a time, s, on.
-    fn of(cycle: Cycle, command: &Command, origin: f64) -> Self {
-        Self { origin, period: command.period(), top: cycle.top(command), stroke: command.stroke }
-    }
-
-    /// Whether it is made of the same cycles.
-    fn is_like(&self, other: &Self) -> bool {
-        (self.period, self.top, self.stroke) == (other.period, other.top, other.stroke)
-    }
-
-    /// Start of cycle `k`, s.
-    fn start(&self, k: u64) -> f64 {
-        self.origin + k as f64 * self.period
-    }
-
-    /// Turn of cycle `k`, s.
-    fn turn(&self, k: u64) -> f64 {
-        self.origin + (k as f64 * self.period + self.top)
-    }
-
-    /// First or second way of cycle `k`.
-    fn piece(&self, k: u64, turned: bool) -> Piece {
-        let top = (self.turn(k), self.stroke);
-        if turned {
-            Piece::straight(top, (self.start(k.saturating_add(1)), 0.0))
-        } else {
-            Piece::straight((self.start(k), 0.0), top)
-        }
-    }
-
-    /// The way on which it is at `t`, s, from its first cycle on.
-    fn piece_at(&self, t: f64) -> Piece {
-        let mut k = ((t - self.origin) / self.period).floor().max(0.0) as u64;
-        // The division may be off by one where `t` lies on a corner.
-        if k > 0 && self.start(k) > t {
-            k -= 1;
-        } else if self.start(k.saturating_add(1)) <= t {
-            k = k.saturating_add(1);
-        }
-        self.piece(k, self.turn(k) <= t)
-    }
 }
 
 impl Generating {
