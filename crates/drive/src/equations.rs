@@ -19,7 +19,7 @@ pub(crate) use sum::{Components, Reading, View};
 
 use crate::interval::{Interval, Pull};
 use crate::model::{Binding, BlockState, Measure};
-use crate::state::{Layout, State};
+use crate::state::{Generating, Layout, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::Memory;
 use stickslip_stepper::{Conservative, System};
@@ -35,6 +35,8 @@ pub(crate) struct Equations<'a> {
     pub(crate) model: &'a Model,
     /// The smooth piece of each waveform.
     pub(crate) pieces: &'a [Piece],
+    /// What each waveform generates; empty where none does.
+    pub(crate) generators: &'a [Option<Generating>],
     /// What the contacts remember, as committed last.
     pub(crate) memories: &'a [Memory],
     /// The law of each contact.
@@ -52,8 +54,8 @@ impl<'a> Equations<'a> {
     ///
     /// `layout` may leave out the components of growing contacts, as runs by chords do.
     pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
-        let State { pieces, memories, modes, blocks, .. } = state;
-        Self { model, pieces, memories, modes, blocks, layout, crossing, interval: None }
+        let State { pieces, generators, memories, modes, blocks, .. } = state;
+        Self { model, pieces, generators, memories, modes, blocks, layout, crossing, interval: None }
     }
 }
 
@@ -82,7 +84,11 @@ impl<'a> Equations<'a> {
         // A step aligned with a corner may miss it by rounding; that is still the same piece.
         let slack = CORNER_SLACK * (piece.end - piece.start);
         if t < piece.start - slack || t > piece.end + slack {
-            return waveform.sample(&waveform.piece_at(t), t);
+            let beside = match self.generators.get(w) {
+                Some(Some(generating)) => generating.piece_at(t).unwrap_or(*piece),
+                _ => waveform.piece_at(t),
+            };
+            return waveform.sample(&beside, t);
         }
         waveform.sample(piece, t)
     }

@@ -43,5 +43,8 @@ pub use record::{Channel, Record, Trace, state_name};
 pub use run::{Run, WALK_TOLERANCE, run};
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
-pub use state::{BytesError, Counts, InputError, State};
-pub use waveform::{Harmonic, Interpolation, Piece, Sample, Shape, Timing, Waveform, WaveformError};
+pub use state::{BytesError, CommandError, Counts, Generated, InputError, State};
+pub use waveform::{
+    Command, Cycle, Generator, Harmonic, Heading, Interpolation, Piece, Sample, Shape, Steps, Timing,
+    Waveform, WaveformError,
+};

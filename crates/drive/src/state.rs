@@ -1,11 +1,14 @@
 //! All that the future of a run depends on.
 
 mod bytes;
+mod generated;
 mod inputs;
 mod layout;
 mod underway;
 
 pub use bytes::BytesError;
+pub(crate) use generated::Generating;
+pub use generated::{CommandError, Generated};
 pub use inputs::InputError;
 pub(crate) use layout::Layout;
 
@@ -58,6 +61,8 @@ pub struct State {
     pub(crate) underway: Option<Underway>,
     /// The piece that a caller has supplied of each waveform after the present one; empty where none is an input.
     pub(crate) supplied: Vec<Option<Piece>>,
+    /// What each waveform generates; empty where none is a generator.
+    pub(crate) generators: Vec<Option<Generating>>,
     /// Work done so far.
     pub(crate) counts: Counts,
     /// Steps and intervals by method.
@@ -116,7 +121,7 @@ impl Model {
             y[from..from + wired.count()].copy_from_slice(&states);
             blocks.push(BlockState { law: 0, memory });
         }
-        let pieces = self.waveforms.iter().map(|w| w.piece_at(0.0)).collect();
+        let pieces = (0..self.waveforms.len()).map(|w| self.first_piece(w)).collect();
         let memories: Vec<Memory> = self.contacts.iter().map(|c| self.touched(c)).collect();
         let inputs = self.waveforms.iter().any(|w| w.interpolation().is_some());
         State {
@@ -138,6 +143,7 @@ impl Model {
             stuck_step: f64::INFINITY,
             underway: None,
             supplied: if inputs { vec![None; self.waveforms.len()] } else { Vec::new() },
+            generators: self.generators(),
             counts: Counts::default(),
             tally: Tally::of(self.contacts.len()),
         }

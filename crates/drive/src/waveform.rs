@@ -5,6 +5,8 @@
 //! [`Waveform::after`] it. A value that jumps does so between two pieces.
 //!
 //! An input has no chain: its pieces are supplied while it runs, and without a caller it has a single one, its initial value.
+//! A generator has the chain that it runs through without a caller; one that is commanded makes its pieces as it goes, and the
+//! state of the run knows them.
 
 mod corners;
 mod course;
@@ -16,7 +18,7 @@ mod timing;
 
 pub use error::WaveformError;
 pub use piece::Piece;
-pub use shape::{Harmonic, Interpolation, Shape};
+pub use shape::{Command, Cycle, Generator, Harmonic, Heading, Interpolation, Shape, Steps};
 pub use timing::Timing;
 
 use corners::Corners;
@@ -54,6 +56,7 @@ impl Waveform {
     /// [`WaveformError`] names the parameter, what was expected and what came.
     pub fn new(shape: Shape, timing: Timing) -> Result<Self, WaveformError> {
         let course = shape.course(&timing)?;
+        let timing = shape.timing(timing);
         let window = match &course.chain {
             Chain::Corners(corners) => corners.window(),
             Chain::Sines(_) => (timing.delay, timing.stop()),
@@ -165,6 +168,15 @@ impl Waveform {
         }
     }
 
+    /// What a caller may command of it; none for what is no generator.
+    #[must_use]
+    pub fn generator(&self) -> Option<&Generator> {
+        match &self.shape {
+            Shape::Generator(generator) => Some(generator),
+            _ => None,
+        }
+    }
+
     /// Whether the value ever jumps by design.
     #[must_use]
     pub fn has_jumps(&self) -> bool {
@@ -178,19 +190,26 @@ impl Waveform {
         self.course.range
     }
 
-    /// Period, s; none for a table or an input.
+    /// Period, s; none for a table or an input, or a generator that rests until it is commanded.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.course.period
     }
 
     /// Time after which it has shown all that it does, s: its period, or from its start to its stop; infinite where it never
-    /// moves.
+    /// moves. Of a generator the shortest period: it moves as soon as it is told to.
     #[must_use]
     pub(crate) fn extent(&self) -> f64 {
         let (start, stop) = self.window;
         let whole = stop - start;
-        self.period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
+        self.shortest_period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
+    }
+
+    /// Shortest period that it can have, s: of a generator that of the largest frequency that may be commanded.
+    #[must_use]
+    pub(crate) fn shortest_period(&self) -> Option<f64> {
+        let commanded = self.generator().map(|generator| generator.frequencies.1.recip());
+        commanded.filter(|period| period.is_finite()).or(self.period())
     }
 
     /// From when to when it moves, s; the second is infinite where that has no end.

@@ -13,7 +13,7 @@ mod parts;
 use parts::{FOOT_SLIDER, contact, event, foot_and_slider, p1, plan, sine, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Normal, Scene, Varying};
-use stickslip_drive::{Model, Plan, Shape, Stepper, run};
+use stickslip_drive::{Command, Cycle, Generator, Heading, Model, Plan, Run, Shape, Stepper, Steps, run};
 
 /// Allocations of a run of so many seconds, the workspace included.
 fn allocations(scene: &Scene, plan: &Plan) -> u64 {
@@ -54,5 +54,37 @@ fn fixed_steps_allocate_nothing() {
             println!("{name}, {}: {short} allocations in 20 ms, {long} in 200 ms", stepper.name());
             assert_eq!(short, long);
         }
+    }
+}
+
+/// Nor does a generator that is commanded between frames, whatever cycles come of it.
+#[test]
+fn commands_allocate_nothing() {
+    let initial =
+        Command { stroke: 0.5e-6, frequency: 1e3, heading: Heading::Forward, steps: Steps::Left(0) };
+    let (cycle, strokes) = (Cycle::Sawtooth { flyback: 1e-5 }, (0.0, 1e-6));
+    let generator = Generator { cycle, initial, strokes, frequencies: (0.0, 5e3) };
+    let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
+    let scene = foot_and_slider(wave("drive", Shape::Generator(generator), 1.0), 0.02, ball);
+    let model = Model::new(&scene).unwrap();
+    for stepper in [Stepper::Event { tolerance: 1e-8 }, Stepper::Verlet { step: 2e-6 }] {
+        let plan = plan(stepper, 1.0);
+        let mut run = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+        let mut frames = |from: u32, to: u32| {
+            for k in from..to {
+                let heading = if k % 3 == 0 { Heading::Backward } else { Heading::Forward };
+                let steps = if k % 7 == 0 { Steps::Endless } else { Steps::Left(u64::from(k % 4)) };
+                let frequency = 1e3 + 100.0 * f64::from(k % 40);
+                run.command(0, Command { stroke: 1e-8 * f64::from(k % 100), frequency, heading, steps })
+                    .unwrap();
+                run.advance(f64::from(k) * 137e-6, &mut ()).unwrap();
+                assert!(run.state().generated(0).is_some());
+            }
+        };
+        // The memory has been as deep as it gets.
+        frames(1, 1500);
+        let count = allocation_counter::measure(|| frames(1500, 3000)).count_total;
+        println!("{}: {count} allocations in 1500 commands", stepper.name());
+        assert_eq!(count, 0);
     }
 }

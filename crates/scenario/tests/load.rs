@@ -9,7 +9,10 @@ use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
     ContactStart, Coordinate, Direction, EngineChoice, Freedom, Normal, Point, Side, Start, Varying,
 };
-use stickslip_drive::{Interpolation, Model, Moments, Shape, Stepper, Timing, Waveform};
+use stickslip_drive::{
+    Command, Cycle, Generator, Heading, Interpolation, Model, Moments, Shape, Stepper, Steps, Timing,
+    Waveform,
+};
 use stickslip_scenario::{PlotName, Scenario};
 
 const QUICKSTART: &str = "../../scenarios/quickstart.json";
@@ -76,10 +79,15 @@ fn every_part_of_the_form_arrives() {
     assert_eq!(scene.actuators[0].part.stiffness, 2e7);
     // Named waveforms come first, those written out in place after them under the path of their place.
     let names: Vec<_> = scene.waveforms.iter().map(|waveform| waveform.name.as_str()).collect();
-    assert_eq!(names[..8], ["saw", "tri", "sin", "har", "cyc", "tab", "csv", "inp"]);
+    assert_eq!(names[..9], ["saw", "tri", "sin", "har", "cyc", "tab", "csv", "inp", "gen"]);
     assert_eq!(
-        names[8..],
-        ["contacts.flat.normal.force.follows", "loads[1].x.follows", "loads[3].x.follows"]
+        names[9..],
+        [
+            "contacts.flat.normal.force.follows",
+            "loads[1].x.follows",
+            "loads[3].x.follows",
+            "loads[5].x.follows"
+        ]
     );
     assert_eq!(scene.waveforms[5].part, scene.waveforms[6].part, "the file holds the same points");
     // Three cycles of 2 kHz after a delay of 1 ms.
@@ -131,6 +139,55 @@ fn inputs_arrive_held_unless_they_say_otherwise() {
     let resolved: serde_json::Value = serde_json::from_str(&scenario.resolved()).unwrap();
     let written = serde_json::json!({ "initial": 0.7e-3, "range": [-2e-3, 0.1], "interpolation": "held" });
     assert_eq!(resolved["waveforms"]["inp"]["input"], written);
+}
+
+#[test]
+fn generators_arrive_with_what_may_be_commanded() {
+    let scenario = full();
+    let named = |name: &str| &scenario.scene.waveforms.iter().find(|wave| wave.name == name).unwrap().part;
+    let of = |generator| Waveform::new(Shape::Generator(generator), Timing::every(1.0)).unwrap();
+    let initial =
+        Command { stroke: 1e-4, frequency: 200.0, heading: Heading::Backward, steps: Steps::Left(1000) };
+    let cycle = Cycle::Sawtooth { flyback: 1e-5 };
+    let commanded = Generator { cycle, initial, strokes: (-5e-4, 1e-3), frequencies: (0.0, 5e3) };
+    assert_eq!(*named("gen"), of(commanded));
+    let initial = Command { stroke: 0.0, frequency: 0.0, heading: Heading::Forward, steps: Steps::Endless };
+    let frequencies = (0.0, 2.0);
+    let rest = Generator { cycle: Cycle::Triangle, initial, strokes: (0.0, 1e-3), frequencies };
+    assert_eq!(*named("loads[5].x.follows"), of(rest));
+    let resolved: serde_json::Value = serde_json::from_str(&scenario.resolved()).unwrap();
+    let written = serde_json::json!({
+        "shape": { "sawtooth": { "flyback": 1e-5 } }, "stroke": 1e-4, "frequency": 200.0, "heading": "backward",
+        "steps": 1000, "range": { "stroke": [-5e-4, 1e-3], "frequency": [0.0, 5e3] }
+    });
+    assert_eq!(resolved["waveforms"]["gen"]["generator"], written);
+}
+
+/// A drive by a generator is the drive by the sawtooth of its numbers, and of its cycles; one at rest has no steps.
+#[test]
+fn a_generated_drive_is_planned_as_the_sawtooth_is() {
+    let load = |drive: &str, run: &str| {
+        let set = [("waveforms.drive", drive), ("run", run)];
+        Scenario::load_with(QUICKSTART, &set).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let saw = load(
+        r#"{"sawtooth": {"stroke": "200 nm", "frequency": "100 Hz", "flyback": "10 us", "cycles": 7}}"#,
+        r#"{"cycles": 9}"#,
+    );
+    let generated = |more: &str, run: &str| {
+        let of = r#"{"generator": {"shape": {"sawtooth": {"flyback": "10 us"}}, "stroke": "200 nm", "frequency": "100 Hz",
+            "range": {"stroke": [0, "300 nm"], "frequency": [0, "2 kHz"]}MORE}}"#;
+        load(&of.replace("MORE", more), run)
+    };
+    let seven = generated(r#", "steps": 7"#, r#"{"cycles": 9}"#);
+    assert_eq!(
+        (seven.figures, seven.plan, seven.warnings.len()),
+        (saw.figures, saw.plan, saw.warnings.len())
+    );
+    let idle = generated(r#", "steps": 0"#, r#"{"duration": "1 ms"}"#);
+    assert_eq!(idle.scene.waveforms[0].part.period(), None);
+    let model = Model::new(&idle.scene).unwrap_or_else(|error| panic!("{error}"));
+    model.start(&idle.plan).unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// The only waveform of a drive may have no period: it is no waveform of the figures unless it is named there.

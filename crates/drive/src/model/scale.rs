@@ -84,7 +84,7 @@ fn springs(contacts: &[Contact], free: usize, links: &[Link], deepest: &[f64]) -
 fn slowest(waveforms: &[Waveform]) -> (f64, f64) {
     let spans = waveforms.iter().map(|w| w.range().1 - w.range().0).filter(|span| *span > 0.0);
     let stroke = spans.fold(f64::INFINITY, f64::min);
-    let period = waveforms.iter().filter_map(Waveform::period).fold(f64::INFINITY, f64::min);
+    let period = waveforms.iter().filter_map(Waveform::shortest_period).fold(f64::INFINITY, f64::min);
     (
         if stroke.is_finite() { stroke } else { 1e-6 },
         if period.is_finite() { std::f64::consts::TAU / period } else { 1.0 },

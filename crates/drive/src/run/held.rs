@@ -7,7 +7,8 @@ use super::output::Opening;
 use crate::equations::Equations;
 use crate::method::{self, Method, SceneTraits};
 use crate::record::{self, Record};
-use crate::{InputError, Model, Plan, RunError, State, Stepper};
+use crate::waveform::Command;
+use crate::{CommandError, InputError, Model, Plan, RunError, State, Stepper};
 use stickslip_contact::Memory;
 use stickslip_stepper::{Nystrom4, Rk4, Verlet};
 
@@ -218,6 +219,18 @@ impl<'m> Run<'m> {
     /// No input that is linear, a value out of its range, a time that is not after the piece before, or a piece too many.
     pub fn lead(&mut self, input: usize, until: f64, value: f64) -> Result<(), InputError> {
         self.state.lead(self.model, input, (until, value))
+    }
+
+    /// Commands a generator, the waveform at place `generator` of the scene: what its cycles are that begin at the present time or
+    /// later. A cycle that is under way goes on to its end as it began; a generator that rests begins at once.
+    ///
+    /// [`State::generated`] tells what it does and how many steps are left.
+    ///
+    /// # Errors
+    ///
+    /// No generator, a stroke or a frequency out of its range.
+    pub fn command(&mut self, generator: usize, command: Command) -> Result<(), CommandError> {
+        self.state.command(self.model, generator, command)
     }
 
     /// Where the run stands, and all that its future depends on. Memories of contacts may wait for the next event, where one

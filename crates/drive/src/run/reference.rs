@@ -110,9 +110,10 @@ impl Driven<'_> {
     /// Puts every waveform whose piece is over on its next piece.
     fn turn_corners(&mut self, model: &Model) {
         let state = &mut *self.state;
-        for (piece, waveform) in state.pieces.iter_mut().zip(&model.waveforms) {
-            while piece.end <= state.t {
-                *piece = waveform.after(piece);
+        for (w, waveform) in model.waveforms.iter().enumerate() {
+            while state.pieces[w].end <= state.t {
+                let Some(next) = state.next_piece(w, waveform) else { break };
+                state.pieces[w] = next;
             }
         }
     }

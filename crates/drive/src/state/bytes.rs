@@ -10,8 +10,9 @@
 //! | 8 | CRC-32 of all before |
 //!
 //! Everything is little-endian. What the model holds is not inside: no stiffness, no limit, no place of a spring; pieces of
-//! waveforms are their index. A reader takes words of this model only and refuses all others; none makes it panic.
+//! waveforms are their index, but for those that are supplied or generated. A reader takes words of this model only and refuses all others; none makes it panic.
 
+mod generated;
 mod read;
 mod write;
 
@@ -65,7 +66,8 @@ impl State {
     /// The state as bytes, under a key that tells its model from all others.
     ///
     /// `key` is the caller's: a hash of whatever the model was made from, such as the crate `stickslip-results` makes of a
-    /// scenario. What inputs have been supplied is inside. Bytes are read on any machine; to the same bits goes on whatever
+    /// scenario. What inputs have been supplied is inside, and what
+    /// generators have been commanded. Bytes are read on any machine; to the same bits goes on whatever
     /// computes alike, which one build does.
     pub fn to_bytes(&self, model: &Model, key: &[u8; 32]) -> Vec<u8> {
         let mut words = Vec::new();

@@ -109,10 +109,14 @@ impl State {
         Ok(())
     }
 
-    /// The piece of waveform `w` after the present one; none of an input that has not been given one.
+    /// The piece of waveform `w` after the present one, which a generator then is on; none of an input that has not been given
+    /// one.
     pub(crate) fn next_piece(&mut self, w: usize, waveform: &Waveform) -> Option<Piece> {
         match waveform.interpolation() {
-            None => Some(waveform.after(&self.pieces[w])),
+            None => Some(match self.generators.get_mut(w) {
+                Some(Some(generating)) => generating.next(self.pieces[w].end),
+                _ => waveform.after(&self.pieces[w]),
+            }),
             Some(_) => self.supplied[w].take(),
         }
     }
@@ -128,14 +132,16 @@ impl State {
         taken
     }
 
-    /// When the first piece ends that a caller has given, s; infinite without inputs.
+    /// When the first piece ends that a caller has given, or the first generator goes over to other cycles, s; infinite without
+    /// any.
     pub(crate) fn next_input(&self, model: &Model) -> f64 {
         let end = |(w, supplied): (usize, &Option<Piece>)| {
             let present = self.pieces[w].end;
             model.waveforms[w].interpolation()?;
             Some(if present > self.t { present } else { supplied.map_or(present, |piece| piece.end) })
         };
-        self.supplied.iter().enumerate().filter_map(end).fold(f64::INFINITY, f64::min)
+        let first = self.supplied.iter().enumerate().filter_map(end).fold(f64::INFINITY, f64::min);
+        if self.generators.is_empty() { first } else { first.min(self.next_change()) }
     }
 
     /// Whether the piece of an input is over and its caller has not given the next one yet.

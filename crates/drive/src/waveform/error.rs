@@ -65,6 +65,38 @@ pub enum WaveformError {
         /// What came.
         got: f64,
     },
+    /// A range of a generator whose bounds are the wrong way round.
+    #[error("{key}: expected a range with the smallest value before the largest, got {low} and {high}")]
+    Bounds {
+        /// Name of the parameter.
+        key: &'static str,
+        /// First bound.
+        low: f64,
+        /// Second bound.
+        high: f64,
+    },
+    /// An initial parameter of a generator outside of its range.
+    #[error("{key}: expected a value in the range from {low} to {high}, got {got}")]
+    Outside {
+        /// Name of the parameter.
+        key: &'static str,
+        /// Smallest value of the range.
+        low: f64,
+        /// Largest value of the range.
+        high: f64,
+        /// What came.
+        got: f64,
+    },
+    /// A flyback as long as the shortest period that may be commanded.
+    #[error(
+        "flyback: expected a time below the period of the largest frequency, {frequency} Hz, got {flyback}"
+    )]
+    Room {
+        /// Time of the flyback, s.
+        flyback: f64,
+        /// Largest frequency, Hz.
+        frequency: f64,
+    },
 }
 
 impl WaveformError {
@@ -73,7 +105,8 @@ impl WaveformError {
     pub fn key(&self) -> &'static str {
         match self {
             Self::Number { key, .. } | Self::Empty { key } => key,
-            Self::Flyback { .. } => "flyback",
+            Self::Bounds { key, .. } | Self::Outside { key, .. } => key,
+            Self::Flyback { .. } | Self::Room { .. } => "flyback",
             Self::Times { .. } | Self::Crowd { .. } => "points",
             Self::Range { .. } => "range",
             Self::Initial { .. } => "initial",

@@ -2,6 +2,7 @@
 
 mod cycloid;
 mod flyback;
+mod generator;
 mod harmonics;
 mod input;
 mod sawtooth;
@@ -10,6 +11,7 @@ mod table;
 mod triangle;
 mod turn;
 
+pub use generator::{Command, Cycle, Generator, Heading, Steps};
 pub use harmonics::Harmonic;
 pub use input::Interpolation;
 
@@ -71,9 +73,19 @@ pub enum Shape {
         /// How it goes from one value to the next.
         interpolation: Interpolation,
     },
+    /// Cycles made inside, their parameters commanded while they run.
+    Generator(Generator),
 }
 
 impl Shape {
+    /// When it runs: as its user says, but for what knows that by itself.
+    pub(super) fn timing(&self, given: Timing) -> Timing {
+        match self {
+            Self::Generator(generator) => generator.timing(),
+            _ => given,
+        }
+    }
+
     /// What its kind makes of its parameters, where they make sense.
     pub(super) fn course(&self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check()?;
@@ -87,6 +99,7 @@ impl Shape {
             Self::Input { initial, range, interpolation } => {
                 input::course(initial, range, interpolation, timing)
             }
+            Self::Generator(ref generator) => generator.course(timing),
         }
     }
 }

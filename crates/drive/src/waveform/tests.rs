@@ -98,6 +98,7 @@ fn direct(wave: &Waveform, t: f64) -> f64 {
             }
         }
         Shape::Input { initial, .. } => *initial,
+        Shape::Generator(it) => two_way(it.initial.stroke, it.cycle.top(&it.initial) / period, &|x| x),
     }
 }
 

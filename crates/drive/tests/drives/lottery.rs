@@ -210,6 +210,7 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Cycloid { .. } => "cycloid",
         Shape::Table { .. } => "table",
         Shape::Input { .. } => "input",
+        Shape::Generator(_) => "generator",
     }
 }
 

@@ -21,6 +21,7 @@ mod endurance;
 mod energy_books;
 mod far_travel;
 mod fed;
+mod generated;
 mod held;
 mod impact;
 mod invariance;

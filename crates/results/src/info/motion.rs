@@ -38,6 +38,9 @@ pub struct WaveformInfo {
     /// Period; none of a waveform that does not repeat.
     #[serde(rename = "period_s", skip_serializing_if = "Option::is_none")]
     pub period: Option<Real>,
+    /// Smallest and largest frequency that may be commanded; none of a waveform that nobody commands.
+    #[serde(rename = "commanded_Hz", skip_serializing_if = "Option::is_none")]
+    pub commanded: Option<[Real; 2]>,
     /// Smallest and largest value over all time, where it drives lengths …
     #[serde(rename = "range_m", skip_serializing_if = "Option::is_none")]
     pub lengths: Option<[Real; 2]>,
@@ -103,6 +106,7 @@ pub fn waveforms(job: &Job) -> Parts<WaveformInfo> {
         };
         let info = WaveformInfo {
             period: named.part.period().map(Real),
+            commanded: named.part.generator().map(|it| [Real(it.frequencies.0), Real(it.frequencies.1)]),
             lengths: range(false),
             forces: range(true),
             drives: mine.iter().map(|follower| follower.what.clone()).collect(),

@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::json;
 use std::borrow::Cow;
 use std::fmt;
+use std::marker::PhantomData;
 
 /// Input: what a caller gives while it runs.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -41,19 +42,19 @@ pub(crate) enum InterpolationForm {
 
 /// Smallest and largest value.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub(crate) struct Bounds(pub(crate) AnyQuantity, pub(crate) AnyQuantity);
+pub(crate) struct Bounds<Q = AnyQuantity>(pub(crate) Q, pub(crate) Q);
 
-impl<'de> Deserialize<'de> for Bounds {
+impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Bounds<Q> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct BoundsVisitor;
-        impl<'de> Visitor<'de> for BoundsVisitor {
-            type Value = Bounds;
+        struct BoundsVisitor<Q>(PhantomData<Q>);
+        impl<'de, Q: Deserialize<'de>> Visitor<'de> for BoundsVisitor<Q> {
+            type Value = Bounds<Q>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("a pair [smallest, largest]")
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Bounds, A::Error> {
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Bounds<Q>, A::Error> {
                 let short = |length| de::Error::invalid_length(length, &self);
                 let low = seq.next_element()?.ok_or_else(|| short(0))?;
                 let high = seq.next_element()?.ok_or_else(|| short(1))?;
@@ -64,11 +65,11 @@ impl<'de> Deserialize<'de> for Bounds {
                 if got > 2 { Err(short(got)) } else { Ok(Bounds(low, high)) }
             }
         }
-        deserializer.deserialize_tuple(2, BoundsVisitor)
+        deserializer.deserialize_tuple(2, BoundsVisitor(PhantomData))
     }
 }
 
-impl JsonSchema for Bounds {
+impl<Q: JsonSchema> JsonSchema for Bounds<Q> {
     fn schema_name() -> Cow<'static, str> {
         "Bounds".into()
     }
@@ -78,7 +79,7 @@ impl JsonSchema for Bounds {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let value = generator.subschema_for::<AnyQuantity>();
+        let value = generator.subschema_for::<Q>();
         json_schema!({ "type": "array", "prefixItems": [value, value], "minItems": 2, "maxItems": 2 })
     }
 }

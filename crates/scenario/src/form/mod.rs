@@ -4,6 +4,7 @@ mod body;
 mod bordered;
 mod contact;
 mod coupling;
+mod generator;
 mod input;
 mod lengths;
 mod material;
@@ -22,7 +23,8 @@ pub(crate) use bordered::{
 };
 pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, NormalForm};
 pub(crate) use coupling::{ActuatorForm, DirectionForm, GravityForm, LoadForm, SpringForm};
-pub(crate) use input::{InputForm, InterpolationForm};
+pub(crate) use generator::{CycleForm, GeneratorForm, HeadingForm};
+pub(crate) use input::{Bounds, InputForm, InterpolationForm};
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
 pub(crate) use measured::{GapPoint, GapTableForm, LawPoint, NormalLawForm, RoughForm, SelfAffineForm};

@@ -1,6 +1,6 @@
 //! Waveforms: prescribed courses in time.
 
-use super::{InputForm, Reserved};
+use super::{GeneratorForm, InputForm, Reserved};
 use crate::quantity::{Angle, AnyQuantity, Frequency, Time};
 use crate::schema::{above_zero, at_least_zero, period_or_frequency, points_or_file};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -36,6 +36,10 @@ pub(crate) enum WaveformForm {
     /// has no period: no figures of steps per period are made of it.
     #[schemars(example = json!({ "input": { "initial": 0, "range": ["-1 um", "1 um"] } }))]
     Input(InputForm),
+    /// Made inside: cycles whose stroke, frequency, heading and number a caller commands while they run. `stickslip run` takes
+    /// the values given here.
+    #[schemars(example = json!({ "generator": { "shape": { "sawtooth": { "flyback": "10 us" } }, "stroke": "200 nm", "frequency": "100 Hz", "range": { "stroke": [0, "300 nm"], "frequency": [0, "2 kHz"] } } }))]
+    Generator(GeneratorForm),
     /// Not yet in this version.
     Parabola(Reserved),
     /// Not yet in this version.
@@ -57,6 +61,7 @@ impl WaveformForm {
             Self::Cycloid(form) => Some(("cycloid", form.periodic())),
             Self::Table(_)
             | Self::Input(_)
+            | Self::Generator(_)
             | Self::Parabola(_)
             | Self::Trapezoid(_)
             | Self::Chirp(_)

@@ -36,7 +36,7 @@ pub(super) fn shape(at: &At<'_>, form: &InputForm, values: &mut Values) -> Resul
 }
 
 /// A value in SI, with its unit where the file says which.
-fn shown(value: f64, kind: Option<Kind>) -> String {
+pub(super) fn shown(value: f64, kind: Option<Kind>) -> String {
     let value = range::short(value);
     match kind {
         Some(kind) => format!("{value} {}", kind.si()),

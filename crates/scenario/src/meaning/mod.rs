@@ -3,6 +3,7 @@
 mod body;
 mod contact;
 mod coupling;
+mod generator;
 mod input;
 mod measured;
 mod motion;

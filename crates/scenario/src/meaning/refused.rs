@@ -91,15 +91,20 @@ fn below_zero(scene: &Scene, mut path: KeyPath, error: &SceneError, low: f64) ->
         None => None,
     };
     let is_input = waveform.is_some_and(|waveform| waveform.part.interpolation().is_some());
+    let is_generated = waveform.is_some_and(|waveform| waveform.part.generator().is_some());
     path.0.push(Step::Key("follows".to_owned()));
     let message = format!(
         "expected {} at all times, but the {} to {} {}",
         range::at_least(kind),
-        if is_input { "range of the input reaches down" } else { "waveform falls" },
+        match (is_input, is_generated) {
+            (true, _) => "range of the input reaches down",
+            (_, true) => "range of the generator's stroke reaches down",
+            _ => "waveform falls",
+        },
         range::short(low),
         kind.si()
     );
-    let help = if is_input {
+    let help = if is_input || is_generated {
         format!("let its range begin at 0 {} or above", kind.si())
     } else {
         "add an offset, or take a smaller amplitude".to_owned()

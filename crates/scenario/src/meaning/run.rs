@@ -46,7 +46,11 @@ impl Builder<'_> {
         if waveform.period().is_some() {
             return Ok(index);
         }
-        let which = if waveform.interpolation().is_some() { "an input" } else { "a table" };
+        let which = match (waveform.interpolation(), waveform.generator()) {
+            (_, Some(_)) => "a generator that rests until it is commanded",
+            (Some(_), None) => "an input",
+            (None, None) => "a table",
+        };
         let fault = at.expected("a waveform with a period");
         Err(fault.help(format!("{which} repeats nothing: there are no steps to count")))
     }

@@ -1,6 +1,6 @@
 //! Waveforms: shapes, timing and the dimension of their values.
 
-use super::{Builder, Course, input, range};
+use super::{Builder, Course, generator, input, range};
 use crate::fault::Fault;
 use crate::form::{HarmonicsForm, Moving, Periodic, Point, TableForm, WaveformForm, WaveformRef};
 use crate::guide::Help;
@@ -135,6 +135,10 @@ fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values) -> Result<(Wa
             let shape = input::shape(&named("input"), form, values)?;
             ("input", shape, Timing::every(1.0))
         }
+        WaveformForm::Generator(form) => {
+            let shape = generator::shape(&named("generator"), form, values)?;
+            ("generator", shape, Timing::every(1.0))
+        }
         WaveformForm::Parabola(_) => return Err(named("parabola").not_yet()),
         WaveformForm::Trapezoid(_) => return Err(named("trapezoid").not_yet()),
         WaveformForm::Chirp(_) => return Err(named("chirp").not_yet()),
@@ -152,6 +156,10 @@ fn refused(at: &At<'_>, error: &WaveformError) -> Fault {
         message.strip_prefix(error.key()).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
     let at = at.key(error.key());
     match (error, plain.split_once(", got ")) {
+        // A range is no number to be told again.
+        (WaveformError::Number { key: "range", .. }, Some((wanted, _))) => {
+            at.fault(wanted).help("a caller may ask for all of it")
+        }
         // As it stands in the file: 1e308 has 309 digits.
         (WaveformError::Number { key, .. }, Some((wanted, _))) if *key != "points" => {
             at.fault(wanted).with_value().ask(Help::Meaning)

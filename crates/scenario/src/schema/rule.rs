@@ -22,6 +22,8 @@ fn bound(schema: &mut Schema, rules: &Value) {
         keys.values_mut().filter_map(Value::as_object_mut).for_each(apply);
     } else if let Some(Value::Object(items)) = schema.get_mut("items") {
         apply(items);
+    } else if let Some(Value::Array(items)) = schema.get_mut("prefixItems") {
+        items.iter_mut().filter_map(Value::as_object_mut).for_each(apply);
     } else {
         for (key, value) in rules {
             schema.insert(key.clone(), value.clone());

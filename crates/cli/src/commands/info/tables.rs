@@ -59,7 +59,10 @@ impl Info {
                     format!("{} … {}", quantity(low, unit), quantity(high, unit))
                 })
             };
-            let period = waveform.period.map_or("none".to_owned(), |period| quantity(period, "s"));
+            let mut period = waveform.period.map_or("none".to_owned(), |period| quantity(period, "s"));
+            if let Some([low, high]) = waveform.commanded {
+                period += &format!(", commanded {} … {}", quantity(low, "Hz"), quantity(high, "Hz"));
+            }
             let ranges = [range(waveform.lengths, "m"), range(waveform.forces, "N")];
             vec![name.clone(), joined(&ranges), period, unbroken(&waveform.drives)]
         };

@@ -24,7 +24,7 @@ impl Chords<'_> {
                 continue;
             }
             let next = match waveform.interpolation() {
-                None => Some(waveform.piece_at(middle)),
+                None => Some(state.piece_at(w, waveform, middle)),
                 Some(_) if middle >= piece.end => state.supplied[w].take(),
                 Some(_) => None,
             };

@@ -84,11 +84,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Turns what an input has been given since the run stopped here.
+    /// Turns what an input has been given, or a generator told, since the run stopped here.
     ///
     /// Memories that wait for an event come to where the state is first: their paths bend here.
     pub(super) fn turn_due(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
-        if state.supplied.is_empty() {
+        if state.supplied.is_empty() && state.generators.is_empty() {
             return Ok(());
         }
         self.horizon.corner = state.next_corner();

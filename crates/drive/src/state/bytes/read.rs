@@ -1,13 +1,14 @@
 //! A state from words, in the order in which [`write`](super::write) puts them. None where they are not of this model.
 
 use super::FIXED;
+use super::generated::generating;
 use crate::contact::Mode;
 use crate::interval::PhasePoint;
 use crate::method::Tally;
 use crate::model::{BlockState, Model};
 use crate::state::{Ahead, Books, Grip, Layout, Whereabouts};
 use crate::state::{Allowed, Booked, Counts, Crawl, Detour, FixedWay, Gait, Grid, LocatedWay};
-use crate::state::{State, Stepped, Takeoff, Underway, Window};
+use crate::state::{Generating, State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
 use stickslip_contact::{Branch, Interface, Lull, Memory, Words};
 use stickslip_stepper::{Hand, Rejection, StepHistory};
@@ -29,8 +30,12 @@ pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
         modes.push(mode(&contact.interface, words)?);
     }
     let blocks = model.blocks.iter().map(|_| block(words)).collect::<Option<_>>()?;
-    let (pieces, supplied) = pieces(model, words)?;
+    let (pieces, supplied, generators) = pieces(model, words)?;
     if !((0.0..f64::INFINITY).contains(&t) && step >= 0.0) {
+        return None;
+    }
+    let mut generating = generators.iter().zip(&pieces);
+    if !generating.all(|(generating, piece)| generating.is_none_or(|it| it.is_on(piece, t))) {
         return None;
     }
     Some(State {
@@ -49,6 +54,7 @@ pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
         step,
         stuck_step,
         supplied,
+        generators,
         counts: counts(words)?,
         tally: Tally::read(model.contacts.len(), words)?,
         underway: option(words, |words| underway(model, layout, t, words))?,
@@ -92,25 +98,33 @@ fn block(words: &mut Words<'_>) -> Option<BlockState> {
     Some(BlockState { law, memory: reals(words, count)? })
 }
 
-/// Present and supplied pieces.
-type Pieces = (Vec<Piece>, Vec<Option<Piece>>);
+/// Present and supplied pieces, and what generates others.
+type Pieces = (Vec<Piece>, Vec<Option<Piece>>, Vec<Option<Generating>>);
 
 fn pieces(model: &Model, words: &mut Words<'_>) -> Option<Pieces> {
-    let (mut pieces, mut supplied) = (Vec::new(), Vec::new());
+    let (mut pieces, mut supplied, mut generators) = (Vec::new(), Vec::new(), Vec::new());
     let feeds = model.waveforms.iter().any(|waveform| waveform.interpolation().is_some());
+    let generates = model.waveforms.iter().any(|waveform| waveform.generator().is_some());
     for waveform in &model.waveforms {
         pieces.push(piece(waveform, words)?);
         if feeds {
             supplied.push(option(words, |words| piece(waveform, words))?);
         }
+        if generates {
+            let of = waveform.generator().map(|generator| generating(generator, words));
+            generators.push(match of {
+                Some(generating) => Some(generating?),
+                None => None,
+            });
+        }
     }
-    Some((pieces, supplied))
+    Some((pieces, supplied, generators))
 }
 
 fn piece(waveform: &Waveform, words: &mut Words<'_>) -> Option<Piece> {
-    match waveform.interpolation() {
-        None => waveform.piece(words.word()?),
-        Some(_) => Piece::of_supplied(numbers(words)?),
+    match (waveform.interpolation(), waveform.generator()) {
+        (None, None) => waveform.piece(words.word()?),
+        _ => Piece::of_supplied(numbers(words)?),
     }
 }
 

@@ -32,6 +32,9 @@ pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
         if let Some(supplied) = state.supplied.get(w) {
             page.option(supplied.as_ref(), |page, piece| page.piece(waveform, piece));
         }
+        if let Some(Some(generating)) = state.generators.get(w) {
+            page.generating(generating);
+        }
     }
     let counts = state.counts;
     page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events]);
@@ -49,11 +52,15 @@ impl Page<'_> {
         self.0.push(real.to_bits());
     }
 
-    fn reals(&mut self, reals: impl IntoIterator<Item = f64>) {
+    pub(super) fn reals(&mut self, reals: impl IntoIterator<Item = f64>) {
         self.0.extend(reals.into_iter().map(f64::to_bits));
     }
 
-    fn option<T>(&mut self, value: Option<&T>, write: impl FnOnce(&mut Self, &T)) {
+    pub(super) fn words(&mut self, words: impl IntoIterator<Item = u64>) {
+        self.0.extend(words);
+    }
+
+    pub(super) fn option<T>(&mut self, value: Option<&T>, write: impl FnOnce(&mut Self, &T)) {
         self.flag(value.is_some());
         if let Some(value) = value {
             write(self, value);
@@ -77,11 +84,11 @@ impl Page<'_> {
         }
     }
 
-    /// Its index; of an input's, which has none, where it leads from and to.
+    /// Its index; of an input's or a generator's, which have none, where it leads from and to.
     fn piece(&mut self, waveform: &Waveform, piece: &Piece) {
-        match waveform.interpolation() {
-            None => self.0.push(piece.index),
-            Some(_) => self.reals(piece.supplied()),
+        match (waveform.interpolation(), waveform.generator()) {
+            (None, None) => self.0.push(piece.index),
+            _ => self.reals(piece.supplied()),
         }
     }
 

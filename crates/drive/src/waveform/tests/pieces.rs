@@ -46,7 +46,7 @@ fn every_piece_is_given_back_by_its_index() {
             Shape::Sine { .. } => 2,
             Shape::Harmonics { .. } => 3,
             Shape::Cycloid { .. } => 4,
-            Shape::Table { .. } | Shape::Input { .. } => 5,
+            Shape::Table { .. } | Shape::Input { .. } | Shape::Generator(_) => 5,
         };
         // The chain that a run walks, and that before a delay or a table's first point.
         walked[kind] = walked[kind].max(walk(&wave, 0.0));
