@@ -55,6 +55,12 @@ const DEADBAND: f64 = 1e-13;
 // a tenth its events accumulate and the run stops.
 pub(crate) const NEARNESS: f64 = 1e-3;
 
+/// What a step of a method of high order, as long as stability allows, makes of the rounding of a place in the velocity that
+/// follows from it, in ε·place·ω: its stages weigh the rounded forces with large coefficients.
+// With 64 a stage at rest on its foot (8 μm from its start, 50 N/μm, 500 mg) notes 16 400 events in a second, with 1024 1 560,
+// without any 46 600, nearly all of them noise; its places end within 2e-9 u_c of each other.
+const NOISE: f64 = 256.0;
+
 /// How far below zero a guard of a natural scale must fall to count, and how near to zero it counts as there.
 pub(crate) fn bands(scale: f64, tolerance: f64) -> (f64, f64) {
     (DEADBAND * scale, (NEARNESS * tolerance).max(2.0 * DEADBAND) * scale)
@@ -176,6 +182,17 @@ impl Guard {
         let dead = if square { (NEARNESS * tolerance).sqrt() } else { DEADBAND };
         let near = (NEARNESS * tolerance).max(2.0 * DEADBAND);
         (dead * unit + rounding, near * unit + 2.0 * rounding)
+    }
+
+    /// What the longest steps make of rounding in the velocities of bodies that lie as far from their origins as `travel` (m),
+    /// m/s: [`NOISE`] ε·travel·ω. None in guards that are lengths.
+    pub(crate) fn noise(self, contact: &Contact, travel: f64) -> f64 {
+        match self {
+            Self::Drag | Self::Lower | Self::Upper => {
+                NOISE * f64::EPSILON * travel * contact.natural.frequency
+            }
+            _ => 0.0,
+        }
     }
 
     /// What it means for the springs of a row, where it means nothing else.

@@ -76,6 +76,12 @@ impl Measure {
         self.constant + (own + followed)
     }
 
+    /// How far the free coordinates lie from their origins, m: what rounds their difference. `x` reads them.
+    #[inline]
+    pub(crate) fn travel(&self, x: impl Fn(usize) -> f64) -> f64 {
+        self.free.iter().map(|(i, a)| (a * x(*i)).abs()).sum()
+    }
+
     /// Σ over free coordinates of coefficient² · mobility, 1/kg: what a force along it has to move.
     pub(crate) fn mobility(&self, mobility: impl Fn(usize) -> f64) -> f64 {
         self.free.iter().map(|(i, a)| a * a * mobility(*i)).sum()

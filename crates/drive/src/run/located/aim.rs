@@ -150,7 +150,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let of_steady = |steady: &Closed<'_>| Watch::expected_of_closed(steady, n, &self.motion.solver);
         // Contacts of closed form have no entry in the watch: their motion is read off the state.
         let steady = self.interval.closed.iter().map(|steady| (steady.index, of_steady(steady)));
-        let all = steady.chain(self.interval.open_form().map(|c| (c, self.watch.expected_of(&eq, c))));
+        let all = steady.chain(
+            self.interval.open_form().map(|c| (c, self.watch.expected_of(&eq, c, &self.motion.solver))),
+        );
         let (contact, left) = all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, left)| left.is_finite())?;
         Some(Expected { left, contact, guard: Guard::Piece })
     }

@@ -21,6 +21,10 @@ const KINKS: f64 = 1e-3;
 // On heights at a tolerance of 1e-12 books are 2e-11 with it, 1e-10 with 1e-12; with 1e-14 7 % more evaluations gain
 // half of that.
 const FINEST: f64 = 1e-13;
+/// Step, in 1/ω of the fastest natural motion, above which rounding of time in the force of a stroke is no reason to shorten it.
+// Without it the flyback of a stage that has run for 0.4 s took steps of 16 ps, 3.1 million of them at a tolerance of 1e-11. With
+// 0.001 that period takes 59 600 steps in all, with 0.01 to 8 46 300; with 1 or more a stack at 1e-12 ends in other last digits.
+const RUSH: f64 = 0.1;
 
 /// Absolute errors allowed of a step.
 pub(super) struct Allowance {
@@ -95,7 +99,37 @@ impl Allowance {
         let beyond = (self.tolerance - self.strict) * self.work;
         let noise = if beyond > 0.0 { 8.0 * f64::EPSILON * state.t * surge(model, state) } else { 0.0 };
         scale[layout.dimension()..].fill(work + noise.min(beyond));
+        // Where nothing swings there is no such step.
+        if !model.links.is_empty() && model.fastest > 0.0 {
+            allow_rush(model, state, scale);
+        }
     }
+}
+
+/// Raises what is allowed to what rounding of time leaves of the forces of fast strokes.
+///
+/// A stage of a step lies at a time that is rounded to εt, and a link's force changes by F' = kṡ + cs̈ in a second: accelerations
+/// are wrong by εtF'/m and powers by εtF'ṡ, and what a step makes of them falls with its length only. Allowed is what one of
+/// [`RUSH`]/ω makes of them, ω the fastest natural motion's.
+fn allow_rush(model: &Model, state: &State, scale: &mut [f64]) {
+    let layout = model.layout();
+    let equations = Equations::on(model, state, layout, false);
+    let at = Components { t: state.t, y: |i: usize| state.y[i] };
+    let moment = RUSH / model.fastest;
+    let late = f64::EPSILON * state.t * moment;
+    let mut work = 0.0;
+    for link in &model.links {
+        let stroke = equations.stroke(link, &at);
+        let push = late * (link.stiffness * stroke.rate + link.damping * stroke.acceleration).abs();
+        work += push * stroke.rate.abs();
+        for (i, a) in &link.elongation.free {
+            let speed = push * a.abs() * model.free[*i].mobility;
+            let (place, velocity) = (*i, layout.velocity(*i));
+            scale[place] = scale[place].max(speed * moment);
+            scale[velocity] = scale[velocity].max(speed);
+        }
+    }
+    scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
 }
 
 /// By how much the power of free strokes rises in a step, W: kṡ²h. So much may rounding of the time of a stage of it be mistaken.

@@ -270,17 +270,20 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
 
     /// Its deadband and how near to zero it is as good as there.
     fn bands(&self, watched: Watched<'_>) -> (f64, f64) {
+        let begin = self.solver.span().begin;
         let (contact, guard, u) = match watched {
             Watched::Closed(steady, guard) => {
-                let span = self.solver.span();
-                (steady.contact, guard, steady.displacement(span.time, |i| span.begin[i]))
+                (steady.contact, guard, steady.displacement(self.solver.span().time, |i| begin[i]))
             }
             Watched::Contact(index, contact, guard) => (contact, guard, self.from[index].motion.u),
             Watched::Block(k, guard) => {
                 return bands(self.eq.model.blocks[k].block().guard_scale(guard), self.tolerance);
             }
         };
-        guard.bands(contact, self.tolerance, u)
+        // A contact that rides on moving bodies has a small u of large places; what these round moves it to and fro. Never more
+        // than counts as there anyway: at tolerances near to rounding every turn is looked at.
+        let (dead, near) = guard.bands(contact, self.tolerance, u);
+        (dead.max(guard.noise(contact, contact.u.travel(|i| begin[i])).min(near)), near)
     }
 
     /// Whether a guard is down at the end of the step, or as good as down.
