@@ -3,9 +3,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use stickslip_stepper::{
-    Attempt, Completion, Dop853, FixedStep, Rk4, Step, Stepping, System, Target, Verlet,
-};
+use stickslip_stepper::{Attempt, Completion, Dop853, Rk4, Step, Stepping, System, Target, Verlet};
 
 /// `pairs` uncoupled oscillators ẍ = -x and two quadratures.
 struct Oscillators {

@@ -150,6 +150,7 @@ fn finer(stepper: Stepper) -> Stepper {
         Stepper::Rk4 { step } => Stepper::Rk4 { step: 0.5 * step },
         Stepper::Dopri5 { tolerance } => Stepper::Dopri5 { tolerance: 0.1 * tolerance },
         Stepper::Event { tolerance } => Stepper::Event { tolerance: 0.1 * tolerance },
+        Stepper::Frames { length, accuracy } => Stepper::Frames { length, accuracy: 0.1 * accuracy },
     }
 }
 
