@@ -1,0 +1,105 @@
+//! Inputs and outputs of a drive, by name.
+
+use crate::wire::MOST_VALUES;
+use stickslip_drive::{Interpolation, Model, Scene, Shape};
+use thiserror::Error;
+
+/// Something of a drive that is fed from outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    /// Name of the waveform.
+    pub name: String,
+    /// Value before any came, in the unit of what follows.
+    pub initial: f64,
+    /// Smallest and largest value.
+    pub range: (f64, f64),
+    /// How a value gets into the run.
+    pub(crate) feed: Feed,
+}
+
+/// How a value gets into the run; places are those of the scene's waveforms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Feed {
+    /// It is there from the start of the frame on.
+    Hold(usize),
+    /// It is reached at the end of the frame, straight.
+    Lead(usize),
+}
+
+/// Something of a drive that is told.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
+    /// Name of the channel, with its unit.
+    pub name: String,
+    /// Place in a row.
+    pub(crate) place: usize,
+}
+
+/// Why channels cannot be had.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ChannelError {
+    /// No such channel.
+    #[error("there is no channel \"{}\"; there are {known}", .name.escape_debug())]
+    Unknown {
+        /// The name.
+        name: String,
+        /// Those that there are.
+        known: String,
+    },
+    /// Twice the same.
+    #[error("channel \"{0}\" is asked for twice")]
+    Twice(String),
+    /// More than a packet holds.
+    #[error("{0} {1} are too many: a packet holds {MOST_VALUES}")]
+    TooMany(usize, &'static str),
+}
+
+/// All inputs of a scene, in its order.
+///
+/// # Errors
+/// More than a packet holds.
+pub fn inputs(scene: &Scene) -> Result<Vec<Input>, ChannelError> {
+    let input = |(place, waveform): (usize, &stickslip_drive::scene::Named<stickslip_drive::Waveform>)| {
+        let feed = match waveform.part.interpolation()? {
+            Interpolation::Held => Feed::Hold(place),
+            Interpolation::Linear => Feed::Lead(place),
+        };
+        let Shape::Input { initial, .. } = *waveform.part.shape() else { return None };
+        Some(Input { name: waveform.name.clone(), initial, range: waveform.part.range(), feed })
+    };
+    let inputs: Vec<Input> = scene.waveforms.iter().enumerate().filter_map(input).collect();
+    if inputs.len() > MOST_VALUES { Err(ChannelError::TooMany(inputs.len(), "inputs")) } else { Ok(inputs) }
+}
+
+/// Channels by their names; by default time, places and velocities of the bodies and forces of the contacts.
+///
+/// # Errors
+/// A name that is none or comes twice, or more than a packet holds.
+pub fn outputs(model: &Model, names: Option<&[String]>) -> Result<Vec<Output>, ChannelError> {
+    let channels = model.channels();
+    let mut chosen: Vec<Output> = Vec::new();
+    match names {
+        None => {
+            let told = ["time_s", ".x_m", ".vx_m_s", ".z_m", ".vz_m_s", "_rad", "_rad_s", ".fx_N", ".fn_N"];
+            let is_told = |name: &str| told.iter().any(|end| name.ends_with(end));
+            let all = channels.into_iter().enumerate().filter(|(_, channel)| is_told(&channel.name));
+            chosen.extend(all.map(|(place, channel)| Output { name: channel.name, place }));
+        }
+        Some(names) => {
+            for name in names {
+                let Some(place) = channels.iter().position(|channel| channel.name == *name) else {
+                    let known: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
+                    return Err(ChannelError::Unknown { name: name.clone(), known: known.join(", ") });
+                };
+                if chosen.iter().any(|output| output.place == place) {
+                    return Err(ChannelError::Twice(name.clone()));
+                }
+                chosen.push(Output { name: name.clone(), place });
+            }
+        }
+    }
+    if chosen.len() > MOST_VALUES {
+        return Err(ChannelError::TooMany(chosen.len(), "channels"));
+    }
+    Ok(chosen)
+}
