@@ -7,7 +7,7 @@ use stickslip_drive::scene::{EngineChoice, Scene};
 use stickslip_drive::{Model, Plan, State};
 
 /// Longest that a measurement takes, ns.
-const LONGEST: u64 = 2_000_000_000;
+const LONGEST: u64 = 500_000_000;
 /// Numbers of springs of the rows that are measured.
 const ROWS: [usize; 2] = [64, 256];
 

@@ -9,7 +9,7 @@ pub const PROMISE: &str = "as seen in this run, not a bound: without a real-time
 memory the system may keep the loop waiting for milliseconds at any time, and no program can prevent it";
 
 /// The report for people. `worst` is the slowest frame.
-pub fn text(report: &Report, worst: Option<&Slow>, limit: usize) -> String {
+pub fn text(report: &Report, worst: Option<&Slow>) -> String {
     let mut lines = vec![head(report)];
     lines.push(times("execution", &report.execution, report));
     lines.extend(report.latency.as_ref().map(|latency| times("wake-up latency", latency, report)));
@@ -38,7 +38,6 @@ pub fn text(report: &Report, worst: Option<&Slow>, limit: usize) -> String {
     if report.paced {
         lines.push(format!("  {PROMISE}"));
     }
-    lines.truncate(limit);
     lines.join("\n")
 }
 
