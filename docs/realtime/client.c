@@ -1,7 +1,7 @@
-/* Scan and settle: a PI controller for stage.json, over UDP or shared memory. POSIX alone, no library.
+/* Scan and settle: a PI controller for stage.json, over UDP or shared memory. Linux alone, no library.
  *
  *   cc -O2 -o client docs/realtime/client.c -lm
- *   stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m \
+ *   stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m --notes target.x_m,error_m \
  *       --inputs udp:127.0.0.1:5005 --outputs udp:127.0.0.1:5006      and   ./client udp 127.0.0.1 5005 5006
  *   stickslip realtime … --inputs shm:stage --outputs shm:stage       and   ./client shm stage
  */
@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -120,19 +121,21 @@ int main(int count, char **word)
     int failed = count == 5 && !strcmp(word[1], "udp") ? open_udp(word[2], atoi(word[3]), atoi(word[4]))
                : count == 3 && !strcmp(word[1], "shm") ? open_memory(word[2]) : -1;
     if (failed) { fprintf(stderr, "client udp HOST THEIR_PORT OWN_PORT | client shm NAME\n"); return 2; }
+    prctl(PR_SET_TIMERSLACK, 1); /* naps end when they should, to 1 ns instead of 50 us */
     const double proportional = 0.1, integral = 1250; /* dimensionless; 1/s */
     double total = 0, last = 0, squares = 0;
     uint64_t answers = 0;
     packet p;
     while (receive(&p)) {
         double t = p.time, error = target(t) - p.values[0];
-        total += error * (t - last);
+        total += error * fmin(t - last, 1e-3); /* a gap is no reason to jump */
         last = t;
         squares += error * error;
-        p.count = 2;
+        p.count = 3;
         p.sequence = ++answers;
         p.values[0] = fmax(-1.5e-6, fmin(1.5e-6, proportional * error + integral * total));
         p.values[1] = target(t);
+        p.values[2] = error;
         send_packet(&p);
     }
     printf("%llu answers up to %.4f s, error %.1f nm rms\n", (unsigned long long)answers, last,

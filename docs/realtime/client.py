@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Scan and settle: a PI controller for stage.json, over UDP or shared memory. Python's standard library alone.
 
-  stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m \
+  stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m --notes target.x_m,error_m \
       --inputs udp:127.0.0.1:5005 --outputs udp:127.0.0.1:5006
   python3 docs/realtime/client.py udp 127.0.0.1 5005 5006
 
-  stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m \
+  stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m --notes target.x_m,error_m \
       --inputs shm:stage --outputs shm:stage
   python3 docs/realtime/client.py shm stage
 """
@@ -106,10 +106,10 @@ def main():
     while (packet := link.receive()) is not None:
         scenario, sequence, t, (x, *_) = unpack(packet)
         error = target(t) - x
-        total += error * (t - last)
+        total += error * min(t - last, 1e-3)  # a gap is no reason to jump
         last, answers, squares = t, answers + 1, squares + error * error
         drive = max(-1.5e-6, min(1.5e-6, proportional * error + integral * total))
-        link.send(pack(scenario, answers, t, (drive, target(t))))
+        link.send(pack(scenario, answers, t, (drive, target(t), error)))
     print(f"{answers} answers up to {last:.4f} s, error {1e9 * math.sqrt(squares / max(answers, 1)):.1f} nm rms")
 
 

@@ -81,6 +81,23 @@ impl Histogram {
         self.worst
     }
 
+    /// So many bins for each decade, from 10 ns on, as (lower edge, upper edge, count), edges in ns; the last has all that is longer
+    /// than 20 ms. Where bins are narrower than those that were counted in, the counts lie in the first that touches them.
+    pub fn decades(&self, per_decade: u32) -> Vec<(f64, f64, u64)> {
+        let edge = |bin: u32| FINE_BIN as f64 * 10_f64.powf(f64::from(bin) / f64::from(per_decade));
+        let last = (f64::from(per_decade) * (COARSE as f64 / FINE_BIN as f64).log10()).ceil() as u32;
+        let mut bins: Vec<(f64, f64, u64)> = (0..=last).map(|bin| (edge(bin), edge(bin + 1), 0)).collect();
+        let fine = self.fine.iter().enumerate().map(|(i, n)| (i as u64 * FINE_BIN, n));
+        let coarse = self.coarse.iter().enumerate().map(|(i, n)| (i as u64 * COARSE_BIN, n));
+        for (from, count) in fine.chain(coarse).chain([(COARSE, &self.beyond)]) {
+            let place = bins.partition_point(|(_, high, _)| *high <= from as f64 * (1.0 + 1e-12));
+            if let Some((.., sum)) = bins.get_mut(place) {
+                *sum += count;
+            }
+        }
+        bins
+    }
+
     /// Bins of 1 µs, as (lower edge in µs, count), those that are not empty; and how many times were 20 ms or longer.
     pub fn microseconds(&self) -> (impl Iterator<Item = (u64, u64)> + '_, u64) {
         let each = (COARSE_BIN / FINE_BIN) as usize;
@@ -124,6 +141,17 @@ mod tests {
         let mut histogram = Histogram::new();
         histogram.count(1_001);
         assert_eq!((histogram.quantile(0.5), histogram.quantile(1.0)), (1_001, 1_001));
+    }
+
+    #[test]
+    fn decades_have_all_times() {
+        let mut histogram = Histogram::new();
+        let times = [0, 9, 10, 99, 100, 1_000, 123_456, 19_999_999, 20_000_000, u64::MAX];
+        times.into_iter().for_each(|time| histogram.count(time));
+        let bins = histogram.decades(10);
+        assert_eq!(bins.iter().map(|(.., count)| count).sum::<u64>(), 10);
+        let of = |time: f64| bins.iter().find(|(low, high, _)| *low <= time && time < *high).unwrap().2;
+        assert_eq!((of(10.5), of(101.0), of(1001.0), of(123_456.0), of(20_000_001.0)), (3, 1, 1, 1, 3));
     }
 
     #[test]

@@ -89,6 +89,10 @@ pub(crate) struct WireArguments {
     /// Channels that are told; by default time, places and velocities of bodies, forces of contacts
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(crate) channels: Option<Vec<String>>,
+    /// Values that come with the inputs, behind them, and feed nothing, such as what a controller aims at: they are recorded, and
+    /// drawn in timeline.png; the end of a name is its unit, as in target.x_m
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', requires = "inputs")]
+    pub(crate) notes: Vec<String>,
     /// How long the first input is waited for; 0 starts at once
     #[arg(long, value_name = "TIME", default_value = "10 s", value_parser = not_negative)]
     pub(crate) wait: f64,

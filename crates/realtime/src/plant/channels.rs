@@ -24,6 +24,16 @@ pub(crate) enum Feed {
     Hold(usize),
     /// It is reached at the end of the frame, straight.
     Lead(usize),
+    /// It does not: it is written down beside the others.
+    Note,
+}
+
+impl Input {
+    /// A value that feeds nothing, such as what a controller aims at: it comes with the others, and is recorded and drawn beside
+    /// them.
+    pub fn note(name: &str) -> Self {
+        Self { name: name.to_owned(), initial: 0.0, range: (f64::MIN, f64::MAX), feed: Feed::Note }
+    }
 }
 
 /// Something of a drive that is told.

@@ -70,6 +70,7 @@ impl Plant for Drive<'_> {
             match *feed {
                 Feed::Hold(place) => self.run.hold(place, *value)?,
                 Feed::Lead(place) => self.run.lead(place, until, *value)?,
+                Feed::Note => {}
             }
         }
         self.run.advance(until, &mut ())?;

@@ -5,6 +5,7 @@ use std::io;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use stickslip_drive::RunError;
+use stickslip_figures::FigureError;
 use stickslip_realtime::memory::MemoryError;
 use stickslip_realtime::plant::ChannelError;
 use stickslip_realtime::source::RecordingError;
@@ -116,6 +117,9 @@ pub(crate) enum Failure {
     /// The report cannot be written.
     #[error("the report cannot be written: {}", words(.0))]
     Report(#[from] io::Error),
+    /// A picture.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     /// The report is no JSON.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
@@ -125,7 +129,7 @@ impl Failure {
     /// How the command ends.
     pub(crate) fn verdict(&self) -> Verdict {
         match self {
-            Self::Cut(_) | Self::Report(_) | Self::Json(_) => Verdict::Stopped,
+            Self::Cut(_) | Self::Report(_) | Self::Figure(_) | Self::Json(_) => Verdict::Stopped,
             _ => Verdict::BadInput,
         }
     }

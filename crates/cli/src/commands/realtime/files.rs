@@ -5,6 +5,7 @@ use super::stage::Stage;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use stickslip_figures::realtime;
 use stickslip_realtime::Report;
 use stickslip_realtime::report::{frames_csv, histogram_csv};
 use stickslip_realtime::session::Ended;
@@ -45,12 +46,16 @@ impl Drafts {
 pub(super) fn write(stage: &Stage<'_>, report: &Report, ended: &Ended) -> Result<String, Failure> {
     let at = &stage.job.folder;
     let mut folder = Folder::make(at)?;
-    let stale = [REPORT, HISTOGRAM, FRAMES].map(str::to_owned).to_vec();
+    let stale: Vec<String> =
+        [REPORT, HISTOGRAM, FRAMES].map(str::to_owned).into_iter().chain(realtime::all_files()).collect();
     // A command that was killed has left its drafts.
     sweep(at, &stale);
     folder.write(REPORT, report.pretty()?.as_bytes())?;
     folder.write(HISTOGRAM, histogram_csv(&ended.timing, &ended.floor).as_bytes())?;
     folder.write(FRAMES, frames_csv(&ended.timing, report.period_s).as_bytes())?;
+    for (name, bytes) in realtime::draw(stage.job, report, ended, &stage.arguments.look.look())? {
+        folder.write(&name, &bytes)?;
+    }
     folder.forget(stale);
     let names = folder.names().join(", ");
     folder.publish()?;

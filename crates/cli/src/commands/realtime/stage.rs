@@ -5,9 +5,10 @@ use super::stepper::stepper;
 use crate::arguments::RealtimeArguments;
 use crate::console::answer::complain;
 use stickslip_drive::{Accuracy, Plan, State};
-use stickslip_realtime::plant::{Input, Output, inputs, outputs};
+use stickslip_realtime::plant::{ChannelError, Input, Output, inputs, outputs};
 use stickslip_realtime::probe::{Probe, RowsProbe, probe, rows};
 use stickslip_realtime::session::Order;
+use stickslip_realtime::wire::MOST_VALUES;
 use stickslip_realtime::{Drive, Pace};
 use stickslip_results::checkpoint::model_key;
 use stickslip_results::{Job, Real, quantity};
@@ -39,9 +40,13 @@ impl<'a> Stage<'a> {
         let start = job.model.start(&plan).map_err(|error| job.scenario.refusal(&error))?;
         let mut number = [0; 8];
         number.copy_from_slice(&model_key(&job.scenario)[..8]);
-        let inputs = inputs(&job.scenario.scene)?;
+        let mut inputs = inputs(&job.scenario.scene)?;
         if inputs.is_empty() && arguments.wires.inputs.is_some() {
             return Err(Failure::NoInputs);
+        }
+        inputs.extend(arguments.wires.notes.iter().map(|name| Input::note(name)));
+        if inputs.len() > MOST_VALUES {
+            return Err(ChannelError::TooMany(inputs.len(), "inputs").into());
         }
         let outputs = outputs(&job.model, arguments.wires.channels.as_deref())?;
         Ok(Self { arguments, job, number: u64::from_le_bytes(number), inputs, outputs, plan, start })
