@@ -2,7 +2,7 @@
 
 use crate::film::Film;
 use crate::intake::{Client, Intake};
-use crate::pace::{self, Cycle, Pace, Stop, Timing};
+use crate::pace::{self, Cycle, Overrun, Pace, Stop, Timing};
 use crate::plant::{Empty, Plant, Work};
 use crate::sink::Sink;
 use crate::source::Source;
@@ -160,8 +160,9 @@ pub fn run<P: Plant + Send>(
     };
     let mut turn = || {
         let denied = order.favours.ask();
-        // The machine alone: an interruption ends it by ending what comes after it.
-        let _ = pace::run(&order.pace, order.floor, &mut Idle, &mut floor);
+        // The machine alone, to its end whatever happens: an interruption ends what comes after it.
+        let empty = Pace { overrun: order.pace.overrun.map(|_| Overrun::Skip), ..order.pace };
+        let _ = pace::run(&empty, order.floor, &mut Idle, &mut floor);
         let heard = live.wait(order.wait);
         let outcome =
             if heard { pace::run(&order.pace, order.frames, &mut live, &mut timing) } else { Ok(()) };

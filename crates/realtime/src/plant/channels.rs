@@ -1,6 +1,7 @@
 //! Inputs and outputs of a drive, by name.
 
 use crate::wire::MOST_VALUES;
+use stickslip_drive::scene::Axis;
 use stickslip_drive::{Interpolation, Model, Scene, Shape};
 use thiserror::Error;
 
@@ -41,8 +42,26 @@ impl Input {
 pub struct Output {
     /// Name of the channel, with its unit.
     pub name: String,
-    /// Place in a row.
-    pub(crate) place: usize,
+    /// Where it is read.
+    pub(crate) reading: Reading,
+}
+
+/// Where a value is read: a row of all channels looks into every contact, which takes longer than a frame may.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reading {
+    /// Off the clock of the run.
+    Time,
+    /// A coordinate of a body, or its rate.
+    Coordinate {
+        /// Place of the body in the scene.
+        body: usize,
+        /// Which coordinate.
+        axis: Axis,
+        /// Whether its rate.
+        is_rate: bool,
+    },
+    /// At a place of a row.
+    Row(usize),
 }
 
 /// Why channels cannot be had.
@@ -93,7 +112,7 @@ pub fn outputs(model: &Model, names: Option<&[String]>) -> Result<Vec<Output>, C
             let told = ["time_s", ".x_m", ".vx_m_s", ".z_m", ".vz_m_s", "_rad", "_rad_s", ".fx_N", ".fn_N"];
             let is_told = |name: &str| told.iter().any(|end| name.ends_with(end));
             let all = channels.into_iter().enumerate().filter(|(_, channel)| is_told(&channel.name));
-            chosen.extend(all.map(|(place, channel)| Output { name: channel.name, place }));
+            chosen.extend(all.map(|(place, channel)| output(model, channel.name, place)));
         }
         Some(names) => {
             for name in names {
@@ -101,10 +120,10 @@ pub fn outputs(model: &Model, names: Option<&[String]>) -> Result<Vec<Output>, C
                     let known: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
                     return Err(ChannelError::Unknown { name: name.clone(), known: known.join(", ") });
                 };
-                if chosen.iter().any(|output| output.place == place) {
+                if chosen.iter().any(|output| output.name == *name) {
                     return Err(ChannelError::Twice(name.clone()));
                 }
-                chosen.push(Output { name: name.clone(), place });
+                chosen.push(output(model, name.clone(), place));
             }
         }
     }
@@ -112,4 +131,54 @@ pub fn outputs(model: &Model, names: Option<&[String]>) -> Result<Vec<Output>, C
         return Err(ChannelError::TooMany(chosen.len(), "channels"));
     }
     Ok(chosen)
+}
+
+/// The channel at a place of a row.
+fn output(model: &Model, name: String, place: usize) -> Output {
+    let axes =
+        [(Axis::X, "x_m", "vx_m_s"), (Axis::Z, "z_m", "vz_m_s"), (Axis::Pitch, "pitch_rad", "vpitch_rad_s")];
+    let coordinate = |owner: &str, quantity: &str| {
+        let body = model.bodies().position(|body| body == owner)?;
+        let (axis, _, rate) = axes.iter().find(|(_, value, rate)| quantity == *value || quantity == *rate)?;
+        Some(Reading::Coordinate { body, axis: *axis, is_rate: quantity == *rate })
+    };
+    let reading = match name.rsplit_once('.') {
+        None if name == "time_s" => Some(Reading::Time),
+        None => None,
+        Some((owner, quantity)) => coordinate(owner, quantity),
+    };
+    Output { reading: reading.unwrap_or(Reading::Row(place)), name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::{Drive, Plant};
+    use stickslip_results::Job;
+
+    /// Whatever way a value is read, it is that of the row.
+    #[test]
+    fn a_coordinate_is_read_as_in_a_row() {
+        for example in ["p1", "three_ball_stage", "piezo_stack", "walking_drive"] {
+            let file = format!("{}/../../scenarios/{example}.json", env!("CARGO_MANIFEST_DIR"));
+            let job = Job::prepare(file.as_ref(), &[], "".as_ref()).unwrap();
+            let names: Vec<String> = job.model.channels().into_iter().map(|channel| channel.name).collect();
+            let chosen = outputs(&job.model, Some(&names)).unwrap();
+            assert!(chosen.iter().any(|output| matches!(output.reading, Reading::Coordinate { .. })));
+            let rows: Vec<Output> = (0..names.len())
+                .map(|place| Output { name: names[place].clone(), reading: Reading::Row(place) })
+                .collect();
+            let start = || (job.start.clone(), 0);
+            let plan = &job.scenario.plan;
+            let drive =
+                |outputs: &[Output]| Drive::new(&job.model, plan, start(), 37e-6, (&[], outputs)).unwrap();
+            let (mut a, mut b) = (drive(&chosen), drive(&rows));
+            let (mut told, mut read) = (vec![0.0; names.len()], vec![0.0; names.len()]);
+            for _ in 0..60 {
+                a.frame(&[], &mut told).unwrap();
+                b.frame(&[], &mut read).unwrap();
+                assert_eq!(told, read, "{example}");
+            }
+        }
+    }
 }

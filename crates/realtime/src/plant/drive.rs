@@ -1,6 +1,6 @@
 //! A drive as a plant.
 
-use super::channels::Feed;
+use super::channels::{Feed, Reading};
 use super::{Input, Output, Plant, PlantError, Work, work};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
 
@@ -12,8 +12,10 @@ pub struct Drive<'m> {
     /// Frames since t = 0.
     frame: u64,
     feeds: Vec<Feed>,
-    columns: Vec<usize>,
+    readings: Vec<Reading>,
+    /// All channels, where any of them is told that lies nowhere else.
     row: Vec<f64>,
+    model: &'m Model,
 }
 
 impl<'m> Drive<'m> {
@@ -36,8 +38,9 @@ impl<'m> Drive<'m> {
             period,
             frame,
             feeds: inputs.iter().map(|input| input.feed).collect(),
-            columns: outputs.iter().map(|output| output.place).collect(),
+            readings: outputs.iter().map(|output| output.reading).collect(),
             row: Vec::with_capacity(model.channels().len()),
+            model,
         })
     }
 
@@ -54,9 +57,20 @@ impl<'m> Drive<'m> {
 
     /// The values told where it stands.
     pub fn tell(&mut self, outputs: &mut [f64]) {
-        self.run.row(&mut self.row);
-        for (output, column) in outputs.iter_mut().zip(&self.columns) {
-            *output = self.row[*column];
+        if self.readings.iter().any(|reading| matches!(reading, Reading::Row(_))) {
+            self.run.row(&mut self.row);
+        }
+        let state = self.run.state();
+        for (output, reading) in outputs.iter_mut().zip(&self.readings) {
+            *output = match *reading {
+                Reading::Time => state.time(),
+                Reading::Row(place) => self.row[place],
+                Reading::Coordinate { body, axis, is_rate } => {
+                    // The channel is there, so the coordinate is.
+                    let (value, rate) = state.coordinate(self.model, body, axis).unwrap_or_default();
+                    if is_rate { rate } else { value }
+                }
+            };
         }
     }
 }
