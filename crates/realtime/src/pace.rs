@@ -34,6 +34,9 @@ pub struct Pace {
     pub period: f64,
     /// What is done where one ends after the next deadline; none: nothing waits for any deadline.
     pub overrun: Option<Overrun>,
+    /// How long before each deadline the loop wakes and watches the clock, s: waking takes the system longer than a short
+    /// frame, and differs from time to time. 0 sleeps up to the deadline.
+    pub spin: f64,
 }
 
 /// What is done in each frame.
@@ -155,14 +158,19 @@ impl Grid {
 pub fn run(pace: &Pace, frames: u64, cycle: &mut impl Cycle, timing: &mut Timing) -> Result<(), Stop> {
     let start = now() + if pace.overrun.is_some() { AHEAD } else { 0 };
     let grid = Grid { start, period: NANO * pace.period };
+    let spin = (NANO * pace.spin) as u64;
     let mut slot = 0;
     for frame in 0..frames {
         let mut latency = 0;
         let mut woke = now();
         if pace.overrun.is_some() {
             let deadline = grid.at(slot);
-            sleep_until(deadline);
+            sleep_until(deadline.saturating_sub(spin));
             woke = now();
+            while woke < deadline {
+                std::hint::spin_loop();
+                woke = now();
+            }
             latency = woke - deadline;
         }
         let work = cycle.act(frame)?;
@@ -221,7 +229,7 @@ mod tests {
 
     #[test]
     fn overruns_are_counted_deadlines_left_out_and_all_frames_computed() {
-        let pace = Pace { period: 1e-3, overrun: Some(Overrun::Skip) };
+        let pace = Pace { period: 1e-3, overrun: Some(Overrun::Skip), spin: 0.0 };
         let (mut late, mut timing) = (Late(Vec::with_capacity(20)), Timing::new());
         run(&pace, 20, &mut late, &mut timing).unwrap();
         assert!(late.0.iter().map(|(frame, ..)| *frame).eq(0..20));
@@ -235,7 +243,7 @@ mod tests {
 
     #[test]
     fn where_an_overrun_is_the_end_it_is() {
-        let pace = Pace { period: 1e-3, overrun: Some(Overrun::Stop) };
+        let pace = Pace { period: 1e-3, overrun: Some(Overrun::Stop), spin: 100e-6 };
         let (mut late, mut timing) = (Late(Vec::new()), Timing::new());
         assert_eq!(run(&pace, 20, &mut late, &mut timing), Err(Stop::Overrun));
         // A busy machine may be late before.
@@ -244,7 +252,7 @@ mod tests {
 
     #[test]
     fn without_a_pace_nothing_waits() {
-        let pace = Pace { period: 3600.0, overrun: None };
+        let pace = Pace { period: 3600.0, overrun: None, spin: 0.0 };
         let (mut late, mut timing) = (Late(Vec::new()), Timing::new());
         run(&pace, 3, &mut late, &mut timing).unwrap();
         assert_eq!((timing.frames(), timing.overruns, timing.latency.worst()), (3, 0, 0));

@@ -43,7 +43,7 @@ impl<P: Plant> Cycle for Steady<'_, P> {
 
 /// Computes frames of a plant without waiting, until there are so many or it took long; none where not even one came.
 pub fn probe<P: Plant>(plant: &mut P, inputs: &[f64], outputs: usize, frames: u64) -> Option<Probe> {
-    let pace = Pace { period: 1.0, overrun: None };
+    let pace = Pace { period: 1.0, overrun: None, spin: 0.0 };
     let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: now() + LONGEST };
     // The first frame opens the run, and finds all its memory cold.
     pace::run(&pace, 1, &mut cycle, &mut Timing::new()).ok()?;

@@ -34,6 +34,8 @@ pub struct Report {
     pub wall_s: f64,
     /// Whether frames waited for their deadlines.
     pub paced: bool,
+    /// How long before each deadline the loop watched the clock, s.
+    pub spin_s: f64,
     /// What was done about overruns.
     pub overrun_policy: Option<&'static str>,
     /// How it ended: `complete`, `interrupted`, `overrun`, `silence`, `stopped`, or `no_input`.
@@ -155,6 +157,7 @@ impl Report {
             simulated_s: frames as f64 * pace.period,
             wall_s: *wall as f64 / 1e9,
             paced,
+            spin_s: pace.spin,
             overrun_policy: pace.overrun.map(|overrun| match overrun {
                 Overrun::Skip => "skip",
                 Overrun::Stop => "stop",

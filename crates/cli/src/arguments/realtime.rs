@@ -130,6 +130,10 @@ pub(crate) struct ClockArguments {
     /// lies ahead; all frames are computed, and simulated time falls behind the clock. stop: the loop ends (exit code 3)
     #[arg(long, value_name = "WHAT", default_value = "skip")]
     pub(crate) overrun: OverrunArgument,
+    /// Wake so long before each deadline and watch the clock until then: what waking takes is out of the way, and the processor busy.
+    /// With --priority leave it some rest, or the system takes it (50 ms of each second by default)
+    #[arg(long, value_name = "TIME", default_value = "0", value_parser = not_negative)]
+    pub(crate) spin: f64,
     /// Compute frames one after the other, as fast as they go
     #[arg(long)]
     pub(crate) unpaced: bool,

@@ -103,6 +103,7 @@ fn springs(report: &Report) -> Option<String> {
     let measured: Vec<String> =
         rows.springs.iter().zip(&rows.p99_us).map(|(n, time)| format!("{n} springs {time:.2} µs")).collect();
     let fits = match rows.fit_in_period {
+        Some(0) => "no row would fit the period".to_owned(),
         Some(n) => format!("about {n} springs a contact would fill the period"),
         None => "more springs cost no more than the rest".to_owned(),
     };

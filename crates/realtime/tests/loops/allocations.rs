@@ -64,7 +64,7 @@ fn the_loop_allocates_nothing() {
             packet: vec![0; wire::length(1)],
             to,
         };
-        let pace = Pace { period: PERIOD, overrun: None };
+        let pace = Pace { period: PERIOD, overrun: None, spin: 0.0 };
         // The first frames open the run, and its memory makes itself room.
         pace::run(&pace, 200, &mut counted, &mut Timing::new()).unwrap();
         let mut timing = Timing::new();

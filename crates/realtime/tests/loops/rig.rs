@@ -89,7 +89,7 @@ pub(crate) fn wiring(source: Source, intake: Intake) -> Wiring {
 
 /// So many frames after a clock, or without one.
 pub(crate) fn order(frames: u64, overrun: Option<Overrun>) -> Order {
-    let pace = Pace { period: PERIOD, overrun };
+    let pace = Pace { period: PERIOD, overrun, spin: 0.0 };
     Order { pace, frames, favours: Favours::default(), floor: 0, wait: 0.0 }
 }
 

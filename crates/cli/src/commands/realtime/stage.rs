@@ -93,7 +93,7 @@ impl<'a> Stage<'a> {
         let overrun = arguments.clock.overrun();
         let floor = if overrun.is_some() { (arguments.clock.floor / arguments.period) as u64 } else { 0 };
         Ok(Order {
-            pace: Pace { period: arguments.period, overrun },
+            pace: Pace { period: arguments.period, overrun, spin: arguments.clock.spin },
             frames,
             favours: arguments.clock.favours(),
             floor: floor.min(frames),
