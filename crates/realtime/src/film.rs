@@ -1,5 +1,7 @@
 //! A loop in pictures: so many frames at most, evenly spread.
 
+use crate::room::room;
+
 /// Most points.
 const MOST: u64 = 4000;
 
@@ -19,6 +21,8 @@ pub struct Film {
     /// Longest wake-up latency since the last point, ns.
     pub latency: Vec<f64>,
     worst: (u64, u64),
+    /// How many there will be.
+    points: usize,
 }
 
 impl Film {
@@ -26,7 +30,7 @@ impl Film {
     pub fn new(frames: u64, inputs: usize, outputs: usize) -> Self {
         let every = frames.div_ceil(MOST).max(1);
         let points = (frames / every) as usize;
-        let series = || Vec::with_capacity(points);
+        let series = || room(points);
         Self {
             every,
             times: series(),
@@ -35,6 +39,7 @@ impl Film {
             execution: series(),
             latency: series(),
             worst: (0, 0),
+            points,
         }
     }
 
@@ -47,7 +52,7 @@ impl Film {
         (inputs, outputs): (&[f64], &[f64]),
     ) {
         self.worst = (self.worst.0.max(taken.0), self.worst.1.max(taken.1));
-        if !(frame + 1).is_multiple_of(self.every) || self.times.len() == self.times.capacity() {
+        if !(frame + 1).is_multiple_of(self.every) || self.times.len() == self.points {
             return;
         }
         self.times.push(time);

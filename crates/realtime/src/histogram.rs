@@ -1,5 +1,7 @@
 //! Times, counted in bins made beforehand.
 
+use crate::room::touched;
+
 /// Bins of 10 ns below this many ns …
 const FINE: u64 = 100_000;
 const FINE_BIN: u64 = 10;
@@ -22,7 +24,7 @@ pub struct Histogram {
 impl Histogram {
     /// An empty one.
     pub fn new() -> Self {
-        let bins = |most: u64, bin: u64| vec![0; (most / bin) as usize];
+        let bins = |most: u64, bin: u64| touched(1, 0, (most / bin) as usize);
         Self {
             fine: bins(FINE, FINE_BIN),
             coarse: bins(COARSE, COARSE_BIN),

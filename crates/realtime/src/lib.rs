@@ -23,6 +23,7 @@ pub mod probe;
 pub mod region;
 pub mod report;
 mod ring;
+mod room;
 mod seqlock;
 pub mod session;
 pub mod sink;
