@@ -11,7 +11,7 @@ pub use drive::Drive;
 use stickslip_drive::{Counts, InputError, RunError};
 use thiserror::Error;
 
-/// What of the work of a frame is counted, by name; a stepper that counts more adds it here and in [`work`].
+/// What of the work of a frame is counted, by name; a stepper that counts more adds it here and in `work` below.
 pub const WORK: [&str; 5] = ["steps", "rejected", "evaluations", "events", "detours"];
 
 /// Work of a frame, in the order of [`WORK`].
