@@ -21,6 +21,7 @@ mod pictures;
 mod planar;
 mod program;
 mod publishing;
+mod realtime;
 mod refusals;
 mod repro;
 mod reproducibility;

@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub(crate) mod contact;
 pub(crate) mod look;
 mod pictures;
+pub(crate) mod realtime;
 pub(crate) mod run;
 pub(crate) mod soak;
 pub(crate) mod validate;
@@ -18,6 +19,7 @@ pub(crate) use bench::BenchArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
+pub(crate) use realtime::RealtimeArguments;
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
 pub(crate) use soak::SoakArguments;
 pub(crate) use validate::ValidateArguments;
@@ -122,6 +124,9 @@ pub(crate) enum Command {
     /// Compare two folders of results: channels, events, figures
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
+    /// Run a drive in real time: a frame after each tick of a clock, inputs from outside, outputs to it
+    #[command(long_about = realtime::ABOUT, after_long_help = realtime::EXAMPLES)]
+    Realtime(Box<RealtimeArguments>),
     /// Measure what accuracy costs: every stepper on both engines, errors over time and evaluations
     #[command(long_about = bench::ABOUT, after_long_help = bench::EXAMPLES)]
     Bench(BenchArguments),

@@ -8,6 +8,7 @@ pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod new;
 pub(crate) mod plot;
+pub(crate) mod realtime;
 pub(crate) mod repro;
 pub(crate) mod resume;
 pub(crate) mod run;

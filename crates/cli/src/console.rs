@@ -2,6 +2,7 @@
 
 pub(crate) mod answer;
 pub(crate) mod interrupt;
+pub(crate) mod pace;
 pub(crate) mod progress;
 pub(crate) mod verdict;
 pub(crate) mod visible;

@@ -10,7 +10,8 @@ mod console;
 use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
-    bench, check, compare, contact, gallery, info, new, plot, repro, resume, run, schema, soak, validate,
+    bench, check, compare, contact, gallery, info, new, plot, realtime, repro, resume, run, schema, soak,
+    validate,
 };
 use std::process::ExitCode;
 
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Repro(arguments) => repro::repro(&arguments),
+        Command::Realtime(arguments) => realtime::realtime(&arguments),
         Command::Bench(arguments) => bench::bench(&arguments),
         Command::Soak(arguments) => soak::soak(&arguments),
         Command::Gallery(arguments) => gallery::gallery(&arguments),

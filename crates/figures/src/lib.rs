@@ -4,13 +4,14 @@
 //! what a picture comes from; [`gallery`] draws all pictures of a scenario, and the page that shows them.
 //!
 //! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
-//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`].
+//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop.
 
 pub mod comparison;
 pub mod gallery;
 pub mod look;
 mod origin;
 mod pictures;
+pub mod realtime;
 pub mod theory;
 
 pub use look::{Colours, Format, Look, Picture};

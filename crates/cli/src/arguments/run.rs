@@ -10,6 +10,7 @@ Examples:
   stickslip run drive.json
   stickslip run drive.json --out small --set waveforms.drive.sawtooth.stroke=\"70 nm\"
   stickslip run scenarios/*.json --threads 4 --json > summaries.jsonl
+  stickslip run drive.json --realtime                    as fast as it happens
   stickslip run drive.json --checkpoint-every \"30 s\"    can go on: stickslip resume results/drive";
 
 pub(super) const RESUME_EXAMPLES: &str = "\
@@ -29,6 +30,10 @@ pub(crate) struct RunArguments {
     /// Put a value into every scenario, such as run.duration="20 ms" or contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
+    /// Keep step with the clock on the wall: the run goes on from a row at t seconds when t seconds have passed, and says how
+    /// far it was behind. Results are the same with it and without; `run.limits.wall` counts the waiting, too
+    #[arg(long)]
+    pub(crate) realtime: bool,
     /// Keep checkpoints in DIR/NAME/checkpoint, one every TIME on the wall, such as "30 s": `stickslip resume DIR/NAME` goes
     /// on from the last one. Results are the same with them and without
     #[arg(long, value_name = "TIME", value_parser = interval)]

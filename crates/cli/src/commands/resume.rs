@@ -9,7 +9,7 @@ use stickslip_results::checkpoint::{CheckpointError, Resumption};
 
 /// Goes on with all runs; the worst ending counts. A folder that is refused does not keep the others from going on.
 pub(crate) fn resume(arguments: &ResumeArguments) -> Verdict {
-    conduct(&arguments.conduct, || prepare(arguments))
+    conduct(&arguments.conduct, false, || prepare(arguments))
 }
 
 /// Reads and checks all checkpoints before the first run goes on.

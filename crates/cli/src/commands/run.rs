@@ -10,6 +10,7 @@ use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
 use rayon::prelude::*;
 use report::Report;
+use scenario::Conduct;
 use std::collections::HashMap;
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -24,12 +25,13 @@ pub(crate) type Task = (Job, Beginning);
 /// Prepares and runs all scenarios; the worst ending counts. A file that is refused does not keep the others from
 /// running.
 pub(crate) fn run(arguments: &RunArguments) -> Verdict {
-    conduct(&arguments.conduct, || prepare(arguments))
+    conduct(&arguments.conduct, arguments.realtime, || prepare(arguments))
 }
 
 /// Runs all tasks that were not refused.
 pub(crate) fn conduct<E: Display + Send>(
     arguments: &ConductArguments,
+    realtime: bool,
     prepare: impl FnOnce() -> Vec<Result<Task, E>>,
 ) -> Verdict {
     let interrupt = Interrupt::install();
@@ -41,7 +43,10 @@ pub(crate) fn conduct<E: Display + Send>(
         let report = match task {
             Err(refusal) => Report::refused(&refusal),
             Ok((job, _)) if interrupt.is_raised() => Report::skipped(&job),
-            Ok((job, beginning)) => scenario::run(&job, beginning, &look, &interrupt, &progress),
+            Ok((job, beginning)) => {
+                let conduct = Conduct { look: &look, interrupt: &interrupt, progress: &progress, realtime };
+                scenario::run(&job, beginning, &conduct)
+            }
         };
         let report = if arguments.strict { report.judged_strictly() } else { report };
         let verdict = report.verdict;

@@ -112,6 +112,14 @@ impl Report {
         Ok(Self { verdict, result, json: summary.line()?, warning: warnings.join("\n"), error })
     }
 
+    /// The same of a run that kept step with the clock.
+    pub(crate) fn with_pace(mut self, words: Option<String>) -> Self {
+        if let Some(words) = words.filter(|_| !self.result.is_empty()) {
+            self.result += &format!("\n  {words}");
+        }
+        self
+    }
+
     /// The same where results that are warned of are not good enough.
     pub(crate) fn judged_strictly(self) -> Self {
         let verdict = if self.warning.is_empty() { self.verdict } else { self.verdict.max(Verdict::Stopped) };

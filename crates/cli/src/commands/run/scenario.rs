@@ -2,6 +2,7 @@
 
 use super::report::Report;
 use crate::console::interrupt::Interrupt;
+use crate::console::pace::Paced;
 use crate::console::progress::Progress;
 use std::io;
 use stickslip_figures::{Look, Sources};
@@ -9,7 +10,7 @@ use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
 use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Draft, Job, Outcome, Periods, Recorder, Summary, cycles_table};
+use stickslip_results::{Draft, Job, Outcome, Periods, Recorder, Summary, Watcher, cycles_table};
 
 /// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.
 const RESERVE: usize = 1 << 16;
@@ -27,6 +28,15 @@ fn reserve(job: &Job) -> usize {
     RESERVE + 8 * job.resolved.len() + OF_PERIOD * periods
 }
 
+/// How runs are conducted and drawn.
+pub(crate) struct Conduct<'a> {
+    pub(crate) look: &'a Look,
+    pub(crate) interrupt: &'a Interrupt,
+    pub(crate) progress: &'a Progress,
+    /// Whether they keep step with the clock.
+    pub(crate) realtime: bool,
+}
+
 /// How a run begins.
 pub(crate) enum Beginning {
     /// At its start.
@@ -41,9 +51,7 @@ pub(crate) enum Beginning {
 pub(crate) fn run(
     job: &Job,
     beginning: Beginning,
-    look: &Look,
-    interrupt: &Interrupt,
-    progress: &Progress,
+    Conduct { look, interrupt, progress, realtime }: &Conduct<'_>,
 ) -> Report {
     let mut folder = match Folder::make(&job.folder) {
         Ok(folder) => folder,
@@ -57,7 +65,9 @@ pub(crate) fn run(
     sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>());
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
     let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
-    let recorder = Recorder::new(job, &bar);
+    let paced = realtime.then(|| Paced::new(&bar, from));
+    let watcher: &dyn Watcher = paced.as_ref().map_or(&bar, |paced| paced);
+    let recorder = Recorder::new(job, watcher);
     let recorder = if job.scenario.plots.is_empty() { recorder } else { recorder.fingerprinted() };
     let report = recorder.with_tables(&folder).and_then(|mut recorder| {
         let keeper = match beginning {
@@ -77,7 +87,8 @@ pub(crate) fn run(
         let (outcome, drafts) = job.run_kept(recorder, keeper)?;
         Ok(write(job, look, folder, (&outcome, drafts))?.resumable(job, outcome.error.as_ref()))
     });
-    report.unwrap_or_else(|error| Report::not_written(job, &error))
+    let report = report.unwrap_or_else(|error| Report::not_written(job, &error));
+    report.with_pace(paced.map(|paced| paced.words()))
 }
 
 /// Writes what comes beside the tables, and gives all files their names.

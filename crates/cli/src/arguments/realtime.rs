@@ -1,0 +1,287 @@
+//! The command line of a loop in real time.
+
+use crate::arguments::assignment;
+use crate::arguments::look::LookArguments;
+use clap::{Args, ValueEnum};
+use std::net::{SocketAddr, ToSocketAddrs};
+use std::path::PathBuf;
+use stickslip_realtime::intake::Silence;
+use stickslip_realtime::system::Favours;
+use stickslip_realtime::{Overrun, region};
+
+/// Long help; paragraphs are broken where the terminal ends.
+pub(crate) const ABOUT: &str = "\
+Run a drive in real time: a frame after each tick of a clock, inputs from outside, outputs to it
+
+Deadlines lie at multiples of --period on the monotonic clock. After each of them the newest input is taken, one frame of the drive \
+is computed and its end is told. Of each frame the time from the deadline until the loop woke (the machine's) and the time from \
+then until the outputs were out (the program's) are counted apart, in bins of 1 µs; a frame that ends after the next deadline has \
+overrun. Before it an empty loop of the same period runs: the machine's own floor.
+
+Inputs are the scene's waveforms of the kind \"input\": a held one has its new value from the frame's start on, a linear one reaches it \
+at the frame's end. Without --inputs they keep their initial values. Packets, shared memory and recordings are described byte by byte in \
+docs/realtime.md, with clients in C and Python. Outputs and inputs are in SI, in the order that is told before the start.
+
+Before the start some hundred frames are computed without waiting; a period shorter than half of them take is refused (--force \
+starts all the same). Where the system grants no priority, processor or locked memory, the loop goes on without and says so. \
+Without a real-time kernel nobody can promise that the system does not keep the loop waiting.
+
+Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the worst frames and what happened in them), realtime.png and timeline.png. Exit codes: 0 all \
+frames were computed, 2 bad input (the input never came, a port in use), 3 the drive stopped itself, or the loop by --overrun stop \
+or --silence stop, or something could not be written, 130 interrupted; what was computed is written.";
+
+/// Examples under the long help.
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  stickslip realtime scenarios/p1.json --period \"50 us\" --for \"10 s\"
+  stickslip realtime drive.json --period \"100 us\" --for \"10 s\" --cpu 1 --priority 80 --lock
+  stickslip realtime stage.json --period \"100 us\" --for \"1 min\" --inputs udp:127.0.0.1:5005 --outputs udp:127.0.0.1:5006
+  stickslip realtime stage.json --period \"100 us\" --for \"1 min\" --inputs shm:stage --outputs shm:stage
+  stickslip realtime stage.json --period \"100 us\" --for \"10 s\" --inputs udp:127.0.0.1:5005 --outputs udp --record-inputs a.rec
+  stickslip realtime stage.json --period \"100 us\" --inputs replay:a.rec --unpaced --outputs file:b.bin";
+
+#[derive(Debug, Args)]
+pub(crate) struct RealtimeArguments {
+    /// Scenario file
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Length of a frame, such as "50 us"
+    #[arg(long, value_name = "TIME", value_parser = above_zero)]
+    pub(crate) period: f64,
+    /// How long, simulated; by default as long as the recording that is replayed, or as the scenario's run
+    #[arg(long = "for", value_name = "TIME", value_parser = above_zero)]
+    pub(crate) duration: Option<f64>,
+    /// Another stepper than the scenario's: event, event:TOLERANCE, verlet, verlet:STEP, rk4 or rk4:STEP; without a step the
+    /// longest that divides the frame and is a fifth of the longest stable one
+    #[arg(long, value_name = "NAME[:VALUE]")]
+    pub(crate) stepper: Option<String>,
+    /// Put a value into the scenario, such as contacts.ball.friction=0.3
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Folder of the report: NAME.json writes into DIR/NAME/
+    #[arg(long, value_name = "DIR", default_value = "realtime")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) wires: WireArguments,
+    #[command(flatten)]
+    pub(crate) clock: ClockArguments,
+    /// Print the report to stdout as one line of JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress, no report; errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArguments,
+}
+
+/// What goes in and out.
+#[derive(Debug, Args)]
+pub(crate) struct WireArguments {
+    /// Where inputs come from: udp:HOST:PORT (packets taken there), shm:NAME (a file of /dev/shm, or a path), stdin (lines of
+    /// numbers), replay:FILE (what --record-inputs wrote)
+    #[arg(long, value_name = "WHERE", value_parser = inputs)]
+    pub(crate) inputs: Option<Inputs>,
+    /// Where outputs go, as often as wanted: udp:HOST:PORT, udp (to whoever has the inputs), shm:NAME, file:PATH (packets, one
+    /// after the other)
+    #[arg(long, value_name = "WHERE", value_parser = outputs)]
+    pub(crate) outputs: Vec<Outputs>,
+    /// Channels that are told; by default time, places and velocities of bodies, forces of contacts
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub(crate) channels: Option<Vec<String>>,
+    /// Values that come with the inputs, behind them, and feed nothing, such as what a controller aims at: they are recorded, and
+    /// drawn in timeline.png; the end of a name is its unit, as in target.x_m
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', requires = "inputs")]
+    pub(crate) notes: Vec<String>,
+    /// How long the first input is waited for; 0 starts at once
+    #[arg(long, value_name = "TIME", default_value = "10 s", value_parser = not_negative)]
+    pub(crate) wait: f64,
+    /// What happens when no good input has come for --silent-after: the last values are held, the initial ones come back, or
+    /// the loop stops
+    #[arg(long, value_name = "WHAT", default_value = "hold")]
+    pub(crate) silence: SilenceArgument,
+    /// How long no good input may come until --silence
+    #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = above_zero)]
+    pub(crate) silent_after: f64,
+    /// How long the client that has the inputs must have been silent until another one may take over
+    #[arg(long, value_name = "TIME", default_value = "100 ms", value_parser = above_zero)]
+    pub(crate) takeover: f64,
+    /// Write the inputs applied in every frame, for --inputs replay:FILE
+    #[arg(long, value_name = "FILE")]
+    pub(crate) record_inputs: Option<PathBuf>,
+    /// Write every frame: number, latency and execution time in ns, deadlines left out after it
+    #[arg(long, value_name = "FILE")]
+    pub(crate) log: Option<PathBuf>,
+}
+
+/// When frames are computed.
+#[derive(Debug, Args)]
+pub(crate) struct ClockArguments {
+    /// The processor to stay on, from 0
+    #[arg(long, value_name = "N")]
+    pub(crate) cpu: Option<usize>,
+    /// Priority among real-time threads (first in, first out), 1 to 99
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(1..=99))]
+    pub(crate) priority: Option<u8>,
+    /// Keep all memory in memory
+    #[arg(long)]
+    pub(crate) lock: bool,
+    /// What is done where a frame ends after the next deadline. skip: the next frame waits for the first deadline that still
+    /// lies ahead; all frames are computed, and simulated time falls behind the clock. stop: the loop ends (exit code 3)
+    #[arg(long, value_name = "WHAT", default_value = "skip")]
+    pub(crate) overrun: OverrunArgument,
+    /// Wake so long before each deadline and watch the clock until then: what waking takes is out of the way, and the processor busy.
+    /// With --priority leave it some rest, or the system takes it (50 ms of each second by default)
+    #[arg(long, value_name = "TIME", default_value = "0", value_parser = not_negative)]
+    pub(crate) spin: f64,
+    /// Compute frames one after the other, as fast as they go
+    #[arg(long)]
+    pub(crate) unpaced: bool,
+    /// How long the empty loop runs before it, at most as long as the loop itself
+    #[arg(long, value_name = "TIME", default_value = "2 s", value_parser = not_negative)]
+    pub(crate) floor: f64,
+    /// Start although the machine cannot keep the period
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Where inputs come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Inputs {
+    Udp(SocketAddr),
+    Memory(PathBuf),
+    Stdin,
+    Replay(PathBuf),
+}
+
+/// Where outputs go.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Outputs {
+    /// To an address, or to whoever has the inputs.
+    Udp(Option<SocketAddr>),
+    Memory(PathBuf),
+    File(PathBuf),
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum OverrunArgument {
+    /// Leave out the deadlines that have passed
+    Skip,
+    /// End the loop
+    Stop,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum SilenceArgument {
+    /// Hold the last values
+    Hold,
+    /// Go back to the initial values
+    Initial,
+    /// End the loop
+    Stop,
+}
+
+impl SilenceArgument {
+    pub(crate) fn silence(self) -> Silence {
+        match self {
+            Self::Hold => Silence::Hold,
+            Self::Initial => Silence::Initial,
+            Self::Stop => Silence::Stop,
+        }
+    }
+}
+
+impl ClockArguments {
+    /// What is done about overruns; none where nothing is paced.
+    pub(crate) fn overrun(&self) -> Option<Overrun> {
+        let overrun = match self.overrun {
+            OverrunArgument::Skip => Overrun::Skip,
+            OverrunArgument::Stop => Overrun::Stop,
+        };
+        (!self.unpaced).then_some(overrun)
+    }
+
+    /// What is asked of the system.
+    pub(crate) fn favours(&self) -> Favours {
+        Favours { cpu: self.cpu, priority: self.priority, lock: self.lock }
+    }
+}
+
+/// Reads a time above 0, s.
+fn above_zero(text: &str) -> Result<f64, String> {
+    let seconds = stickslip_scenario::quantity(text, "s")?;
+    if seconds > 0.0 { Ok(seconds) } else { Err("expected a time above 0, such as \"50 us\"".to_owned()) }
+}
+
+/// Reads a time that may be 0, s.
+fn not_negative(text: &str) -> Result<f64, String> {
+    if text.trim() == "0" {
+        return Ok(0.0);
+    }
+    let seconds = stickslip_scenario::quantity(text, "s")?;
+    if seconds >= 0.0 { Ok(seconds) } else { Err("expected 0 or a time above it".to_owned()) }
+}
+
+fn address(text: &str) -> Result<SocketAddr, String> {
+    let refuse = |why: String| format!("{why}; expected HOST:PORT, such as 127.0.0.1:5005");
+    let mut found = text.to_socket_addrs().map_err(|error| refuse(format!("\"{text}\": {error}")))?;
+    found.next().ok_or_else(|| refuse(format!("\"{text}\" is no address")))
+}
+
+fn name(text: &str, what: &str) -> Result<PathBuf, String> {
+    if text.is_empty() { Err(format!("expected {what} after the colon")) } else { Ok(PathBuf::from(text)) }
+}
+
+fn memory(text: &str) -> Result<PathBuf, String> {
+    name(text, "a name").map(|_| region::path(text))
+}
+
+/// Reads where inputs come from.
+fn inputs(text: &str) -> Result<Inputs, String> {
+    match text.split_once(':') {
+        Some(("udp", to)) => Ok(Inputs::Udp(address(to)?)),
+        Some(("shm", name)) => Ok(Inputs::Memory(memory(name)?)),
+        Some(("replay", file)) => Ok(Inputs::Replay(name(file, "a file")?)),
+        None if text == "stdin" => Ok(Inputs::Stdin),
+        _ => Err("expected udp:HOST:PORT, shm:NAME, stdin or replay:FILE".to_owned()),
+    }
+}
+
+/// Reads where outputs go.
+fn outputs(text: &str) -> Result<Outputs, String> {
+    match text.split_once(':') {
+        Some(("udp", to)) => Ok(Outputs::Udp(Some(address(to)?))),
+        Some(("shm", name)) => Ok(Outputs::Memory(memory(name)?)),
+        Some(("file", file)) => Ok(Outputs::File(name(file, "a file")?)),
+        None if text == "udp" => Ok(Outputs::Udp(None)),
+        _ => Err("expected udp:HOST:PORT, udp, shm:NAME or file:PATH".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_read() {
+        assert_eq!(inputs("udp:127.0.0.1:5005"), Ok(Inputs::Udp(([127, 0, 0, 1], 5005).into())));
+        assert_eq!(outputs("udp:[::1]:5006"), Ok(Outputs::Udp(Some("[::1]:5006".parse().unwrap()))));
+        assert_eq!(inputs("shm:stage"), Ok(Inputs::Memory("/dev/shm/stage".into())));
+        assert_eq!(inputs("shm:/tmp/stage"), Ok(Inputs::Memory("/tmp/stage".into())));
+        assert_eq!((inputs("stdin"), outputs("udp")), (Ok(Inputs::Stdin), Ok(Outputs::Udp(None))));
+        for wrong in
+            ["udp", "udp:5005", "udp:127.0.0.1", "udp:127.0.0.1:70000", "shm:", "tcp:a:1", "replay:", ""]
+        {
+            assert!(inputs(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn times_have_units() {
+        assert_eq!(
+            (above_zero("50 us"), not_negative("0"), not_negative("1 s")),
+            (Ok(50e-6), Ok(0.0), Ok(1.0))
+        );
+        assert!(above_zero("0 s").is_err() && above_zero("-1 s").is_err() && not_negative("-1 s").is_err());
+    }
+}

@@ -1,0 +1,108 @@
+//! `stickslip realtime`: a drive after a clock.
+
+mod failure;
+mod files;
+mod stage;
+mod stepper;
+mod wires;
+
+use crate::arguments::RealtimeArguments;
+use crate::console::answer::{complain, say, say_json, warn};
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::{Bar, Progress};
+use crate::console::verdict::Verdict;
+use failure::Failure;
+use files::Drafts;
+use stage::Stage;
+use stickslip_realtime::Report;
+use stickslip_realtime::pace::Stop;
+use stickslip_realtime::report::{Subject, text};
+use stickslip_realtime::session::{self, Ended, Observer};
+use stickslip_results::Job;
+use wires::Wires;
+
+/// Runs a drive in real time.
+pub(crate) fn realtime(arguments: &RealtimeArguments) -> Verdict {
+    match run(arguments) {
+        Ok(verdict) => verdict,
+        Err(failure) => {
+            complain(format_args!("{failure}"));
+            failure.verdict()
+        }
+    }
+}
+
+fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
+    let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
+    let job = Job::prepare(&arguments.file, &arguments.set, &arguments.out)?;
+    let stage = Stage::new(arguments, &job)?;
+    if !arguments.quiet {
+        warn(&job);
+        if cfg!(debug_assertions) {
+            complain(format_args!("this program was built without --release: its times tell little"));
+        }
+        complain(format_args!("{}", stage.introduction()));
+    }
+    let mut drafts = Drafts::default();
+    let Wires { wiring, mut reels, recorded } = wires::open(&stage, &mut drafts)?;
+    let order = stage.order(recorded)?;
+    let (probe, rows) = stage.measure(!arguments.quiet)?;
+    let mut drive = stage.drive()?;
+    let mut outputs = vec![0.0; stage.outputs.len()];
+    drive.tell(&mut outputs);
+    let bar = progress.start(&job.name, [0.0, order.frames as f64 * order.pace.period], &interrupt);
+    let ended = session::run(&mut drive, wiring, &outputs, &order, &mut reels, &bar);
+    drop(bar);
+    if ended.waited_in_vain {
+        return Err(Failure::NoInput { wait: order.wait });
+    }
+    let names = |names: Vec<&String>| names.into_iter().cloned().collect();
+    let subject = Subject {
+        scenario: job.name.clone(),
+        number: stage.number,
+        stepper: stage.stepper(),
+        inputs: names(stage.inputs.iter().map(|input| &input.name).collect()),
+        outputs: names(stage.outputs.iter().map(|output| &output.name).collect()),
+        probe,
+        rows,
+    };
+    let report = Report::new(subject, &order.pace, order.frames, &ended);
+    let unwritten = reels.iter().find_map(|reel| reel.failure().map(ToString::to_string));
+    drop(reels);
+    drafts.keep()?;
+    let written = files::write(&stage, &report, &ended)?;
+    tell(arguments, &report, &ended, &written)?;
+    if let Some(words) = unwritten {
+        return Err(Failure::Cut(words));
+    }
+    Ok(verdict(&ended))
+}
+
+/// Prints the report.
+fn tell(arguments: &RealtimeArguments, report: &Report, ended: &Ended, written: &str) -> Result<(), Failure> {
+    if arguments.json {
+        say_json(&report.line()?);
+    } else if !arguments.quiet {
+        say(format_args!("{}\n  {written}", text(report, ended.timing.slowest.frames().first())));
+    }
+    Ok(())
+}
+
+/// How the loop ended.
+fn verdict(ended: &Ended) -> Verdict {
+    match ended.outcome {
+        Ok(()) => Verdict::Done,
+        Err(Stop::Interrupted) => Verdict::Interrupted,
+        Err(Stop::Overrun | Stop::Silence | Stop::Plant(_)) => Verdict::Stopped,
+    }
+}
+
+impl Observer for Bar<'_> {
+    fn reached(&self, t: f64) {
+        stickslip_results::Watcher::reached(self, t);
+    }
+
+    fn goes_on(&self) -> bool {
+        stickslip_results::Watcher::goes_on(self)
+    }
+}

@@ -1,0 +1,133 @@
+//! A drive made ready for its loop.
+
+use super::failure::Failure;
+use super::stepper::stepper;
+use crate::arguments::RealtimeArguments;
+use crate::console::answer::complain;
+use stickslip_drive::{Accuracy, Plan, State};
+use stickslip_realtime::plant::{ChannelError, Input, Output, inputs, outputs};
+use stickslip_realtime::probe::{Probe, RowsProbe, probe, rows};
+use stickslip_realtime::session::Order;
+use stickslip_realtime::wire::MOST_VALUES;
+use stickslip_realtime::{Drive, Pace};
+use stickslip_results::checkpoint::model_key;
+use stickslip_results::{Job, Real, quantity};
+
+/// Frames that are computed before the start, without waiting.
+const PROBED: u64 = 500;
+/// The same on rows of springs.
+const ROWS_PROBED: u64 = 200;
+/// Most frames of a loop: two years of 20 kHz.
+const MOST_FRAMES: f64 = 1.4e12;
+
+/// A drive made ready.
+pub(super) struct Stage<'a> {
+    pub(super) arguments: &'a RealtimeArguments,
+    pub(super) job: &'a Job,
+    /// Tells its packets from those of other scenarios.
+    pub(super) number: u64,
+    pub(super) inputs: Vec<Input>,
+    pub(super) outputs: Vec<Output>,
+    plan: Plan,
+    start: State,
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(arguments: &'a RealtimeArguments, job: &'a Job) -> Result<Self, Failure> {
+        let own = job.scenario.plan;
+        let stepper = arguments.stepper.as_deref().map(|text| stepper(text, &job.model, arguments.period));
+        let plan = Plan { stepper: stepper.transpose()?.unwrap_or(own.stepper), ..own };
+        let start = job.model.start(&plan).map_err(|error| job.scenario.refusal(&error))?;
+        let mut number = [0; 8];
+        number.copy_from_slice(&model_key(&job.scenario)[..8]);
+        let mut inputs = inputs(&job.scenario.scene)?;
+        if inputs.is_empty() && arguments.wires.inputs.is_some() {
+            return Err(Failure::NoInputs);
+        }
+        inputs.extend(arguments.wires.notes.iter().map(|name| Input::note(name)));
+        if inputs.len() > MOST_VALUES {
+            return Err(ChannelError::TooMany(inputs.len(), "inputs").into());
+        }
+        let outputs = outputs(&job.model, arguments.wires.channels.as_deref())?;
+        Ok(Self { arguments, job, number: u64::from_le_bytes(number), inputs, outputs, plan, start })
+    }
+
+    /// What a client has to know.
+    pub(super) fn introduction(&self) -> String {
+        let inputs: Vec<&str> = self.inputs.iter().map(|input| input.name.as_str()).collect();
+        let inputs = if inputs.is_empty() { "none".to_owned() } else { inputs.join(", ") };
+        let outputs: Vec<&str> = self.outputs.iter().map(|output| output.name.as_str()).collect();
+        let (name, number) = (&self.job.name, self.number);
+        format!(
+            "{name}: scenario number {number:016x}\n  inputs: {inputs}\n  outputs: {}",
+            outputs.join(", ")
+        )
+    }
+
+    /// The stepper in words.
+    pub(super) fn stepper(&self) -> String {
+        let stepper = self.job.model.effective(self.plan.stepper);
+        match stepper.accuracy() {
+            Accuracy::Tolerance(tolerance) => format!("{}, tolerance {tolerance:e}", stepper.name()),
+            Accuracy::Step(step) => format!("{}, step {}", stepper.name(), quantity(Real(step), "s")),
+        }
+    }
+
+    /// How the loop is run; `recorded` frames are there to be replayed.
+    pub(super) fn order(&self, recorded: Option<u64>) -> Result<Order, Failure> {
+        let arguments = self.arguments;
+        let asked = arguments.duration.map(|duration| duration / arguments.period);
+        let asked = match (asked, recorded) {
+            (None, Some(recorded)) => recorded as f64,
+            (None, None) => self.plan.duration / arguments.period,
+            (Some(asked), _) => asked,
+        };
+        let asked = asked.round();
+        if !(1.0..=MOST_FRAMES).contains(&asked) {
+            return Err(Failure::Frames(asked));
+        }
+        let frames = asked as u64;
+        if let Some(recorded) = recorded.filter(|recorded| *recorded < frames) {
+            return Err(Failure::Short { recorded, asked: frames });
+        }
+        let overrun = arguments.clock.overrun();
+        let floor = if overrun.is_some() { (arguments.clock.floor / arguments.period) as u64 } else { 0 };
+        Ok(Order {
+            pace: Pace { period: arguments.period, overrun, spin: arguments.clock.spin },
+            frames,
+            favours: arguments.clock.favours(),
+            floor: floor.min(frames),
+            wait: arguments.wires.wait,
+        })
+    }
+
+    /// The drive at t = 0.
+    pub(super) fn drive(&self) -> Result<Drive<'a>, Failure> {
+        let channels = (&self.inputs[..], &self.outputs[..]);
+        let start = (self.start.clone(), 0);
+        Ok(Drive::new(&self.job.model, &self.plan, start, self.arguments.period, channels)?)
+    }
+
+    /// What frames take here, on a copy, and what they would on rows of springs.
+    pub(super) fn measure(&self, tells: bool) -> Result<(Option<Probe>, Option<RowsProbe>), Failure> {
+        let initial: Vec<f64> = self.inputs.iter().map(|input| input.initial).collect();
+        let found = probe(&mut self.drive()?, &initial, self.outputs.len(), PROBED);
+        let (clock, period) = (&self.arguments.clock, self.arguments.period);
+        let Some(probe) = found else { return Ok((None, None)) };
+        let [median, most, worst] = [probe.median, probe.most, probe.worst].map(|time| time as f64 / 1e3);
+        let (frames, short) = (probe.frames, 1e6 * period);
+        if clock.overrun().is_some() && !clock.force && median > short {
+            let help = (2.0 * most).ceil();
+            return Err(Failure::TooShort { period: short, frames, median, worst, help });
+        }
+        if tells {
+            complain(format_args!(
+                "{}: of {frames} frames without waiting half took up to {median:.2} µs, 99 % up to {most:.2} µs, the longest {worst:.2} µs",
+                self.job.name
+            ));
+        }
+        let channels = (&self.inputs[..], &self.outputs[..]);
+        let rows = rows(&self.job.scenario.scene, &self.plan, period, channels, ROWS_PROBED);
+        Ok((Some(probe), rows))
+    }
+}

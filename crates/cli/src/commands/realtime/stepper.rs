@@ -1,0 +1,39 @@
+//! A stepper by its name.
+
+use super::failure::Failure;
+use stickslip_drive::{Model, Stepper};
+use stickslip_scenario::quantity;
+
+/// Tolerance where none is given: that of a scenario.
+const TOLERANCE: f64 = 1e-8;
+/// Longest step where none is given, as a share of the longest stable one.
+const SHARE: f64 = 0.2;
+
+/// Reads `NAME` or `NAME:VALUE`.
+pub(super) fn stepper(text: &str, model: &Model, period: f64) -> Result<Stepper, Failure> {
+    let (name, value) = text.split_once(':').map_or((text, None), |(name, value)| (name, Some(value)));
+    let refuse = || Failure::Stepper(text.to_owned());
+    let fixed = |make: fn(f64) -> Stepper| {
+        let step = match value {
+            Some(value) => quantity(value.trim_matches('"'), "s").map_err(|_| refuse())?,
+            None => divided(model, make, period).ok_or_else(|| Failure::NoStep(name.to_owned()))?,
+        };
+        Ok(make(step))
+    };
+    match name {
+        "event" => {
+            let tolerance = value.map_or(Ok(TOLERANCE), |value| value.parse().map_err(|_| refuse()))?;
+            // As a scenario may have it.
+            if (1e-13..=1e-2).contains(&tolerance) { Ok(Stepper::Event { tolerance }) } else { Err(refuse()) }
+        }
+        "verlet" => fixed(|step| Stepper::Verlet { step }),
+        "rk4" => fixed(|step| Stepper::Rk4 { step }),
+        _ => Err(refuse()),
+    }
+}
+
+/// The longest step that divides the frame and is no longer than the share.
+fn divided(model: &Model, make: fn(f64) -> Stepper, period: f64) -> Option<f64> {
+    let longest = SHARE * model.longest_step(make(1.0))?;
+    (longest.is_finite() && longest > 0.0).then(|| period / (period / longest).ceil().max(1.0))
+}

@@ -1,0 +1,168 @@
+//! Times, counted in bins made beforehand.
+
+use crate::room::touched;
+
+/// Bins of 10 ns below this many ns …
+const FINE: u64 = 100_000;
+const FINE_BIN: u64 = 10;
+/// … of 1 µs up to this many; one for all that is longer.
+const COARSE: u64 = 20_000_000;
+const COARSE_BIN: u64 = 1_000;
+
+/// How often times occurred: to 10 ns up to 100 µs, to 1 µs up to 20 ms, beyond it only that they did. Counting allocates
+/// nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Histogram {
+    fine: Vec<u64>,
+    coarse: Vec<u64>,
+    beyond: u64,
+    count: u64,
+    worst: u64,
+    sum: u64,
+}
+
+impl Histogram {
+    /// An empty one.
+    pub fn new() -> Self {
+        let bins = |most: u64, bin: u64| touched(1, 0, (most / bin) as usize);
+        Self {
+            fine: bins(FINE, FINE_BIN),
+            coarse: bins(COARSE, COARSE_BIN),
+            beyond: 0,
+            count: 0,
+            worst: 0,
+            sum: 0,
+        }
+    }
+
+    /// Counts a time, ns.
+    #[inline]
+    pub fn count(&mut self, time: u64) {
+        if time < FINE {
+            self.fine[(time / FINE_BIN) as usize] += 1;
+        } else if time < COARSE {
+            self.coarse[(time / COARSE_BIN) as usize] += 1;
+        } else {
+            self.beyond += 1;
+        }
+        self.count += 1;
+        self.worst = self.worst.max(time);
+        self.sum = self.sum.saturating_add(time);
+    }
+
+    /// Number of times counted.
+    pub fn total(&self) -> u64 {
+        self.count
+    }
+
+    /// The longest, ns; 0 of none.
+    pub fn worst(&self) -> u64 {
+        self.worst
+    }
+
+    /// The mean, ns; 0 of none.
+    pub fn mean(&self) -> f64 {
+        if self.count == 0 { 0.0 } else { self.sum as f64 / self.count as f64 }
+    }
+
+    /// The least upper edge of a bin, ns, below which a share of the times lies; the longest time where that is less or lies
+    /// beyond the bins.
+    ///
+    /// With a share of 0.9999 of fewer than 10 000 times this is the longest.
+    pub fn quantile(&self, share: f64) -> u64 {
+        let wanted = (share * self.count as f64).ceil() as u64;
+        let mut seen = 0;
+        let fine = self.fine.iter().enumerate().map(|(i, n)| ((i as u64 + 1) * FINE_BIN, n));
+        let coarse = self.coarse.iter().enumerate().map(|(i, n)| ((i as u64 + 1) * COARSE_BIN, n));
+        for (edge, count) in fine.chain(coarse) {
+            seen += count;
+            if *count > 0 && seen >= wanted {
+                return edge.min(self.worst);
+            }
+        }
+        self.worst
+    }
+
+    /// So many bins for each decade, from 10 ns on, as (lower edge, upper edge, count), edges in ns; the last has all that is longer
+    /// than 20 ms. Where bins are narrower than those that were counted in, the counts lie in the first that touches them.
+    pub fn decades(&self, per_decade: u32) -> Vec<(f64, f64, u64)> {
+        let edge = |bin: u32| FINE_BIN as f64 * 10_f64.powf(f64::from(bin) / f64::from(per_decade));
+        let last = (f64::from(per_decade) * (COARSE as f64 / FINE_BIN as f64).log10()).ceil() as u32;
+        let mut bins: Vec<(f64, f64, u64)> = (0..=last).map(|bin| (edge(bin), edge(bin + 1), 0)).collect();
+        let fine = self.fine.iter().enumerate().map(|(i, n)| (i as u64 * FINE_BIN, n));
+        let coarse = self.coarse.iter().enumerate().map(|(i, n)| (i as u64 * COARSE_BIN, n));
+        for (from, count) in fine.chain(coarse).chain([(COARSE, &self.beyond)]) {
+            let place = bins.partition_point(|(_, high, _)| *high <= from as f64 * (1.0 + 1e-12));
+            if let Some((.., sum)) = bins.get_mut(place) {
+                *sum += count;
+            }
+        }
+        bins
+    }
+
+    /// Bins of 1 µs, as (lower edge in µs, count), those that are not empty; and how many times were 20 ms or longer.
+    pub fn microseconds(&self) -> (impl Iterator<Item = (u64, u64)> + '_, u64) {
+        let each = (COARSE_BIN / FINE_BIN) as usize;
+        let fine = self.fine.chunks(each).map(|bins| bins.iter().sum::<u64>());
+        let coarse = self.coarse.iter().copied().skip((FINE / COARSE_BIN) as usize);
+        let all = fine.chain(coarse).enumerate().map(|(i, count)| (i as u64, count));
+        (all.filter(|(_, count)| *count > 0), self.beyond)
+    }
+}
+
+impl Default for Histogram {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_upper_edges_of_bins() {
+        let mut histogram = Histogram::new();
+        assert_eq!((histogram.quantile(0.5), histogram.worst(), histogram.total()), (0, 0, 0));
+        // 9 900 times 1.234 µs, 99 times 250.5 µs, one of a minute.
+        (0..9_900).for_each(|_| histogram.count(1_234));
+        (0..99).for_each(|_| histogram.count(250_500));
+        histogram.count(60_000_000_000);
+        assert_eq!(histogram.quantile(0.5), 1_240);
+        assert_eq!(histogram.quantile(0.99), 1_240);
+        assert_eq!(histogram.quantile(0.991), 251_000);
+        assert_eq!(histogram.quantile(0.9999), 251_000);
+        assert_eq!(histogram.quantile(0.999_95), 60_000_000_000);
+        assert_eq!((histogram.worst(), histogram.total()), (60_000_000_000, 10_000));
+        let (bins, beyond) = histogram.microseconds();
+        assert_eq!((bins.collect::<Vec<_>>(), beyond), (vec![(1, 9_900), (250, 99)], 1));
+    }
+
+    #[test]
+    fn a_quantile_is_never_longer_than_the_worst() {
+        let mut histogram = Histogram::new();
+        histogram.count(1_001);
+        assert_eq!((histogram.quantile(0.5), histogram.quantile(1.0)), (1_001, 1_001));
+    }
+
+    #[test]
+    fn decades_have_all_times() {
+        let mut histogram = Histogram::new();
+        let times = [0, 9, 10, 99, 100, 1_000, 123_456, 19_999_999, 20_000_000, u64::MAX];
+        times.into_iter().for_each(|time| histogram.count(time));
+        let bins = histogram.decades(10);
+        assert_eq!(bins.iter().map(|(.., count)| count).sum::<u64>(), 10);
+        let of = |time: f64| bins.iter().find(|(low, high, _)| *low <= time && time < *high).unwrap().2;
+        assert_eq!((of(10.5), of(101.0), of(1001.0), of(123_456.0), of(20_000_001.0)), (3, 1, 1, 1, 3));
+    }
+
+    #[test]
+    fn every_time_has_one_bin() {
+        let mut histogram = Histogram::new();
+        let edges = [0, 9, 10, 999, 1_000, 99_999, 100_000, 19_999_999, 20_000_000, u64::MAX];
+        edges.into_iter().for_each(|time| histogram.count(time));
+        let (bins, beyond) = histogram.microseconds();
+        let counted: u64 = bins.map(|(_, count)| count).sum();
+        assert_eq!((counted, beyond), (8, 2));
+    }
+}

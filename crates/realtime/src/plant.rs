@@ -1,0 +1,61 @@
+//! What is stepped a frame at a time.
+
+mod channels;
+mod drive;
+
+#[cfg(test)]
+pub(crate) use channels::Feed;
+pub use channels::{ChannelError, Input, Output, inputs, outputs};
+pub use drive::Drive;
+
+use stickslip_drive::{Counts, InputError, RunError};
+use thiserror::Error;
+
+/// What of the work of a frame is counted, by name; a stepper that counts more adds it here and in `work` below.
+pub const WORK: [&str; 5] = ["steps", "rejected", "evaluations", "events", "detours"];
+
+/// Work of a frame, in the order of [`WORK`].
+pub type Work = [u64; WORK.len()];
+
+/// Why a plant stops.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlantError {
+    /// Its run.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// An input that was checked and still is not taken.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}
+
+/// Something that goes on by frames of one length.
+pub trait Plant {
+    /// Goes on by one frame under these inputs, and says where it stands then and what it took. Nothing is allocated, locked,
+    /// logged or asked of the system.
+    ///
+    /// # Errors
+    /// What stops it; it stands where it came to.
+    fn frame(&mut self, inputs: &[f64], outputs: &mut [f64]) -> Result<Work, PlantError>;
+}
+
+/// Nothing at all: the loop beside it shows what the machine alone does.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Empty;
+
+impl Plant for Empty {
+    #[inline]
+    fn frame(&mut self, _: &[f64], _: &mut [f64]) -> Result<Work, PlantError> {
+        Ok(Work::default())
+    }
+}
+
+/// Work done between two moments of a run.
+fn work(before: &Counts, after: &Counts) -> Work {
+    [
+        after.steps - before.steps,
+        after.rejected - before.rejected,
+        after.evaluations - before.evaluations,
+        after.events - before.events,
+        after.detours - before.detours,
+    ]
+}

@@ -1,0 +1,94 @@
+//! A drive as a plant.
+
+use super::channels::{Feed, Reading};
+use super::{Input, Output, Plant, PlantError, Work, work};
+use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
+
+/// A drive: a run that goes on from one multiple of the frame to the next.
+pub struct Drive<'m> {
+    run: Run<'m>,
+    /// Length of a frame, s.
+    period: f64,
+    /// Frames since t = 0.
+    frame: u64,
+    feeds: Vec<Feed>,
+    readings: Vec<Reading>,
+    /// All channels, where any of them is told that lies nowhere else.
+    row: Vec<f64>,
+    model: &'m Model,
+}
+
+impl<'m> Drive<'m> {
+    /// A drive at the start of frame `frame`, whose state lies there; frame k goes from k·T to (k+1)·T, multiplied and not
+    /// summed. Of the plan its stepper counts: a run in real time has no other end than its frames, and no rows.
+    ///
+    /// # Errors
+    /// A stepper that cannot be held, or a fixed step too long for the scene.
+    pub fn new(
+        model: &'m Model,
+        plan: &Plan,
+        (state, frame): (State, u64),
+        period: f64,
+        (inputs, outputs): (&[Input], &[Output]),
+    ) -> Result<Self, RunError> {
+        let plan = Self::plan(plan);
+        let run = if frame == 0 { Run::new(model, &plan, state)? } else { Run::resume(model, &plan, state)? };
+        Ok(Self {
+            run,
+            period,
+            frame,
+            feeds: inputs.iter().map(|input| input.feed).collect(),
+            readings: outputs.iter().map(|output| output.reading).collect(),
+            row: Vec::with_capacity(model.channels().len()),
+            model,
+        })
+    }
+
+    /// The plan that a run in real time has: no rows, no guards by counts or by the clock.
+    fn plan(plan: &Plan) -> Plan {
+        let limits = Limits { steps: u64::MAX, events: u64::MAX, wall: None };
+        Plan { every: None, until_steady: None, limits, ..*plan }
+    }
+
+    /// Where it stands.
+    pub fn state(&self) -> &State {
+        self.run.state()
+    }
+
+    /// The values told where it stands.
+    pub fn tell(&mut self, outputs: &mut [f64]) {
+        if self.readings.iter().any(|reading| matches!(reading, Reading::Row(_))) {
+            self.run.row(&mut self.row);
+        }
+        let state = self.run.state();
+        for (output, reading) in outputs.iter_mut().zip(&self.readings) {
+            *output = match *reading {
+                Reading::Time => state.time(),
+                Reading::Row(place) => self.row[place],
+                Reading::Coordinate { body, axis, is_rate } => {
+                    // The channel is there, so the coordinate is.
+                    let (value, rate) = state.coordinate(self.model, body, axis).unwrap_or_default();
+                    if is_rate { rate } else { value }
+                }
+            };
+        }
+    }
+}
+
+impl Plant for Drive<'_> {
+    fn frame(&mut self, inputs: &[f64], outputs: &mut [f64]) -> Result<Work, PlantError> {
+        let before = self.run.state().counts();
+        self.frame += 1;
+        let until = self.frame as f64 * self.period;
+        for (feed, value) in self.feeds.iter().zip(inputs) {
+            match *feed {
+                Feed::Hold(place) => self.run.hold(place, *value)?,
+                Feed::Lead(place) => self.run.lead(place, until, *value)?,
+                Feed::Note => {}
+            }
+        }
+        self.run.advance(until, &mut ())?;
+        self.tell(outputs);
+        Ok(work(&before, &self.run.state().counts()))
+    }
+}

@@ -1,0 +1,116 @@
+//! What a plant takes on this machine, before anything depends on it.
+
+use crate::pace::{self, Cycle, Pace, Stop, Timing};
+use crate::plant::{Drive, Input, Output, Plant, Work};
+use crate::system::now;
+use stickslip_drive::scene::{EngineChoice, Scene};
+use stickslip_drive::{Model, Plan, State};
+
+/// Longest that a measurement takes, ns.
+const LONGEST: u64 = 500_000_000;
+/// Numbers of springs of the rows that are measured.
+const ROWS: [usize; 2] = [64, 256];
+
+/// What frames took that nothing paced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Probe {
+    /// How many.
+    pub frames: u64,
+    /// The shortest time, ns, that half of them kept.
+    pub median: u64,
+    /// That 99 % of them kept.
+    pub most: u64,
+    /// The longest, ns; the first frame, which makes itself at home, is not counted.
+    pub worst: u64,
+}
+
+/// The same inputs all the time.
+struct Steady<'a, P> {
+    plant: &'a mut P,
+    inputs: &'a [f64],
+    outputs: Vec<f64>,
+    end: u64,
+}
+
+impl<P: Plant> Cycle for Steady<'_, P> {
+    fn act(&mut self, _: u64) -> Result<Work, Stop> {
+        if now() > self.end {
+            return Err(Stop::Interrupted);
+        }
+        self.plant.frame(self.inputs, &mut self.outputs).map_err(Stop::Plant)
+    }
+}
+
+/// Computes frames of a plant without waiting, until there are so many or it took long; none where not even one came.
+pub fn probe<P: Plant>(plant: &mut P, inputs: &[f64], outputs: usize, frames: u64) -> Option<Probe> {
+    let pace = Pace { period: 1.0, overrun: None, spin: 0.0 };
+    let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: now() + LONGEST };
+    // The first frame opens the run, and finds all its memory cold.
+    pace::run(&pace, 1, &mut cycle, &mut Timing::new()).ok()?;
+    let mut timing = Timing::new();
+    // Whatever ends it, what was measured is measured.
+    let _ = pace::run(&pace, frames, &mut cycle, &mut timing);
+    let execution = &timing.execution;
+    (timing.frames() > 0).then(|| Probe {
+        frames: timing.frames(),
+        median: execution.quantile(0.5),
+        most: execution.quantile(0.99),
+        worst: execution.worst(),
+    })
+}
+
+/// How long frames take with rows of springs in the place of every contact's own engine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowsProbe {
+    /// Springs of each row, and the time, ns, that 99 % of the frames kept.
+    pub measured: Vec<(usize, u64)>,
+    /// The number for which a straight line through these comes to the period; none where it does not grow.
+    pub fits: Option<u64>,
+}
+
+/// Measures a scene on rows of two sizes; none where it has no contact, or does not run on rows.
+pub fn rows(
+    scene: &Scene,
+    plan: &Plan,
+    period: f64,
+    (inputs, outputs): (&[Input], &[Output]),
+    frames: u64,
+) -> Option<RowsProbe> {
+    if scene.contacts.is_empty() {
+        return None;
+    }
+    let initial: Vec<f64> = inputs.iter().map(|input| input.initial).collect();
+    let measure = |count: usize| {
+        let mut scene = scene.clone();
+        scene
+            .contacts
+            .iter_mut()
+            .for_each(|contact| contact.part.engine = EngineChoice::Springs { count, span: None });
+        let model = Model::new(&scene).ok()?;
+        let state: State = model.start(plan).ok()?;
+        let mut drive = Drive::new(&model, plan, (state, 0), period, (inputs, outputs)).ok()?;
+        Some((count, probe(&mut drive, &initial, outputs.len(), frames)?.most))
+    };
+    let measured = ROWS.into_iter().map(measure).collect::<Option<Vec<_>>>()?;
+    let fits = line(&measured, 1e9 * period);
+    Some(RowsProbe { measured, fits })
+}
+
+/// Where a straight line through two points comes to a value; 0 where it is beyond it from the start.
+fn line(points: &[(usize, u64)], value: f64) -> Option<u64> {
+    let [(n, a), (m, b)] = points[..] else { return None };
+    let slope = (b as f64 - a as f64) / (m as f64 - n as f64);
+    (slope > 0.0).then(|| (n as f64 + (value - a as f64) / slope).max(0.0) as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_continued_to_the_period() {
+        assert_eq!(line(&[(64, 7_400), (256, 26_600)], 51_000.0), Some(500));
+        assert_eq!(line(&[(64, 7_400), (256, 26_600)], 500.0), Some(0));
+        assert_eq!(line(&[(64, 7_400), (256, 7_400)], 51_000.0), None);
+    }
+}

@@ -1,0 +1,46 @@
+//! Tables of a loop.
+
+use crate::pace::Timing;
+use crate::plant::WORK;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Counts by bins of 1 µs, those that are not empty: execution and latency of the loop and of the empty one. The last line,
+/// from 20 ms on, has all that is longer.
+pub fn histogram_csv(timing: &Timing, floor: &Timing) -> String {
+    let all = [&timing.execution, &timing.latency, &floor.execution, &floor.latency];
+    let mut bins: BTreeMap<u64, [u64; 4]> = BTreeMap::new();
+    let mut beyond = [0; 4];
+    for (column, histogram) in all.into_iter().enumerate() {
+        let (counts, longer) = histogram.microseconds();
+        counts.for_each(|(bin, count)| bins.entry(bin).or_default()[column] = count);
+        beyond[column] = longer;
+    }
+    if beyond != [0; 4] {
+        bins.insert(20_000, beyond);
+    }
+    let mut text = "from_us,execution,latency,empty_execution,empty_latency\n".to_owned();
+    for (bin, [a, b, c, d]) in bins {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{bin},{a},{b},{c},{d}");
+    }
+    text
+}
+
+/// The worst frames, by execution time and by latency, with what happened in them.
+pub fn frames_csv(timing: &Timing, period: f64) -> String {
+    let mut text = format!("worst_by,frame,time_s,latency_us,execution_us,{}\n", WORK.join(","));
+    for (by, worst) in [("execution", &timing.slowest), ("latency", &timing.latest)] {
+        for slow in worst.frames() {
+            let work = slow.work.map(|count| count.to_string()).join(",");
+            let (latency, execution) = (slow.latency as f64 / 1e3, slow.execution as f64 / 1e3);
+            let _ = writeln!(
+                text,
+                "{by},{},{:e},{latency:.3},{execution:.3},{work}",
+                slow.frame,
+                slow.frame as f64 * period
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,141 @@
+//! A report in words.
+
+use super::{Report, Times};
+use crate::plant::WORK;
+use crate::worst::Slow;
+
+/// What nobody can promise here.
+pub const PROMISE: &str = "as seen in this run, not a bound: without a real-time kernel (PREEMPT_RT), a processor of its own and locked \
+memory the system may keep the loop waiting for milliseconds at any time, and no program can prevent it";
+
+/// The report for people. `worst` is the slowest frame.
+pub fn text(report: &Report, worst: Option<&Slow>) -> String {
+    let mut lines = vec![head(report)];
+    lines.push(times("execution", &report.execution, report));
+    lines.extend(report.latency.as_ref().map(|latency| times("wake-up latency", latency, report)));
+    if let Some(empty) = &report.empty_latency {
+        lines.push(times(&format!("empty loop, {} frames: latency", report.empty_frames), empty, report));
+    }
+    if let Some(slow) = worst {
+        let work: Vec<String> = WORK
+            .iter()
+            .zip(slow.work)
+            .filter(|(_, n)| *n > 0)
+            .map(|(name, n)| format!("{n} {name}"))
+            .collect();
+        let work = if work.is_empty() { "nothing counted".to_owned() } else { work.join(", ") };
+        lines.push(format!(
+            "  slowest frame: {} at {:.6} s: {work}",
+            slow.frame,
+            slow.frame as f64 * report.period_s
+        ));
+    }
+    lines.extend(inputs(report));
+    lines.extend(lost(report));
+    lines.extend(report.denied.iter().map(|denied| format!("  {denied}")));
+    lines.extend(springs(report));
+    lines.push(format!("  {}", verdict(report)));
+    if report.paced {
+        lines.push(format!("  {PROMISE}"));
+    }
+    lines.join("\n")
+}
+
+fn head(report: &Report) -> String {
+    let Report { scenario, stepper, frames, .. } = report;
+    let (simulated, wall) = (report.simulated_s, report.wall_s);
+    let period = 1e6 * report.period_s;
+    format!(
+        "{scenario}: {frames} frames of {period} µs, {stepper}: {simulated:.6} s simulated in {wall:.6} s"
+    )
+}
+
+fn times(name: &str, times: &Times, report: &Report) -> String {
+    let Times { median_us, p99_9_us, p99_99_us, worst_us, .. } = times;
+    let share = 1e-4 * worst_us / report.period_s;
+    format!(
+        "  {name}: median {median_us:.2} µs, 99.9 % {p99_9_us:.2} µs, 99.99 % {p99_99_us:.2} µs, worst {worst_us:.2} µs \
+         ({share:.0} % of the period)"
+    )
+}
+
+/// What came in, if anything can.
+fn inputs(report: &Report) -> Option<String> {
+    let received = &report.received;
+    if report.inputs.is_empty() {
+        return None;
+    }
+    let refused = [
+        (received.wrong_length, "of wrong length"),
+        (received.foreign, "no packets"),
+        (received.other_scenario, "of another scenario"),
+        (received.repeated, "repeated"),
+        (received.out_of_order, "out of order"),
+        (received.out_of_range, "out of range"),
+        (received.other_client, "of another client"),
+    ];
+    let refused: Vec<String> =
+        refused.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+    let refused = if refused.is_empty() {
+        "none refused".to_owned()
+    } else {
+        format!("refused: {}", refused.join(", "))
+    };
+    Some(format!(
+        "  inputs: {} good, {refused}; {} of {} frames had no new one, {} in a row at most",
+        received.good, received.stale_frames, report.frames, received.most_stale
+    ))
+}
+
+fn lost(report: &Report) -> Option<String> {
+    let lost = [
+        (report.outputs_unsent, "outputs"),
+        (report.log_lost, "frames of the log"),
+        (report.recording_lost, "frames of the recording"),
+    ];
+    let lost: Vec<String> =
+        lost.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+    (!lost.is_empty()).then(|| format!("  lost: {}", lost.join(", ")))
+}
+
+fn springs(report: &Report) -> Option<String> {
+    let rows = report.rows.as_ref()?;
+    let measured: Vec<String> =
+        rows.springs.iter().zip(&rows.p99_us).map(|(n, time)| format!("{n} springs {time:.2} µs")).collect();
+    let fits = match rows.fit_in_period {
+        Some(0) => "no row would fit the period".to_owned(),
+        Some(n) => format!("about {n} springs a contact would fill the period"),
+        None => "more springs cost no more than the rest".to_owned(),
+    };
+    Some(format!("  on rows of springs 99 % of the frames took: {}; {fits}", measured.join(", ")))
+}
+
+/// Kept or not.
+fn verdict(report: &Report) -> String {
+    let share = 1e-4 * report.execution.p99_99_us / report.period_s;
+    let Report { overruns, frames, deadlines_left_out, most_left_out, .. } = report;
+    match report.ended {
+        "stopped" => format!("stopped: {}", report.error.as_deref().unwrap_or_default()),
+        "no_input" => "not begun: no input came".to_owned(),
+        _ if !report.paced => {
+            format!("not paced; 99.99 % of the frames took up to {share:.1} % of the period")
+        }
+        _ if report.kept => {
+            format!(
+                "kept: no overrun in {frames} frames; 99.99 % of them took up to {share:.1} % of the period"
+            )
+        }
+        ended => {
+            let ended = match ended {
+                "interrupted" => ", interrupted",
+                "silence" => ", ended by silence",
+                _ => "",
+            };
+            let kept = if *overruns == 0 { "kept until then" } else { "not kept" };
+            format!(
+                "{kept}{ended}: {overruns} of {frames} frames overran, {deadlines_left_out} deadlines left out, {most_left_out} \
+                 in a row at most; 99.99 % of the frames took up to {share:.1} % of the period"
+            )
+        }
+    }
+}

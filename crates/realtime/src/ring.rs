@@ -1,0 +1,98 @@
+//! Records of words from the loop to a thread that writes them down. Neither side ever waits for the other.
+
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+
+/// Room for some records between one that pushes and one that takes.
+pub(crate) struct Ring {
+    words: Box<[AtomicU64]>,
+    /// Words of a record.
+    width: usize,
+    /// Records pushed and taken since the beginning.
+    pushed: AtomicUsize,
+    taken: AtomicUsize,
+}
+
+impl Ring {
+    /// Room for at least so many records.
+    pub(crate) fn new(width: usize, records: usize) -> Self {
+        let words = (0..width * records.max(1)).map(|_| AtomicU64::new(0)).collect();
+        Self { words, width, pushed: AtomicUsize::new(0), taken: AtomicUsize::new(0) }
+    }
+
+    fn room(&self) -> usize {
+        self.words.len() / self.width.max(1)
+    }
+
+    fn place(&self, record: usize) -> &[AtomicU64] {
+        let from = record % self.room() * self.width;
+        &self.words[from..from + self.width]
+    }
+
+    /// Hands a record over; `false` where there is no room. For one thread.
+    #[inline]
+    pub(crate) fn push(&self, record: impl Iterator<Item = u64>) -> bool {
+        let pushed = self.pushed.load(Ordering::Relaxed);
+        if pushed - self.taken.load(Ordering::Acquire) == self.room() {
+            return false;
+        }
+        self.place(pushed).iter().zip(record).for_each(|(word, value)| word.store(value, Ordering::Relaxed));
+        self.pushed.store(pushed + 1, Ordering::Release);
+        true
+    }
+
+    /// Takes a record; `false` where there is none. For one thread.
+    pub(crate) fn take(&self, record: &mut [u64]) -> bool {
+        let taken = self.taken.load(Ordering::Relaxed);
+        if taken == self.pushed.load(Ordering::Acquire) {
+            return false;
+        }
+        record
+            .iter_mut()
+            .zip(self.place(taken))
+            .for_each(|(value, word)| *value = word.load(Ordering::Relaxed));
+        self.taken.store(taken + 1, Ordering::Release);
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_records_come_through_whole_and_in_order() {
+        let ring = Ring::new(3, 7);
+        let mut lost = 0_u64;
+        let taken = std::thread::scope(|scope| {
+            let reader = scope.spawn(|| {
+                let (mut record, mut taken) = ([0; 3], Vec::new());
+                while record[0] != 99_999 {
+                    if ring.take(&mut record) {
+                        assert!(record.iter().all(|word| *word == record[0]));
+                        taken.push(record[0]);
+                    }
+                }
+                taken
+            });
+            for k in 0..100_000_u64 {
+                while !ring.push(std::iter::repeat_n(k, 3)) {
+                    lost += 1;
+                    std::thread::yield_now();
+                }
+            }
+            reader.join().unwrap()
+        });
+        assert!(taken.into_iter().eq(0..100_000));
+    }
+
+    #[test]
+    fn a_full_ring_says_so() {
+        let ring = Ring::new(1, 2);
+        assert_eq!([1, 2, 3].map(|k| ring.push([k].into_iter())), [true, true, false]);
+        let mut record = [0];
+        assert!(ring.take(&mut record) && record == [1]);
+        assert!(ring.push([4].into_iter()));
+        assert!(ring.take(&mut record) && record == [2] && ring.take(&mut record) && record == [4]);
+        assert!(!ring.take(&mut record));
+    }
+}

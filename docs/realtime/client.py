@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Scan and settle: a PI controller for stage.json, over UDP or shared memory. Python's standard library alone.
+
+  stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m --notes target.x_m,error_m \
+      --inputs udp:127.0.0.1:5005 --outputs udp:127.0.0.1:5006
+  python3 docs/realtime/client.py udp 127.0.0.1 5005 5006
+
+  stickslip realtime docs/realtime/stage.json --period "100 us" --for "2 s" --channels stage.x_m --notes target.x_m,error_m \
+      --inputs shm:stage --outputs shm:stage
+  python3 docs/realtime/client.py shm stage
+"""
+import math, mmap, os, socket, struct, sys, time
+
+HEAD = struct.Struct("<4sHHQQd")  # magic, version, number of values, scenario, sequence, time stamp
+
+
+def pack(scenario, sequence, stamp, values):
+    return HEAD.pack(b"sslp", 1, len(values), scenario, sequence, stamp) + struct.pack(f"<{len(values)}d", *values)
+
+
+def unpack(packet):
+    magic, version, count, scenario, sequence, stamp = HEAD.unpack_from(packet)
+    assert (magic, version) == (b"sslp", 1) and len(packet) == HEAD.size + 8 * count
+    return scenario, sequence, stamp, struct.unpack_from(f"<{count}d", packet, HEAD.size)
+
+
+class Udp:
+    """Outputs come to a port of ours; inputs go to the loop's."""
+
+    def __init__(self, host, to, own):
+        self.to, self.socket = (host, int(to)), socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind((host, int(own)))
+        self.patience = 20.0  # the loop measures itself before it speaks
+
+    def receive(self):
+        """The newest packet; None when the loop has fallen silent."""
+        self.socket.settimeout(self.patience)
+        self.patience = 1.0
+        try:
+            packet = self.socket.recv(2048)
+            self.socket.setblocking(False)
+            while True:
+                packet = self.socket.recv(2048)
+        except BlockingIOError:
+            return packet
+        except socket.timeout:
+            return None
+
+    def send(self, packet):
+        self.socket.sendto(packet, self.to)
+
+
+class Memory:
+    """Both records lie in one file. The counter of a record is odd while it is written. (On x86; elsewhere use C.)"""
+
+    def __init__(self, name):
+        path, patience = os.path.join("/dev/shm", name), time.monotonic() + 20
+        while True:
+            try:
+                with open(path, "r+b") as file:
+                    self.map = mmap.mmap(file.fileno(), 0)
+                if self.map[:8] == b"sslpshm1":
+                    break
+            except (FileNotFoundError, ValueError):
+                pass
+            assert time.monotonic() < patience, f"{path}: nobody there"
+            time.sleep(0.01)
+        self.inputs, self.outputs = self.word(32), self.word(40)
+        self.length, self.seen = HEAD.size + 8 * self.word(24), 0
+
+    def word(self, place):
+        return struct.unpack_from("<Q", self.map, place)[0]
+
+    def receive(self):
+        while True:
+            counter = self.word(self.outputs)
+            if counter != self.seen and counter % 2 == 0:
+                packet = self.map[self.outputs + 16:self.outputs + 16 + self.length]
+                if self.word(self.outputs) == counter:
+                    self.seen = counter
+                    return packet
+            if self.word(56) == 2:  # the loop is over
+                return None
+            time.sleep(20e-6)
+
+    def send(self, packet):
+        busy = self.word(self.inputs) | 1
+        struct.pack_into("<Q", self.map, self.inputs, busy)
+        self.map[self.inputs + 8:self.inputs + 16 + len(packet)] = struct.pack("<Q", os.getpid()) + packet
+        struct.pack_into("<Q", self.map, self.inputs, busy + 1)
+
+
+def target(t):
+    """Half of the time a triangle of ±400 nm at 20 Hz, half of the time steps of 300 nm, m."""
+    t %= 0.4
+    if t < 0.2:
+        phase = 20.0 * t % 1.0
+        return 400e-9 * (4 * phase if phase < 0.25 else 2 - 4 * phase if phase < 0.75 else 4 * phase - 4)
+    return 300e-9 * (1 + int((t - 0.2) / 0.05) % 2)
+
+
+def main():
+    link = Udp(*sys.argv[2:5]) if sys.argv[1] == "udp" else Memory(sys.argv[2])
+    proportional, integral = 0.1, 1250.0  # dimensionless; 1/s
+    total, last, answers, squares, worst = 0.0, 0.0, 0, 0.0, 0.0
+    while (packet := link.receive()) is not None:
+        scenario, sequence, t, (x, *_) = unpack(packet)
+        error = target(t) - x
+        total += error * min(t - last, 1e-3)  # a gap is no reason to jump
+        last, answers, squares = t, answers + 1, squares + error * error
+        drive = max(-1.5e-6, min(1.5e-6, proportional * error + integral * total))
+        link.send(pack(scenario, answers, t, (drive, target(t), error)))
+    print(f"{answers} answers up to {last:.4f} s, error {1e9 * math.sqrt(squares / max(answers, 1)):.1f} nm rms")
+
+
+main()
