@@ -8,11 +8,11 @@ pub(crate) use channels::Feed;
 pub use channels::{ChannelError, Input, Output, inputs, outputs};
 pub use drive::Drive;
 
-use stickslip_drive::{Counts, InputError, RunError};
+use stickslip_drive::{InputError, Run, RunError};
 use thiserror::Error;
 
-/// What of the work of a frame is counted, by name; a stepper that counts more adds it here and in `work` below.
-pub const WORK: [&str; 5] = ["steps", "rejected", "evaluations", "events", "detours"];
+/// What of the work of a frame is counted, by name.
+pub const WORK: [&str; 7] = ["steps", "rejected", "evaluations", "events", "detours", "knots", "merges"];
 
 /// Work of a frame, in the order of [`WORK`].
 pub type Work = [u64; WORK.len()];
@@ -49,13 +49,15 @@ impl Plant for Empty {
     }
 }
 
+/// Work that a run has done so far: steps, evaluations and events, and turning points of contacts, those that came or went and those
+/// that found no room.
+fn done(run: &Run<'_>) -> Work {
+    let (counts, state) = (run.state().counts(), run.state());
+    let merges = state.memories().iter().map(|memory| memory.merged().knots).sum();
+    [counts.steps, counts.rejected, counts.evaluations, counts.events, counts.detours, run.touched(), merges]
+}
+
 /// Work done between two moments of a run.
-fn work(before: &Counts, after: &Counts) -> Work {
-    [
-        after.steps - before.steps,
-        after.rejected - before.rejected,
-        after.evaluations - before.evaluations,
-        after.events - before.events,
-        after.detours - before.detours,
-    ]
+fn between(before: &Work, after: &Work) -> Work {
+    std::array::from_fn(|k| after[k] - before[k])
 }

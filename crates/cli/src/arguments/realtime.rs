@@ -51,8 +51,9 @@ pub(crate) struct RealtimeArguments {
     /// How long, simulated; by default as long as the recording that is replayed, or as the scenario's run
     #[arg(long = "for", value_name = "TIME", value_parser = above_zero)]
     pub(crate) duration: Option<f64>,
-    /// Another stepper than the scenario's: event, event:TOLERANCE, verlet, verlet:STEP, rk4 or rk4:STEP; without a step the
-    /// longest that divides the frame and is a fifth of the longest stable one
+    /// Instead of frames of bounded work, frames or frames:ACCURACY (1e-3 of a stroke unless the scenario says otherwise): event,
+    /// event:TOLERANCE, fast in the mean, verlet, verlet:STEP, rk4 or rk4:STEP; without a step the longest that divides the frame
+    /// and is a fifth of the longest stable one
     #[arg(long, value_name = "NAME[:VALUE]")]
     pub(crate) stepper: Option<String>,
     /// Put a value into the scenario, such as contacts.ball.friction=0.3

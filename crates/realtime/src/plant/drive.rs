@@ -1,7 +1,7 @@
 //! A drive as a plant.
 
 use super::channels::{Feed, Reading};
-use super::{Input, Output, Plant, PlantError, Work, work};
+use super::{Input, Output, Plant, PlantError, Work, between, done};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
 
 /// A drive: a run that goes on from one multiple of the frame to the next.
@@ -77,7 +77,7 @@ impl<'m> Drive<'m> {
 
 impl Plant for Drive<'_> {
     fn frame(&mut self, inputs: &[f64], outputs: &mut [f64]) -> Result<Work, PlantError> {
-        let before = self.run.state().counts();
+        let before = done(&self.run);
         self.frame += 1;
         let until = self.frame as f64 * self.period;
         for (feed, value) in self.feeds.iter().zip(inputs) {
@@ -89,6 +89,6 @@ impl Plant for Drive<'_> {
         }
         self.run.advance(until, &mut ())?;
         self.tell(outputs);
-        Ok(work(&before, &self.run.state().counts()))
+        Ok(between(&before, &done(&self.run)))
     }
 }

@@ -25,7 +25,7 @@ pub(crate) enum Failure {
     Scenario(#[from] ScenarioError),
     /// The stepper's name.
     #[error(
-        "--stepper {0}: expected event, event:TOLERANCE, verlet, verlet:STEP, rk4 or rk4:STEP, such as verlet:\"1 us\""
+        "--stepper {0}: expected frames, frames:ACCURACY, event, event:TOLERANCE, verlet, verlet:STEP, rk4 or rk4:STEP, such as verlet:\"1 us\""
     )]
     Stepper(String),
     /// A step that cannot be found.

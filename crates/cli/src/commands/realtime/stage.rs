@@ -1,7 +1,7 @@
 //! A drive made ready for its loop.
 
 use super::failure::Failure;
-use super::stepper::stepper;
+use super::stepper::chosen;
 use crate::arguments::RealtimeArguments;
 use crate::console::answer::complain;
 use stickslip_drive::{Accuracy, Plan, State};
@@ -35,8 +35,8 @@ pub(super) struct Stage<'a> {
 impl<'a> Stage<'a> {
     pub(super) fn new(arguments: &'a RealtimeArguments, job: &'a Job) -> Result<Self, Failure> {
         let own = job.scenario.plan;
-        let stepper = arguments.stepper.as_deref().map(|text| stepper(text, &job.model, arguments.period));
-        let plan = Plan { stepper: stepper.transpose()?.unwrap_or(own.stepper), ..own };
+        let asked = arguments.stepper.as_deref();
+        let plan = Plan { stepper: chosen(asked, own.stepper, &job.model, arguments.period)?, ..own };
         let start = job.model.start(&plan).map_err(|error| job.scenario.refusal(&error))?;
         let mut number = [0; 8];
         number.copy_from_slice(&model_key(&job.scenario)[..8]);
@@ -70,6 +70,13 @@ impl<'a> Stage<'a> {
         match stepper.accuracy() {
             Accuracy::Tolerance(tolerance) => format!("{}, tolerance {tolerance:e}", stepper.name()),
             Accuracy::Step(step) => format!("{}, step {}", stepper.name(), quantity(Real(step), "s")),
+            Accuracy::Frame { length, error } => {
+                let steps = self.job.model.substeps(length, error);
+                format!(
+                    "{}, accuracy {error:e}, of {steps} steps and those that corners and contacts add",
+                    stepper.name()
+                )
+            }
         }
     }
 

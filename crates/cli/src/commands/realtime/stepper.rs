@@ -4,13 +4,29 @@ use super::failure::Failure;
 use stickslip_drive::{Model, Stepper};
 use stickslip_scenario::quantity;
 
+/// What may be lost of a stroke in a stroke where nothing is given.
+const ACCURACY: f64 = 1e-3;
 /// Tolerance where none is given: that of a scenario.
 const TOLERANCE: f64 = 1e-8;
 /// Longest step where none is given, as a share of the longest stable one.
 const SHARE: f64 = 0.2;
 
+/// Frames of the period, unless another one is asked for: as exact as the scenario's own frames, if it has any.
+pub(super) fn chosen(
+    asked: Option<&str>,
+    own: Stepper,
+    model: &Model,
+    period: f64,
+) -> Result<Stepper, Failure> {
+    let accuracy = match own {
+        Stepper::Frames { accuracy, .. } => accuracy,
+        _ => ACCURACY,
+    };
+    asked.map_or(Ok(Stepper::Frames { length: period, accuracy }), |text| stepper(text, model, period))
+}
+
 /// Reads `NAME` or `NAME:VALUE`.
-pub(super) fn stepper(text: &str, model: &Model, period: f64) -> Result<Stepper, Failure> {
+fn stepper(text: &str, model: &Model, period: f64) -> Result<Stepper, Failure> {
     let (name, value) = text.split_once(':').map_or((text, None), |(name, value)| (name, Some(value)));
     let refuse = || Failure::Stepper(text.to_owned());
     let fixed = |make: fn(f64) -> Stepper| {
@@ -21,6 +37,11 @@ pub(super) fn stepper(text: &str, model: &Model, period: f64) -> Result<Stepper,
         Ok(make(step))
     };
     match name {
+        "frames" => {
+            let accuracy = value.map_or(Ok(ACCURACY), |value| value.parse().map_err(|_| refuse()))?;
+            let is_known = (1e-9..=1e-1).contains(&accuracy);
+            if is_known { Ok(Stepper::Frames { length: period, accuracy }) } else { Err(refuse()) }
+        }
         "event" => {
             let tolerance = value.map_or(Ok(TOLERANCE), |value| value.parse().map_err(|_| refuse()))?;
             // As a scenario may have it.
