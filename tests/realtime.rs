@@ -153,7 +153,7 @@ fn what_cannot_be_is_refused_and_says_why() {
         (&["--inputs", &foreign], "not a recording of inputs"),
         (&["--outputs", "udp"], "nobody speaks who could be answered"),
         (&["--inputs", "shm:one", "--outputs", "shm:two"], "both lie in one"),
-        (&["--stepper", "euler"], "expected event"),
+        (&["--stepper", "euler"], "expected frames"),
         (&["--for", "10 us"], "expected 1 to"),
         (&["--period", "1 ns"], "used multiple times"),
     ];

@@ -13,7 +13,7 @@
 #[allow(dead_code, reason = "shared with other tests")]
 mod shared;
 
-use shared::{Stage, example, rk4, verlet};
+use shared::{Stage, example, frames, rk4, verlet};
 use stickslip_drive::{Event, EventKind, Plan, Run, Stepper, Trace};
 
 const STROKE: f64 = 200e-9;
@@ -104,13 +104,14 @@ fn compare(waveform: &str) {
     let pieces = pieces(&stage);
     let fixed = [verlet, rk4].map(|make| stage.step(0.5, make).unwrap());
     let located = [1e-4, 1e-8, 1e-12].map(|tolerance| Stepper::Event { tolerance });
-    for stepper in located.into_iter().chain(fixed) {
+    let in_frames = [37e-6, 1e-3].map(frames);
+    for stepper in located.into_iter().chain(in_frames).chain(fixed) {
         let plan = plan(&stage, stepper);
         let whole = known(&stage, &plan, &pieces);
         // Steps that see no corners turn to the next piece with the step into it: where the run stands at one, the piece ahead is
         // still there, and no other is taken.
         let supplies: &[_] =
-            if stepper.locates_events() { &[Supply::Late, Supply::Ahead] } else { &[Supply::Late] };
+            if stepper.ends_at_corners() { &[Supply::Late, Supply::Ahead] } else { &[Supply::Late] };
         for &supply in supplies {
             let trace = fed(&input, &plan, &pieces, supply);
             let told = format!("{waveform} {stepper:?} {supply:?}");

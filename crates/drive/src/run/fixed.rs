@@ -121,7 +121,18 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
             }
         }
         // What the caller has supplied ahead begins here: there is room for the piece after it.
-        if state.take_supplied() {
+        let turned = match self.corners {
+            Corners::Inside => state.take_supplied(),
+            Corners::EndSteps if outcome.is_ok() => match self.chords.turn(state, record) {
+                Ok(turned) => turned,
+                Err(error) => {
+                    outcome = Err(error);
+                    false
+                }
+            },
+            Corners::EndSteps => false,
+        };
+        if turned {
             self.stepper.restart();
         }
         self.put_down(state);

@@ -41,11 +41,12 @@ fn begun<'m>(model: &'m Model, plan: &Plan) -> Run<'m> {
     Run::new(model, plan, model.start(plan).unwrap()).unwrap()
 }
 
-fn steppers() -> [Stepper; 4] {
+fn steppers() -> [Stepper; 5] {
     [
         Stepper::Event { tolerance: 1e-8 },
         Stepper::Verlet { step: 1.3e-6 },
         Stepper::Rk4 { step: 3.7e-6 },
+        Stepper::Frames { length: 41e-6, accuracy: 1e-3 },
         Stepper::Dopri5 { tolerance: 1e-7 },
     ]
 }
@@ -123,7 +124,7 @@ fn steps_are_counted_and_end_in_rest() {
         ((0.0, STROKE), true, false)
     );
     // In frames, told as they go.
-    for stepper in &steppers()[..3] {
+    for stepper in &steppers()[..4] {
         let plan = Plan { stepper: *stepper, ..plan };
         let mut run = begun(&model, &plan);
         let mut k = 0_u32;
@@ -195,7 +196,7 @@ fn drawn(draw: &mut Draw) -> Command {
 fn commands_at_any_moment_are_the_table_of_the_rule() {
     let end = 6.0 * PERIOD;
     // By the event stepper off the table's run; by fixed steps off that, and the table itself by the same steps.
-    let (mut worst, mut off_events) = (0.0_f64, [[0.0_f64; 2]; 2]);
+    let (mut worst, mut off_events) = (0.0_f64, [[0.0_f64; 2]; 3]);
     for seed in 0..40 {
         let mut draw = Draw::new(seed);
         let cycle = if seed % 4 == 3 { Cycle::Triangle } else { Cycle::Sawtooth { flyback: FLYBACK } };
@@ -213,7 +214,7 @@ fn commands_at_any_moment_are_the_table_of_the_rule() {
         let table = Model::new(&dragged(Shape::Table { points }, Timing::every(1.0))).unwrap();
         let unit = model.contact_natural(0).unwrap().displacement;
         let mut exact = 0.0;
-        for (i, stepper) in steppers()[..3].iter().enumerate() {
+        for (i, stepper) in steppers()[..4].iter().enumerate() {
             let plan = plan(*stepper, end);
             let (mut run, mut other) = (begun(&model, &plan), begun(&table, &plan));
             for (at, command) in &commands {
@@ -344,7 +345,7 @@ fn rest_costs_nothing_and_ends_at_once() {
 fn a_command_at_a_corner_is_the_cycle_that_begins_there() {
     let model = commanded(generator(command(Steps::Endless)));
     let back = Command { heading: Heading::Backward, ..command(Steps::Left(1)) };
-    for stepper in &steppers()[..3] {
+    for stepper in &steppers()[..4] {
         for same in [false, true] {
             let plan = plan(*stepper, 1.0);
             let mut run = begun(&model, &plan);
@@ -368,7 +369,7 @@ fn a_command_at_a_corner_is_the_cycle_that_begins_there() {
 #[test]
 fn bytes_carry_what_is_commanded() {
     let model = commanded(generator(command(Steps::Left(0))));
-    for stepper in &steppers()[..3] {
+    for stepper in &steppers()[..4] {
         let plan = plan(*stepper, 1.0);
         let mut draw = Draw::new(5);
         let mut run = begun(&model, &plan);
