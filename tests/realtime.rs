@@ -82,10 +82,12 @@ fn what_a_clock_and_a_client_made_comes_again_without_either() {
         .arg(at("a.rec"));
     let mut child = command.arg(format!("--outputs=file:{}", at("a.bin").display())).spawn_fed();
     let mut lines = child.stdin.take().unwrap();
-    for k in 0..60 {
-        // A reader that has gone is no fault: the loop may be over.
-        let _ = writeln!(lines, "{:e}", 1e-9 * f64::from(k * k % 300));
-        let _ = writeln!(lines, "not a number");
+    // Until the reader has gone, for the loop is over: how long it measures itself before is its own affair.
+    for k in 0..12_000 {
+        let line = format!("{:e}, 1000, {}, -1", 1e-9 * f64::from(k * k % 300), 1 - 2 * (k % 2));
+        if writeln!(lines, "{line}\nnot a number").is_err() {
+            break;
+        }
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     drop(lines);
@@ -231,16 +233,37 @@ fn an_interrupted_loop_leaves_what_it_has_come_to() {
     assert_eq!(length, packet * (frames - lost));
 }
 
-/// The client of the documentation, over UDP and shared memory; Python is wherever this is developed.
+/// A client of the documentation: how it is called; none where what it needs is not there.
+#[cfg(target_os = "linux")]
+fn clients(folder: &Path) -> Vec<Vec<PathBuf>> {
+    let mut clients = Vec::new();
+    if Command::new("python3").arg("--version").output().is_ok() {
+        clients.push(vec!["python3".into(), stage().with_file_name("client.py")]);
+    }
+    let program = folder.join("client");
+    let mut compiler = Command::new("cc");
+    compiler.args(["-O2", "-Wall", "-Wextra", "-Werror", "-o"]).arg(&program);
+    // Only where there is no compiler at all it is left out.
+    if let Ok(output) = compiler.arg(stage().with_file_name("client.c")).arg("-lm").output() {
+        assert!(output.status.success(), "{}", stderr(&output));
+        clients.push(vec![program]);
+    }
+    clients
+}
+
+/// The clients of the documentation, over UDP and shared memory; Python and a C compiler are wherever this is developed.
 #[cfg(target_os = "linux")]
 #[test]
-#[allow(clippy::print_stdout, reason = "says where it could not be done")]
-fn the_documented_client_closes_the_loop() {
-    let client = stage().with_file_name("client.py");
-    if Command::new("python3").arg("--version").output().is_err() {
-        println!("no python3 here");
-        return;
-    }
+#[allow(clippy::print_stdout, reason = "says what was not done")]
+fn the_documented_clients_close_the_loop() {
+    let folder = tempdir().unwrap();
+    let clients = clients(folder.path());
+    println!("{} of 2 clients", clients.len());
+    clients.iter().for_each(|client| closes_the_loop(client));
+}
+
+#[cfg(target_os = "linux")]
+fn closes_the_loop(client: &[PathBuf]) {
     let ports = [free_port(), free_port()].map(|port| port.to_string());
     let name = format!("stickslip-test-{}", std::process::id());
     let udp = (
@@ -250,7 +273,7 @@ fn the_documented_client_closes_the_loop() {
     let memory = (["shm", &name].to_vec(), [(), ()].map(|()| format!("shm:{name}")));
     for (arguments, [inputs, outputs]) in [udp, memory] {
         let out = tempdir().unwrap();
-        let controller = Command::new("python3").arg(&client).args(&arguments).spawn_fed();
+        let controller = Command::new(&client[0]).args(&client[1..]).args(&arguments).spawn_fed();
         let mut command = realtime(&stage(), out.path());
         command.args(["--for", "0.4 s", "--channels", "stage.x_m", "--notes", "target.x_m,error_m"]);
         let output =
@@ -265,6 +288,8 @@ fn the_documented_client_closes_the_loop() {
             ["wrong_length", "foreign", "other_scenario", "out_of_order", "out_of_range", "other_client"];
         assert!(refused.iter().all(|key| count(key) == 0), "{inputs}: {report}");
         assert!(stdout(&controller).contains("nm rms"), "{}", stdout(&controller));
+        let inputs = report["inputs"].as_array().unwrap();
+        assert_eq!((inputs.len(), &inputs[0]), (6, &"drive.stroke".into()), "{report}");
     }
 }
 

@@ -107,13 +107,23 @@ static void send_packet(const packet *p)
     atomic_store_explicit(in, busy + 1, memory_order_release);
 }
 
-/* Half of the time a triangle of ±400 nm at 20 Hz, half of the time steps of 300 nm, m. */
+/* Half of the time a triangle of ±5 um at 10 Hz, half of the time steps to 2 um and 5 um, m. */
 static double target(double t)
 {
     t = fmod(t, 0.4);
-    if (t >= 0.2) return 300e-9 * (1 + (int)((t - 0.2) / 0.05) % 2);
-    double phase = fmod(20 * t, 1);
-    return 400e-9 * (phase < 0.25 ? 4 * phase : phase < 0.75 ? 2 - 4 * phase : 4 * phase - 4);
+    if (t >= 0.2) return t < 0.3 ? 2e-6 : 5e-6;
+    double phase = fmod(10 * t, 1);
+    return 5e-6 * (phase < 0.25 ? 4 * phase : phase < 0.75 ? 2 - 4 * phase : 4 * phase - 4);
+}
+
+/* Stroke, m, frequency, Hz, and heading of cycles that carry the stage at a speed, m/s: by their frequency while strokes
+ * are full, below that by shorter strokes. A flyback takes 37 nm back. */
+static void cycles(double speed, double *out)
+{
+    const double largest = 400e-9, slowest = 500, fastest = 1000, lost = 37e-9;
+    out[1] = fmin(fmax(fabs(speed) / (largest - lost), slowest), fastest);
+    out[0] = speed == 0 ? 0 : fmin(lost + fabs(speed) / out[1], largest);
+    out[2] = speed < 0 ? -1 : 1;
 }
 
 int main(int count, char **word)
@@ -122,20 +132,25 @@ int main(int count, char **word)
                : count == 3 && !strcmp(word[1], "shm") ? open_memory(word[2]) : -1;
     if (failed) { fprintf(stderr, "client udp HOST THEIR_PORT OWN_PORT | client shm NAME\n"); return 2; }
     prctl(PR_SET_TIMERSLACK, 1); /* naps end when they should, to 1 ns instead of 50 us */
-    const double proportional = 0.1, integral = 1250; /* dimensionless; 1/s */
+    const double proportional = 300, integral = 50000, near = 2e-9; /* 1/s; 1/s²; m */
     double total = 0, last = 0, squares = 0;
     uint64_t answers = 0;
     packet p;
     while (receive(&p)) {
-        double t = p.time, error = target(t) - p.values[0];
-        total += error * fmin(t - last, 1e-3); /* a gap is no reason to jump */
+        double t = p.time, goal = target(t), error = goal - p.values[0];
+        int stands = target(t - 1e-3) == goal, is_close = stands && fabs(error) < 400e-9;
+        int rests = stands && fabs(error) < near, waits = is_close && fmod(t, 4e-3) < 3e-3;
+        total = rests ? 0 : fmax(-4e-10, fmin(4e-10, total + !waits * error * fmin(t - last, 1e-3)));
+        double ahead = fmod(t, 0.4) < 0.2 ? (goal - target(t - 1e-3)) / 1e-3 : 0; /* the scan's own speed */
         last = t;
         squares += error * error;
-        p.count = 3;
+        p.count = 6;
         p.sequence = ++answers;
-        p.values[0] = fmax(-1.5e-6, fmin(1.5e-6, proportional * error + integral * total));
-        p.values[1] = target(t);
-        p.values[2] = error;
+        cycles(rests ? 0 : ahead + proportional * error + integral * total, p.values);
+        /* Close to its goal one cycle at a time, each from rest: a number of steps counts when it changes. */
+        p.values[3] = !is_close ? -1 : waits ? 0 : 1;
+        p.values[4] = goal;
+        p.values[5] = error;
         send_packet(&p);
     }
     printf("%llu answers up to %.4f s, error %.1f nm rms\n", (unsigned long long)answers, last,

@@ -91,25 +91,44 @@ class Memory:
 
 
 def target(t):
-    """Half of the time a triangle of ±400 nm at 20 Hz, half of the time steps of 300 nm, m."""
+    """Half of the time a triangle of ±5 um at 10 Hz, half of the time steps to 2 um and 5 um, m."""
     t %= 0.4
     if t < 0.2:
-        phase = 20.0 * t % 1.0
-        return 400e-9 * (4 * phase if phase < 0.25 else 2 - 4 * phase if phase < 0.75 else 4 * phase - 4)
-    return 300e-9 * (1 + int((t - 0.2) / 0.05) % 2)
+        phase = 10.0 * t % 1.0
+        return 5e-6 * (4 * phase if phase < 0.25 else 2 - 4 * phase if phase < 0.75 else 4 * phase - 4)
+    return 2e-6 if t < 0.3 else 5e-6
+
+
+LARGEST, SLOWEST, FASTEST, LOST = 400e-9, 500.0, 1000.0, 37e-9  # stroke, m; frequencies, Hz; what a flyback takes back, m
+
+
+def cycles(speed):
+    """Cycles that carry the stage at a speed (m/s): by their frequency while strokes are full, below that by shorter strokes."""
+    if speed == 0.0:
+        return 0.0, SLOWEST, 1.0
+    heading, speed = math.copysign(1.0, speed), abs(speed)
+    frequency = min(max(speed / (LARGEST - LOST), SLOWEST), FASTEST)
+    return min(LOST + speed / frequency, LARGEST), frequency, heading
 
 
 def main():
     link = Udp(*sys.argv[2:5]) if sys.argv[1] == "udp" else Memory(sys.argv[2])
-    proportional, integral = 0.1, 1250.0  # dimensionless; 1/s
-    total, last, answers, squares, worst = 0.0, 0.0, 0, 0.0, 0.0
+    proportional, integral, near = 300.0, 50000.0, 2e-9  # 1/s; 1/s²; m
+    total, last, answers, squares = 0.0, 0.0, 0, 0.0
     while (packet := link.receive()) is not None:
         scenario, sequence, t, (x, *_) = unpack(packet)
-        error = target(t) - x
-        total += error * min(t - last, 1e-3)  # a gap is no reason to jump
+        goal = target(t)
+        error = goal - x
+        stands, is_close = target(t - 1e-3) == goal, abs(error) < LARGEST
+        rests = stands and abs(error) < near
+        waits = stands and is_close and t % 4e-3 < 3e-3
+        total = 0.0 if rests else max(-4e-10, min(4e-10, total + (not waits) * error * min(t - last, 1e-3)))
         last, answers, squares = t, answers + 1, squares + error * error
-        drive = max(-1.5e-6, min(1.5e-6, proportional * error + integral * total))
-        link.send(pack(scenario, answers, t, (drive, target(t), error)))
+        ahead = (goal - target(t - 1e-3)) / 1e-3 if t % 0.4 < 0.2 else 0.0  # the scan's own speed
+        speed = 0.0 if rests else ahead + proportional * error + integral * total
+        # Close to its goal one cycle at a time, each from rest: a number of steps counts when it changes.
+        steps = (0.0 if waits else 1.0) if stands and is_close else -1.0
+        link.send(pack(scenario, answers, t, (*cycles(speed), steps, goal, error)))
     print(f"{answers} answers up to {last:.4f} s, error {1e9 * math.sqrt(squares / max(answers, 1)):.1f} nm rms")
 
 

@@ -2,6 +2,8 @@
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
+use stickslip_drive::Scene;
+use stickslip_drive::scene::{Coordinate, Freedom};
 use stickslip_plot::{
     Figure, MarkedTimes, TimelinePanel, TimesCurve, TimesPanel, timeline_figure, times_figure,
 };
@@ -53,7 +55,7 @@ pub fn draw(job: &Job, report: &Report, ended: &Ended, look: &Look) -> Result<Ve
     let title = format!("{}: frames of {} µs, {}", job.name, 1e6 * report.period_s, report.stepper);
     let times = times_panels(report, ended);
     let mut pictures = drawn(NAMES[0], times_figure(&title, report.period_s, &times))?;
-    pictures.extend(timeline(report, ended, |panels| {
+    pictures.extend(timeline(job, report, ended, |panels| {
         drawn(NAMES[1], timeline_figure(&title, &ended.film.times, panels))
     })?);
     Ok(pictures)
@@ -109,15 +111,18 @@ fn marked<'a>(worst: &Worst, time: fn(&stickslip_realtime::worst::Slow) -> u64) 
 type Group<'a> = (&'a str, Vec<(&'a str, &'a [f64])>);
 
 /// Channels of one quantity share a panel; the times of frames come last.
-fn timeline<T>(report: &Report, ended: &Ended, draw: impl FnOnce(&[TimelinePanel<'_>]) -> T) -> T {
+fn timeline<T>(job: &Job, report: &Report, ended: &Ended, draw: impl FnOnce(&[TimelinePanel<'_>]) -> T) -> T {
     let film = &ended.film;
     let series = |names: &[String], values: &[Vec<f64>]| -> Vec<(String, Vec<f64>)> {
         names.iter().cloned().zip(values.iter().cloned()).collect()
     };
     let mut all = series(&report.outputs, &film.outputs);
     all.extend(series(&report.inputs, &film.inputs));
-    // Time over time says nothing.
-    all.retain(|(name, _)| name != "time_s");
+    // Time over time says nothing, and neither does an input that never changes.
+    let is_fixed = |name: &str, values: &[f64]| {
+        report.inputs.iter().any(|input| input == name) && values.windows(2).all(|pair| pair[0] == pair[1])
+    };
+    all.retain(|(name, values)| name != "time_s" && !is_fixed(name, values));
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (name, values) in &all {
         let quantity = name.rsplit_once('.').map_or(name.as_str(), |(_, quantity)| quantity);
@@ -129,7 +134,10 @@ fn timeline<T>(report: &Report, ended: &Ended, draw: impl FnOnce(&[TimelinePanel
     groups.truncate(MOST);
     let mut panels = Vec::new();
     for (quantity, series) in groups {
-        let (label, unit) = named(quantity);
+        let (label, unit) = match quantity {
+            "stroke" if series.iter().all(|(name, _)| moves(&job.scenario.scene, name)) => ("stroke", "m"),
+            _ => named(quantity),
+        };
         panels.push(TimelinePanel { label, unit, logarithmic: false, series });
     }
     let seconds = |times: &[f64]| times.iter().map(|time| 1e-9 * time).collect::<Vec<f64>>();
@@ -142,6 +150,17 @@ fn timeline<T>(report: &Report, ended: &Ended, draw: impl FnOnce(&[TimelinePanel
     draw(&panels)
 }
 
+/// Whether a body is where the generator of this channel says.
+fn moves(scene: &Scene, channel: &str) -> bool {
+    let is_it = |coordinate: &Coordinate| match coordinate.freedom {
+        Freedom::Follows(place) => scene.waveforms.get(place).is_some_and(|waveform| {
+            channel.rsplit_once('.').is_some_and(|(owner, _)| owner == waveform.name)
+        }),
+        _ => false,
+    };
+    scene.bodies.iter().any(|body| is_it(&body.part.x) || is_it(&body.part.z))
+}
+
 /// What a quantity is called, and its unit.
 fn named(quantity: &str) -> (&str, &'static str) {
     let found = UNITS.iter().find_map(|(end, unit)| Some((quantity.strip_suffix(end)?, *unit)));
@@ -150,6 +169,7 @@ fn named(quantity: &str) -> (&str, &'static str) {
         Some(("vx" | "vz", unit)) => ("velocity", unit),
         Some(("fx" | "fn", unit)) => ("force", unit),
         Some((name, unit)) => (name, unit),
+        None if quantity == "frequency" => ("frequency", "Hz"),
         None => (quantity, ""),
     }
 }

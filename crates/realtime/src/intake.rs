@@ -10,7 +10,7 @@
 //!   back to their initial values until the next good packet, or end the loop.
 
 use crate::pace::Stop;
-use crate::plant::Input;
+use crate::plant::{Input, Takes};
 use crate::wire::{self, Misfit, Stamp};
 use serde::Serialize;
 use std::net::SocketAddr;
@@ -87,7 +87,7 @@ pub struct Received {
 pub struct Intake {
     scenario: u64,
     initial: Vec<f64>,
-    ranges: Vec<(f64, f64)>,
+    takes: Vec<Takes>,
     patience: Patience,
     values: Vec<f64>,
     candidate: Vec<f64>,
@@ -105,7 +105,7 @@ impl Intake {
         let initial: Vec<f64> = inputs.iter().map(|input| input.initial).collect();
         Self {
             scenario,
-            ranges: inputs.iter().map(|input| input.range).collect(),
+            takes: inputs.iter().map(|input| input.takes).collect(),
             patience,
             values: initial.clone(),
             candidate: initial.clone(),
@@ -188,8 +188,8 @@ impl Intake {
             Some((_, last)) if !lapsed && stamp.sequence < last => return received.out_of_order += 1,
             _ => {}
         }
-        let fits = |(value, (low, high)): (&f64, &(f64, f64))| *value >= *low && *value <= *high;
-        if !stamp.time.is_finite() || !self.candidate.iter().zip(&self.ranges).all(fits) {
+        let fits = |(value, takes): (&f64, &Takes)| takes.has(*value);
+        if !stamp.time.is_finite() || !self.candidate.iter().zip(&self.takes).all(fits) {
             return received.out_of_range += 1;
         }
         if self.owner.is_none() || lapsed {

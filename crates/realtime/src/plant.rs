@@ -1,14 +1,15 @@
 //! What is stepped a frame at a time.
 
 mod channels;
+mod commanded;
 mod drive;
 
 #[cfg(test)]
 pub(crate) use channels::Feed;
-pub use channels::{ChannelError, Input, Output, inputs, outputs};
+pub use channels::{ChannelError, Input, Output, Takes, inputs, outputs};
 pub use drive::Drive;
 
-use stickslip_drive::{InputError, Run, RunError};
+use stickslip_drive::{CommandError, InputError, Run, RunError};
 use thiserror::Error;
 
 /// What of the work of a frame is counted, by name.
@@ -26,6 +27,9 @@ pub enum PlantError {
     /// An input that was checked and still is not taken.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// A command, the same.
+    #[error(transparent)]
+    Command(#[from] CommandError),
 }
 
 /// Something that goes on by frames of one length.

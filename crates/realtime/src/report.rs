@@ -115,7 +115,7 @@ pub struct RowTimes {
     pub springs: Vec<usize>,
     /// 99 of 100 frames were no longer, µs.
     pub p99_us: Vec<f64>,
-    /// Springs for which a straight line through these comes to the period.
+    /// Springs for which a straight line through these comes to the period; none where that is not to be seen from them.
     pub fit_in_period: Option<u64>,
 }
 

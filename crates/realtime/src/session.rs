@@ -127,10 +127,13 @@ impl<P: Plant> Cycle for Live<'_, P> {
 }
 
 /// The empty loop.
-struct Idle;
+struct Idle<'a>(&'a dyn Observer);
 
-impl Cycle for Idle {
+impl Cycle for Idle<'_> {
     fn act(&mut self, _: u64) -> Result<Work, Stop> {
+        if !self.0.goes_on() {
+            return Err(Stop::Interrupted);
+        }
         Empty.frame(&[], &mut []).map_err(Stop::Plant)
     }
 }
@@ -160,9 +163,9 @@ pub fn run<P: Plant + Send>(
     };
     let mut turn = || {
         let denied = order.favours.ask();
-        // The machine alone, to its end whatever happens: an interruption ends what comes after it.
+        // The machine alone. An interruption ends it, and the loop that comes after it before its first frame.
         let empty = Pace { overrun: order.pace.overrun.map(|_| Overrun::Skip), ..order.pace };
-        let _ = pace::run(&empty, order.floor, &mut Idle, &mut floor);
+        let _ = pace::run(&empty, order.floor, &mut Idle(observer), &mut floor);
         let heard = live.wait(order.wait);
         let outcome =
             if heard { pace::run(&order.pace, order.frames, &mut live, &mut timing) } else { Ok(()) };

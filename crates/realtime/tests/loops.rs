@@ -11,6 +11,8 @@
 mod allocations;
 #[path = "loops/clients.rs"]
 mod clients;
+#[path = "loops/commands.rs"]
+mod commands;
 #[path = "loops/pacing.rs"]
 mod pacing;
 #[path = "loops/rig.rs"]

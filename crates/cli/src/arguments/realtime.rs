@@ -19,7 +19,8 @@ then until the outputs were out (the program's) are counted apart, in bins of 1 
 overrun. Before it an empty loop of the same period runs: the machine's own floor.
 
 Inputs are the scene's waveforms of the kind \"input\": a held one has its new value from the frame's start on, a linear one reaches it \
-at the frame's end. Without --inputs they keep their initial values. Packets, shared memory and recordings are described byte by byte in \
+at the frame's end. A \"generator\" has four, NAME.stroke, NAME.frequency (Hz), NAME.heading (1 or -1) and NAME.steps (a number, or -1 \
+without end); steps count from the frame on in which another number comes. Without --inputs they keep their initial values. Packets, shared memory and recordings are described byte by byte in \
 docs/realtime.md, with clients in C and Python. Outputs and inputs are in SI, in the order that is told before the start.
 
 Before the start some hundred frames are computed without waiting; a period shorter than half of them take is refused (--force \
@@ -87,7 +88,8 @@ pub(crate) struct WireArguments {
     /// after the other)
     #[arg(long, value_name = "WHERE", value_parser = outputs)]
     pub(crate) outputs: Vec<Outputs>,
-    /// Channels that are told; by default time, places and velocities of bodies, forces of contacts
+    /// Channels that are told; by default time, places and velocities of bodies. Forces of contacts take longer than a short
+    /// frame
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(crate) channels: Option<Vec<String>>,
     /// Values that come with the inputs, behind them, and feed nothing, such as what a controller aims at: they are recorded, and

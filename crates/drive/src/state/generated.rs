@@ -55,6 +55,9 @@ pub struct Generated {
     pub runs: bool,
     /// Cycles begun since t = 0.
     pub begun: u64,
+    /// The steps of a command that is given now and leaves their number as it is: those of `next`, and a cycle that begins at this
+    /// very moment, for which the command is in force, too.
+    pub left: Steps,
 }
 
 /// What the future pieces of a generator depend on.
@@ -236,9 +239,14 @@ impl State {
     pub fn generated(&self, w: usize) -> Option<Generated> {
         let generating = (*self.generators.get(w)?)?;
         // Fixed steps stop beside corners: what has begun since is told.
-        let (now, _) = generating.at(self.pieces[w], self.t);
+        let (now, piece) = generating.at(self.pieces[w], self.t);
         let next = now.asked.map_or(now.command, |(_, command)| command);
-        Some(Generated { next, runs: now.span.is_some(), begun: now.begun })
+        let begins = now.span.is_some() && !now.turned && piece.start == self.t;
+        let left = match next.steps {
+            Steps::Left(steps) if begins => Steps::Left(steps.saturating_add(1)),
+            steps => steps,
+        };
+        Some(Generated { next, runs: now.span.is_some(), begun: now.begun, left })
     }
 
     /// The piece of a waveform without a caller that holds at `t`, s, after the present one; a generator then is on it.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::plant::Feed;
+use crate::plant::{Feed, Takes};
 use crate::wire::{Stamp, encode, length};
 
 const SCENARIO: u64 = 42;
@@ -10,7 +10,7 @@ fn intake(silence: Silence) -> Intake {
     let input = |name: &str, initial| Input {
         name: name.to_owned(),
         initial,
-        range: (-1.0, 1.0),
+        takes: Takes::Range(-1.0, 1.0),
         feed: Feed::Hold(0),
     };
     let patience = Patience { silence, silent_after: 3, owner: 2 };

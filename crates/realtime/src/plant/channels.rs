@@ -1,8 +1,10 @@
 //! Inputs and outputs of a drive, by name.
 
+use super::commanded::{Part, values};
 use crate::wire::MOST_VALUES;
+use std::fmt;
 use stickslip_drive::scene::Axis;
-use stickslip_drive::{Interpolation, Model, Scene, Shape};
+use stickslip_drive::{Generator, Interpolation, Model, Scene, Shape};
 use thiserror::Error;
 
 /// Something of a drive that is fed from outside.
@@ -12,10 +14,46 @@ pub struct Input {
     pub name: String,
     /// Value before any came, in the unit of what follows.
     pub initial: f64,
-    /// Smallest and largest value.
-    pub range: (f64, f64),
+    /// Which values it takes.
+    pub takes: Takes,
     /// How a value gets into the run.
     pub(crate) feed: Feed,
+}
+
+/// Which values an input takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Takes {
+    /// From the smallest to the largest.
+    Range(f64, f64),
+    /// +1 or −1.
+    Sign,
+    /// A number of steps: 0, 1, 2, … up to 2⁵³, or −1 for no end.
+    Count,
+}
+
+/// Largest count: up to here every whole number is a double.
+const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
+
+impl Takes {
+    /// Whether a value is among them; what is not a number never is.
+    #[inline]
+    pub fn has(self, value: f64) -> bool {
+        match self {
+            Self::Range(low, high) => value >= low && value <= high,
+            Self::Sign => value.abs() == 1.0,
+            Self::Count => (-1.0..=MOST_STEPS).contains(&value) && value.fract() == 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Takes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Range(low, high) => write!(f, "{low:e} to {high:e}"),
+            Self::Sign => f.write_str("1 or -1"),
+            Self::Count => f.write_str("0, 1, 2, … or, for no end, -1"),
+        }
+    }
 }
 
 /// How a value gets into the run; places are those of the scene's waveforms.
@@ -25,6 +63,8 @@ pub(crate) enum Feed {
     Hold(usize),
     /// It is reached at the end of the frame, straight.
     Lead(usize),
+    /// It is part of what the cycles of a generator are that begin from now on.
+    Command(usize, Part),
     /// It does not: it is written down beside the others.
     Note,
 }
@@ -33,7 +73,12 @@ impl Input {
     /// A value that feeds nothing, such as what a controller aims at: it comes with the others, and is recorded and drawn beside
     /// them.
     pub fn note(name: &str) -> Self {
-        Self { name: name.to_owned(), initial: 0.0, range: (f64::MIN, f64::MAX), feed: Feed::Note }
+        Self {
+            name: name.to_owned(),
+            initial: 0.0,
+            takes: Takes::Range(f64::MIN, f64::MAX),
+            feed: Feed::Note,
+        }
     }
 }
 
@@ -83,24 +128,47 @@ pub enum ChannelError {
     TooMany(usize, &'static str),
 }
 
-/// All inputs of a scene, in its order.
+/// All inputs of a scene, in its order: a value of each waveform that is fed, four of each generator. What nothing follows feeds
+/// nothing.
 ///
 /// # Errors
 /// More than a packet holds.
 pub fn inputs(scene: &Scene) -> Result<Vec<Input>, ChannelError> {
-    let input = |(place, waveform): (usize, &stickslip_drive::scene::Named<stickslip_drive::Waveform>)| {
-        let feed = match waveform.part.interpolation()? {
-            Interpolation::Held => Feed::Hold(place),
-            Interpolation::Linear => Feed::Lead(place),
-        };
-        let Shape::Input { initial, .. } = *waveform.part.shape() else { return None };
-        Some(Input { name: waveform.name.clone(), initial, range: waveform.part.range(), feed })
-    };
-    let inputs: Vec<Input> = scene.waveforms.iter().enumerate().filter_map(input).collect();
+    let mut inputs = Vec::new();
+    for (place, waveform) in scene.waveforms.iter().enumerate() {
+        let (name, part) = (waveform.name.clone(), &waveform.part);
+        match part.shape() {
+            Shape::Generator(generator) => inputs.extend(commands(&name, place, generator)),
+            Shape::Input { initial, .. } => {
+                let (low, high) = part.range();
+                let feed = match part.interpolation() {
+                    Some(Interpolation::Held) => Feed::Hold(place),
+                    Some(Interpolation::Linear) => Feed::Lead(place),
+                    None => Feed::Note,
+                };
+                inputs.push(Input { name, initial: *initial, takes: Takes::Range(low, high), feed });
+            }
+            _ => {}
+        }
+    }
     if inputs.len() > MOST_VALUES { Err(ChannelError::TooMany(inputs.len(), "inputs")) } else { Ok(inputs) }
 }
 
-/// Channels by their names; by default time, places and velocities of the bodies and forces of the contacts.
+/// What is commanded of the generator at a place of the scene.
+fn commands(name: &str, place: usize, generator: &Generator) -> impl Iterator<Item = Input> {
+    let ((least, most), (slowest, fastest)) = (generator.strokes, generator.frequencies);
+    let takes = [Takes::Range(least, most), Takes::Range(slowest, fastest), Takes::Sign, Takes::Count];
+    let initial = values(&generator.initial);
+    Part::ALL.into_iter().zip(takes).map(move |(part, takes)| Input {
+        name: format!("{name}.{}", part.name()),
+        initial: initial[part as usize],
+        takes,
+        feed: Feed::Command(place, part),
+    })
+}
+
+/// Channels by their names; by default time, and places and velocities of the bodies. Forces are told where they are asked for:
+/// contacts may wait for their next event, and leading a copy of each up to now takes longer than many a frame.
 ///
 /// # Errors
 /// A name that is none or comes twice, or more than a packet holds.
@@ -109,7 +177,7 @@ pub fn outputs(model: &Model, names: Option<&[String]>) -> Result<Vec<Output>, C
     let mut chosen: Vec<Output> = Vec::new();
     match names {
         None => {
-            let told = ["time_s", ".x_m", ".vx_m_s", ".z_m", ".vz_m_s", "_rad", "_rad_s", ".fx_N", ".fn_N"];
+            let told = ["time_s", ".x_m", ".vx_m_s", ".z_m", ".vz_m_s", "_rad", "_rad_s"];
             let is_told = |name: &str| told.iter().any(|end| name.ends_with(end));
             let all = channels.into_iter().enumerate().filter(|(_, channel)| is_told(&channel.name));
             chosen.extend(all.map(|(place, channel)| output(model, channel.name, place)));
@@ -155,6 +223,17 @@ mod tests {
     use super::*;
     use crate::plant::{Drive, Plant};
     use stickslip_results::Job;
+
+    #[test]
+    fn by_default_nothing_is_told_that_takes_a_row() {
+        for example in ["p1", "three_ball_stage", "piezo_stack", "commanded", "rocking_slider"] {
+            let file = format!("{}/../../scenarios/{example}.json", env!("CARGO_MANIFEST_DIR"));
+            let job = Job::prepare(file.as_ref(), &[], "".as_ref()).unwrap();
+            let told = outputs(&job.model, None).unwrap();
+            assert!(told.len() > 2, "{example}");
+            assert!(told.iter().all(|output| !matches!(output.reading, Reading::Row(_))), "{told:?}");
+        }
+    }
 
     /// Whatever way a value is read, it is that of the row.
     #[test]

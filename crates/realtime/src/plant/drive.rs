@@ -1,6 +1,7 @@
 //! A drive as a plant.
 
 use super::channels::{Feed, Reading};
+use super::commanded::Commanded;
 use super::{Input, Output, Plant, PlantError, Work, between, done};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
 
@@ -12,6 +13,7 @@ pub struct Drive<'m> {
     /// Frames since t = 0.
     frame: u64,
     feeds: Vec<Feed>,
+    generators: Vec<Commanded>,
     readings: Vec<Reading>,
     /// All channels, where any of them is told that lies nowhere else.
     row: Vec<f64>,
@@ -33,15 +35,57 @@ impl<'m> Drive<'m> {
     ) -> Result<Self, RunError> {
         let plan = Self::plan(plan);
         let run = if frame == 0 { Run::new(model, &plan, state)? } else { Run::resume(model, &plan, state)? };
-        Ok(Self {
+        // What nothing follows is no input of the model.
+        let is_spared = |place: &usize| model.spared().waveforms.contains(place);
+        let feed = |input: &Input| match input.feed {
+            Feed::Hold(place) | Feed::Lead(place) | Feed::Command(place, _) if is_spared(&place) => {
+                Feed::Note
+            }
+            feed => feed,
+        };
+        let feeds: Vec<Feed> = inputs.iter().map(feed).collect();
+        let mut generators: Vec<Commanded> = Vec::new();
+        for feed in &feeds {
+            match *feed {
+                Feed::Command(place, _) if !generators.iter().any(|known| known.is_at(place)) => {
+                    generators.push(Commanded::new(place));
+                }
+                _ => {}
+            }
+        }
+        let initial: Vec<f64> = inputs.iter().map(|input| input.initial).collect();
+        let drive = Self {
             run,
             period,
             frame,
-            feeds: inputs.iter().map(|input| input.feed).collect(),
+            feeds,
+            generators,
             readings: outputs.iter().map(|output| output.reading).collect(),
             row: Vec::with_capacity(model.channels().len()),
             model,
-        })
+        };
+        Ok(drive.after(&initial))
+    }
+
+    /// The same after a frame of these inputs: what generators were told then is not commanded anew. Before the first frame these
+    /// are the initial values; a drive that is taken up later has to be told, for its state knows the steps that are left and not how
+    /// many were asked for.
+    #[must_use]
+    pub fn after(mut self, inputs: &[f64]) -> Self {
+        self.hear(inputs);
+        self.generators.iter_mut().for_each(Commanded::know);
+        self
+    }
+
+    /// Lets generators hear their values.
+    #[inline]
+    fn hear(&mut self, inputs: &[f64]) {
+        for (feed, value) in self.feeds.iter().zip(inputs) {
+            let Feed::Command(place, part) = *feed else { continue };
+            for generator in self.generators.iter_mut().filter(|generator| generator.is_at(place)) {
+                generator.hear(part, *value);
+            }
+        }
     }
 
     /// The plan that a run in real time has: no rows, no guards by counts or by the clock.
@@ -84,7 +128,13 @@ impl Plant for Drive<'_> {
             match *feed {
                 Feed::Hold(place) => self.run.hold(place, *value)?,
                 Feed::Lead(place) => self.run.lead(place, until, *value)?,
-                Feed::Note => {}
+                Feed::Command(..) | Feed::Note => {}
+            }
+        }
+        if !self.generators.is_empty() {
+            self.hear(inputs);
+            for generator in &mut self.generators {
+                generator.command(&mut self.run)?;
             }
         }
         self.run.advance(until, &mut ())?;

@@ -99,13 +99,12 @@ fn lost(report: &Report) -> Option<String> {
 }
 
 fn springs(report: &Report) -> Option<String> {
-    let rows = report.rows.as_ref()?;
+    let Some(rows) = report.rows.as_ref() else { return Some("  rows of springs: not measured".to_owned()) };
     let measured: Vec<String> =
         rows.springs.iter().zip(&rows.p99_us).map(|(n, time)| format!("{n} springs {time:.2} µs")).collect();
     let fits = match rows.fit_in_period {
-        Some(0) => "no row would fit the period".to_owned(),
         Some(n) => format!("about {n} springs a contact would fill the period"),
-        None => "more springs cost no more than the rest".to_owned(),
+        None => "how many would fill the period is not measured".to_owned(),
     };
     Some(format!("  on rows of springs 99 % of the frames took: {}; {fits}", measured.join(", ")))
 }

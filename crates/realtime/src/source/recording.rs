@@ -11,7 +11,7 @@
 //! Everything is little-endian. A last frame that is not whole, of a run that was killed, does not count.
 
 use crate::intake::Intake;
-use crate::plant::Input;
+use crate::plant::{Input, Takes};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -66,7 +66,7 @@ pub enum RecordingError {
         expected: f64,
     },
     /// A value that an input does not take.
-    #[error("{}: frame {frame} has {value:e} for input {input}, which takes {low:e} to {high:e}", path.display())]
+    #[error("{}: frame {frame} has {value:e} for input {input}, which takes {takes}", path.display())]
     Value {
         /// The file.
         path: PathBuf,
@@ -76,10 +76,8 @@ pub enum RecordingError {
         input: String,
         /// The value.
         value: f64,
-        /// Smallest value that it takes.
-        low: f64,
-        /// Largest value that it takes.
-        high: f64,
+        /// What it takes.
+        takes: Takes,
     },
 }
 
@@ -120,15 +118,14 @@ impl Recording {
         let width = inputs.len();
         values.truncate(values.len().checked_div(width).unwrap_or(0) * width);
         for (place, value) in values.iter().enumerate() {
-            let Input { name, range: (low, high), .. } = &inputs[place % width];
-            if !(*value >= *low && *value <= *high) {
+            let Input { name, takes, .. } = &inputs[place % width];
+            if !takes.has(*value) {
                 return Err(RecordingError::Value {
                     path: path.to_owned(),
                     frame: place / width,
                     input: name.clone(),
                     value: *value,
-                    low: *low,
-                    high: *high,
+                    takes: *takes,
                 });
             }
         }

@@ -179,3 +179,29 @@ fn a_loop_that_is_to_stop_at_an_overrun_does() {
     // What was computed was told.
     assert_eq!(bytes.len() as u64, ended.timing.frames() * wire::length(rig.width()) as u64);
 }
+
+/// Says once that it was enough.
+struct Once(std::sync::atomic::AtomicU64);
+
+impl stickslip_realtime::session::Observer for Once {
+    fn reached(&self, _: f64) {}
+
+    fn goes_on(&self) -> bool {
+        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 100
+    }
+}
+
+/// An empty loop of an hour.
+#[test]
+fn an_interruption_ends_the_empty_loop_at_once() {
+    let rig = Rig::of("p1", None, EVENT);
+    let mut drive = rig.drive((rig.start(), 0));
+    let wiring = wiring(Source::None, rig.intake(Silence::Hold, 10, 10));
+    let mut order = order(1_000_000_000, Some(Overrun::Skip));
+    order.floor = (3600.0 / PERIOD) as u64;
+    let start = vec![0.0; rig.width()];
+    let once = Once(0.into());
+    let ended = stickslip_realtime::session::run(&mut drive, wiring, &start, &order, &mut [], &once);
+    assert_eq!(ended.outcome, Err(Stop::Interrupted));
+    assert_eq!((ended.floor.frames(), ended.timing.frames()), (100, 0));
+}

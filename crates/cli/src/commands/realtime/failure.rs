@@ -41,7 +41,7 @@ pub(crate) enum Failure {
     Channels(#[from] ChannelError),
     /// Inputs for a scene without any.
     #[error(
-        "--inputs: nothing in the scene is fed from outside; a waveform of the kind \"input\" is, such as {{ \"input\": {{ \"initial\": 0, \"range\": [\"-1 um\", \"1 um\"] }} }}"
+        "--inputs: nothing in the scene is fed from outside; a waveform of the kind \"input\" or \"generator\" is, such as {{ \"input\": {{ \"initial\": 0, \"range\": [\"-1 um\", \"1 um\"] }} }}"
     )]
     NoInputs,
     /// No address of this machine, or a port in use.

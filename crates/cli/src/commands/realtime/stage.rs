@@ -16,7 +16,7 @@ use stickslip_results::{Job, Real, quantity};
 /// Frames that are computed before the start, without waiting.
 const PROBED: u64 = 500;
 /// The same on rows of springs.
-const ROWS_PROBED: u64 = 200;
+const ROWS_PROBED: u64 = 1000;
 /// Most frames of a loop: two years of 20 kHz.
 const MOST_FRAMES: f64 = 1.4e12;
 
