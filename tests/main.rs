@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
 mod bench;
+mod bench_frames;
 mod broken_files;
 mod check;
 mod checkpoint;

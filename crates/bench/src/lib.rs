@@ -5,18 +5,19 @@
 //! a processor's clock, which no library of the others should carry.
 //!
 //! [`measure`] measures one scenario and writes its table and pictures, [`growth::measure`] what more of something costs,
-//! [`write_page`] tells of both; a [`Request`] says what is asked.
+//! [`frames::measure`] how long frames of drives take in real time, [`write_page`] tells of both; a [`Request`] says what is asked.
 //!
 //! In reading order: `request`; `problem` (a scenario with its reference), `norm` and `samples` (how far off a run is);
 //! `contestant`, `family` and `steps` (who runs, at what tolerances and steps), `baseline` (what others would do); `turns` and
 //! `clock` (the measurement); `front` (what an error costs); `sheet`, [`picture`] and `page` (what is written), `machine`;
-//! [`growth`].
+//! [`growth`]; [`frames`], which are drives in real time.
 
 mod baseline;
 mod clock;
 mod contestant;
 mod error;
 mod family;
+pub mod frames;
 mod front;
 pub mod growth;
 mod machine;

@@ -195,7 +195,7 @@ fn grown(folder: &Path) -> String {
 }
 
 /// A picture, light and dark.
-fn shown((light, dark): (&str, &str), words: &str) -> String {
+pub(crate) fn shown((light, dark): (&str, &str), words: &str) -> String {
     format!(
         "<picture>\n  <source media=\"(prefers-color-scheme: dark)\" srcset=\"{dark}\">\n  \
          <img src=\"{light}\" width=\"800\" alt=\"{words}\">\n</picture>\n"
@@ -247,7 +247,7 @@ fn command(request: &Request) -> String {
 }
 
 /// The folder of a file.
-fn parent(file: &Path) -> &Path {
+pub(crate) fn parent(file: &Path) -> &Path {
     file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
@@ -262,7 +262,7 @@ fn digits(value: f64) -> String {
 }
 
 /// A number with its thousands apart.
-fn grouped(number: u64) -> String {
+pub(crate) fn grouped(number: u64) -> String {
     let text = number.to_string();
     if text.len() <= 4 {
         return text;

@@ -69,7 +69,7 @@ fn times_panels<'a>(report: &Report, ended: &Ended) -> Vec<TimesPanel<'a>> {
         if empty.total() > 0 {
             curves.push(curve("empty loop", true, empty));
         }
-        TimesPanel { what, curves, marked }
+        TimesPanel { heading: String::new(), what, curves, marked }
     };
     let mut panels = vec![panel(
         "execution time",
@@ -80,7 +80,7 @@ fn times_panels<'a>(report: &Report, ended: &Ended) -> Vec<TimesPanel<'a>> {
         let marked = marked(&timing.latest, |slow| slow.latency);
         // What a drive did in a frame has nothing to do with when its loop woke.
         let times = marked.into_iter().flat_map(|marked| marked.times).collect();
-        let marked = vec![MarkedTimes { name: "latest frames", times }];
+        let marked = vec![MarkedTimes { name: "latest frames", times, on: 0 }];
         panels.push(panel("wake-up latency", [&timing.latency, &floor.latency], marked));
     }
     panels
@@ -102,7 +102,8 @@ fn marked<'a>(worst: &Worst, time: fn(&stickslip_realtime::worst::Slow) -> u64) 
     };
     let of = |place: usize| {
         let frames = worst.frames().iter().filter(|slow| kind(&slow.work) == place);
-        MarkedTimes { name: KINDS[place], times: frames.map(|slow| 1e-9 * time(slow) as f64).collect() }
+        let times = frames.map(|slow| 1e-9 * time(slow) as f64).collect();
+        MarkedTimes { name: KINDS[place], times, on: 0 }
     };
     (0..KINDS.len()).map(of).filter(|marked| !marked.times.is_empty()).collect()
 }

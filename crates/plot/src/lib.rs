@@ -80,7 +80,9 @@ pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Series, 
 pub use phase::{PhasePath, phase_figure};
 pub use png::{draw_animation, draw_png};
 pub use profile::{ProfilePair, profile_figure};
-pub use realtime::{MarkedTimes, TimelinePanel, TimesCurve, TimesPanel, timeline_figure, times_figure};
+pub use realtime::{
+    MarkedTimes, TimelinePanel, TimesCurve, TimesPanel, timeline_figure, times_figure, times_grid,
+};
 pub use scene::{
     Amount, Fixture, LinkKind, Mobility, Press, Scene, SceneBody, SceneContact, SceneGravity, SceneLink,
     SceneLoad, layout_figure,

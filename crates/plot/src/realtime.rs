@@ -23,11 +23,15 @@ pub struct MarkedTimes<'a> {
     pub name: &'a str,
     /// How long each took, s.
     pub times: Vec<f64>,
+    /// Place of the curve that they belong to.
+    pub on: usize,
 }
 
 /// A panel of times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimesPanel<'a> {
+    /// Heading above it; none where empty.
+    pub heading: String,
     /// What took the time.
     pub what: &'a str,
     /// How often, one curve for each loop.
@@ -57,7 +61,7 @@ pub fn times_figure<'a>(title: &str, period: f64, panels: &[TimesPanel<'a>]) -> 
     let panel = |times: &TimesPanel<'a>| {
         let curves = times.curves.iter().enumerate().map(|(place, curve)| steps(curve, place));
         let marked =
-            times.marked.iter().enumerate().map(|(place, marked)| points(marked, place, &times.curves));
+            times.marked.iter().enumerate().map(|(place, marked)| points(marked, place + 1, &times.curves));
         Panel {
             x: Axis { logarithmic: true, ..Axis::new(Label::plain(times.what), "s") },
             y: Axis { logarithmic: true, ..Axis::new(Label::plain("frames in a tenth of a decade"), "") },
@@ -74,6 +78,69 @@ pub fn times_figure<'a>(title: &str, period: f64, panels: &[TimesPanel<'a>]) -> 
         ..Figure::default()
     }
     .with_room_for_legends()
+}
+
+/// Histograms row by row, times and counts by their decades; all panels of a column cover the same times, and marks of one name
+/// have one colour and one entry.
+pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) -> Figure<'a> {
+    if panels.is_empty() {
+        return Figure::without_data(title, "no frames");
+    }
+    let columns = columns.max(1);
+    let mut kinds: Vec<&str> = Vec::new();
+    for name in panels.iter().flat_map(|panel| &panel.marked).map(|marked| marked.name) {
+        if !kinds.contains(&name) {
+            kinds.push(name);
+        }
+    }
+    // The loop beside the others has no colour of the palette.
+    let curves = panels.iter().map(|panel| panel.curves.iter().filter(|curve| !curve.is_beside).count());
+    let most = curves.max().unwrap_or(0);
+    let panel = |(place, times): (usize, &TimesPanel<'a>)| {
+        let column = panels.iter().skip(place % columns).step_by(columns);
+        let counts = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.bins);
+        let highest = counts.map(|(.., count)| *count).max().unwrap_or(1).max(1) as f64;
+        let colour = |name: &str| most + kinds.iter().position(|kind| *kind == name).unwrap_or(0);
+        let marked = times.marked.iter().map(|marked| points(marked, colour(marked.name), &times.curves));
+        // The first panel names all kinds: one legend then serves all panels. What is not above 0 has no place on such axes.
+        let named = if place == 0 { &kinds[..] } else { &[] };
+        let keys = named.iter().map(|name| {
+            let key = points(&MarkedTimes { name, times: Vec::new(), on: 0 }, colour(name), &[]);
+            Series { xs: vec![-1.0].into(), ys: vec![-1.0].into(), ..key }
+        });
+        let marked: Vec<Series<'a>> = marked.chain(keys).collect();
+        Panel {
+            heading: Label::plain(&times.heading),
+            x: Axis {
+                logarithmic: true,
+                covers: covered(column),
+                ..Axis::new(Label::plain(times.what), "s")
+            },
+            y: Axis {
+                logarithmic: true,
+                covers: Some((NONE, highest)),
+                ..Axis::new(Label::plain("frames"), "")
+            },
+            series: times.curves.iter().enumerate().map(|(k, curve)| steps(curve, k)).chain(marked).collect(),
+            ..Panel::default()
+        }
+    };
+    Figure {
+        title: Label::plain(title),
+        panels: panels.iter().enumerate().map(panel).collect(),
+        arrangement: Arrangement::Grid { columns, share: false },
+        size: Figure::size_for(220, 420, panels.len().div_ceil(columns)),
+        ..Figure::default()
+    }
+    .with_room_for_legends()
+}
+
+/// The shortest and the longest time that occurred in any of some panels.
+fn covered<'a, 'b: 'a>(panels: impl Iterator<Item = &'a TimesPanel<'b>>) -> Option<(f64, f64)> {
+    let bins = panels.flat_map(|panel| &panel.curves).flat_map(|curve| &curve.bins);
+    let counted = bins.filter(|(.., count)| *count > 0);
+    let ends = counted.map(|(low, high, _)| (*low, *high));
+    ends.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
 }
 
 /// The outline of a histogram.
@@ -100,17 +167,17 @@ fn steps<'a>(curve: &TimesCurve<'a>, place: usize) -> Series<'a> {
     Series { style, ..Series::new(curve.name, xs, ys) }
 }
 
-/// Marks on the outline that they belong to, the first; equal ones lie on each other.
-fn points<'a>(marked: &MarkedTimes<'a>, place: usize, curves: &[TimesCurve<'a>]) -> Series<'a> {
+/// Marks on the outline that they belong to; equal ones lie on each other.
+fn points<'a>(marked: &MarkedTimes<'a>, colour: usize, curves: &[TimesCurve<'a>]) -> Series<'a> {
     let height = |time: f64| {
-        let bins = curves.first().map(|curve| &curve.bins[..]).unwrap_or_default();
+        let bins = curves.get(marked.on).map(|curve| &curve.bins[..]).unwrap_or_default();
         let bin = bins.iter().find(|(low, high, _)| (*low..*high).contains(&time));
         bin.map_or(1.0, |(_, _, count)| (*count).max(1) as f64)
     };
     // A gap after each: points that no line joins.
     let xs: Vec<f64> = marked.times.iter().flat_map(|time| [*time, f64::NAN]).collect();
     let ys: Vec<f64> = marked.times.iter().flat_map(|time| [height(*time), f64::NAN]).collect();
-    let style = Style { ink: Some(Ink::Palette(place + 1)), dash: Some(Dash::Solid), width: 2.0 };
+    let style = Style { ink: Some(Ink::Palette(colour)), dash: Some(Dash::Solid), width: 2.0 };
     Series { style, marked: true, ..Series::new(marked.name, xs, ys) }
 }
 
@@ -146,9 +213,28 @@ mod tests {
         let series = steps(&curve, 0);
         assert_eq!(series.xs[..], [1e-6, 1e-6, 2e-6, 2e-6, 3e-6, 3e-6, 4e-6, 4e-6]);
         assert_eq!(series.ys[..], [0.5, 5.0, 5.0, 0.5, 0.5, 1.0, 1.0, 0.5]);
-        let marked = MarkedTimes { name: "events", times: vec![1.5e-6, 9.0] };
-        let marks = points(&marked, 0, &[curve]);
+        let marked = MarkedTimes { name: "events", times: vec![1.5e-6, 9.0], on: 0 };
+        let marks = points(&marked, 1, &[curve]);
         assert_eq!((marks.ys[0], marks.ys[2], marks.is_scattered()), (5.0, 1.0, true));
+    }
+
+    #[test]
+    fn marks_of_a_grid_lie_on_their_own_curve_and_have_one_colour_everywhere() {
+        let curve = |count| TimesCurve { name: "loop", is_beside: false, bins: vec![(1e-6, 2e-6, count)] };
+        let panel = |name, on| TimesPanel {
+            heading: "scene".to_owned(),
+            what: "execution time",
+            curves: vec![curve(5), curve(70)],
+            marked: vec![MarkedTimes { name, times: vec![1.5e-6], on }],
+        };
+        let figure = times_grid("", 2, &[panel("event", 0), panel("merge", 1), panel("merge", 0)]);
+        let mark = |place: usize| &figure.panels[place].series[2];
+        assert_eq!([0, 1, 2].map(|place| mark(place).ys[0]), [5.0, 70.0, 5.0]);
+        assert_eq!((mark(0).style.ink, mark(1).style.ink), (Some(Ink::Palette(2)), Some(Ink::Palette(3))));
+        assert_eq!(mark(1).style, mark(2).style);
+        // Two curves, a mark, and names of both kinds.
+        assert_eq!((figure.panels[0].series.len(), figure.panels[1].series.len()), (5, 3));
+        assert!(crate::draw_png(&figure).is_ok());
     }
 
     #[test]

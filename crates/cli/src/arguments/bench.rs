@@ -2,6 +2,7 @@
 
 use clap::Args;
 use std::path::PathBuf;
+use stickslip_bench::frames::FramesRequest;
 use stickslip_bench::{Known, Request};
 use stickslip_scenario::quantity;
 
@@ -24,7 +25,14 @@ Times are those of the run alone, without building and output: wall times, and p
 spoil; pictures and pages show these. All runs take turns, several rounds; the shortest turn counts. What does not fit into the budget is left out with a note.
 
 Writes OUT/NAME/bench.csv and work-precision.png (also dark, and as SVG), and the page asked for, which tells how many times as \
-long as the event stepper the others take for the same error. Exit codes: 0 done, 2 bad input, 3 the \
+long as the event stepper the others take for the same error.
+
+With --realtime it measures frames in real time instead, of every scenario by \"frames\" and by \"event\": --frames of each --period one after \
+the other, then --paced after a clock; inputs change in every frame. Execution times and wake-up latency are shown beside an empty loop's, the worst \
+frames with what happened in them, counted work, overruns, and errors against the whole run. Writes OUT/frames.csv, worst_frames.csv, \
+histograms.csv, accuracy.csv and frames.png (also dark, and as SVG), and the page asked for.
+
+Exit codes: 0 done, 2 bad input, 3 the \
 reference cannot be computed or something cannot be written, 130 interrupted.";
 
 /// Examples under the long help.
@@ -33,7 +41,11 @@ Examples:
   stickslip bench drive.json
   stickslip bench scenarios/p1.json scenarios/ruby_drive.json --budget \"5 min\"
   stickslip bench scenarios/p1.json --out docs/performance --growth --page docs/performance.md
+  stickslip bench --realtime scenarios/p1.json scenarios/commanded.json --period \"20 us,50 us\" --frames 1e6
   stickslip bench scenarios/p1.json --known p1:slider.x_m=1.00842862803207490e-5";
+
+/// Most frames of a loop: days of computing.
+const MOST_FRAMES: f64 = 1e12;
 
 #[derive(Debug, Args)]
 pub(crate) struct BenchArguments {
@@ -58,6 +70,18 @@ pub(crate) struct BenchArguments {
     /// A page in Markdown with the tables and pictures of all scenarios
     #[arg(long, value_name = "FILE")]
     pub(crate) page: Option<PathBuf>,
+    /// Measure frames in real time: how long they take, what happens in them, what they lose
+    #[arg(long, requires = "files", conflicts_with_all = ["growth", "known", "budget"])]
+    pub(crate) realtime: bool,
+    /// Lengths of the frames
+    #[arg(long, value_name = "TIME,…", default_value = "20 us", value_delimiter = ',', requires = "realtime", allow_hyphen_values = true, value_parser = seconds)]
+    pub(crate) period: Vec<f64>,
+    /// Frames of each loop that nothing paces, such as 1e7
+    #[arg(long, value_name = "N", default_value = "1e6", requires = "realtime", allow_hyphen_values = true, value_parser = frames)]
+    pub(crate) frames: u64,
+    /// How long each loop after a clock goes on; 0 leaves them out
+    #[arg(long, value_name = "TIME", default_value = "2 s", requires = "realtime", allow_hyphen_values = true, value_parser = not_negative)]
+    pub(crate) paced: f64,
     /// No progress, no result; errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -76,12 +100,42 @@ impl BenchArguments {
             page: self.page.clone(),
         }
     }
+
+    /// What is asked to be measured in real time.
+    pub(crate) fn frames_request(&self) -> FramesRequest {
+        FramesRequest {
+            files: self.files.clone(),
+            set: self.set.clone(),
+            periods: self.period.clone(),
+            frames: self.frames,
+            paced: self.paced,
+            out: self.out.clone(),
+            page: self.page.clone(),
+        }
+    }
 }
 
 /// Reads a time above 0.
 fn seconds(text: &str) -> Result<f64, String> {
     let value = quantity(text, "s")?;
     if value > 0.0 { Ok(value) } else { Err("expected a time above 0".to_owned()) }
+}
+
+/// Reads a time not below 0.
+fn not_negative(text: &str) -> Result<f64, String> {
+    let value = quantity(text, "s")?;
+    if value >= 0.0 { Ok(value) } else { Err("expected a time, 0 or above".to_owned()) }
+}
+
+/// Reads a number of frames, also as 1e7.
+fn frames(text: &str) -> Result<u64, String> {
+    let value: f64 = text.trim().parse().map_err(|_| format!("expected a number, got \"{text}\""))?;
+    let is_number = (1.0..=MOST_FRAMES).contains(&value) && value.fract() == 0.0;
+    if is_number {
+        Ok(value as u64)
+    } else {
+        Err(format!("expected a whole number from 1 to {MOST_FRAMES:e}"))
+    }
 }
 
 /// Splits `NAME:CHANNEL=VALUE`.

@@ -5,7 +5,7 @@ use crate::console::answer::{complain, say};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
-use stickslip_bench::{BenchError, Known, ProblemError, TABLE, growth, picture};
+use stickslip_bench::{BenchError, Known, ProblemError, TABLE, frames, growth, picture};
 use stickslip_drive::RunError;
 use stickslip_results::{Job, Refusal};
 use thiserror::Error;
@@ -42,6 +42,9 @@ fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
     }
     let request = arguments.request();
     let jobs = prepare(arguments)?;
+    if arguments.realtime {
+        return measure_frames(arguments, &jobs, &progress, &interrupt);
+    }
     let mut chapters = Vec::new();
     for (job, file) in jobs.iter().zip(&request.files) {
         let known = request.known.iter().filter(|(name, _)| *name == job.name);
@@ -64,6 +67,24 @@ fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
     }
     let Some(page) = &request.page else { return Ok(()) };
     Ok(stickslip_bench::write_page(&chapters, &request, page)?)
+}
+
+/// Measures frames in real time.
+fn measure_frames(
+    arguments: &BenchArguments,
+    jobs: &[Job],
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<(), BenchFailure> {
+    let request = arguments.frames_request();
+    let bar = progress.budget(frames::PICTURE, frames::turns(&request), interrupt);
+    frames::measure(jobs, &request, &bar)?;
+    drop(bar);
+    if !arguments.quiet {
+        let names = [frames::TABLE, frames::WORST, frames::HISTOGRAMS, frames::ACCURACY].join(", ");
+        say(format_args!("frames: {}: {names}, {}.png", request.out.display(), frames::PICTURE));
+    }
+    Ok(())
 }
 
 /// All scenarios: they are read before the first is run.
