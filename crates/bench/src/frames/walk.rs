@@ -1,9 +1,17 @@
 //! Inputs that change in every frame: seeded random walks, each within its range.
 
-use stickslip_realtime::plant::Input;
+use stickslip_realtime::plant::{Input, Takes};
 
 /// Where every walk sets out from.
 const SEED: u64 = 0x5EED_2026;
+
+/// Where an input may go; headings and counts of steps stay what they are.
+fn range(input: &Input) -> (f64, f64) {
+    match input.takes {
+        Takes::Range(low, high) => (low, high),
+        Takes::Sign | Takes::Count => (input.initial, input.initial),
+    }
+}
 
 /// Walks of all inputs of a scene: in a frame a value goes by at most a share of half its range, either way, and turns back at its
 /// limits. The same frames have the same values, whoever asks.
@@ -20,7 +28,7 @@ impl Walk {
     pub(super) fn new(inputs: &[Input], share: f64) -> Self {
         Self {
             seed: SEED,
-            ranges: inputs.iter().map(|input| input.range).collect(),
+            ranges: inputs.iter().map(range).collect(),
             share,
             values: inputs.iter().map(|input| input.initial).collect(),
         }
