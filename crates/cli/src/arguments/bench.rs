@@ -74,7 +74,7 @@ pub(crate) struct BenchArguments {
     #[arg(long, requires = "files", conflicts_with_all = ["growth", "known", "budget"])]
     pub(crate) realtime: bool,
     /// Lengths of the frames
-    #[arg(long, value_name = "TIME,…", default_value = "20 us", value_delimiter = ',', requires = "realtime", allow_hyphen_values = true, value_parser = seconds)]
+    #[arg(long, value_name = "TIME,…", default_value = "20 us", value_delimiter = ',', requires = "realtime", allow_hyphen_values = true, value_parser = frame)]
     pub(crate) period: Vec<f64>,
     /// Frames of each loop that nothing paces, such as 1e7
     #[arg(long, value_name = "N", default_value = "1e6", requires = "realtime", allow_hyphen_values = true, value_parser = frames)]
@@ -119,6 +119,13 @@ impl BenchArguments {
 fn seconds(text: &str) -> Result<f64, String> {
     let value = quantity(text, "s")?;
     if value > 0.0 { Ok(value) } else { Err("expected a time above 0".to_owned()) }
+}
+
+/// Reads the length of a frame: a number without a unit is one of seconds, and would take for ever.
+fn frame(text: &str) -> Result<f64, String> {
+    let value = quantity(text, "s")?;
+    let is_frame = value > 0.0 && value <= 1.0;
+    if is_frame { Ok(value) } else { Err("expected a time above 0, up to 1 s, such as \"20 us\"".to_owned()) }
 }
 
 /// Reads a time not below 0.

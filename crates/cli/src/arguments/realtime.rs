@@ -47,7 +47,7 @@ pub(crate) struct RealtimeArguments {
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
     /// Length of a frame, such as "50 us"
-    #[arg(long, value_name = "TIME", value_parser = above_zero)]
+    #[arg(long, value_name = "TIME", value_parser = frame)]
     pub(crate) period: f64,
     /// How long, simulated; by default as long as the recording that is replayed, or as the scenario's run
     #[arg(long = "for", value_name = "TIME", value_parser = above_zero)]
@@ -214,6 +214,16 @@ impl ClockArguments {
 fn above_zero(text: &str) -> Result<f64, String> {
     let seconds = stickslip_scenario::quantity(text, "s")?;
     if seconds > 0.0 { Ok(seconds) } else { Err("expected a time above 0, such as \"50 us\"".to_owned()) }
+}
+
+/// Reads the length of a frame, s: a number without a unit is one of seconds.
+fn frame(text: &str) -> Result<f64, String> {
+    let seconds = above_zero(text)?;
+    if seconds <= 1.0 {
+        Ok(seconds)
+    } else {
+        Err("expected a frame of at most 1 s, such as \"50 us\"".to_owned())
+    }
 }
 
 /// Reads a time that may be 0, s.
