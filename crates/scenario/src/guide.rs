@@ -251,7 +251,7 @@ mod tests {
         let guide = Guide::get();
         assert_eq!(guide.kinds(&path("bodies.a.x")), ["fixed", "free", "balanced", "follows"]);
         assert_eq!(guide.kinds(&path("contacts.a.normal")), ["coupled", "force", "indentation", "radius"]);
-        assert_eq!(guide.kinds(&path("run.stepper")), ["event", "verlet", "rk4", "dopri5"]);
+        assert_eq!(guide.kinds(&path("run.stepper")), ["event", "verlet", "rk4", "frames", "dopri5"]);
         assert_eq!(guide.kinds(&path("contacts.a.engine")), ["curve", "springs"]);
         assert_eq!(guide.kinds(&path("springs.a.direction")), ["x", "z"]);
         assert!(!guide.kinds(&path("waveforms.a")).contains(&"chirp".to_owned()));
