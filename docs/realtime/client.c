@@ -98,13 +98,16 @@ static void send_packet(const packet *p)
 {
     size_t length = HEAD + 8 * p->count;
     if (port >= 0) { sendto(port, p, length, 0, (struct sockaddr *)&to, sizeof to); return; }
-    uint64_t busy = atomic_load_explicit(in, memory_order_relaxed) | 1;
+    uint64_t busy = atomic_load_explicit(in, memory_order_relaxed);
     const uint64_t *word = (const uint64_t *)p;
-    atomic_store_explicit(in, busy, memory_order_relaxed);
+    /* Claim the record. Where another client is writing, this answer is left out: the next one is not far. */
+    if (busy++ % 2 || !atomic_compare_exchange_strong_explicit(in, &(uint64_t){busy - 1}, busy, memory_order_acquire,
+                                                               memory_order_relaxed)) return;
     atomic_thread_fence(memory_order_release);
     atomic_store_explicit(in + 1, (uint64_t)getpid(), memory_order_relaxed);
     for (size_t i = 0; i < length / 8; i++) atomic_store_explicit(in + 2 + i, word[i], memory_order_relaxed);
-    atomic_store_explicit(in, busy + 1, memory_order_release);
+    /* It is another one where the loop took this client for dead. */
+    atomic_compare_exchange_strong_explicit(in, &busy, busy + 1, memory_order_release, memory_order_relaxed);
 }
 
 /* Half of the time a triangle of ±5 um at 10 Hz, half of the time steps to 2 um and 5 um, m. */

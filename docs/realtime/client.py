@@ -51,7 +51,9 @@ class Udp:
 
 
 class Memory:
-    """Both records lie in one file. The counter of a record is odd while it is written. (On x86; elsewhere use C.)"""
+    """Both records lie in one file. The counter of a record is odd while it is written. (On x86; elsewhere use C.)
+
+    Python cannot claim a record, which takes one step that nobody comes between: with it only one client may write at a time."""
 
     def __init__(self, name):
         path, patience = os.path.join("/dev/shm", name), time.monotonic() + 20

@@ -100,6 +100,12 @@ impl Histogram {
         bins
     }
 
+    /// Ten bins for each decade, as [`Self::decades`] has them, edges in s: what pictures show.
+    pub fn tenths(&self) -> Vec<(f64, f64, u64)> {
+        let seconds = |(low, high, count): (f64, f64, u64)| (1e-9 * low, 1e-9 * high, count);
+        self.decades(10).into_iter().map(seconds).collect()
+    }
+
     /// Bins of 1 µs, as (lower edge in µs, count), those that are not empty; and how many times were 20 ms or longer.
     pub fn microseconds(&self) -> (impl Iterator<Item = (u64, u64)> + '_, u64) {
         let each = (COARSE_BIN / FINE_BIN) as usize;

@@ -137,6 +137,11 @@ impl Intake {
         &self.received
     }
 
+    /// After how many frames of silence another client may take over.
+    pub(crate) fn patience(&self) -> u64 {
+        self.patience.owner
+    }
+
     /// Who has the inputs.
     pub fn owner(&self) -> Option<Client> {
         self.owner.map(|(client, _)| client)

@@ -55,8 +55,11 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        // Clients that have it mapped keep it; what cannot be removed is taken over by the next run.
-        let _ = std::fs::remove_file(&self.path);
+        // Clients that have it mapped keep it; what cannot be removed is taken over by the next run. Where the path is another
+        // file's by now, that is left alone.
+        if self.mapping.is_at(&self.path) {
+            let _ = std::fs::remove_file(&self.path);
+        }
     }
 }
 
@@ -66,21 +69,23 @@ mod imp {
     use rustix::fs::{FlockOperation, flock};
     use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
     use std::fs::{File, OpenOptions};
-    use std::os::unix::fs::{FileExt, OpenOptionsExt};
+    use std::os::unix::fs::{FileExt, MetadataExt, OpenOptionsExt};
     use std::ptr::NonNull;
 
     const WORD: usize = size_of::<AtomicU64>();
+    /// How often a file is opened anew that was removed meanwhile.
+    const TRIES: usize = 100;
 
     pub(super) struct Mapping {
         start: NonNull<AtomicU64>,
         length: usize,
         /// Keeps the lock.
-        _file: File,
+        file: File,
     }
 
-    impl Mapping {
-        pub(super) fn make(path: &Path, mark: u64, length: usize) -> Result<Self, MemoryError> {
-            let failed = |source| MemoryError::System { path: path.to_owned(), source };
+    /// Opens a file, makes it where there is none, and locks it.
+    fn locked(path: &Path) -> Result<File, MemoryError> {
+        for _ in 0..TRIES {
             let file = OpenOptions::new()
                 .read(true)
                 .write(true)
@@ -88,18 +93,40 @@ mod imp {
                 .truncate(false)
                 .mode(0o600)
                 .custom_flags(libc::O_NOFOLLOW)
-                .open(path);
-            let file = file.map_err(failed)?;
+                .open(path)
+                .map_err(|source| MemoryError::System { path: path.to_owned(), source })?;
             if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {
-                return Err(MemoryError::InUse(path.to_owned()));
+                break;
             }
+            // Between the two a run may have ended and removed it: nobody would find what is mapped then.
+            if is_at(&file, path) {
+                return Ok(file);
+            }
+        }
+        Err(MemoryError::InUse(path.to_owned()))
+    }
+
+    /// Whether a file is the one at a path.
+    fn is_at(file: &File, path: &Path) -> bool {
+        let [open, there] = [file.metadata(), std::fs::symlink_metadata(path)];
+        matches!((open, there), (Ok(open), Ok(there)) if (open.dev(), open.ino()) == (there.dev(), there.ino()))
+    }
+
+    impl Mapping {
+        pub(super) fn make(path: &Path, mark: u64, length: usize) -> Result<Self, MemoryError> {
+            let failed = |source| MemoryError::System { path: path.to_owned(), source };
+            let bytes = length * WORD;
+            let file = locked(path)?;
             let found = file.metadata().map_err(failed)?;
             let mut head = [0; WORD];
-            let mut is_ours = || file.read_exact_at(&mut head, 0).is_ok_and(|()| head == mark.to_ne_bytes());
+            // Without a mark it is ours if it is as long as what is made here: a run was killed before it wrote that.
+            let mut is_ours = || {
+                file.read_exact_at(&mut head, 0).is_ok()
+                    && (head == mark.to_ne_bytes() || (head == [0; WORD] && found.len() == bytes as u64))
+            };
             if !found.is_file() || (found.len() > 0 && !is_ours()) {
                 return Err(MemoryError::Foreign(path.to_owned()));
             }
-            let bytes = length * WORD;
             // A client of the run that was killed may still have it mapped: it never gets shorter.
             file.set_len(found.len().max(bytes as u64)).map_err(failed)?;
             let access = ProtFlags::READ | ProtFlags::WRITE;
@@ -109,9 +136,14 @@ mod imp {
             let start = start.map_err(|errno| failed(io::Error::from(errno)))?;
             let start =
                 NonNull::new(start.cast()).ok_or_else(|| failed(io::ErrorKind::OutOfMemory.into()))?;
-            let mapping = Self { start, length, _file: file };
+            let mapping = Self { start, length, file };
             mapping.words().iter().for_each(|word| word.store(0, std::sync::atomic::Ordering::Relaxed));
             Ok(mapping)
+        }
+
+        /// Whether its file is the one at a path.
+        pub(super) fn is_at(&self, path: &Path) -> bool {
+            is_at(&self.file, path)
         }
 
         pub(super) fn words(&self) -> &[AtomicU64] {
@@ -155,8 +187,68 @@ mod imp {
             Err(MemoryError::Unknown(path.to_owned()))
         }
 
+        pub(super) fn is_at(&self, _: &Path) -> bool {
+            match *self {}
+        }
+
         pub(super) fn words(&self) -> &[AtomicU64] {
             match *self {}
         }
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    const MARK: u64 = 77;
+
+    #[test]
+    fn memory_has_one_owner_at_a_time_and_its_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, owners) = (folder.path().join("loop"), AtomicUsize::new(0));
+        let make = || {
+            let mut made = 0;
+            for _ in 0..20_000 {
+                let Ok(shared) = Shared::make(&path, MARK, 8) else { continue };
+                assert_eq!(owners.fetch_add(1, Ordering::SeqCst), 0);
+                assert!(shared.mapping.is_at(&path));
+                shared.words()[0].store(MARK, Ordering::Release);
+                owners.fetch_sub(1, Ordering::SeqCst);
+                made += 1;
+            }
+            made
+        };
+        let made = std::thread::scope(|scope| {
+            [(); 3].map(|()| scope.spawn(make)).map(|thread| thread.join().unwrap())
+        });
+        assert!(made.iter().sum::<i32>() > 1000, "{made:?}");
+    }
+
+    #[test]
+    fn what_is_there_is_taken_over_where_it_is_ours() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("loop");
+        let after = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).unwrap();
+            Shared::make(&path, MARK, 8).is_ok()
+        };
+        // Killed before the mark was written, with other words there already.
+        let mut head = [0; 64];
+        head[20] = 1;
+        assert!(after(&head) && after(&[]) && after(&MARK.to_ne_bytes()));
+        assert!(!after(&head[..63]) && !after(&[1; 64]));
+    }
+
+    #[test]
+    fn a_file_that_took_the_path_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("loop");
+        let shared = Shared::make(&path, MARK, 8).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        std::fs::write(&path, "another").unwrap();
+        drop(shared);
+        assert_eq!(std::fs::read(&path).unwrap(), b"another");
     }
 }

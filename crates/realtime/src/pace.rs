@@ -6,13 +6,16 @@
 //! from then until the outputs were out (the program's). A frame that ends after the next deadline has overrun.
 
 use crate::histogram::Histogram;
-use crate::plant::{PlantError, Work};
+use crate::plant::{PlantError, STEPS, Work};
+use crate::room::touched;
 use crate::system::{now, sleep_until};
 use crate::worst::{Slow, Worst};
 
 /// How far ahead the first deadline lies, ns.
 const AHEAD: u64 = 2_000_000;
 const NANO: f64 = 1e9;
+/// Numbers of steps of a frame that are told apart; from here on all are one.
+const MOST_STEPS: usize = 4096;
 
 /// What is done where a frame ends after the next deadline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -85,6 +88,8 @@ pub struct Timing {
     pub latest: Worst,
     /// From the first deadline until the last frame was done, ns.
     pub wall: u64,
+    /// Frames by their numbers of steps.
+    steps: Vec<u64>,
 }
 
 impl Timing {
@@ -99,7 +104,20 @@ impl Timing {
             slowest: Worst::new(|slow| slow.execution),
             latest: Worst::new(|slow| slow.latency),
             wall: 0,
+            steps: touched(1, 0, MOST_STEPS),
         }
+    }
+
+    /// Steps of a usual frame: the least number that half of them keep. Where that is beyond all that is told apart, no frame
+    /// has more.
+    pub fn usual(&self) -> u64 {
+        let mut seen = 0;
+        let half = self.frames().div_ceil(2);
+        let place = self.steps.iter().position(|count| {
+            seen += count;
+            seen >= half
+        });
+        place.filter(|place| *place < MOST_STEPS - 1).map_or(u64::MAX, |place| place as u64)
     }
 
     /// Number of frames computed.
@@ -113,6 +131,7 @@ impl Timing {
         self.execution.count(slow.execution);
         self.slowest.look(slow);
         self.latest.look(slow);
+        self.steps[usize::try_from(slow.work[STEPS]).unwrap_or(MOST_STEPS).min(MOST_STEPS - 1)] += 1;
         self.left_out += left_out;
         self.most_left_out = self.most_left_out.max(left_out);
     }
@@ -209,6 +228,22 @@ mod tests {
         // A period that is no number of ns: deadlines do not drift.
         let odd = Grid { start: 0, period: 1e9 / 3.0 };
         assert_eq!(odd.at(3_000_000_000), 1_000_000_000_000_000_000);
+    }
+
+    #[test]
+    fn a_usual_frame_has_the_steps_that_half_of_all_keep() {
+        let usual = |steps: &[u64]| {
+            let mut timing = Timing::new();
+            for steps in steps {
+                let mut slow = Slow::default();
+                slow.work[STEPS] = *steps;
+                timing.count(slow, 0);
+            }
+            timing.usual()
+        };
+        assert_eq!((usual(&[1, 9, 3, 3, 2, 40]), usual(&[7, 8])), (3, 7));
+        // Many more than are told apart: no frame has too many.
+        assert_eq!(usual(&[1, 5_000, 6_000]), u64::MAX);
     }
 
     /// Frames that sleep over their deadline, and what they log.

@@ -18,6 +18,14 @@ pub const WORK: [&str; 7] = ["steps", "rejected", "evaluations", "events", "deto
 /// Work of a frame, in the order of [`WORK`].
 pub type Work = [u64; WORK.len()];
 
+/// Place of the steps in them.
+pub(crate) const STEPS: usize = 0;
+
+/// What was counted under a name of [`WORK`] in a frame.
+pub fn counted(work: &Work, name: &str) -> u64 {
+    WORK.iter().position(|known| *known == name).map_or(0, |place| work[place])
+}
+
 /// Why a plant stops.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlantError {

@@ -50,9 +50,11 @@ impl<P: Plant> Cycle for Steady<'_, P> {
 /// Computes frames of a plant without waiting, until there are so many or it took long; none where not even one came.
 pub fn probe<P: Plant>(plant: &mut P, inputs: &[f64], outputs: usize, frames: u64) -> Option<Probe> {
     let pace = Pace { period: 1.0, overrun: None, spin: 0.0 };
-    let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: now() + LONGEST };
+    let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: u64::MAX };
     // The first frame opens the run, and finds all its memory cold.
     pace::run(&pace, 1, &mut cycle, &mut Timing::new()).ok()?;
+    // However long that took: of frames that are longer than any measurement one is measured all the same.
+    cycle.end = now() + LONGEST;
     let mut timing = Timing::new();
     // Whatever ends it, what was measured is measured.
     let _ = pace::run(&pace, frames, &mut cycle, &mut timing);
@@ -126,6 +128,22 @@ fn line(points: &[(usize, u64)], value: f64) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Frames that are longer than the measurement.
+    struct Long;
+
+    impl Plant for Long {
+        fn frame(&mut self, _: &[f64], _: &mut [f64]) -> Result<Work, crate::plant::PlantError> {
+            crate::system::sleep_until(now() + LONGEST + 50_000_000);
+            Ok(Work::default())
+        }
+    }
+
+    #[test]
+    fn of_frames_longer_than_the_measurement_one_is_measured() {
+        let probe = probe(&mut Long, &[], 0, 500).unwrap();
+        assert!(probe.frames == 1 && probe.median > LONGEST, "{probe:?}");
+    }
 
     #[test]
     fn a_line_is_continued_to_the_period() {

@@ -86,10 +86,15 @@ impl Region {
         seqlock::read(self.input(), seen, record)
     }
 
-    /// Writes the record of outputs.
-    pub(crate) fn write(&self, stamp: Stamp, values: &[f64]) {
+    /// Frees the record of inputs from a writer that was killed; whether it did.
+    pub(crate) fn free(&self, counter: u64) -> bool {
+        seqlock::free(self.input(), counter)
+    }
+
+    /// Writes the record of outputs; `false` where somebody else does, who should not.
+    pub(crate) fn write(&self, stamp: Stamp, values: &[f64]) -> bool {
         let words = wire::words(self.scenario, stamp, values);
-        seqlock::write(self.output(), std::iter::once(0).chain(words));
+        seqlock::write(self.output(), std::iter::once(0).chain(words))
     }
 }
 

@@ -7,6 +7,8 @@ pub(crate) struct Ring {
     words: Box<[AtomicU64]>,
     /// Words of a record.
     width: usize,
+    /// Records that there is room for.
+    room: usize,
     /// Records pushed and taken since the beginning.
     pushed: AtomicUsize,
     taken: AtomicUsize,
@@ -15,26 +17,34 @@ pub(crate) struct Ring {
 impl Ring {
     /// Room for at least so many records.
     pub(crate) fn new(width: usize, records: usize) -> Self {
-        let words = (0..width * records.max(1)).map(|_| AtomicU64::new(0)).collect();
-        Self { words, width, pushed: AtomicUsize::new(0), taken: AtomicUsize::new(0) }
+        let room = records.max(1);
+        let words = (0..width * room).map(|_| AtomicU64::new(0)).collect();
+        Self { words, width, room, pushed: AtomicUsize::new(0), taken: AtomicUsize::new(0) }
     }
 
-    fn room(&self) -> usize {
-        self.words.len() / self.width.max(1)
+    /// Records that there is room for.
+    pub(crate) fn room(&self) -> usize {
+        self.room
+    }
+
+    /// Whether a push would find no room. For the thread that pushes.
+    #[inline]
+    pub(crate) fn is_full(&self) -> bool {
+        self.pushed.load(Ordering::Relaxed) - self.taken.load(Ordering::Acquire) == self.room
     }
 
     fn place(&self, record: usize) -> &[AtomicU64] {
-        let from = record % self.room() * self.width;
+        let from = record % self.room * self.width;
         &self.words[from..from + self.width]
     }
 
     /// Hands a record over; `false` where there is no room. For one thread.
     #[inline]
     pub(crate) fn push(&self, record: impl Iterator<Item = u64>) -> bool {
-        let pushed = self.pushed.load(Ordering::Relaxed);
-        if pushed - self.taken.load(Ordering::Acquire) == self.room() {
+        if self.is_full() {
             return false;
         }
+        let pushed = self.pushed.load(Ordering::Relaxed);
         self.place(pushed).iter().zip(record).for_each(|(word, value)| word.store(value, Ordering::Relaxed));
         self.pushed.store(pushed + 1, Ordering::Release);
         true

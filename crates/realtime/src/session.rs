@@ -49,6 +49,14 @@ pub struct Wiring {
     pub recording: Option<Tape>,
 }
 
+impl Wiring {
+    /// From now on what is written down waits for room: nothing is due, so that nothing has to be lost.
+    fn wait(&mut self) {
+        self.sinks.iter_mut().for_each(Sink::wait);
+        self.log.iter_mut().chain(&mut self.recording).for_each(Tape::wait);
+    }
+}
+
 /// How a loop is run.
 #[derive(Debug, Clone, Copy)]
 pub struct Order {
@@ -139,7 +147,8 @@ impl Cycle for Idle<'_> {
 }
 
 /// Runs a plant in a thread of its own, while this one writes down what comes; `start` has the outputs at t = 0. Favours are
-/// asked for that thread: locked memory alone stays after it.
+/// asked for that thread: locked memory alone stays after it. Without a pace the loop waits for what is written down, so every
+/// tape's reel must be among these.
 pub fn run<P: Plant + Send>(
     plant: &mut P,
     mut wiring: Wiring,
@@ -148,6 +157,9 @@ pub fn run<P: Plant + Send>(
     reels: &mut [Reel<'_>],
     observer: &dyn Observer,
 ) -> Ended {
+    if order.pace.overrun.is_none() {
+        wiring.wait();
+    }
     let (over, frame) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut film = Film::new(order.frames, wiring.intake.width(), start.len());
     let (mut timing, mut floor) = (Timing::new(), Timing::new());

@@ -23,6 +23,13 @@ pub enum Sink {
 }
 
 impl Sink {
+    /// From now on outputs wait until there is room for them, where they go into a file.
+    pub(crate) fn wait(&mut self) {
+        if let Self::File(tape) = self {
+            tape.wait();
+        }
+    }
+
     /// Sends where the drive stands; whether it went out.
     pub fn send(&mut self, scenario: u64, stamp: Stamp, values: &[f64], owner: Option<Client>) -> bool {
         match self {
@@ -37,10 +44,7 @@ impl Sink {
                 wire::encode(bytes, scenario, stamp, values);
                 socket.send_to(bytes, to).is_ok()
             }
-            Self::Memory(region) => {
-                region.write(stamp, values);
-                true
-            }
+            Self::Memory(region) => region.write(stamp, values),
             Self::File(tape) => {
                 let before = tape.lost();
                 tape.put(wire::words(scenario, stamp, values));

@@ -36,24 +36,39 @@ pub struct MemorySource {
     region: Arc<Region>,
     seen: u64,
     record: Vec<u64>,
+    /// The odd counter that was found last, and how often in a row.
+    busy: (u64, u64),
 }
 
 impl MemorySource {
     /// Reads from here.
     pub fn new(region: Arc<Region>) -> Self {
         let record = vec![0; region.input_words()];
-        Self { region, seen: 0, record }
+        Self { region, seen: 0, record, busy: (0, 0) }
     }
 
     fn poll(&mut self, intake: &mut Intake) {
         match self.region.read(self.seen, &mut self.record) {
             Found::Same => {}
-            Found::Torn => intake.note_torn(),
+            Found::Torn(counter) => {
+                intake.note_torn();
+                self.free(counter, intake.patience());
+            }
             Found::New(counter) => {
                 self.seen = counter;
                 let writer = Client::Writer(self.record[0]);
                 intake.offer_words(writer, self.record[1..].iter().copied());
             }
+        }
+    }
+
+    /// Frees the record where the same client has been writing for longer than one may be silent until another takes over.
+    fn free(&mut self, counter: u64, patience: u64) {
+        let times = if self.busy.0 == counter { self.busy.1 + 1 } else { 1 };
+        self.busy = (counter, times);
+        if times >= patience && counter & 1 == 1 && self.region.free(counter) {
+            // Half written as it is.
+            self.seen = counter.wrapping_add(1);
         }
     }
 }

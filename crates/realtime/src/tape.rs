@@ -25,6 +25,8 @@ pub struct Tape {
     ring: Arc<Ring>,
     /// Records for which there was no room.
     lost: u64,
+    /// Whether a record waits for room.
+    waits: bool,
 }
 
 /// The other end.
@@ -40,13 +42,21 @@ pub struct Reel<'a> {
 pub fn tape<'a>(width: usize, form: Form, to: impl Write + Send + 'a) -> (Tape, Reel<'a>) {
     let ring = Arc::new(Ring::new(width, ROOM / width.max(1)));
     let reel = Reel { ring: Arc::clone(&ring), width, form, to: Box::new(to), failure: None };
-    (Tape { ring, lost: 0 }, reel)
+    (Tape { ring, lost: 0, waits: false }, reel)
 }
 
 impl Tape {
-    /// Puts a record on; counts it where there is no room.
+    /// From now on a record waits until there is room: for a loop that no clock drives, and whose reel is being wound.
+    pub(crate) fn wait(&mut self) {
+        self.waits = true;
+    }
+
+    /// Puts a record on; where there is no room it waits for some, or is counted.
     #[inline]
     pub fn put(&mut self, record: impl Iterator<Item = u64>) {
+        while self.waits && self.ring.is_full() {
+            std::thread::yield_now();
+        }
         if !self.ring.push(record) {
             self.lost += 1;
         }
@@ -59,14 +69,19 @@ impl Tape {
 }
 
 impl Reel<'_> {
-    /// Writes down what there is. After a failure what comes is thrown away: the loop goes on.
-    fn wind(&mut self, record: &mut Vec<u64>) {
+    /// Writes down what there is, but no more than the ring holds: a loop that fills it meanwhile must not keep the others waiting.
+    /// Whether there may be more. After a failure what comes is thrown away: the loop goes on.
+    fn wind(&mut self, record: &mut Vec<u64>) -> bool {
         record.resize(self.width, 0);
-        while self.ring.take(record) {
+        for _ in 0..self.ring.room() {
+            if !self.ring.take(record) {
+                return false;
+            }
             if self.failure.is_none() {
                 self.failure = self.write(record).err();
             }
         }
+        true
     }
 
     fn write(&mut self, record: &[u64]) -> io::Result<()> {
@@ -93,15 +108,52 @@ pub(crate) fn write_down(reels: &mut [Reel<'_>], over: &AtomicBool, look: &dyn F
     loop {
         // Asked first: what was put on before the end is found below.
         let is_over = over.load(Ordering::Acquire);
-        reels.iter_mut().for_each(|reel| reel.wind(&mut record));
+        let more = reels.iter_mut().fold(false, |more, reel| reel.wind(&mut record) || more);
         look();
         if is_over {
             break;
         }
-        std::thread::sleep(LOOK);
+        if !more {
+            std::thread::sleep(LOOK);
+        }
     }
     for reel in reels {
         let flushed = reel.to.flush();
         reel.failure = reel.failure.take().or(flushed.err());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A loop that puts a record on for each that is written, so many times.
+    struct Refilled(Arc<Ring>, u64);
+
+    impl Write for Refilled {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if self.1 > 0 && self.0.push([0].into_iter()) {
+                self.1 -= 1;
+            }
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_turn_of_one_reel_ends_although_the_loop_keeps_filling_it() {
+        let ring = Arc::new(Ring::new(1, 8));
+        let to = Box::new(Refilled(Arc::clone(&ring), 100));
+        let mut reel = Reel { ring: Arc::clone(&ring), width: 1, form: Form::Binary, to, failure: None };
+        assert!(ring.push([0].into_iter()));
+        let (mut record, mut turns) = (Vec::new(), 1);
+        while reel.wind(&mut record) {
+            turns += 1;
+        }
+        // A hundred and one records, eight a turn.
+        assert_eq!((turns, ring.take(&mut record)), (13, false));
     }
 }

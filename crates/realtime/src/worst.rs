@@ -1,9 +1,24 @@
 //! The worst frames of a loop, and what happened in them.
 
-use crate::plant::Work;
+use crate::plant::{Work, counted};
 
 /// How many are kept.
 pub const KEPT: usize = 20;
+
+/// What happened in a frame, by what is counted of it; the first that fits.
+pub const KINDS: [&str; 5] = ["merge", "event", "turning point or growth", "corner or cut step", "plain"];
+
+/// What happened in a frame whose loop has so many steps in a usual one: a merge is what a memory without room forgot, an event what
+/// the event stepper located, a turning point or growth what a memory got or gave up, a corner or cut step what made steps more.
+pub fn kind(work: &Work, usual: u64) -> &'static str {
+    let has = [
+        counted(work, "merges") > 0,
+        counted(work, "events") > 0,
+        counted(work, "knots") > 0,
+        counted(work, "steps") > usual,
+    ];
+    KINDS[has.into_iter().position(|is| is).unwrap_or(KINDS.len() - 1)]
+}
 
 /// A frame that took long.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -55,6 +70,17 @@ impl Worst {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_frame_is_named_by_the_rarest_thing_in_it() {
+        // Steps, rejected, evaluations, events, detours, knots, merges.
+        let plain = [2, 0, 6, 0, 0, 0, 0];
+        assert_eq!(kind(&plain, 2), "plain");
+        assert_eq!(kind(&plain, 1), "corner or cut step");
+        assert_eq!(kind(&[2, 0, 6, 0, 0, 1, 0], 1), "turning point or growth");
+        assert_eq!(kind(&[2, 0, 6, 1, 0, 1, 0], 1), "event");
+        assert_eq!(kind(&[2, 0, 6, 1, 0, 1, 4], 1), "merge");
+    }
 
     #[test]
     fn the_worst_are_kept_and_of_equal_ones_the_earlier() {

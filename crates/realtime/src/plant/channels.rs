@@ -80,6 +80,11 @@ impl Input {
             feed: Feed::Note,
         }
     }
+
+    /// Whether a value is reached straight at the end of the frame; any other is there from its start on.
+    pub fn is_led(&self) -> bool {
+        matches!(self.feed, Feed::Lead(_))
+    }
 }
 
 /// Something of a drive that is told.

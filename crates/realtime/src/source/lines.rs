@@ -3,12 +3,12 @@
 use crate::intake::{Client, Intake};
 use crate::seqlock::{self, Found};
 use crate::wire::{self, Stamp};
-use std::io::BufRead;
+use std::io::{self, BufRead, Read};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
-/// Longest line, bytes: 150 numbers of 25.
+/// Longest line with its end, bytes: 150 numbers of 25.
 const LONGEST: u64 = 4096;
 
 /// The newest of the lines that have come.
@@ -33,20 +33,17 @@ impl Lines {
         let mailbox = Arc::new(Mailbox { words, odd: AtomicU64::new(0) });
         let filled = Arc::clone(&mailbox);
         thread::spawn(move || {
-            let (mut line, mut sequence) = (String::new(), 0);
-            loop {
-                line.clear();
-                match std::io::Read::take(&mut from, LONGEST).read_line(&mut line) {
-                    Ok(0) | Err(_) => return,
-                    Ok(_) => {}
-                }
-                let Some(found) = numbers(&line, values) else {
+            let (mut line, mut sequence) = (Vec::new(), 0);
+            while let Ok(true) = next(&mut from, &mut line) {
+                let Some(found) = std::str::from_utf8(&line).ok().and_then(|line| numbers(line, values))
+                else {
                     filled.odd.fetch_add(1, Ordering::Relaxed);
                     continue;
                 };
                 sequence += 1;
                 let stamp = Stamp { sequence, time: 0.0 };
-                seqlock::write(&filled.words, wire::words(scenario, stamp, &found));
+                // This thread alone writes.
+                let _ = seqlock::write(&filled.words, wire::words(scenario, stamp, &found));
             }
         });
         Self { mailbox, seen: 0, record: vec![0; length], odd: 0 }
@@ -58,13 +55,24 @@ impl Lines {
         self.odd = odd;
         match seqlock::read(&self.mailbox.words, self.seen, &mut self.record) {
             Found::Same => {}
-            Found::Torn => intake.note_torn(),
+            Found::Torn(_) => intake.note_torn(),
             Found::New(counter) => {
                 self.seen = counter;
                 intake.offer_words(Client::Only, self.record.iter().copied());
             }
         }
     }
+}
+
+/// Reads a line; nothing of one that is too long, whose tail must not be taken for another. `false` where there are no more.
+fn next(from: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
+    line.clear();
+    let read = Read::take(&mut *from, LONGEST).read_until(b'\n', line)?;
+    if read as u64 == LONGEST && line.last() != Some(&b'\n') {
+        line.clear();
+        from.skip_until(b'\n')?;
+    }
+    Ok(read > 0)
 }
 
 /// The numbers of a line, with blanks or commas between them, if they are as many as these.
@@ -77,6 +85,27 @@ fn numbers(line: &str, values: usize) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::intake::{Patience, Silence};
+    use crate::plant::Input;
+
+    #[test]
+    fn a_line_that_is_no_text_or_too_long_is_one_odd_line_and_the_next_counts() {
+        let long = [vec![b'x'; LONGEST as usize], b" 7".to_vec()].concat();
+        let lines: [&[u8]; 5] = [b"1", b"\xff", &long, b"\xc3", b"2"];
+        let mut lines = Lines::read(io::Cursor::new(lines.join(&b'\n')), 3, 1);
+        let patience = Patience { silence: Silence::Hold, silent_after: 10, owner: 10 };
+        let mut intake = Intake::new(3, &[Input::note("a")], patience);
+        // Until the thread has read them.
+        for _ in 0..5000 {
+            lines.poll(&mut intake);
+            if intake.values() == [2.0] {
+                break;
+            }
+            thread::sleep(std::time::Duration::from_millis(1));
+        }
+        lines.poll(&mut intake);
+        assert_eq!((intake.values(), intake.received().wrong_length), (&[2.0][..], 3));
+    }
 
     #[test]
     fn a_line_has_one_number_for_each_input() {

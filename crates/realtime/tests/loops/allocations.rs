@@ -1,6 +1,6 @@
 //! The loop allocates nothing: not for a frame, a packet, a line of the log.
 
-use crate::rig::{HELD, LINEAR, PERIOD, Rig, SCENARIO};
+use crate::rig::{FRAMES, HELD, LINEAR, PERIOD, Rig, SCENARIO};
 use std::net::UdpSocket;
 use stickslip_drive::Stepper;
 use stickslip_realtime::intake::Silence;
@@ -45,8 +45,12 @@ impl Cycle for Counted<'_> {
 
 #[test]
 fn the_loop_allocates_nothing() {
-    let steppers = [Stepper::Event { tolerance: 1e-6 }, Stepper::Verlet { step: 1e-6 }];
-    for (input, stepper) in [(LINEAR, steppers[0]), (LINEAR, steppers[1]), (HELD, steppers[0])] {
+    let steppers = [FRAMES, Stepper::Event { tolerance: 1e-6 }, Stepper::Verlet { step: 1e-6 }];
+    for (input, stepper) in steppers
+        .map(|stepper| (LINEAR, stepper))
+        .into_iter()
+        .chain(steppers[..2].iter().map(|stepper| (HELD, *stepper)))
+    {
         let rig = Rig::of("p1", Some(input), stepper);
         let server = socket("127.0.0.1:0".parse().unwrap()).unwrap();
         let to = server.local_addr().unwrap();

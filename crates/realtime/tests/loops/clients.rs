@@ -233,6 +233,17 @@ fn over_shared_memory_the_same_is_refused() {
     };
     let (value, received) = frame(&torn);
     assert_eq!((value, received.torn_frames), (0.3e-6, 1));
+    // After the third frame another one may write; what the killed one left is not read.
+    assert_eq!((frame(&|| {}).1.torn_frames, counter(&path)), (2, 77));
+    assert_eq!((frame(&|| {}).1.torn_frames, counter(&path)), (3, 78));
+    let received = frame(&|| {}).1;
+    assert_eq!((received.torn_frames, received.good), (3, 2));
+    assert_eq!(frame(&|| write(&path, 3, 1, 0.4e-6, SCENARIO)).0, 0.4e-6);
+}
+
+/// The counter of the record of inputs.
+fn counter(path: &Path) -> u64 {
+    u64::from_le_bytes(std::fs::read(path).unwrap()[64..72].try_into().unwrap())
 }
 
 #[test]

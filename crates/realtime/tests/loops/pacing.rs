@@ -1,40 +1,45 @@
 //! A clock changes no bit, and neither does being put down.
 
-use crate::rig::{HELD, Kept, LINEAR, PERIOD, Rig, SCENARIO, order, recording, wiring};
+use crate::rig::{FRAMES, HELD, Kept, LINEAR, PERIOD, Rig, SCENARIO, order, recording, wiring};
 use std::collections::HashMap;
+use std::io::Write;
+use std::time::Duration;
 use stickslip_drive::{State, Stepper};
 use stickslip_realtime::intake::Silence;
 use stickslip_realtime::pace::Stop;
+use stickslip_realtime::plant::Empty;
 use stickslip_realtime::source::{Recording, Source};
 use stickslip_realtime::tape::{Form, tape};
-use stickslip_realtime::{Overrun, wire};
+use stickslip_realtime::{Overrun, Sink, wire};
 use tempfile::tempdir;
 
 const EVENT: Stepper = Stepper::Event { tolerance: 1e-6 };
 const VERLET: Stepper = Stepper::Verlet { step: 1e-6 };
-const FRAMES: usize = 1500;
+const COUNT: usize = 1500;
 
 #[test]
 fn a_clock_changes_no_bit() {
     let folder = tempdir().unwrap();
-    for (drive, stepper) in [(LINEAR, EVENT), (LINEAR, VERLET), (HELD, EVENT)] {
+    for (drive, stepper) in
+        [(LINEAR, FRAMES), (HELD, FRAMES), (LINEAR, EVENT), (LINEAR, VERLET), (HELD, EVENT)]
+    {
         let rig = Rig::of("p1", Some(drive), stepper);
         let traces = [Some(Overrun::Skip), None].map(|overrun| {
-            let source = recording(&rig, FRAMES, folder.path());
+            let source = recording(&rig, COUNT, folder.path());
             let mut drive = rig.drive((rig.start(), 0));
             let wiring = wiring(source, rig.intake(Silence::Hold, 10, 10));
-            let (ended, bytes) = rig.run(&mut drive, wiring, &order(FRAMES as u64, overrun));
+            let (ended, bytes) = rig.run(&mut drive, wiring, &order(COUNT as u64, overrun));
             assert_eq!((ended.outcome, ended.unsent), (Ok(()), 0));
-            assert_eq!(ended.wiring.intake.received().good, FRAMES as u64);
+            assert_eq!(ended.wiring.intake.received().good, COUNT as u64);
             bytes
         });
-        assert_eq!(traces[0].len(), FRAMES * wire::length(rig.width()));
+        assert_eq!(traces[0].len(), COUNT * wire::length(rig.width()));
         assert!(traces[0] == traces[1], "{stepper:?}");
         // The inputs moved it.
         let mut values = vec![0.0; rig.width()];
         let last = &traces[0][traces[0].len() - wire::length(rig.width())..];
         let stamp = wire::decode(last, SCENARIO, &mut values).unwrap();
-        assert_eq!((stamp.sequence, stamp.time), (FRAMES as u64, FRAMES as f64 * PERIOD));
+        assert_eq!((stamp.sequence, stamp.time), (COUNT as u64, COUNT as f64 * PERIOD));
         let x = rig.outputs.iter().position(|output| output.name == "slider.x_m").unwrap();
         assert!(values[x].abs() > 1e-12, "{values:?}");
     }
@@ -42,15 +47,20 @@ fn a_clock_changes_no_bit() {
 
 #[test]
 fn what_was_recorded_is_fed_again_to_the_same_bits() {
+    for stepper in [FRAMES, EVENT] {
+        records_and_feeds_again(&Rig::of("p1", Some(LINEAR), stepper));
+    }
+}
+
+fn records_and_feeds_again(rig: &Rig) {
     let folder = tempdir().unwrap();
-    let rig = Rig::of("p1", Some(LINEAR), EVENT);
     let once = || {
         let kept = Kept::default();
         let (tape, reel) = tape(rig.inputs.len(), Form::Binary, kept.clone());
-        let mut wiring = wiring(recording(&rig, FRAMES, folder.path()), rig.intake(Silence::Hold, 10, 10));
+        let mut wiring = wiring(recording(rig, COUNT, folder.path()), rig.intake(Silence::Hold, 10, 10));
         wiring.recording = Some(tape);
         let mut drive = rig.drive((rig.start(), 0));
-        let order = order(FRAMES as u64, None);
+        let order = order(COUNT as u64, None);
         let mut reels = [reel];
         let start = vec![0.0; rig.width()];
         let ended = stickslip_realtime::session::run(&mut drive, wiring, &start, &order, &mut reels, &());
@@ -71,7 +81,7 @@ fn what_was_recorded_is_fed_again_to_the_same_bits() {
 fn a_recording_that_does_not_fit_is_refused() {
     let folder = tempdir().unwrap();
     let rig = Rig::of("p1", Some(LINEAR), EVENT);
-    recording(&rig, FRAMES, folder.path());
+    recording(&rig, COUNT, folder.path());
     let path = folder.path().join("inputs.rec");
     let other = Recording::read(&path, SCENARIO + 1, PERIOD, &rig.inputs).map(|_| ()).unwrap_err();
     assert!(other.to_string().contains("another scenario"), "{other}");
@@ -87,27 +97,39 @@ fn a_recording_that_does_not_fit_is_refused() {
 /// Half of the frames, the state as bytes, and the other half by this program, started anew.
 #[test]
 fn put_down_in_one_process_and_taken_up_in_another_it_goes_on_to_the_same_bits() {
+    goes_on_elsewhere(
+        EVENT,
+        "pacing::put_down_in_one_process_and_taken_up_in_another_it_goes_on_to_the_same_bits",
+    );
+}
+
+#[test]
+fn put_down_and_taken_up_frames_of_bounded_work_go_on_to_the_same_bits() {
+    goes_on_elsewhere(FRAMES, "pacing::put_down_and_taken_up_frames_of_bounded_work_go_on_to_the_same_bits");
+}
+
+/// With the name of the test that asks, by which it is started anew.
+fn goes_on_elsewhere(stepper: Stepper, name: &str) {
     const FOLDER: &str = "STICKSLIP_REALTIME_PUT_DOWN";
     let key = [7; 32];
-    let half = FRAMES as u64 / 2;
-    let rig = Rig::of("p1", Some(LINEAR), EVENT);
+    let half = COUNT as u64 / 2;
+    let rig = Rig::of("p1", Some(LINEAR), stepper);
     let model = &rig.job.model;
     if let Ok(folder) = std::env::var(FOLDER) {
         let folder = std::path::Path::new(&folder);
         let bytes = std::fs::read(folder.join("state")).unwrap();
         let mut drive = rig.drive((State::from_bytes(model, &key, &bytes).unwrap(), half));
-        let mut values = feed(&recording(&rig, FRAMES, folder), &rig);
+        let mut values = feed(&recording(&rig, COUNT, folder), &rig);
         let told = go(&mut drive, &rig, &values.split_off(half as usize));
         std::fs::write(folder.join("told"), told).unwrap();
         return;
     }
     let folder = tempdir().unwrap();
-    let values = feed(&recording(&rig, FRAMES, folder.path()), &rig);
+    let values = feed(&recording(&rig, COUNT, folder.path()), &rig);
     let mut drive = rig.drive((rig.start(), 0));
     go(&mut drive, &rig, &values[..half as usize]);
     std::fs::write(folder.path().join("state"), drive.state().to_bytes(model, &key)).unwrap();
     let here = go(&mut drive, &rig, &values[half as usize..]);
-    let name = "pacing::put_down_in_one_process_and_taken_up_in_another_it_goes_on_to_the_same_bits";
     let mut other = std::process::Command::new(std::env::current_exe().unwrap());
     let output = other.args(["--exact", name]).env(FOLDER, folder.path()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
@@ -124,7 +146,7 @@ fn feed(source: &Source, rig: &Rig) -> Vec<f64> {
         drawn ^= drawn << 17;
         1e-6 * ((drawn >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
     };
-    (0..FRAMES).map(draw).collect()
+    (0..COUNT).map(draw).collect()
 }
 
 fn go(drive: &mut stickslip_realtime::Drive<'_>, rig: &Rig, values: &[f64]) -> Vec<u8> {
@@ -178,6 +200,42 @@ fn a_loop_that_is_to_stop_at_an_overrun_does() {
     assert_eq!((ended.outcome, ended.timing.overruns), (Err(Stop::Overrun), 1));
     // What was computed was told.
     assert_eq!(bytes.len() as u64, ended.timing.frames() * wire::length(rig.width()) as u64);
+}
+
+/// Nothing is due, so nothing is lost, although the frames are more than a tape holds and come faster than they are written.
+#[test]
+fn without_a_clock_the_loop_waits_for_what_is_written_down() {
+    /// Takes its time at first: the loop could fill any ring meanwhile.
+    struct Slow(u64, Duration);
+
+    impl Write for Slow {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            std::thread::sleep(std::mem::take(&mut self.1));
+            self.0 += bytes.len() as u64;
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    let count = 300_000;
+    let rig = Rig::of("p1", Some(LINEAR), EVENT);
+    let mut slow = [(); 3].map(|()| Slow(0, Duration::from_millis(400)));
+    let [told, logged, recorded] = &mut slow;
+    let (width, start) = (wire::length(rig.width()) / 8, vec![0.0; rig.width()]);
+    let (sink, a) = tape(width, Form::Binary, told);
+    let (log, b) = tape(4, Form::Binary, logged);
+    let (recording, c) = tape(1, Form::Binary, recorded);
+    let mut wiring = wiring(Source::None, rig.intake(Silence::Hold, 10, 10));
+    wiring.sinks.push(Sink::File(sink));
+    (wiring.log, wiring.recording) = (Some(log), Some(recording));
+    let order = order(count, None);
+    let ended = stickslip_realtime::session::run(&mut Empty, wiring, &start, &order, &mut [a, b, c], &());
+    let lost = [ended.wiring.log, ended.wiring.recording].map(|tape| tape.unwrap().lost());
+    assert_eq!((ended.timing.frames(), ended.unsent, lost), (count, 0, [0, 0]));
+    assert_eq!(slow.map(|slow| slow.0), [8 * count * width as u64, 32 * count, 8 * count]);
 }
 
 /// Says once that it was enough.

@@ -17,6 +17,9 @@ pub(crate) const SCENARIO: u64 = 0x5ca1_ab1e;
 /// Length of a frame, s.
 pub(crate) const PERIOD: f64 = 200e-6;
 
+/// What a loop steps by unless another stepper is asked for.
+pub(crate) const FRAMES: Stepper = Stepper::Frames { length: PERIOD, accuracy: 1e-3 };
+
 /// A foot that is fed from outside, straight from value to value, under a slider.
 pub(crate) const LINEAR: &str =
     r#"{"input": {"initial": 0, "range": ["-1 um", "1 um"], "interpolation": "linear"}}"#;
