@@ -17,10 +17,11 @@ use crate::error::BenchError;
 use crate::norm;
 use crate::problem::ProblemError;
 use accuracy::{Off, Rung};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
-use stickslip_drive::{Interpolation, Plan, Stepper};
+use stickslip_drive::{Plan, Stepper};
 use stickslip_realtime::pace::Stop;
-use stickslip_realtime::plant::{Input, Output, inputs, outputs};
+use stickslip_realtime::plant::{ChannelError, Input, Output, inputs, outputs};
 use stickslip_realtime::system::Favours;
 use stickslip_realtime::{Drive, Timing};
 use stickslip_results::folder::Folder;
@@ -69,7 +70,7 @@ pub struct FramesRequest {
 struct FramesScene<'a> {
     job: &'a Job,
     inputs: Vec<Input>,
-    /// Whether each input is held, and not led.
+    /// Whether each value is held, and not led: those that command a generator are.
     held: Vec<bool>,
     outputs: Vec<Output>,
 }
@@ -115,6 +116,10 @@ pub fn turns(request: &FramesRequest) -> f64 {
 /// A scene in which nothing is free, a run that stops itself, a file that cannot be written, or the watcher's wish.
 pub fn measure(jobs: &[Job], request: &FramesRequest, watcher: &dyn Watcher) -> Result<(), BenchError> {
     let scenes = jobs.iter().map(FramesScene::new).collect::<Result<Vec<_>, _>>()?;
+    // Nothing else stops what computes nothing.
+    let empty = |period: f64, asked: (u64, bool)| {
+        turn::empty(period, asked, watcher).map_err(|_| BenchError::Interrupted("the empty loop".to_owned()))
+    };
     // What the system does not grant shows in the times of the empty loop.
     let _ = Favours::default().ask();
     let paced = |period: f64| ((request.paced / period).round() as u64, true);
@@ -123,8 +128,12 @@ pub fn measure(jobs: &[Job], request: &FramesRequest, watcher: &dyn Watcher) -> 
         scenes,
         loops: Vec::new(),
         ladders: Vec::new(),
-        empty: turn::empty(1.0, (request.frames, false)),
-        floors: request.periods.iter().map(|period| turn::empty(*period, paced(*period))).collect(),
+        empty: empty(1.0, (request.frames, false))?,
+        floors: request
+            .periods
+            .iter()
+            .map(|period| empty(*period, paced(*period)))
+            .collect::<Result<_, _>>()?,
     };
     let mut done = 0.0;
     let mut tick = || {
@@ -133,11 +142,7 @@ pub fn measure(jobs: &[Job], request: &FramesRequest, watcher: &dyn Watcher) -> 
     };
     for place in 0..findings.scenes.len() {
         let scene = &findings.scenes[place];
-        let wrong = |why: String| BenchError::Stopped { name: scene.job.name.clone(), why };
-        if !watcher.goes_on() {
-            return Err(BenchError::Interrupted(scene.job.name.clone()));
-        }
-        let ladder = accuracy::ladder(scene, steppers).map_err(wrong)?;
+        let ladder = accuracy::ladder(scene, steppers, watcher)?;
         tick();
         let mut loops = Vec::new();
         for (period, length) in request.periods.iter().enumerate() {
@@ -158,30 +163,31 @@ fn steppers(length: f64) -> [Stepper; 2] {
     [Stepper::Frames { length, accuracy: LOSS }, Stepper::Event { tolerance: TOLERANCE }]
 }
 
+/// A scene that says why it does not go on.
+fn stopped(job: &Job, error: &dyn Display) -> BenchError {
+    BenchError::Stopped { name: job.name.clone(), why: error.to_string() }
+}
+
 impl<'a> FramesScene<'a> {
     fn new(job: &'a Job) -> Result<Self, BenchError> {
-        let wrong = |why: String| BenchError::Stopped { name: job.name.clone(), why };
+        let wrong = |error: ChannelError| stopped(job, &error);
         let coordinates = norm::coordinates(&job.scenario.scene);
         if coordinates.is_empty() {
             return Err(ProblemError::NothingFree(job.name.clone()).into());
         }
-        let inputs = inputs(&job.scenario.scene).map_err(|error| wrong(error.to_string()))?;
-        let waveforms = job.scenario.scene.waveforms.iter();
-        let held = waveforms
-            .filter_map(|waveform| waveform.part.interpolation())
-            .map(|interpolation| interpolation == Interpolation::Held);
+        let inputs = inputs(&job.scenario.scene).map_err(wrong)?;
+        let held = inputs.iter().map(|input| !input.is_led()).collect();
         let channels: Vec<String> = coordinates.into_iter().map(|coordinate| coordinate.channel).collect();
-        let outputs = outputs(&job.model, Some(&channels)).map_err(|error| wrong(error.to_string()))?;
-        Ok(Self { job, inputs, held: held.collect(), outputs })
+        let outputs = outputs(&job.model, Some(&channels)).map_err(wrong)?;
+        Ok(Self { job, inputs, held, outputs })
     }
 
     /// The drive at its start.
     fn drive(&self, stepper: Stepper, length: f64) -> Result<Drive<'_>, BenchError> {
-        let wrong = |why: String| BenchError::Stopped { name: self.job.name.clone(), why };
         let plan = Plan { stepper, ..self.job.scenario.plan };
-        let start = self.job.model.start(&plan).map_err(|error| wrong(error.to_string()))?;
+        let start = self.job.model.start(&plan).map_err(|error| stopped(self.job, &error))?;
         Drive::new(&self.job.model, &plan, (start, 0), length, (&self.inputs, &self.outputs))
-            .map_err(|error| wrong(error.to_string()))
+            .map_err(|error| stopped(self.job, &error))
     }
 
     /// Frames of a length by a stepper, unpaced and paced, and their error.
@@ -192,18 +198,16 @@ impl<'a> FramesScene<'a> {
         (frames, paced): (u64, (u64, bool)),
         watcher: &dyn Watcher,
     ) -> Result<Loop, BenchError> {
-        let name = || self.job.name.clone();
-        let stopped = |stop: Stop| match stop {
-            Stop::Plant(error) => BenchError::Stopped { name: name(), why: error.to_string() },
-            _ => BenchError::Interrupted(name()),
+        let ended = |stop: Stop| match stop {
+            Stop::Plant(error) => stopped(self.job, &error),
+            _ => BenchError::Interrupted(self.job.name.clone()),
         };
         let chosen = steppers(length)[stepper];
         let channels = (&self.inputs[..], &self.outputs[..]);
         let compared = (length, frames.min(COMPARED));
-        let off =
-            accuracy::of(self, chosen, compared).map_err(|why| BenchError::Stopped { name: name(), why })?;
+        let off = accuracy::of(self, chosen, compared, watcher)?;
         let turn = |asked| {
-            turn::frames(self.drive(chosen, length)?, channels, length, asked, watcher).map_err(stopped)
+            turn::frames(self.drive(chosen, length)?, channels, length, asked, watcher).map_err(ended)
         };
         let (timing, works) = turn((frames, false))?;
         let paced = if paced.0 == 0 { None } else { Some(turn(paced)?.0) };
@@ -249,5 +253,48 @@ impl Findings<'_> {
     /// The file of a scene.
     fn file(&self, scene: usize) -> &Path {
         &self.request.files[scene]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Somebody who has had enough after so many looks.
+    pub(super) struct After(std::cell::Cell<u64>);
+
+    impl Watcher for After {
+        fn reached(&self, _: f64) {}
+
+        fn goes_on(&self) -> bool {
+            let left = self.0.get();
+            self.0.set(left.saturating_sub(1));
+            left > 0
+        }
+    }
+
+    fn job(file: &str, set: &[(&str, &str)]) -> Job {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+        let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+        Job::prepare(&file, &set, Path::new("")).unwrap()
+    }
+
+    #[test]
+    fn each_value_of_a_generator_is_held_and_an_input_beside_it_as_it_says() {
+        let linear = r#"{"input": {"initial": 0, "range": [-1, 1], "interpolation": "linear"}}"#;
+        let job = job("docs/realtime/stage.json", &[("waveforms.a", linear)]);
+        let scene = FramesScene::new(&job).unwrap();
+        let held: Vec<_> =
+            scene.inputs.iter().zip(&scene.held).map(|(input, held)| (input.name.as_str(), *held)).collect();
+        assert_eq!((held.len(), scene.held.len()), (5, 5));
+        assert!(held.iter().all(|(name, held)| *held == (*name != "a")), "{held:?}");
+    }
+
+    #[test]
+    fn errors_over_lengths_hear_the_watcher() {
+        let job = job("scenarios/p1.json", &[("run.cycles", "2")]);
+        let scene = FramesScene::new(&job).unwrap();
+        let found = accuracy::ladder(&scene, steppers, &After(1000.into())).map(|_| ());
+        assert!(matches!(found, Err(BenchError::Interrupted(name)) if name == "p1"));
     }
 }

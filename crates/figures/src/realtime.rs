@@ -7,17 +7,14 @@ use stickslip_drive::scene::{Coordinate, Freedom};
 use stickslip_plot::{
     Figure, MarkedTimes, TimelinePanel, TimesCurve, TimesPanel, timeline_figure, times_figure,
 };
-use stickslip_realtime::plant::{WORK, Work};
 use stickslip_realtime::session::Ended;
-use stickslip_realtime::worst::Worst;
-use stickslip_realtime::{Histogram, Report};
+use stickslip_realtime::worst::{KINDS, kind};
+use stickslip_realtime::{Histogram, Report, Timing};
 use stickslip_results::Job;
 use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 
 /// Names of the pictures.
 pub const NAMES: [&str; 2] = ["realtime", "timeline"];
-/// Bins of a decade.
-const BINS: u32 = 10;
 /// Most panels of a timeline, times apart.
 const MOST: usize = 6;
 /// Units by the ends of names, the longer first.
@@ -71,15 +68,10 @@ fn times_panels<'a>(report: &Report, ended: &Ended) -> Vec<TimesPanel<'a>> {
         }
         TimesPanel { heading: String::new(), what, curves, marked }
     };
-    let mut panels = vec![panel(
-        "execution time",
-        [&timing.execution, &floor.execution],
-        marked(&timing.slowest, |slow| slow.execution),
-    )];
+    let mut panels = vec![panel("execution time", [&timing.execution, &floor.execution], slowest(timing))];
     if report.paced {
-        let marked = marked(&timing.latest, |slow| slow.latency);
         // What a drive did in a frame has nothing to do with when its loop woke.
-        let times = marked.into_iter().flat_map(|marked| marked.times).collect();
+        let times = timing.latest.frames().iter().map(|slow| 1e-9 * slow.latency as f64).collect();
         let marked = vec![MarkedTimes { name: "latest frames", times, on: 0 }];
         panels.push(panel("wake-up latency", [&timing.latency, &floor.latency], marked));
     }
@@ -87,25 +79,17 @@ fn times_panels<'a>(report: &Report, ended: &Ended) -> Vec<TimesPanel<'a>> {
 }
 
 fn curve<'a>(name: &'a str, is_beside: bool, histogram: &Histogram) -> TimesCurve<'a> {
-    let bins = histogram.decades(BINS).into_iter().map(|(low, high, count)| (1e-9 * low, 1e-9 * high, count));
-    TimesCurve { name, is_beside, bins: bins.collect() }
+    TimesCurve { name, is_beside, bins: histogram.tenths() }
 }
 
-/// The worst frames by what happened in them: the last thing counted that did.
-fn marked<'a>(worst: &Worst, time: fn(&stickslip_realtime::worst::Slow) -> u64) -> Vec<MarkedTimes<'a>> {
-    const KINDS: [&str; 4] =
-        ["slowest: detours", "slowest: rejected steps", "slowest: events", "slowest: plain steps"];
-    let kind = |work: &Work| {
-        let has =
-            |name: &str| WORK.iter().position(|known| *known == name).is_some_and(|place| work[place] > 0);
-        ["detours", "rejected", "events"].iter().position(|name| has(name)).unwrap_or(KINDS.len() - 1)
+/// The worst frames by what happened in them.
+fn slowest(timing: &Timing) -> Vec<MarkedTimes<'static>> {
+    let usual = timing.usual();
+    let of = |name: &'static str| {
+        let frames = timing.slowest.frames().iter().filter(|slow| kind(&slow.work, usual) == name);
+        MarkedTimes { name, times: frames.map(|slow| 1e-9 * slow.execution as f64).collect(), on: 0 }
     };
-    let of = |place: usize| {
-        let frames = worst.frames().iter().filter(|slow| kind(&slow.work) == place);
-        let times = frames.map(|slow| 1e-9 * time(slow) as f64).collect();
-        MarkedTimes { name: KINDS[place], times, on: 0 }
-    };
-    (0..KINDS.len()).map(of).filter(|marked| !marked.times.is_empty()).collect()
+    KINDS.into_iter().map(of).filter(|marked| !marked.times.is_empty()).collect()
 }
 
 /// A quantity, and the names and values of its channels.
@@ -172,5 +156,37 @@ fn named(quantity: &str) -> (&str, &'static str) {
         Some((name, unit)) => (name, unit),
         None if quantity == "frequency" => ("frequency", "Hz"),
         None => (quantity, ""),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slowest;
+    use stickslip_realtime::pace::{self, Cycle, Pace, Stop, Timing};
+    use stickslip_realtime::plant::Work;
+
+    /// Frames of one step, of which some have two, a turning point, or a merge.
+    struct Frames;
+
+    impl Cycle for Frames {
+        fn act(&mut self, frame: u64) -> Result<Work, Stop> {
+            // Steps, rejected, evaluations, events, detours, knots, merges.
+            Ok(match frame {
+                3 => [2, 0, 6, 0, 0, 0, 0],
+                5 | 6 => [1, 0, 3, 0, 0, 2, 0],
+                9 => [1, 0, 3, 0, 0, 2, 1],
+                _ => [1, 0, 3, 0, 0, 0, 0],
+            })
+        }
+    }
+
+    #[test]
+    fn worst_frames_of_a_stepper_without_events_are_told_apart() {
+        let (pace, mut timing) = (Pace { period: 1.0, overrun: None, spin: 0.0 }, Timing::new());
+        pace::run(&pace, 12, &mut Frames, &mut timing).unwrap();
+        let marked = slowest(&timing);
+        let told: Vec<_> = marked.iter().map(|marked| (marked.name, marked.times.len())).collect();
+        let known = [("merge", 1), ("turning point or growth", 2), ("corner or cut step", 1), ("plain", 8)];
+        assert_eq!(told, known);
     }
 }

@@ -3,7 +3,8 @@
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Reference, Series};
-use crate::theme::{Dash, Ink, Style};
+use crate::theme::{Dash, Ink, Style, Theme};
+use std::cmp::Ordering;
 
 /// How often times occurred.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,8 +61,11 @@ const NONE: f64 = 0.5;
 pub fn times_figure<'a>(title: &str, period: f64, panels: &[TimesPanel<'a>]) -> Figure<'a> {
     let panel = |times: &TimesPanel<'a>| {
         let curves = times.curves.iter().enumerate().map(|(place, curve)| steps(curve, place));
-        let marked =
-            times.marked.iter().enumerate().map(|(place, marked)| points(marked, place + 1, &times.curves));
+        let marked = times
+            .marked
+            .iter()
+            .enumerate()
+            .map(|(place, marked)| points(marked, mark(place + 1), &times.curves));
         Panel {
             x: Axis { logarithmic: true, ..Axis::new(Label::plain(times.what), "s") },
             y: Axis { logarithmic: true, ..Axis::new(Label::plain("frames in a tenth of a decade"), "") },
@@ -100,7 +104,7 @@ pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) ->
         let column = panels.iter().skip(place % columns).step_by(columns);
         let counts = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.bins);
         let highest = counts.map(|(.., count)| *count).max().unwrap_or(1).max(1) as f64;
-        let colour = |name: &str| most + kinds.iter().position(|kind| *kind == name).unwrap_or(0);
+        let colour = |name: &str| mark(most + kinds.iter().position(|kind| *kind == name).unwrap_or(0));
         let marked = times.marked.iter().map(|marked| points(marked, colour(marked.name), &times.curves));
         // The first panel names all kinds: one legend then serves all panels. What is not above 0 has no place on such axes.
         let named = if place == 0 { &kinds[..] } else { &[] };
@@ -167,8 +171,17 @@ fn steps<'a>(curve: &TimesCurve<'a>, place: usize) -> Series<'a> {
     Series { style, ..Series::new(curve.name, xs, ys) }
 }
 
+/// The colour of marks at a place behind the curves: where the palette ends it would begin anew with a curve's.
+fn mark(place: usize) -> Ink {
+    match place.cmp(&Theme::light().palette.len()) {
+        Ordering::Less => Ink::Palette(place),
+        Ordering::Equal => Ink::Foreground,
+        Ordering::Greater => Ink::Pale(place),
+    }
+}
+
 /// Marks on the outline that they belong to; equal ones lie on each other.
-fn points<'a>(marked: &MarkedTimes<'a>, colour: usize, curves: &[TimesCurve<'a>]) -> Series<'a> {
+fn points<'a>(marked: &MarkedTimes<'a>, colour: Ink, curves: &[TimesCurve<'a>]) -> Series<'a> {
     let height = |time: f64| {
         let bins = curves.get(marked.on).map(|curve| &curve.bins[..]).unwrap_or_default();
         let bin = bins.iter().find(|(low, high, _)| (*low..*high).contains(&time));
@@ -177,7 +190,7 @@ fn points<'a>(marked: &MarkedTimes<'a>, colour: usize, curves: &[TimesCurve<'a>]
     // A gap after each: points that no line joins.
     let xs: Vec<f64> = marked.times.iter().flat_map(|time| [*time, f64::NAN]).collect();
     let ys: Vec<f64> = marked.times.iter().flat_map(|time| [height(*time), f64::NAN]).collect();
-    let style = Style { ink: Some(Ink::Palette(colour)), dash: Some(Dash::Solid), width: 2.0 };
+    let style = Style { ink: Some(colour), dash: Some(Dash::Solid), width: 2.0 };
     Series { style, marked: true, ..Series::new(marked.name, xs, ys) }
 }
 
@@ -214,7 +227,7 @@ mod tests {
         assert_eq!(series.xs[..], [1e-6, 1e-6, 2e-6, 2e-6, 3e-6, 3e-6, 4e-6, 4e-6]);
         assert_eq!(series.ys[..], [0.5, 5.0, 5.0, 0.5, 0.5, 1.0, 1.0, 0.5]);
         let marked = MarkedTimes { name: "events", times: vec![1.5e-6, 9.0], on: 0 };
-        let marks = points(&marked, 1, &[curve]);
+        let marks = points(&marked, mark(1), &[curve]);
         assert_eq!((marks.ys[0], marks.ys[2], marks.is_scattered()), (5.0, 1.0, true));
     }
 
@@ -235,6 +248,20 @@ mod tests {
         // Two curves, a mark, and names of both kinds.
         assert_eq!((figure.panels[0].series.len(), figure.panels[1].series.len()), (5, 3));
         assert!(crate::draw_png(&figure).is_ok());
+    }
+
+    #[test]
+    fn no_mark_has_the_colour_of_a_curve_or_of_another_mark() {
+        let curve = || TimesCurve { name: "loop", is_beside: false, bins: vec![(1e-6, 2e-6, 5)] };
+        let names = ["latest", "plain", "corner", "growth", "event", "merge"];
+        let marked = names.map(|name| MarkedTimes { name, times: vec![1.5e-6], on: 0 }).to_vec();
+        let panel = TimesPanel { heading: String::new(), what: "", curves: vec![curve(), curve()], marked };
+        let figure = times_grid("", 1, &[panel]);
+        let theme = Theme::light();
+        // Two curves, six marks, and their keys.
+        let inks = figure.panels[0].series[..8].iter().map(|series| theme.colour(series.style.ink.unwrap()));
+        let inks: Vec<_> = inks.collect();
+        assert!(inks.iter().enumerate().all(|(place, ink)| !inks[..place].contains(ink)), "{inks:?}");
     }
 
     #[test]

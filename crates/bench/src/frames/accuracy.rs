@@ -1,13 +1,13 @@
 //! How far frames are from the whole run.
 
-use super::FramesScene;
-use super::turn;
 use super::walk::Walk;
+use super::{FramesScene, stopped, turn};
+use crate::error::BenchError;
 use crate::norm::{self, Norm};
 use crate::samples::Samples;
-use stickslip_drive::{Plan, Stepper};
-use stickslip_realtime::plant::{Output, outputs};
-use stickslip_realtime::{Drive, Plant};
+use stickslip_drive::Stepper;
+use stickslip_realtime::Plant;
+use stickslip_results::Watcher;
 
 /// Lengths of frames, s: each divides the longest.
 pub(super) const LENGTHS: [f64; 10] = [1e-6, 2e-6, 5e-6, 10e-6, 20e-6, 50e-6, 100e-6, 200e-6, 500e-6, 1e-3];
@@ -53,16 +53,11 @@ fn places(
     stepper: Stepper,
     (length, frames, stride): (f64, u64, u64),
     feeding: Feeding,
-) -> Result<Samples, String> {
-    let coordinates: Vec<String> =
-        norm::coordinates(&scene.job.scenario.scene).into_iter().map(|c| c.channel).collect();
-    let told: Vec<Output> =
-        outputs(&scene.job.model, Some(&coordinates)).map_err(|error| error.to_string())?;
-    let plan = Plan { stepper, ..scene.job.scenario.plan };
-    let start = scene.job.model.start(&plan).map_err(|error| error.to_string())?;
-    let mut drive = Drive::new(&scene.job.model, &plan, (start, 0), length, (&scene.inputs, &told))
-        .map_err(|error| error.to_string())?;
-    let (mut samples, mut values) = (Samples::new(told.len()), vec![0.0; told.len()]);
+    watcher: &dyn Watcher,
+) -> Result<Samples, BenchError> {
+    let mut drive = scene.drive(stepper, length)?;
+    let channels = scene.outputs.len();
+    let (mut samples, mut values) = (Samples::new(channels), vec![0.0; channels]);
     let mut walk = match feeding {
         Feeding::EachFrame => turn::walk(&scene.inputs),
         Feeding::Straight => Walk::new(&scene.inputs, SHARE),
@@ -70,6 +65,9 @@ fn places(
     let cell = (LONGEST / length).round() as u64;
     let (mut from, mut now) = (walk.values().to_vec(), walk.values().to_vec());
     for frame in 0..frames {
+        if !watcher.goes_on() {
+            return Err(BenchError::Interrupted(scene.job.name.clone()));
+        }
         match feeding {
             Feeding::EachFrame => now.copy_from_slice(walk.values()),
             Feeding::Straight => {
@@ -86,7 +84,7 @@ fn places(
                 }
             }
         }
-        drive.frame(&now, &mut values).map_err(|error| error.to_string())?;
+        drive.frame(&now, &mut values).map_err(|error| stopped(scene.job, &error))?;
         if let Feeding::EachFrame = feeding {
             walk.step();
         }
@@ -113,16 +111,17 @@ fn apart(scene: &FramesScene<'_>, samples: &Samples, exact: &Samples) -> Off {
 /// Errors of a stepper in frames of a length whose inputs change each frame, over the scenario's time but at most so many frames.
 ///
 /// # Errors
-/// What a run says.
+/// What a run says, or the watcher's wish.
 pub(super) fn of(
     scene: &FramesScene<'_>,
     stepper: Stepper,
     (length, most): (f64, u64),
-) -> Result<Off, String> {
+    watcher: &dyn Watcher,
+) -> Result<Off, BenchError> {
     let frames = ((scene.job.scenario.plan.duration / length).round() as u64).clamp(1, most);
     let grid = (length, frames, frames.div_ceil(200));
-    let exact = whole(scene, grid, Feeding::EachFrame)?;
-    Ok(apart(scene, &places(scene, stepper, grid, Feeding::EachFrame)?, &exact))
+    let exact = whole(scene, grid, Feeding::EachFrame, watcher)?;
+    Ok(apart(scene, &places(scene, stepper, grid, Feeding::EachFrame, watcher)?, &exact))
 }
 
 /// The run that frames are held against: where nothing is fed it is not cut into any.
@@ -130,7 +129,8 @@ fn whole(
     scene: &FramesScene<'_>,
     (length, frames, stride): (f64, u64, u64),
     feeding: Feeding,
-) -> Result<Samples, String> {
+    watcher: &dyn Watcher,
+) -> Result<Samples, BenchError> {
     let stepper = Stepper::Event { tolerance: EXACT };
     let grid = match (scene.inputs.is_empty(), feeding) {
         (true, _) => (length * stride as f64, frames / stride, 1),
@@ -138,25 +138,27 @@ fn whole(
         // Inputs go straight for a millisecond: so do the frames.
         (false, Feeding::Straight) => (LONGEST, frames / stride, 1),
     };
-    places(scene, stepper, grid, feeding)
+    places(scene, stepper, grid, feeding, watcher)
 }
 
 /// Errors of both steppers over lengths of frames.
 ///
 /// # Errors
-/// What a run says.
+/// What a run says, or the watcher's wish.
 pub(super) fn ladder(
     scene: &FramesScene<'_>,
     steppers: impl Fn(f64) -> [Stepper; 2],
-) -> Result<Vec<Rung>, String> {
+    watcher: &dyn Watcher,
+) -> Result<Vec<Rung>, BenchError> {
     let moments = ((scene.job.scenario.plan.duration.min(0.1) / LONGEST).round() as u64).max(1);
-    let exact = whole(scene, (LONGEST, moments, 1), Feeding::Straight)?;
+    let exact = whole(scene, (LONGEST, moments, 1), Feeding::Straight, watcher)?;
     let rung = |length: f64| {
         let stride = (LONGEST / length).round() as u64;
         let [frames, event] = steppers(length);
         let off = |stepper| {
             let grid = (length, moments * stride, stride);
-            Ok::<Off, String>(apart(scene, &places(scene, stepper, grid, Feeding::Straight)?, &exact))
+            let found = places(scene, stepper, grid, Feeding::Straight, watcher)?;
+            Ok::<Off, BenchError>(apart(scene, &found, &exact))
         };
         let steps = match frames {
             Stepper::Frames { length, accuracy } => scene.job.model.substeps(length, accuracy),

@@ -2,14 +2,13 @@
 
 use super::picture::micro;
 use super::sheet::{orders, quantiles};
-use super::turn::counted;
 use super::{ACCURACY, Findings, HISTOGRAMS, Loop, PICTURE, STEPPERS, TABLE, WORST};
 use crate::machine;
 use crate::page::{grouped, parent, shown};
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
-use stickslip_realtime::plant::Work;
+use stickslip_realtime::plant::{Work, counted};
 use stickslip_realtime::{Histogram, Timing};
 use stickslip_results::folder;
 use stickslip_results::markdown::{link, plain, relative, word};

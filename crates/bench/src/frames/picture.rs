@@ -1,36 +1,16 @@
 //! How long frames took, as a picture: a row for each scene, a panel for each stepper and, where a clock paced them, for waking.
 
-use super::turn::counted;
 use super::{Findings, Loop, PICTURE, STEPPERS};
 use stickslip_plot::{
     Figure, MarkedTimes, PlotError, Theme, TimesCurve, TimesPanel, draw_png, draw_svg, times_grid,
 };
-use stickslip_realtime::plant::Work;
-use stickslip_realtime::worst::Slow;
+use stickslip_realtime::worst::{KINDS, Slow, kind};
 use stickslip_realtime::{Histogram, Timing};
 use stickslip_results::program::this_program;
 use stickslip_results::provenance;
 
-/// Bins of a decade.
-const BINS: u32 = 10;
 /// How many of the slowest frames of a loop are marked.
 const MARKED: usize = 10;
-/// What happened in a frame, by what is counted of it; the first that fits.
-pub(super) const KINDS: [&str; 5] =
-    ["merge", "event", "turning point or growth", "corner or cut step", "plain"];
-
-/// What happened in a frame whose loop has so many steps in a usual one: an event is what the event stepper located, a turning
-/// point or growth what a memory got or gave up, a corner or cut step what made steps more.
-pub(super) fn kind(work: &Work, usual: u64) -> &'static str {
-    let has = [
-        counted(work, "merges") > 0,
-        counted(work, "events") > 0,
-        counted(work, "knots") > 0,
-        counted(work, "steps") > usual,
-    ];
-    KINDS[has.into_iter().position(|is| is).unwrap_or(KINDS.len() - 1)]
-}
-
 /// Draws it light, dark and as SVG.
 pub(super) fn draw(findings: &Findings<'_>) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
     let names: Vec<String> =
@@ -72,7 +52,7 @@ fn execution<'a>(
     curves.push(curve("empty loop", true, &findings.empty.execution));
     let mut marked = Vec::new();
     for (on, of) in loops.iter().enumerate() {
-        let usual = counted(&of.works.at(0.5).1, "steps");
+        let usual = of.timing.usual();
         let slowest = &of.timing.slowest.frames()[..of.timing.slowest.frames().len().min(MARKED)];
         for name in KINDS {
             let times: Vec<f64> = slowest
@@ -114,27 +94,10 @@ fn latency<'a>(findings: &'a Findings<'_>, scene: usize, names: &'a [String]) ->
 }
 
 fn curve<'a>(name: &'a str, is_beside: bool, histogram: &Histogram) -> TimesCurve<'a> {
-    let bins = histogram.decades(BINS).into_iter().map(|(low, high, count)| (1e-9 * low, 1e-9 * high, count));
-    TimesCurve { name, is_beside, bins: bins.collect() }
+    TimesCurve { name, is_beside, bins: histogram.tenths() }
 }
 
 /// A time in µs, as short as it can be said.
 pub(super) fn micro(seconds: f64) -> f64 {
     (1e9 * seconds).round() / 1e3
-}
-
-#[cfg(test)]
-mod tests {
-    use super::kind;
-
-    #[test]
-    fn a_frame_is_named_by_the_rarest_thing_in_it() {
-        // Steps, rejected, evaluations, events, detours, knots, merges.
-        let plain = [2, 0, 6, 0, 0, 0, 0];
-        assert_eq!(kind(&plain, 2), "plain");
-        assert_eq!(kind(&plain, 1), "corner or cut step");
-        assert_eq!(kind(&[2, 0, 6, 0, 0, 1, 0], 1), "turning point or growth");
-        assert_eq!(kind(&[2, 0, 6, 1, 0, 1, 0], 1), "event");
-        assert_eq!(kind(&[2, 0, 6, 1, 0, 1, 4], 1), "merge");
-    }
 }

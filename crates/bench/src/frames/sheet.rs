@@ -1,10 +1,10 @@
 //! Tables of frames.
 
 use super::accuracy::{Rung, order};
-use super::turn::counted;
 use super::{Findings, STEPPERS};
 use std::fmt::Write;
-use stickslip_realtime::plant::WORK;
+use stickslip_realtime::plant::{WORK, counted};
+use stickslip_realtime::worst::kind;
 use stickslip_realtime::{Histogram, Timing};
 
 /// What of the work of a frame stands in the table of loops.
@@ -77,7 +77,7 @@ pub(super) fn worst(findings: &Findings<'_>) -> String {
     let mut text =
         format!("scene,period_s,stepper,worst_by,frame,latency_us,execution_us,kind,{}\n", WORK.join(","));
     for of in &findings.loops {
-        let usual = counted(&of.works.at(0.5).1, "steps");
+        let usual = of.timing.usual();
         let slowest = of.timing.slowest.frames().iter().map(|slow| ("execution", slow));
         let latest = of.paced.iter().flat_map(|paced| paced.latest.frames());
         for (by, slow) in slowest.chain(latest.map(|slow| ("latency", slow))) {
@@ -91,7 +91,7 @@ pub(super) fn worst(findings: &Findings<'_>) -> String {
                 slow.frame,
                 slow.latency as f64 / 1e3,
                 slow.execution as f64 / 1e3,
-                super::picture::kind(&slow.work, usual),
+                kind(&slow.work, usual),
             );
         }
     }

@@ -2,7 +2,7 @@
 
 use super::walk::Walk;
 use stickslip_realtime::pace::{self, Cycle, Stop};
-use stickslip_realtime::plant::{Empty, Input, Output, WORK, Work};
+use stickslip_realtime::plant::{Empty, Input, Output, Work, counted};
 use stickslip_realtime::worst::Slow;
 use stickslip_realtime::{Drive, Overrun, Pace, Plant, Timing};
 use stickslip_results::Watcher;
@@ -11,9 +11,6 @@ use stickslip_results::Watcher;
 const SHARE: f64 = 0.02;
 /// Works that are told apart; a frame that comes to more counts with the last of them.
 const MOST_WORK: usize = 8192;
-/// Frames between two looks at the watcher.
-const LOOK: u64 = 4096;
-
 /// Frames by their work: evaluations, and twice the turning points made or given up, each at about its price.
 #[derive(Debug, Clone)]
 pub(super) struct Works {
@@ -51,11 +48,6 @@ impl Works {
     }
 }
 
-/// What was counted under a name in a frame.
-pub(super) fn counted(work: &Work, name: &str) -> u64 {
-    WORK.iter().position(|known| *known == name).map_or(0, |place| work[place])
-}
-
 /// Work as one number.
 fn price(work: &Work) -> u64 {
     counted(work, "evaluations") + 2 * counted(work, "knots")
@@ -83,18 +75,26 @@ impl Cycle for Fed<'_, '_> {
     fn timed(&mut self, slow: &Slow, _: u64) {
         self.works.count(slow.frame, &slow.work);
         self.walk.step();
-        if slow.frame.is_multiple_of(LOOK) {
-            self.goes_on = self.watcher.goes_on();
-        }
+        self.goes_on = self.watcher.goes_on();
     }
 }
 
 /// The loop without a drive.
-struct Idle;
+struct Idle<'a> {
+    watcher: &'a dyn Watcher,
+    goes_on: bool,
+}
 
-impl Cycle for Idle {
+impl Cycle for Idle<'_> {
     fn act(&mut self, _: u64) -> Result<Work, Stop> {
+        if !self.goes_on {
+            return Err(Stop::Interrupted);
+        }
         Empty.frame(&[], &mut []).map_err(Stop::Plant)
+    }
+
+    fn timed(&mut self, _: &Slow, _: u64) {
+        self.goes_on = self.watcher.goes_on();
     }
 }
 
@@ -127,16 +127,40 @@ pub(super) fn frames(
 }
 
 /// The same without a drive: what the machine takes by itself.
-pub(super) fn empty(period: f64, (frames, paced): (u64, bool)) -> Timing {
+///
+/// # Errors
+/// The watcher's wish.
+pub(super) fn empty(
+    period: f64,
+    (frames, paced): (u64, bool),
+    watcher: &dyn Watcher,
+) -> Result<Timing, Stop> {
     let mut timing = Timing::new();
-    // Nothing in it stops it.
-    let _ = pace::run(&pace(period, paced), frames, &mut Idle, &mut timing);
-    timing
+    let mut idle = Idle { watcher, goes_on: watcher.goes_on() };
+    pace::run(&pace(period, paced), frames, &mut idle, &mut timing)?;
+    Ok(timing)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Somebody who has had enough.
+    struct Enough;
+
+    impl Watcher for Enough {
+        fn reached(&self, _: f64) {}
+
+        fn goes_on(&self) -> bool {
+            false
+        }
+    }
+
+    #[test]
+    fn the_empty_loop_hears_the_watcher() {
+        assert_eq!(empty(1.0, (u64::MAX, true), &Enough).map(|_| ()), Err(Stop::Interrupted));
+        assert_eq!(empty(1e-6, (100, false), &()).map(|timing| timing.frames()), Ok(100));
+    }
 
     #[test]
     fn median_and_worst_work_are_those_of_the_first_frame_that_had_it() {
