@@ -145,8 +145,13 @@ fn what_cannot_be_is_refused_and_says_why() {
     let never = format!("udp:127.0.0.1:{}", free_port());
     let foreign = tempdir().unwrap();
     fs::write(foreign.path().join("a.rec"), "1,2,3").unwrap();
-    let foreign = format!("replay:{}", foreign.path().join("a.rec").display());
-    let cases: [(&[&str], &str); 11] = [
+    let folder = foreign.path().display().to_string();
+    let (log, foreign) = (format!("{folder}/log.csv"), format!("replay:{folder}/a.rec"));
+    let (once, twice) = (format!("--outputs=file:{log}"), format!("--outputs=file:{folder}/./log.csv"));
+    let cases: [(&[&str], &str); 14] = [
+        (&["--log", &folder], "is a directory"),
+        (&[&once, &twice], "asked for twice"),
+        (&[&once, "--log", &log], "asked for twice"),
         (&["--channels", "stage.y_m"], "there is no channel \"stage.y_m\"; there are time_s, "),
         (&["--channels", "stage.x_m,stage.x_m"], "twice"),
         (&["--inputs", &in_use], "ddress already in use"),
@@ -164,7 +169,9 @@ fn what_cannot_be_is_refused_and_says_why() {
         assert!(said.contains(words), "{arguments:?}: {said}");
     }
     let said = refused(&["--inputs", &never], &scenario("p1"));
-    assert!(said.contains("nothing in the scene is fed from outside"), "{said}");
+    assert!(said.contains("--inputs: nothing in the scene is fed from outside"), "{said}");
+    let said = refused(&["--record-inputs", &log], &scenario("p1"));
+    assert!(said.contains("--record-inputs: nothing in the scene is fed from outside"), "{said}");
 }
 
 #[test]
@@ -189,6 +196,42 @@ fn a_period_below_what_the_machine_can_do_is_told_before_the_start() {
     // The same with an end at the first overrun.
     let output = call(&["--force", "--overrun", "stop"]);
     assert_eq!(code(&output), 3, "{}", stderr(&output));
+}
+
+/// Frames are as exact as the scenario's own, also where they are asked for by name.
+#[test]
+fn frames_by_name_have_the_accuracy_of_the_scenario() {
+    let out = tempdir().unwrap();
+    let own = r#"run.stepper={"frames": {"length": "20 us", "accuracy": 1e-6}}"#;
+    for (asked, told) in [("frames", "accuracy 1e-6"), ("frames:1e-4", "accuracy 1e-4")] {
+        let mut command = realtime(&scenario("p1"), out.path());
+        command.args(["--for", "10 ms", "--force", "--set", own, "--stepper", asked]);
+        let output = command.output().unwrap();
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let report = report(&out.path().join("p1"));
+        assert!(report["stepper"].as_str().unwrap().contains(told), "{asked}: {report}");
+    }
+}
+
+/// Inputs are heard at 127.0.0.1, outputs go elsewhere, and not from where inputs come in.
+#[test]
+#[allow(clippy::print_stdout, reason = "says what was not done")]
+fn outputs_to_an_address_go_there_from_a_port_of_their_own() {
+    let (out, inputs) = (tempdir().unwrap(), format!("127.0.0.1:{}", free_port()));
+    for at in ["127.0.0.1:0", "[::1]:0"] {
+        let Ok(heard) = UdpSocket::bind(at) else {
+            println!("not to {at}: this machine has none");
+            continue;
+        };
+        let mut command = realtime(&stage(), out.path());
+        command.args(["--for", "2 ms", "--wait", "0", "--inputs", &format!("udp:{inputs}")]);
+        let output = command.arg(format!("--outputs=udp:{}", heard.local_addr().unwrap())).output().unwrap();
+        assert_eq!(code(&output), 0, "{at}: {}", stderr(&output));
+        assert_eq!(report(&out.path().join("stage"))["outputs_unsent"], 0);
+        heard.set_read_timeout(Some(std::time::Duration::from_secs(10))).unwrap();
+        let (length, from) = heard.recv_from(&mut [0; 2000]).unwrap();
+        assert!(length > 32 && from.to_string() != inputs, "{from}");
+    }
 }
 
 #[test]

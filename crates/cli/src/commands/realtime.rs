@@ -69,13 +69,13 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     let report = Report::new(subject, &order.pace, order.frames, &ended);
     let unwritten = reels.iter().find_map(|reel| reel.failure().map(ToString::to_string));
     drop(reels);
-    drafts.keep()?;
-    let written = files::write(&stage, &report, &ended)?;
-    tell(arguments, &report, &ended, &written)?;
+    // Whatever becomes of the one, the other is tried: nothing of the loop comes again.
+    let (written, kept) = (files::write(&stage, &report, &ended), drafts.keep());
+    tell(arguments, &report, &ended, &written?)?;
     if let Some(words) = unwritten {
         return Err(Failure::Cut(words));
     }
-    Ok(verdict(&ended))
+    kept.map(|()| verdict(&ended))
 }
 
 /// Prints the report.

@@ -41,9 +41,9 @@ pub(crate) enum Failure {
     Channels(#[from] ChannelError),
     /// Inputs for a scene without any.
     #[error(
-        "--inputs: nothing in the scene is fed from outside; a waveform of the kind \"input\" or \"generator\" is, such as {{ \"input\": {{ \"initial\": 0, \"range\": [\"-1 um\", \"1 um\"] }} }}"
+        "{0}: nothing in the scene is fed from outside; a waveform of the kind \"input\" or \"generator\" is, such as {{ \"input\": {{ \"initial\": 0, \"range\": [\"-1 um\", \"1 um\"] }} }}"
     )]
-    NoInputs,
+    NoInputs(&'static str),
     /// No address of this machine, or a port in use.
     #[error("--inputs udp:{address}: {}", words(source))]
     Address {
@@ -111,6 +111,9 @@ pub(crate) enum Failure {
         /// What the system says.
         source: io::Error,
     },
+    /// A file for two things.
+    #[error("{}: it is asked for twice; give another name", .0.display())]
+    Twice(PathBuf),
     /// A file could not be written to its end.
     #[error("not all could be written: {0}")]
     Cut(String),

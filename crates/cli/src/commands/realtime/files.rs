@@ -9,6 +9,7 @@ use stickslip_figures::realtime;
 use stickslip_realtime::Report;
 use stickslip_realtime::report::{frames_csv, histogram_csv};
 use stickslip_realtime::session::Ended;
+use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, draft, sweep};
 use tempfile::NamedTempFile;
 
@@ -27,18 +28,27 @@ impl Drafts {
         let failed = |source| Failure::File { path: path.to_owned(), source };
         let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let name = path.file_name().ok_or_else(|| failed(std::io::ErrorKind::IsADirectory.into()))?;
+        if path.is_dir() {
+            return Err(failed(std::io::ErrorKind::IsADirectory.into()));
+        }
+        let at = folder.canonicalize().map_err(failed)?.join(name);
+        if self.0.iter().any(|(_, known)| *known == at) {
+            return Err(Failure::Twice(path.to_owned()));
+        }
         let file = draft(folder, &name.to_string_lossy()).map_err(failed)?;
         let writer = file.as_file().try_clone().map_err(failed)?;
-        self.0.push((file, path.to_owned()));
+        self.0.push((file, at));
         Ok(BufWriter::new(writer))
     }
 
-    /// Gives all of them their names.
+    /// Gives all of them their names; those that get none are gone.
     pub(super) fn keep(self) -> Result<(), Failure> {
-        self.0.into_iter().try_for_each(|(file, path)| match file.persist(&path) {
-            Ok(_) => Ok(()),
-            Err(error) => Err(Failure::File { path, source: error.error }),
-        })
+        let name = |(file, path): (NamedTempFile, PathBuf)| {
+            let error = file.persist(&path).err()?.error;
+            Some(format!("{}: {}", path.display(), words(&error)))
+        };
+        let lost: Vec<String> = self.0.into_iter().filter_map(name).collect();
+        if lost.is_empty() { Ok(()) } else { Err(Failure::Cut(lost.join("; "))) }
     }
 }
 
@@ -60,4 +70,23 @@ pub(super) fn write(stage: &Stage<'_>, report: &Report, ended: &Ended) -> Result
     let names = folder.names().join(", ");
     folder.publish()?;
     Ok(format!("{}: {names}", at.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    #[test]
+    fn what_cannot_be_kept_is_told_and_the_others_are_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let paths = ["a", "b"].map(|name| folder.path().join(name));
+        let mut drafts = Drafts::default();
+        paths.iter().for_each(|path| drafts.begin(path).unwrap().write_all(b"words").unwrap());
+        std::fs::create_dir(&paths[0]).unwrap();
+        std::fs::write(paths[0].join("c"), "").unwrap();
+        let failure = drafts.keep().unwrap_err();
+        assert!(matches!(&failure, Failure::Cut(words) if words.contains("/a: ")), "{failure}");
+        assert_eq!(std::fs::read(&paths[1]).unwrap(), b"words");
+    }
 }

@@ -41,8 +41,11 @@ impl<'a> Stage<'a> {
         let mut number = [0; 8];
         number.copy_from_slice(&model_key(&job.scenario)[..8]);
         let mut inputs = inputs(&job.scenario.scene)?;
-        if inputs.is_empty() && arguments.wires.inputs.is_some() {
-            return Err(Failure::NoInputs);
+        let wires = &arguments.wires;
+        let asked =
+            [("--inputs", wires.inputs.is_some()), ("--record-inputs", wires.record_inputs.is_some())];
+        if let Some((option, _)) = asked.into_iter().find(|(_, is)| *is && inputs.is_empty()) {
+            return Err(Failure::NoInputs(option));
         }
         inputs.extend(arguments.wires.notes.iter().map(|name| Input::note(name)));
         if inputs.len() > MOST_VALUES {

@@ -22,11 +22,13 @@ pub(super) fn chosen(
         Stepper::Frames { accuracy, .. } => accuracy,
         _ => ACCURACY,
     };
-    asked.map_or(Ok(Stepper::Frames { length: period, accuracy }), |text| stepper(text, model, period))
+    asked.map_or(Ok(Stepper::Frames { length: period, accuracy }), |text| {
+        stepper(text, accuracy, model, period)
+    })
 }
 
-/// Reads `NAME` or `NAME:VALUE`.
-fn stepper(text: &str, model: &Model, period: f64) -> Result<Stepper, Failure> {
+/// Reads `NAME` or `NAME:VALUE`; frames without a value have the accuracy given.
+fn stepper(text: &str, accuracy: f64, model: &Model, period: f64) -> Result<Stepper, Failure> {
     let (name, value) = text.split_once(':').map_or((text, None), |(name, value)| (name, Some(value)));
     let refuse = || Failure::Stepper(text.to_owned());
     let fixed = |make: fn(f64) -> Stepper| {
@@ -38,7 +40,7 @@ fn stepper(text: &str, model: &Model, period: f64) -> Result<Stepper, Failure> {
     };
     match name {
         "frames" => {
-            let accuracy = value.map_or(Ok(ACCURACY), |value| value.parse().map_err(|_| refuse()))?;
+            let accuracy = value.map_or(Ok(accuracy), |value| value.parse().map_err(|_| refuse()))?;
             let is_known = (1e-9..=1e-1).contains(&accuracy);
             if is_known { Ok(Stepper::Frames { length: period, accuracy }) } else { Err(refuse()) }
         }

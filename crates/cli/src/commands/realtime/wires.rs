@@ -118,8 +118,9 @@ fn sinks(
         match outputs {
             Outputs::Udp(to) => {
                 let socket = match (&own, to) {
-                    (Some(own), _) => own.try_clone()?,
-                    (None, Some(to)) => sender(*to)?,
+                    // The inputs' own reaches only what their address does.
+                    (_, Some(to)) => sender(*to)?,
+                    (Some(own), None) => own.try_clone()?,
                     (None, None) => return Err(Failure::NobodyToAnswer),
                 };
                 sinks.push(Sink::Udp { socket, to: *to });
