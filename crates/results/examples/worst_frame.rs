@@ -81,5 +81,5 @@ fn replay(job: &Job, plan: &Plan, length: f64, asked: u64, frames: u64) -> Resul
         }
         before = now;
     }
-    Ok(())
+    Err(format!("no frame after the 21st has a work of {asked} (4095 stands for all from there on)").into())
 }
