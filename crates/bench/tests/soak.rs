@@ -15,6 +15,7 @@ const SAMPLE: u64 = 160;
 
 /// Faults of the sample that are known, by seed: books that miss a hundred tolerances by a factor of 1 to 3. All of them are of contacts
 /// that grow, whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c.
+/// 24 came and 98 went as guards learned what rounding is in them: of 400 seeds 25 had such books before it and after.
 const KNOWN: [u64; 8] = [14, 24, 45, 73, 87, 90, 120, 149];
 
 #[test]

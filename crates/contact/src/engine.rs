@@ -210,6 +210,9 @@ macro_rules! either {
 }
 
 impl Memory {
+    /// Turning points that a curve remembers unless it is [bounded](Self::bound).
+    pub const DEFAULT_CAPACITY: usize = Curve::DEFAULT_CAPACITY;
+
     /// Makes the room that a new memory has, for one that is a copy or was read from words: within it commits allocate
     /// nothing.
     pub fn make_room(&mut self) {

@@ -210,7 +210,15 @@ fn another_process_comes_to_the_same_bits() {
     println!("{pairs} pairs, {here:.1} s here, {:.1} s in all", began.elapsed().as_secs_f64());
     kinds.iter().for_each(|(kind, count)| println!("  {count:6} {kind}"));
     let few = pairs / 50;
-    for kind in ["in a leap", "growing", "walking", "engine: springs", "damped contacts", "stepper: rk4"] {
+    for kind in [
+        "in a leap",
+        "growing",
+        "walking",
+        "engine: springs",
+        "damped contacts",
+        "stepper: rk4",
+        "stepper: frames",
+    ] {
         assert!(kinds.get(kind).is_some_and(|count| *count >= few), "{kind}: {kinds:?}");
     }
 }

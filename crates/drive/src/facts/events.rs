@@ -128,7 +128,7 @@ fn closing(scene: &Scene, contact: &Contact) -> f64 {
 /// lost it bounces as high as it falls, and without gravity it lands but once.
 fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
     // Only what pulls along the normal brings it back.
-    let fall = scene.gravity.acceleration * scene.gravity.incline.cos();
+    let (_, fall) = scene.gravity.components();
     match (height > 0.0, fall > 0.0) {
         (true, true) => duration * fall / (2.0 * (speed * speed + 2.0 * height * fall).sqrt()),
         (true, false) if speed * duration > height => 1.0,

@@ -120,7 +120,7 @@ fn steady_load(scene: &Scene, c: usize) -> Option<f64> {
         Varying::Constant(force) => Some(force),
         Varying::Follows(_) => None,
     });
-    let weight = scene.bodies[body].part.mass? * scene.gravity.acceleration * scene.gravity.incline.sin();
+    let weight = scene.bodies[body].part.mass? * scene.gravity.components().0;
     let force = constant.sum::<Option<f64>>()? - weight;
     (force != 0.0).then_some(force)
 }

@@ -88,11 +88,16 @@ impl Closed<'_> {
         }
     }
 
+    /// How far the edge may still move at u before its piece is used up, m; ∞ in gross slip.
+    #[inline(always)]
+    pub(crate) fn margin(&self, u: f64) -> f64 {
+        if self.branch.is_gross() { f64::INFINITY } else { self.branch.margin(u) }
+    }
+
     /// Whether in this motion it still drags the same piece in the same sense.
     #[inline(always)]
     pub(crate) fn keeps(&self, motion: &Motion) -> bool {
-        self.branch.sense() * motion.du >= 0.0
-            && (self.branch.is_gross() || self.branch.margin(motion.u) >= 0.0)
+        self.branch.sense() * motion.du >= 0.0 && self.margin(motion.u) >= 0.0
     }
 
     /// +1 forward, -1 backward.

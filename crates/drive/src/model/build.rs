@@ -123,7 +123,7 @@ fn bodies(scene: &Scene) -> Result<Moving, SceneError> {
     let mut bodies = Vec::with_capacity(scene.bodies.len());
     let (mut free, mut balanced) = (Vec::new(), Vec::new());
     let signals = scene.waveforms.len() + scene.blocks.len();
-    let (along, normal) = scene.gravity.incline.sin_cos();
+    let (along, normal) = scene.gravity.components();
     for (body, Named { name, part }) in scene.bodies.iter().enumerate() {
         let mut bindings = [Binding::Held(0.0); 3];
         for (place, (axis, coordinate)) in bindings.iter_mut().zip(part.coordinates()) {
@@ -133,10 +133,9 @@ fn bodies(scene: &Scene) -> Result<Moving, SceneError> {
                 Freedom::Balanced => balanced::bind((body, part), axis, (signals, &mut balanced))?,
                 Freedom::Free => {
                     let mass = inertia(body, part, axis)?;
-                    let weight = -mass * scene.gravity.acceleration;
                     let force = match axis {
-                        Axis::X => weight * along,
-                        Axis::Z => weight * normal,
+                        Axis::X => -mass * along,
+                        Axis::Z => -mass * normal,
                         Axis::Pitch => 0.0,
                     };
                     free.push(free_coordinate(body, axis, mass, force, coordinate));

@@ -3,16 +3,12 @@
 //! Contacts obey their whole law, kinks and all; what happened in a step is noticed from the states at both its ends, for the
 //! record alone. Between steps positions are read by the cubic through both ends, velocities and work in proportion. The
 //! order of a method is that of its chords, two at best, wherever a contact turns or grows inside a step.
-//!
-//! For steppers without events: fixed steps and the plain reference. Contacts go by the whole law of their
-//! memory, kinks and all, and the path of a step is one chord in the plane of (d, u). Growth in full stick is
-//! second order at best by that, and so is every step across an event, whatever the method's name. Events are
-//! noticed after the fact, for the record alone.
 
 mod branches;
 mod corners;
 mod noticed;
 mod step;
+mod way;
 
 use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon};
@@ -27,7 +23,7 @@ use crate::state::{FixedWay, Layout, State, Underway};
 use crate::{Plan, RunError, Stepper};
 use branches::{Branches, KNOTS};
 pub(super) use step::Between;
-use stickslip_contact::{ContactState, Segment};
+use stickslip_contact::{ContactState, Memory, Segment};
 
 /// A run by chords: accepts steps, writes what falls between them, notices events after the fact.
 pub(super) struct Chords<'a> {
@@ -43,14 +39,14 @@ pub(super) struct Chords<'a> {
     standings: Vec<ContactState>,
     /// Whether somebody did at the last step.
     watched: bool,
-    /// Whether a step may cross corners of waveforms; otherwise it ends there.
-    crossing: bool,
+    /// Whether a step may cross corners of waveforms, and see both sides; otherwise it ends there.
+    pub(super) crossing: bool,
     /// Of frames: branches that contacts keep to.
     branches: Option<Branches<'a>>,
     /// The contacts at both ends of the step.
     before: Vec<Motion>,
     motions: Vec<Motion>,
-    /// The components there, where a run ends inside the step.
+    /// The components where a run ends inside the step.
     last: Vec<f64>,
 }
 
@@ -90,12 +86,6 @@ impl<'a> Chords<'a> {
             // Without a sense: a chord may turn inside its step, and the memory sees it by itself.
             state.modes.fill(Mode::Whole { sense: 0.0 });
         }
-        if self.branches.is_some() {
-            for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
-                memory.bound(&contact.interface, KNOTS);
-            }
-            self.measure(state);
-        }
         match &state.underway {
             Some(Underway::Fixed(way)) => self.take_up(way, state),
             _ => {
@@ -132,6 +122,11 @@ impl<'a> Chords<'a> {
 
     pub(super) fn touched(&self) -> u64 {
         self.ledger.touched
+    }
+
+    /// How many turning points a contact remembers.
+    pub(super) fn remembers(&self) -> usize {
+        if self.branches.is_some() { KNOTS } else { Memory::DEFAULT_CAPACITY }
     }
 
     pub(super) fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
@@ -242,10 +237,11 @@ impl<'a> Chords<'a> {
             self.notice(state, record);
         }
         std::mem::swap(&mut self.before, &mut self.motions);
-        for (sense, motion) in self.senses.iter_mut().zip(&self.before) {
+        for (c, motion) in self.before.iter().enumerate() {
+            let heading = heading(&state.modes[c], motion);
             // At rest a contact keeps the sense it had: stopping is no reversal.
-            if motion.du != 0.0 {
-                *sense = motion.du.signum();
+            if heading != 0.0 {
+                self.senses[c] = heading.signum();
             }
         }
         self.bounds.step(state, record)
@@ -277,5 +273,14 @@ impl<'a> Chords<'a> {
             let memories: Result<Vec<_>, _> = memories.collect();
             self.output.looks.show(memories.as_deref().ok(), record);
         }
+    }
+}
+
+/// Which way a contact goes: by its branch where it keeps to one, for where a step is cut at a turn the last bit of its rate may
+/// still say otherwise.
+pub(super) fn heading(mode: &Mode, motion: &Motion) -> f64 {
+    match mode {
+        Mode::Slip(branch) => branch.sense(),
+        _ => motion.du,
     }
 }

@@ -18,13 +18,19 @@ const REMAINDER: f64 = 1e-9;
 /// The least part of a step to which one is cut where a contact's branch ends: what bounds the work.
 const LEAST: f64 = 0.125;
 
-/// Where corners of waveforms may lie.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Corners {
-    /// Inside steps, which see both sides.
-    Inside,
-    /// Where steps end.
-    EndSteps,
+/// A length of time, s, and the whole number of steps that it takes: of plain fixed steps one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Frame {
+    pub(super) length: f64,
+    pub(super) steps: f64,
+}
+
+impl Frame {
+    /// Moment `count` of a grid, s. Frames begin where whoever asks for them puts them, to the last bit.
+    fn moment(self, Grid { start, step, .. }: Grid, count: f64) -> f64 {
+        let frame = (count / self.steps).floor();
+        start + (frame * self.length + (count - frame * self.steps) * step)
+    }
 }
 
 /// Which components a method moves.
@@ -37,15 +43,15 @@ pub(super) enum Moved {
 
 /// A run in steps of one length.
 ///
-/// Steps end at start + k·step (s), multiplied and not summed up; one that an advance or an input's piece cuts is followed by
-/// its rest.
+/// Steps end on a grid, multiplied and not summed up: frame k of n steps begins at start + k·length (s). One that an advance
+/// or an input's piece cuts is followed by its rest.
 pub(super) struct Fixed<'a, F> {
     chords: Chords<'a>,
     /// Made once the state is there.
     stepper: F,
     name: &'static str,
-    corners: Corners,
     grid: Grid,
+    frame: Frame,
     /// Components at the end of the step under way, and how many of them, from the first on, the method moves.
     y: Vec<f64>,
     moved: usize,
@@ -56,17 +62,17 @@ pub(super) struct Fixed<'a, F> {
 }
 
 impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
-    /// Fails where `step` is as long as the longest with which small motions do not grow.
+    /// Fails where a step is as long as the longest with which small motions do not grow.
     ///
     /// `moved` is how many components, from the first on, the method moves: none dissipates beyond those.
-    pub(super) fn new(model: &'a Model, plan: &Plan, step: f64, moved: Moved) -> Result<Self, RunError> {
+    pub(super) fn new(model: &'a Model, plan: &Plan, frame: Frame, moved: Moved) -> Result<Self, RunError> {
+        let step = frame.length / frame.steps;
         let limit = model.longest_step(plan.stepper).unwrap_or(f64::INFINITY);
         // Beyond it the stiffest motion grows at every step: refused instead of exploding.
         if step >= limit {
             return Err(RunError::Unstable { step, limit });
         }
         let chords = Chords::new(model, plan);
-        let corners = if plan.stepper.ends_at_corners() { Corners::EndSteps } else { Corners::Inside };
         let Layout { free, .. } = chords.layout;
         let (dimension, total) = (chords.layout.dimension(), chords.layout.total());
         let moved = match moved {
@@ -77,8 +83,8 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         Ok(Self {
             stepper: F::sized(free, dimension, moved),
             name: plan.stepper.name(),
-            corners,
             grid,
+            frame,
             y: vec![0.0; total],
             moved,
             slopes: Vec::with_capacity(total),
@@ -121,18 +127,15 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
             }
         }
         // What the caller has supplied ahead begins here: there is room for the piece after it.
-        let turned = match self.corners {
-            Corners::Inside => state.take_supplied(),
-            Corners::EndSteps if outcome.is_ok() => match self.chords.turn(state, record) {
-                Ok(turned) => turned,
-                Err(error) => {
-                    outcome = Err(error);
-                    false
-                }
-            },
-            Corners::EndSteps => false,
+        let turned = match &outcome {
+            _ if self.chords.crossing => Ok(state.take_supplied()),
+            Ok(()) => self.chords.turn(state, record),
+            Err(_) => Ok(false),
         };
-        if turned {
+        if turned.unwrap_or_else(|error| {
+            outcome = Err(error);
+            false
+        }) {
             self.stepper.restart();
         }
         self.put_down(state);
@@ -154,6 +157,11 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         self.chords.touched()
     }
 
+    /// How many turning points a contact remembers.
+    pub(super) fn remembers(&self) -> usize {
+        self.chords.remembers()
+    }
+
     /// Memories are where the state is after every step, but those of contacts that keep to a branch.
     pub(super) fn settle_books(&mut self, state: &mut State) {
         self.chords.settle(state);
@@ -161,18 +169,18 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
 
     /// One step, up to the next moment of the grid or to where the run is cut before it.
     fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
-        let aim = self.grid.start + (self.grid.count + 1.0) * self.grid.step;
+        let aim = self.frame.moment(self.grid, self.grid.count + 1.0);
+        // Frames are multiplied by others, and may come out a digit longer.
+        let slack = REMAINDER * self.grid.step + 4.0 * f64::EPSILON * aim.abs();
         if self.chords.horizon.is_beyond(aim) {
             return Ok(Progress::Short);
         }
-        let mut turned = self.corners == Corners::EndSteps && self.chords.turn(state, record)?;
-        let corner = match self.corners {
-            Corners::Inside => state.next_input(self.chords.model),
-            Corners::EndSteps => state.next_corner(),
-        };
+        let crossing = self.chords.crossing;
+        let mut turned = !crossing && self.chords.turn(state, record)?;
+        let corner = if crossing { state.next_input(self.chords.model) } else { state.next_corner() };
         let stop = self.chords.horizon.until.min(corner);
-        let mut end = if aim > stop - REMAINDER * self.grid.step { stop } else { aim };
-        if self.corners == Corners::Inside {
+        let mut end = if aim > stop - slack { stop } else { aim };
+        if crossing {
             turned = self.chords.enter(state, end);
         }
         if turned {
@@ -189,7 +197,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         self.chords.prepare(state);
         self.attempt(state, end);
         if !is_due && self.chords.glides(state, (end, &self.y), record) {
-            self.grid.count += if end >= aim - REMAINDER * self.grid.step { 1.0 } else { 0.0 };
+            self.grid.count += if end >= aim - slack { 1.0 } else { 0.0 };
             return self.chords.bounds.step(state, record).map(|()| Progress::Made);
         }
         end = self.cut(state, end);
@@ -205,13 +213,12 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
                 return Ok(Progress::Short);
             }
         }
-        if end >= aim - REMAINDER * self.grid.step {
-            self.grid.count += 1.0;
-        }
+        let whole = if end >= aim - slack { 1.0 } else { 0.0 };
+        self.grid.count += whole;
         if self.chords.accept(state, (end, &self.y), record)? {
             // The next step begins elsewhere, and is the rest of this one.
             self.stepper.restart();
-            self.grid.count -= 1.0;
+            self.grid.count -= whole;
         }
         Ok(Progress::Made)
     }

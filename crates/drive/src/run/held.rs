@@ -1,6 +1,6 @@
 //! A run that its caller holds.
 
-use super::fixed::{Fixed, Moved};
+use super::fixed::{Fixed, Frame, Moved};
 use super::horizon::Goal;
 use super::located::LocatedRun;
 use super::output::Opening;
@@ -9,7 +9,6 @@ use crate::method::{self, Method, SceneTraits};
 use crate::record::{self, Record};
 use crate::waveform::Command;
 use crate::{CommandError, InputError, Model, Plan, RunError, State, Stepper};
-use stickslip_contact::Memory;
 use stickslip_stepper::{Nystrom4, Rk4, Verlet};
 
 /// A run that its caller moves on: it owns the state and the workspace, and borrows the model.
@@ -38,17 +37,20 @@ enum Way<'m> {
 
 impl<'m> Way<'m> {
     fn new(model: &'m Model, plan: &Plan) -> Result<Self, RunError> {
+        let one = |step| Frame { length: step, steps: 1.0 };
         Ok(match model.effective(plan.stepper) {
             Stepper::Event { tolerance } => Self::Located(LocatedRun::new(model, plan, tolerance)),
-            Stepper::Verlet { step } => Self::Verlet(Box::new(Fixed::new(model, plan, step, Moved::All)?)),
-            Stepper::Rk4 { step } => Self::Rk4(Box::new(Fixed::new(model, plan, step, Moved::All)?)),
+            Stepper::Verlet { step } => {
+                Self::Verlet(Box::new(Fixed::new(model, plan, one(step), Moved::All)?))
+            }
+            Stepper::Rk4 { step } => Self::Rk4(Box::new(Fixed::new(model, plan, one(step), Moved::All)?)),
             Stepper::Frames { length, accuracy } => {
-                let step = length / model.substeps(length, accuracy);
+                let frame = Frame { length, steps: model.substeps(length, accuracy) };
                 match method::stepping(&SceneTraits::of(model)).0 {
                     Method::Nystrom => {
-                        Self::Nystrom(Box::new(Fixed::new(model, plan, step, Moved::WithoutDamping)?))
+                        Self::Nystrom(Box::new(Fixed::new(model, plan, frame, Moved::WithoutDamping)?))
                     }
-                    _ => Self::Rk4(Box::new(Fixed::new(model, plan, step, Moved::All)?)),
+                    _ => Self::Rk4(Box::new(Fixed::new(model, plan, frame, Moved::All)?)),
                 }
             }
             Stepper::Dopri5 { .. } => return Err(RunError::NotHeld { stepper: plan.stepper.name() }),
@@ -79,7 +81,7 @@ pub(super) fn to_the_end(
 ) -> Result<(), RunError> {
     let mut way = Way::new(model, plan)?;
     state.check_inputs(model, plan.duration)?;
-    way.set_out(state, Opening::Row, record);
+    way.set_out(model, state, Opening::Row, record);
     let outcome = way.go(state, Goal::End(plan.duration), record);
     if outcome.is_err() {
         way.write_now(state, record);
@@ -89,9 +91,13 @@ pub(super) fn to_the_end(
 }
 
 impl Way<'_> {
-    fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
-        // Of a state that was copied or restored; others have it.
-        state.memories.iter_mut().for_each(Memory::make_room);
+    fn set_out(&mut self, model: &Model, state: &mut State, opening: Opening, record: &mut dyn Record) {
+        // Of a state that was copied or restored; others have it. Bounded as deep as this stepper wants it, whoever came before.
+        let most = each!(self, run => run.remembers());
+        for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
+            memory.bound(&contact.interface, most);
+            memory.make_room();
+        }
         each!(self, run => run.set_out(state, opening, record));
     }
 
@@ -268,7 +274,7 @@ impl<'m> Run<'m> {
         self.state.check_inputs(self.model, end)?;
         if !self.begun {
             let opening = if self.resumed { Opening::Resumed } else { opening };
-            self.way.set_out(&mut self.state, opening, record);
+            self.way.set_out(self.model, &mut self.state, opening, record);
             self.begun = true;
         }
         let outcome = self.way.go(&mut self.state, goal, record);

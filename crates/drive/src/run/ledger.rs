@@ -12,7 +12,7 @@ use crate::equations::{Components, Equations};
 use crate::model::{Model, Wired};
 use crate::record::Record;
 use crate::state::{Booked, Books, Layout, State};
-use stickslip_contact::{Segment, Timed};
+use stickslip_contact::{Memory, Segment, Timed};
 
 /// What the contacts commit.
 pub(super) struct Ledger {
@@ -118,8 +118,9 @@ impl Ledger {
             {
                 state.friction[c] += contact.count * friction;
             }
-            // Two are made, of those that were there as many go.
-            self.touched += (knots + 2).saturating_sub(state.memories[c].knot_count()) as u64;
+            // A path may make two, and of those that were there as many go; a row of springs has none.
+            let made = if matches!(state.memories[c], Memory::Curve(_)) { 2 } else { 0 };
+            self.touched += (knots + made).saturating_sub(state.memories[c].knot_count()) as u64;
             self.note(model, state, c, segment.path);
             // Growth that goes on joins the piece before it; anything else ends that piece.
             state.grew[c] = matches!(segment.path, Segment::Grown { .. });

@@ -46,6 +46,7 @@ use crate::{Plan, RunError};
 pub(super) use method::LocatedRun;
 use motion::Motion;
 use path::MOST_PIECES;
+use stickslip_contact::Memory;
 use stickslip_stepper::{Attempt, StepControl, StepLimits};
 use turning::Turning;
 use watch::Watch;
@@ -202,11 +203,17 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.output.marks.hand_over(record);
     }
 
-    /// Brings memories that wait for an event to where the state is. For who will read them, at the end of a run.
+    /// Turning points of contacts made or given up.
     pub(super) fn touched(&self) -> u64 {
         self.ledger.touched
     }
 
+    /// How many turning points a contact remembers.
+    pub(super) fn remembers(&self) -> usize {
+        Memory::DEFAULT_CAPACITY
+    }
+
+    /// Brings memories that wait for an event to where the state is. For who will read them, at the end of a run.
     pub(super) fn settle_books(&mut self, state: &mut State) {
         if self.ledger.booked.books == Books::Behind {
             self.settle(state);

@@ -153,7 +153,9 @@ impl Generating {
         };
         // Steps that cross corners stop less than a step beyond one; none has this many cycles.
         let cycles = (t - piece.end) * self.span.map_or(0.0, |span| span.period.recip());
-        own == *piece && (cycles.is_nan() || cycles <= MOST)
+        own == *piece
+            && (cycles.is_nan() || cycles <= MOST)
+            && (self.span.is_none() || self.begun > self.count)
     }
 
     /// Takes a command at `t`, s, on its present piece.

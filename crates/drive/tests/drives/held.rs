@@ -48,12 +48,13 @@ fn dragged_back() -> Scene {
     scene
 }
 
-fn steppers(period: f64) -> [Stepper; 4] {
+fn steppers(period: f64) -> [Stepper; 5] {
     [
         Stepper::Event { tolerance: 1e-4 },
         Stepper::Event { tolerance: 1e-8 },
         Stepper::Verlet { step: 1e-3 * period },
         Stepper::Rk4 { step: 1e-3 * period },
+        Stepper::Frames { length: 7e-3 * period, accuracy: 1e-3 },
     ]
 }
 
@@ -77,6 +78,8 @@ fn a_run_taken_up_anywhere_goes_on_to_the_same_bits() {
             let whole = Plan { every: Some(0.037 * period), ..plan(stepper, 1.3 * period) };
             let Ok(start) = model.start(&whole) else { continue };
             let Some((end, rows)) = finished(&model, &whole, start.clone(), false) else { continue };
+            let bytes = end.to_bytes(&model, &KEY);
+            assert!(State::from_bytes(&model, &KEY, &bytes).unwrap() == end, "{title} {stepper:?}: its end");
             let mut draw = Draw::new(taken);
             for _ in 0..6 {
                 let steps = (draw.bits() % (end.counts().steps + end.counts().rejected).max(2)).max(1);
@@ -149,7 +152,8 @@ fn no_number_depends_on_the_end() {
 fn an_early_end_is_found_again() {
     let model = Model::new(&p1()).unwrap();
     let steady = Some(UntilSteady { waveform: 0, body: 1, change: 1e-4 });
-    for stepper in [Stepper::Event { tolerance: 1e-8 }, Stepper::Verlet { step: 1e-6 }] {
+    let frames = Stepper::Frames { length: 20e-6, accuracy: 1e-3 };
+    for stepper in [Stepper::Event { tolerance: 1e-8 }, Stepper::Verlet { step: 1e-6 }, frames] {
         let asked = Plan { until_steady: steady, ..plan(stepper, 1000.0 * PERIOD) };
         let start = model.start(&asked).unwrap();
         let (end, _) = finished(&model, &asked, start.clone(), false).unwrap();
@@ -218,6 +222,51 @@ fn frames_of_steps_keep_the_tolerance() {
             assert!(frames <= 10.0 * off(&whole).max(1e-8), "{seed}: {frames:e}, whole {:e}", off(&whole));
         }
     }
+}
+
+/// Rows and events are looked at beside the run: its state is the same to the bit whether anyone looks or not, or begins to.
+#[test]
+fn who_watches_frames_changes_no_bit() {
+    let mut compared = 0;
+    for (scene, period, title) in scenes() {
+        let Ok(model) = Model::new(&scene) else { continue };
+        let stepper = Stepper::Frames { length: 7e-3 * period, accuracy: 1e-3 };
+        let seen = Plan { every: Some(0.037 * period), ..plan(stepper, 1.3 * period) };
+        let unseen = Plan { every: None, ..seen };
+        let Ok(start) = model.start(&seen) else { continue };
+        let Ok(mut watched) = Run::new(&model, &seen, start.clone()) else { continue };
+        let mut alone = Run::new(&model, &unseen, start).unwrap();
+        let mut trace = Trace::new(&model);
+        for k in 1..=150 {
+            let t = f64::from(k) * 7e-3 * period;
+            let reached = watched.advance(t, &mut trace);
+            assert_eq!(reached.is_ok(), alone.advance(t, &mut ()).is_ok(), "{title}");
+            if reached.is_err() {
+                break;
+            }
+            let bytes = |run: &Run<'_>| run.state().to_bytes(&model, &KEY);
+            assert!(bytes(&watched) == bytes(&alone), "{title}: frame {k}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 1000, "{compared}");
+}
+
+/// After two seconds a digit of time is more than a part in 10⁹ of a step; a frame still takes its own steps and no others.
+#[test]
+fn frames_far_from_the_start_take_their_own_steps() {
+    let (model, length) = (Model::new(&p1()).unwrap(), 1e-6);
+    let accuracy = (1..).map(|k| 1e-3 / f64::from(k)).find(|a| model.substeps(length, *a) == 5.0).unwrap();
+    let plan = plan(Stepper::Frames { length, accuracy }, 3.0);
+    let mut run = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+    run.advance(2.0, &mut ()).unwrap();
+    let before = run.state().counts().steps;
+    for k in 2_000_001..=2_001_000 {
+        run.advance(f64::from(k) * length, &mut ()).unwrap();
+    }
+    let steps = run.state().counts().steps - before;
+    // Two corners in a thousand frames, and the ends of some branches.
+    assert!((5000..5100).contains(&steps), "{steps}");
 }
 
 /// Whatever is done to the bytes: a typed error, or the very state; never a panic.

@@ -6,7 +6,7 @@ use crate::stages::{
     rest, stage, upright,
 };
 use std::f64::consts::FRAC_PI_2;
-use stickslip_drive::scene::{Point, Scene, Side};
+use stickslip_drive::scene::{Gravity, Point, Scene, Side};
 
 /// Gaps of the contacts in the position drawn, m.
 const GAPS: [f64; 5] = [0.0, 0.5e-6, -0.5e-6, 100e-6, 1e-3];
@@ -226,6 +226,26 @@ fn shares(feet: &[Foot], normal: &[f64], friction: f64, load: f64) -> Vec<f64> {
             None => return (0..feet.len()).map(share).collect(),
         }
     }
+}
+
+#[test]
+fn gravity_on_quarters_of_a_turn_is_all_along_or_all_across() {
+    let pull = |degrees: f64| Gravity { acceleration: 9.81, incline: degrees.to_radians() }.components();
+    for (degrees, along, across) in
+        [(0.0, 0.0, 1.0), (90.0, 1.0, 0.0), (180.0, 0.0, -1.0), (270.0, -1.0, 0.0)]
+    {
+        for turns in [-2.0, -1.0, 0.0, 1.0, 3.0] {
+            assert_eq!(
+                pull(degrees + 360.0 * turns),
+                (9.81 * along, 9.81 * across),
+                "{degrees} and {turns} turns"
+            );
+        }
+    }
+    // A thousandth of a degree is a slope, not rounding.
+    let slope = 1e-3_f64.to_radians();
+    close(pull(1e-3).0, 9.81 * slope.sin(), "nearly level");
+    close(pull(90.0 + 1e-3).1, -9.81 * slope.sin(), "nearly upright");
 }
 
 #[test]

@@ -178,8 +178,7 @@ impl Usage {
             }
         }
         if scene.gravity.acceleration != 0.0 {
-            let (down, normal) = scene.gravity.incline.sin_cos();
-            let along = scene.gravity.acceleration * down;
+            let (along, normal) = scene.gravity.components();
             let lifts = |body: &Named<Body>| body.part.z.freedom == Freedom::Free && normal != 0.0;
             if scene.bodies.iter().any(lifts) {
                 self.uses("gravity", "", format!("{:.4} m/s² down", scene.gravity.acceleration));

@@ -45,7 +45,7 @@ impl Implausible<'_> {
 
     fn pulls(&self) -> Vec<Pull> {
         let scene = &self.job.scenario.scene;
-        let down = scene.gravity.acceleration * scene.gravity.incline.sin();
+        let down = scene.gravity.components().0;
         let mut pulls: Vec<Pull> = scene
             .bodies
             .iter()

@@ -13,7 +13,7 @@ impl Builder<'_> {
         let root = At::ROOT;
         let at = root.key("bodies");
         let gravity = self.scene.gravity;
-        let falls = gravity.acceleration * gravity.incline.sin() != 0.0;
+        let falls = gravity.components().0 != 0.0;
         for (body, named) in self.scene.bodies.iter().zip(named_bodies(&self.scene)) {
             let Coordinate { freedom, velocity, .. } = body.part.x;
             if freedom == Freedom::Free && velocity == 0.0 && !named && !falls {

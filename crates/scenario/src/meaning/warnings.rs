@@ -182,7 +182,7 @@ impl Oddities<'_> {
             self.find("no_effect", fault.help("leave it out"));
         }
         let lifted = scene.bodies.iter().any(|body| body.part.z.freedom == Freedom::Free);
-        if scene.gravity.acceleration > 0.0 && scene.gravity.incline.sin() == 0.0 && !lifted {
+        if scene.gravity.acceleration > 0.0 && scene.gravity.components().0 == 0.0 && !lifted {
             let fault = root.key("gravity").fault("on a level slide gravity has no part along x").on_key();
             let help = "give an \"incline\"; what presses the contacts is given in their \"normal\"";
             self.find("no_effect", fault.help(help));
@@ -265,7 +265,7 @@ fn is_at_rest(scene: &Scene) -> bool {
     let is_still = |(_, c): (Axis, Coordinate)| c.position == 0.0 && c.velocity == 0.0;
     !followed(scene).contains(&true)
         && scene.loads.iter().all(|load| [load.x, load.z, load.pitch] == [nothing; 3])
-        && (gravity.acceleration * gravity.incline.sin() == 0.0 && !scene.bodies.iter().any(lifted))
+        && (gravity.components().0 == 0.0 && !scene.bodies.iter().any(lifted))
         && scene.bodies.iter().all(|body| body.part.coordinates().into_iter().all(is_still))
         && scene.springs.iter().all(|spring| spring.part.preload == 0.0)
         && scene.actuators.iter().all(|actuator| actuator.part.stroke == Varying::Constant(0.0))

@@ -7,6 +7,7 @@
 //! a step is bounded, and of several ends within an eighth the later ones cost the error of a kink in so short a time.
 
 use super::Chords;
+use super::way::{Way, end_of};
 use crate::RunError;
 use crate::contact::{Contact, Mode, Motion};
 use crate::interval::Interval;
@@ -29,7 +30,7 @@ pub(in crate::run) struct Branches<'a> {
     /// Whether the interval is that of the state.
     pub(super) current: bool,
     /// Contacts whose branches end with the step, and the senses of the next ones.
-    ended: Vec<(usize, f64)>,
+    pub(super) ended: Vec<(usize, f64)>,
     /// Those that were found to end where the step was cut, whatever the last bit says, likewise.
     due: Vec<(usize, f64)>,
 }
@@ -41,6 +42,14 @@ impl<'a> Branches<'a> {
     }
 
     /// Whether all contacts of a model keep to branches of closed form.
+    /// What is left of the piece of contact `c` in a motion, m: as whoever [glides](Chords::glides) sees it, to the last bit.
+    fn left(&self, c: usize, branch: &Branch, motion: &Motion) -> f64 {
+        match self.interval.closed_form(c) {
+            Some(closed) => closed.margin(motion.u),
+            None => branch.margin(motion.d, motion.u),
+        }
+    }
+
     #[inline]
     fn holds_all(&self, model: &Model) -> bool {
         self.current && self.interval.closed.len() == model.contacts.len()
@@ -49,6 +58,8 @@ impl<'a> Branches<'a> {
 
 impl<'a> Chords<'a> {
     /// Works out what stays the same until a branch ends, where it is not known.
+    ///
+    /// The motions as the step begins with it, by the same formulas as at its end: whoever takes up a state has no others.
     #[inline]
     pub(in crate::run) fn prepare(&mut self, state: &State) {
         if let Some(branches) = &mut self.branches
@@ -56,6 +67,8 @@ impl<'a> Chords<'a> {
         {
             branches.interval.begin(self.model, state);
             branches.current = true;
+            self.move_contacts(state, state.t, &state.y);
+            std::mem::swap(&mut self.before, &mut self.motions);
         }
     }
 
@@ -118,7 +131,8 @@ impl<'a> Chords<'a> {
         let mut first = f64::INFINITY;
         for (c, (from, to)) in self.before.iter().zip(&self.motions).enumerate() {
             let Mode::Slip(branch) = &state.modes[c] else { continue };
-            let Some((share, sense)) = end_of(branch, Way { from, to, duration }) else { continue };
+            let left = branches.left(c, branch, to);
+            let Some((share, sense)) = end_of(branch, left, Way { from, to, duration }) else { continue };
             if share < first - TOGETHER {
                 branches.due.clear();
             }
@@ -155,7 +169,7 @@ impl<'a> Chords<'a> {
                 let turned = branch.sense() * motion.du < 0.0;
                 match due {
                     Some((_, next)) => sense = *next,
-                    None if !turned && branch.margin(motion.d, motion.u) >= 0.0 => continue,
+                    None if !turned && branches.left(c, branch, motion) >= 0.0 => continue,
                     None if turned => {
                         let way = Way { from: &self.before[c], to: motion, duration };
                         if let Some(share) = way.turn() {
@@ -213,18 +227,17 @@ impl<'a> Chords<'a> {
         self.ledger.commit((self.model, self.layout), t, state)?;
         self.ledger.tell(record);
         self.branch(state);
+        self.notice_turns(state, record);
         Ok(())
     }
 
-    /// The motions of the contacts where the state is, as the step begins.
-    pub(super) fn measure(&mut self, state: &State) {
-        let y = std::mem::take(&mut self.last);
+    /// The motions of the contacts where the state is.
+    fn measure(&mut self, state: &State) {
         let mut motions = std::mem::take(&mut self.motions);
         let eq = self.plain(state);
         motions.clear();
         motions.extend(self.model.contacts.iter().map(|contact| eq.motion(contact, state.t, |i| state.y[i])));
-        self.before.clone_from(&motions);
-        (self.motions, self.last) = (motions, y);
+        self.motions = motions;
     }
 
     /// Every memory comes to where the state is.
@@ -254,67 +267,5 @@ fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left):
             Mode::Slip(branching.branch(&contact.interface, sense, slack))
         }
         _ => Mode::Whole { sense: 0.0 },
-    }
-}
-
-/// Where the branch of a contact ends on its way, as a share of it, and the sense of the next one.
-fn end_of(branch: &Branch, way: Way<'_>) -> Option<(f64, f64)> {
-    let sense = branch.sense();
-    let turned = sense * way.to.du < 0.0;
-    if branch.margin(way.to.d, way.to.u) < 0.0 {
-        return Some((way.reaches(branch), sense));
-    }
-    turned.then(|| (way.turn().unwrap_or(0.0), -sense))
-}
-
-/// The way of a contact at constant depth in a step, by the cubic through both its ends.
-#[derive(Clone, Copy)]
-struct Way<'a> {
-    from: &'a Motion,
-    to: &'a Motion,
-    /// s.
-    duration: f64,
-}
-
-impl Way<'_> {
-    /// u at a share of the time, m: s u₁ + (1-s) u₀ + hs(1-s)[(1-s)(u̇₀-m) - s(u̇₁-m)], m the mean rate.
-    fn at(&self, s: f64) -> f64 {
-        let way = self.to.u - self.from.u;
-        let mean = way / self.duration;
-        let bend = (1.0 - s) * (self.from.du - mean) - s * (self.to.du - mean);
-        self.from.u + s * way + self.duration * s * (1.0 - s) * bend
-    }
-
-    /// Its derivative by the share, m: u̇₀ + 2(3m - 2u̇₀ - u̇₁)s + 3(u̇₀ + u̇₁ - 2m)s², times h.
-    fn slope(&self, s: f64) -> f64 {
-        let [a, b, c] = self.rates();
-        self.duration * ((a * s + b) * s + c)
-    }
-
-    /// Coefficients of u̇ over the share, of the square first, m/s.
-    fn rates(&self) -> [f64; 3] {
-        let (v0, v1, mean) = (self.from.du, self.to.du, (self.to.u - self.from.u) / self.duration);
-        [3.0 * (v0 + v1 - 2.0 * mean), 2.0 * (3.0 * mean - 2.0 * v0 - v1), v0]
-    }
-
-    /// Where u turns, as a share of the time; none where rounding leaves no turn.
-    fn turn(&self) -> Option<f64> {
-        let [a, b, c] = self.rates();
-        let root = (b * b - 4.0 * a * c).sqrt();
-        let q = -0.5 * (b + root.copysign(b));
-        [c / q, q / a].into_iter().find(|s| (0.0..=1.0).contains(s))
-    }
-
-    /// Where a branch's piece is used up, as a share of the time.
-    fn reaches(&self, branch: &Branch) -> f64 {
-        let margin = |u: f64| branch.margin(self.to.d, u);
-        let (first, last) = (margin(self.from.u), margin(self.to.u));
-        let mut s = if first > 0.0 { first / (first - last) } else { 0.0 };
-        // The chord is h² off, and each step of Newton's squares that.
-        for _ in 0..2 {
-            let step = margin(self.at(s)) / (branch.sense() * self.slope(s));
-            s = if step.is_finite() { (s + step).clamp(0.0, 1.0) } else { s };
-        }
-        s
     }
 }

@@ -1,6 +1,6 @@
 //! What shows after a step: guards of blocks that are down, and events of contacts, for the record alone.
 
-use super::Chords;
+use super::{Chords, heading};
 use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
@@ -37,13 +37,27 @@ impl Chords<'_> {
         memory.preview(&self.model.contacts[c].interface, at).state
     }
 
+    /// Contacts that have turned at a corner, where they stick: where they slid, the next step shows that they have stopped.
+    pub(super) fn notice_turns(&mut self, state: &State, record: &mut dyn Record) {
+        let ended = self.branches.iter().flat_map(|branches| &branches.ended);
+        for &(c, sense) in ended {
+            let was = std::mem::replace(&mut self.senses[c], sense);
+            if !self.watched || was * sense >= 0.0 || self.standings[c] == ContactState::Slip {
+                continue;
+            }
+            let event = Event { t: state.t, source: Source::Contact(c), kind: EventKind::Reversal };
+            let eq = Equations::on(self.model, state, self.layout, self.crossing);
+            self.output.event(&eq, state, &event, record);
+        }
+    }
+
     /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
     /// whether somebody watched.
     pub(super) fn notice(&mut self, state: &State, record: &mut dyn Record) {
         for (c, motion) in self.motions.iter().enumerate() {
             let now = self.standing(c, &state.memories[c], Some(motion));
             let was = std::mem::replace(&mut self.standings[c], now);
-            let turns = self.senses[c] * motion.du < 0.0;
+            let turns = self.senses[c] * heading(&state.modes[c], motion) < 0.0;
             let kind = match (was, now) {
                 (ContactState::Open, ContactState::Open) => continue,
                 // What is in contact after the first step has been so from the start.
