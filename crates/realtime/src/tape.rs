@@ -108,7 +108,10 @@ pub(crate) fn write_down(reels: &mut [Reel<'_>], over: &AtomicBool, look: &dyn F
     loop {
         // Asked first: what was put on before the end is found below.
         let is_over = over.load(Ordering::Acquire);
-        let more = reels.iter_mut().fold(false, |more, reel| reel.wind(&mut record) || more);
+        let mut more = false;
+        for reel in &mut *reels {
+            more |= reel.wind(&mut record);
+        }
         look();
         if is_over {
             break;
