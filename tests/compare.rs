@@ -230,7 +230,7 @@ fn an_event_of_another_kind_is_one_missing_and_one_extra() {
 fn figures_are_compared_each_by_its_name() {
     let pair = Pair::quickstart();
     for (pointer, name) in [
-        ("/steps/lengths_m/1", "steps.lengths_m[1]"),
+        ("/steps/last_m", "steps.last_m"),
         ("/energy/friction_J", "energy.friction_J"),
         ("/contacts/ball/peak_fx_N", "contacts.ball.peak_fx_N"),
     ] {
@@ -242,6 +242,16 @@ fn figures_are_compared_each_by_its_name() {
         assert!(pair.text(&[]).ends_with("a difference, in what has no time\n"));
         pair.edit_summary(pointer, |_| original);
     }
+    pair.edit("steps.csv", |lines| {
+        let length: f64 = lines[2][3].parse().unwrap();
+        lines[2][3] = format!("{:?}", length * (1.0 + 1e-9));
+    });
+    let (code, found) = pair.compare(&[]);
+    assert_eq!((code, &found["figures"]["differ"][0]["name"]), (1, &json!("steps.lengths_m[1]")));
+    // Whoever sends results may leave the steps out.
+    std::fs::remove_file(pair.b.join("steps.csv")).unwrap();
+    let (code, found) = pair.compare(&[]);
+    assert_eq!((code, &found["notes"]), (0, &json!(["B: not there, and not compared: steps.csv"])));
     pair.edit_summary("/steps", |_| json!({}));
     let (code, found) = pair.compare(&[]);
     assert_eq!((code, &found["figures"]["missing"][0]), (1, &json!("steps.body")));

@@ -348,7 +348,7 @@ fn what_a_summary_says_of_its_tables_is_what_sha256sum_says() {
     let found = summary(&folder);
     let tables = found["tables"].as_object().unwrap();
     let names: Vec<&String> = tables.keys().collect();
-    assert_eq!(names, ["trace.csv", "events.csv", "springs.csv", "memory.csv"]);
+    assert_eq!(names, ["trace.csv", "events.csv", "springs.csv", "memory.csv", "steps.csv"]);
     for (name, seal) in tables {
         let bytes = std::fs::read(folder.join(name)).unwrap();
         assert_eq!(seal["sha256"], sha256(&bytes), "{name}");

@@ -18,6 +18,7 @@ mod info;
 mod info_tables;
 mod insides;
 mod new;
+mod output;
 mod pictures;
 mod planar;
 mod program;

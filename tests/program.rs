@@ -65,7 +65,7 @@ pub(crate) fn listing(folder: &Path) -> Vec<String> {
 /// Makes the summary in a folder say of its tables what they hold now, as one does who changes them and knows of seals.
 pub(crate) fn reseal(folder: &Path) {
     let mut summary = summary(folder);
-    for name in ["trace.csv", "events.csv", "springs.csv", "memory.csv"] {
+    for name in ["trace.csv", "events.csv", "steps.csv", "springs.csv", "memory.csv"] {
         let Ok(bytes) = std::fs::read(folder.join(name)) else { continue };
         let rows = bytes.iter().filter(|byte| **byte == b'\n').count().saturating_sub(1);
         summary["tables"][name] = json!({ "rows": rows, "sha256": sha256(&bytes) });

@@ -6,6 +6,7 @@
 //! * [`cycles`] – cuts a long record into cycles;
 //! * [`fretting`] – the quantities of one cycle: amplitudes, loop area, ratios, stiffness;
 //! * [`regime`] – thresholds between partial and gross slip, and on which side a cycle lies;
+//! * [`sequence`] – values in order, in memory or on a disk;
 //! * [`settling`] – whether a sequence has settled, and where it goes;
 //! * [`steps`] – the quantities of a drive: step length, back-step, mean speed, repeatability;
 //! * [`prefix`] – the SI prefix that makes a series readable.
@@ -14,6 +15,7 @@ pub mod cycles;
 pub mod fretting;
 pub mod prefix;
 pub mod regime;
+pub mod sequence;
 pub mod series;
 pub mod settling;
 pub mod steps;
@@ -22,6 +24,7 @@ pub use cycles::{Cut, split_cycles};
 pub use fretting::Cycle;
 pub use prefix::Prefix;
 pub use regime::{Regime, Thresholds};
+pub use sequence::Sequence;
 pub use series::SeriesError;
 pub use settling::{Bounds, Settled, Settling};
-pub use steps::{Steady, Step, Steps};
+pub use steps::{Steady, Step, Steps, Stride, Strides};

@@ -8,7 +8,8 @@
 //!
 //! Source: de Prony, *J. École Polytechnique* 1 (1795) 24; Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289, is its order 1.
 
-use crate::series::{mean, sum};
+use crate::sequence::{Sequence, half_range, mean_of};
+use crate::series::sum;
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 use std::f64::consts::TAU;
 
@@ -103,29 +104,30 @@ pub struct Settled {
 
 impl Settling {
     /// Judges values.
-    pub fn of(values: &[f64], bounds: Bounds) -> Self {
-        let Bounds { least, .. } = bounds;
-        let Some(last) = values.last().copied().filter(|_| values.iter().all(|v| v.is_finite())) else {
+    pub fn of<S: Sequence + ?Sized>(values: &S, bounds: Bounds) -> Self {
+        let (Bounds { least, .. }, count) = (bounds, values.count());
+        let Some(last) = ending(values, 0).filter(|_| values.part(0..count).all(f64::is_finite)) else {
             return Self::NotSettled { change: None, limit: None };
         };
         let scale = |limit: f64| limit.abs().max(least);
-        let quarter = &values[values.len() - (values.len() / 4).clamp(3.min(values.len()), values.len())..];
-        let change = (values.len() > 1).then(|| last - values[values.len() - 2]);
-        if values.len() >= FEWEST && half_range(quarter) <= ROUNDING * scale(last) {
-            return Self::settled(values, (mean(quarter), half_range(quarter)), bounds.error, scale(last));
+        let quarter = count - (count / 4).clamp(3.min(count), count)..count;
+        let change = ending(values, 1).map(|before| last - before);
+        let spread = half_range(values, quarter.clone());
+        if count >= FEWEST && spread <= ROUNDING * scale(last) {
+            return Self::settled(values, (mean_of(values, quarter), spread), bounds.error, scale(last));
         }
-        let half = &values[values.len() / 2..];
-        if values.len() >= FEWEST && half.iter().all(|value| value.abs() <= least) {
-            return Self::settled(values, (mean(half), half_range(half)), bounds.error, scale(last));
+        let half = count / 2..count;
+        let (middle, spread) = (mean_of(values, half.clone()), half_range(values, half.clone()));
+        if count >= FEWEST && values.part(half).all(|value| value.abs() <= least) {
+            return Self::settled(values, (middle, spread), bounds.error, scale(last));
         }
-        let (middle, spread) = (mean(half), half_range(half));
         let is_shown = spread > FAINT * scale(middle);
         let fit = Fit::best(values).filter(|fit| fit.rest <= PATTERN && is_shown);
         let Some(fit) = fit else {
-            let is_near = values.len() >= FEWEST_TO_FIT && 2.0 * spread <= BAND * scale(middle);
+            let is_near = count >= FEWEST_TO_FIT && 2.0 * spread <= BAND * scale(middle);
             return match is_near {
                 true => Self::settled(values, (middle, 2.0 * spread), bounds.error, scale(middle)),
-                false if values.len() < FEW => Self::NotSettled { change, limit: None },
+                false if count < FEW => Self::NotSettled { change, limit: None },
                 false => Self::Irregular { spread },
             };
         };
@@ -133,24 +135,26 @@ impl Settling {
     }
 
     /// Values that are as near to a limit as `near` at their end, with how far fits of it are apart.
-    fn settled(values: &[f64], (limit, near): (f64, f64), apart: f64, scale: f64) -> Self {
+    fn settled<S: Sequence + ?Sized>(values: &S, (limit, near): (f64, f64), apart: f64, scale: f64) -> Self {
+        let count = values.count();
+        // Sequences on a disk are read from their beginning.
         let after = |far: f64| {
-            values.iter().rposition(|value| (value - limit).abs() > far).map_or(0, |place| place + 1)
+            let far = values.part(0..count).enumerate().filter(|(_, value)| (value - limit).abs() > far);
+            far.last().map_or(0, |(place, _)| place + 1)
         };
-        let from = after(BAND * scale).min(values.len() - 3.min(values.len()));
-        let last = (values.len() - after(3.0 * near).max(from)).max(3.min(values.len()));
-        let averaged = &values[values.len() - last..];
-        let value = mean(averaged);
-        let error = (value - limit).abs() + apart + half_range(averaged).max(near);
+        let from = after(BAND * scale).min(count - 3.min(count));
+        let last = (count - after(3.0 * near).max(from)).max(3.min(count));
+        let averaged = count - last..count;
+        let value = mean_of(values, averaged.clone());
+        let error = (value - limit).abs() + apart + half_range(values, averaged).max(near);
         Self::Settled(Settled { from, last, value, error })
     }
 }
 
-/// Half of what lies between the least and the largest.
-fn half_range(values: &[f64]) -> f64 {
-    let (low, high) =
-        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
-    0.5 * (high - low).max(0.0)
+/// The value so many places before the last.
+fn ending<S: Sequence + ?Sized>(values: &S, before: usize) -> Option<f64> {
+    let place = values.count().checked_sub(before + 1)?;
+    values.part(place..place + 1).next()
 }
 
 /// A recurrence fitted to the end of a sequence.
@@ -167,20 +171,21 @@ struct Fit {
 
 impl Fit {
     /// The lowest order that leaves nothing, or else the one that leaves least.
-    fn best(values: &[f64]) -> Option<Self> {
-        if values.len() < FEWEST_TO_FIT {
+    fn best<S: Sequence + ?Sized>(values: &S) -> Option<Self> {
+        let count = values.count();
+        if count < FEWEST_TO_FIT {
             return None;
         }
         // The way in is left out: the half of a long sequence, the first two values of a short one.
-        let end = &values[(values.len() / 2).min(values.len() - FEWEST_TO_FIT).min(values.len() / 8 + 2)..];
-        let end = if values.len() > 32 {
-            &values[(values.len() / 2).max(values.len().saturating_sub(MOST))..]
+        let from = if count > 32 {
+            (count / 2).max(count.saturating_sub(MOST))
         } else {
-            end
+            (count / 2).min(count - FEWEST_TO_FIT).min(count / 8 + 2)
         };
+        let end: Vec<f64> = values.part(from..count).collect();
         let mut best: Option<Self> = None;
         for order in ORDERS {
-            let Some(fit) = Self::of(end, order) else { continue };
+            let Some(fit) = Self::of(&end, order) else { continue };
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.rest);
             let apart = best.as_ref().map_or(f64::INFINITY, |best| (best.limit - fit.limit).abs());
             if before <= EXACT {
@@ -233,53 +238,63 @@ impl Fit {
     /// By which factor a swing grows from one value to the next: that of the root where nothing else is left, or else that of the
     /// deviations, root mean squares over as many whole swings at the start and at the end of the last half. None where these are
     /// less than one swing each, or contradict the root.
-    fn growth(&self, values: &[f64], period: f64) -> Option<f64> {
-        let half = &values[values.len() / 2..];
-        let swings = (0.5 * half.len() as f64 / period).floor();
+    fn growth<S: Sequence + ?Sized>(&self, values: &S, period: f64) -> Option<f64> {
+        let (count, middle) = (values.count(), values.count() / 2);
+        let half = count - middle;
+        let swings = (0.5 * half as f64 / period).floor();
         let span = (swings * period).round() as usize;
-        if swings < 1.0 || span >= half.len() || (half.len() as f64) < MANY * period {
+        if swings < 1.0 || span >= half || (half as f64) < MANY * period {
             return None;
         }
-        let square = |part: &[f64]| sum(part.iter().map(|value| (value - self.limit).powi(2)));
-        let ratio = square(&half[half.len() - span..]) / square(&half[..span]);
-        let envelope = ratio.powf(0.5 / (half.len() - span) as f64);
+        let square = |part| sum(values.part(part).map(|value: f64| (value - self.limit).powi(2)));
+        let ratio = square(count - span..count) / square(middle..middle + span);
+        let envelope = ratio.powf(0.5 / (half - span) as f64);
         let agree = (envelope > 1.0) == (self.root.0 > 1.0);
         let growth = if self.rest > CLEAN { envelope } else { self.root.0 };
         (growth.is_finite() && (agree || self.rest > CLEAN)).then_some(growth)
     }
 
     /// What it makes of the values.
-    fn judge(&self, values: &[f64], (change, scale, bounds): (Option<f64>, f64, Bounds)) -> Settling {
-        let (growth, angle) = self.root;
+    fn judge<S: Sequence + ?Sized>(
+        &self,
+        values: &S,
+        (change, scale, bounds): (Option<f64>, f64, Bounds),
+    ) -> Settling {
+        let (count, (growth, angle)) = (values.count(), self.root);
         // One swing in the whole sequence or less is none: it could as well be a bend.
-        let swings = angle * values.len() as f64 > TAU;
+        let swings = angle * count as f64 > TAU;
         let period = if swings { TAU / angle } else { 1.0 };
-        let span = ((period.ceil() as usize).max(3)).min(values.len());
-        let end = &values[values.len() - span..];
+        let last = ending(values, 0).unwrap_or(0.0);
         let near = match swings {
-            true => end.iter().fold(0.0, |most: f64, v| most.max((v - self.limit).abs())),
+            true => {
+                let end = values.part(count - ((period.ceil() as usize).max(3)).min(count)..count);
+                end.fold(0.0, |most: f64, v| most.max((v - self.limit).abs()))
+            }
             // What is still to come, on the way that is the same in every period.
-            false => end.last().map_or(0.0, |v| (v - self.limit).abs()),
+            false => (last - self.limit).abs(),
         };
         let fades = growth < 1.0;
         let apart = if self.apart.is_finite() { self.apart } else { near };
         if fades && near + apart <= BAND * scale {
             return Settling::settled(values, (self.limit, near), apart + bounds.error, scale);
         }
-        let last = values.last().copied().unwrap_or(0.0);
-        let half = &values[values.len() / 2..];
-        let above = |value: &f64| *value > self.limit;
-        let crossings = half.windows(2).filter(|pair| above(&pair[0]) != above(&pair[1])).count();
-        if swings && crossings >= 2 {
+        if swings && self.crossings(values) >= 2 {
             let growth = self.growth(values, period);
             return Settling::Beats { period, growth, about: self.limit, amplitude: near };
         }
         if last.abs() > bounds.most || !fades && self.rest <= CLEAN {
             return Settling::Drifts { change: change.unwrap_or(0.0) };
         }
-        let (gone, to_go) = (2.0 * half_range(values), (self.limit - last).abs());
+        let (gone, to_go) = (2.0 * half_range(values, 0..count), (self.limit - last).abs());
         let is_foreseen = fades && to_go <= gone;
         Settling::NotSettled { change, limit: is_foreseen.then_some((self.limit, apart + 0.1 * to_go)) }
+    }
+
+    /// How often the last half passes the limit.
+    fn crossings<S: Sequence + ?Sized>(&self, values: &S) -> usize {
+        let mut above = values.part(values.count() / 2..values.count()).map(|value| value > self.limit);
+        let mut before = above.next().unwrap_or_default();
+        above.filter(|now| *now != std::mem::replace(&mut before, *now)).count()
     }
 }
 
@@ -387,7 +402,7 @@ mod tests {
 
     #[test]
     fn few_values_are_judged_with_care() {
-        assert!(matches!(Settling::of(&[], BOUNDS), Settling::NotSettled { .. }));
+        assert!(matches!(Settling::of(&[0.0; 0], BOUNDS), Settling::NotSettled { .. }));
         assert!(matches!(Settling::of(&[1.0, 1.0, 1.0], BOUNDS), Settling::NotSettled { .. }));
         assert_eq!(settled(&[9.0, 1.0, 1.0, 1.0]).value, 1.0);
         assert!(matches!(Settling::of(&[9.0, 1.0, 1.1, 1.0], BOUNDS), Settling::NotSettled { .. }));

@@ -1,7 +1,54 @@
 //! The quantities of a stepping drive.
 
-use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, mean, sum};
+use crate::sequence::Sequence;
+use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, sum};
 use crate::settling::{Bounds, Settled, Settling};
+use std::ops::Range;
+
+/// Where a body was in a period of its drive, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stride {
+    /// At its start.
+    pub start: f64,
+    /// At its end.
+    pub end: f64,
+    /// The least place within it.
+    pub least: f64,
+    /// The largest.
+    pub most: f64,
+}
+
+/// Strides in order: in memory, or on a disk where there are too many.
+pub trait Strides {
+    /// How many.
+    fn count(&self) -> usize;
+
+    /// Those of a range. What cannot be read is NaN.
+    fn part(&self, range: Range<usize>) -> impl Iterator<Item = Stride>;
+}
+
+impl Strides for [Stride] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn part(&self, range: Range<usize>) -> impl Iterator<Item = Stride> {
+        self.get(range).unwrap_or_default().iter().copied()
+    }
+}
+
+/// The lengths of strides.
+struct Lengths<'a, S: ?Sized>(&'a S);
+
+impl<S: Strides + ?Sized> Sequence for Lengths<'_, S> {
+    fn count(&self) -> usize {
+        self.0.count()
+    }
+
+    fn part(&self, range: Range<usize>) -> impl Iterator<Item = f64> {
+        self.0.part(range).map(|stride| stride.length())
+    }
+}
 
 /// One period of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,8 +82,8 @@ pub struct Steady {
 /// The quantities of a drive's record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
-    /// Every whole period in order.
-    pub periods: Vec<Step>,
+    /// Number of whole periods.
+    pub periods: usize,
     /// Mean speed over the whole periods, m/s.
     pub mean_speed: f64,
     /// Net travel over the whole record, a trailing part of a period included, m.
@@ -47,6 +94,21 @@ pub struct Steps {
     pub steady: Option<Steady>,
 }
 
+impl Stride {
+    /// Length of the step, m.
+    pub fn length(&self) -> f64 {
+        self.end - self.start
+    }
+
+    /// The step of a drive that goes forward, or backward.
+    fn step(self, is_forward: bool) -> Step {
+        let Self { start, end, least, most } = self;
+        let [forward, backward] =
+            if is_forward { [most - start, most - end] } else { [start - least, end - least] };
+        Step { length: self.length(), forward, backward }
+    }
+}
+
 impl Step {
     /// Back-step: the share of the forward stroke that is lost; none without forward stroke.
     pub fn back_step(&self) -> Option<f64> {
@@ -55,39 +117,27 @@ impl Step {
 }
 
 impl Steps {
-    /// Takes the quantities from the positions at the ends of all periods, m, and the least and largest position within each; all
-    /// of length `period`, s. `net_travel` is theirs and that of what comes before and after, m.
+    /// Takes the quantities from where the body was in each of its periods, s. `net_travel` is theirs and that of what comes
+    /// before and after, m.
     ///
     /// The direction of travel is the sign of the displacement over the whole periods: a drive that runs backwards
     /// has negative steps and the same back-steps. What is known of the lengths is in `bounds`.
-    pub fn of_periods(
-        ends: &[f64],
-        ranges: &[[f64; 2]],
+    pub fn of_strides<S: Strides + ?Sized>(
+        strides: &S,
         period: f64,
         net_travel: f64,
         bounds: Bounds,
     ) -> Self {
-        let travel = ends.last().zip(ends.first()).map_or(0.0, |(last, first)| last - first);
-        let forward = travel >= 0.0;
-        let periods: Vec<Step> = ends
-            .windows(2)
-            .zip(ranges)
-            .map(|(ends, [least, most])| {
-                let [forward, backward] = if forward {
-                    [most - ends[0], most - ends[1]]
-                } else {
-                    [ends[0] - least, ends[1] - least]
-                };
-                Step { length: ends[1] - ends[0], forward, backward }
-            })
-            .collect();
-        let lengths: Vec<f64> = periods.iter().map(|step| step.length).collect();
-        let settling = Settling::of(&lengths, bounds);
+        let periods = strides.count();
+        let first = strides.part(0..periods.min(1)).next();
+        let last = periods.checked_sub(1).and_then(|last| strides.part(last..periods).next());
+        let travel = last.zip(first).map_or(0.0, |(last, first)| last.end - first.start);
+        let settling = Settling::of(&Lengths(strides), bounds);
         let steady = match settling {
-            Settling::Settled(settled) => Some(Steady::of_periods(&periods, settled)),
+            Settling::Settled(settled) => Some(Steady::of_strides(strides, settled, travel >= 0.0)),
             _ => None,
         };
-        let time = (periods.len() as f64 * period).max(f64::MIN_POSITIVE);
+        let time = (periods as f64 * period).max(f64::MIN_POSITIVE);
         Self { mean_speed: travel / time, net_travel, settling, steady, periods }
     }
 
@@ -109,23 +159,33 @@ impl Steps {
             let both = [ends[k].min(ends[k + 1]), ends[k].max(ends[k + 1])];
             x[inside].iter().fold(both, |[least, most], &x| [least.min(x), most.max(x)])
         };
-        let ranges: Vec<[f64; 2]> = (0..count).map(range).collect();
-        Ok(Self::of_periods(&ends, &ranges, period, x[x.len() - 1] - x[0], bounds))
+        let stride = |k: usize| {
+            let [least, most] = range(k);
+            Stride { start: ends[k], end: ends[k + 1], least, most }
+        };
+        let strides: Vec<Stride> = (0..count).map(stride).collect();
+        Ok(Self::of_strides(strides.as_slice(), period, x[x.len() - 1] - x[0], bounds))
     }
 }
 
 impl Steady {
-    fn of_periods(periods: &[Step], settled: Settled) -> Self {
-        let averaged = &periods[periods.len() - settled.last.min(periods.len())..];
-        let spread = sum(averaged.iter().map(|p| (p.length - settled.value).powi(2)));
-        let back: Option<Vec<f64>> = averaged.iter().map(Step::back_step).collect();
+    fn of_strides<S: Strides + ?Sized>(strides: &S, settled: Settled, is_forward: bool) -> Self {
+        let count = strides.count();
+        let averaged = count - settled.last.min(count)..count;
+        let periods = averaged.len();
+        let spread =
+            sum(strides.part(averaged.clone()).map(|stride| (stride.length() - settled.value).powi(2)));
+        // One that has no share has no mean.
+        let has_all =
+            strides.part(averaged.clone()).all(|stride| stride.step(is_forward).back_step().is_some());
+        let shares = strides.part(averaged).filter_map(|stride| stride.step(is_forward).back_step());
         Self {
             from: settled.from,
-            periods: averaged.len(),
+            periods,
             step: settled.value,
             error: settled.error,
-            repeatability: (averaged.len() > 1).then(|| (spread / (averaged.len() - 1) as f64).sqrt()),
-            back_step: back.map(|shares| mean(&shares)),
+            repeatability: (periods > 1).then(|| (spread / (periods - 1) as f64).sqrt()),
+            back_step: has_all.then(|| sum(shares) / periods as f64),
         }
     }
 }
@@ -145,7 +205,7 @@ fn whole_periods(t: &[f64], period: f64) -> Result<usize, SeriesError> {
 }
 
 /// Samples with start < t < end (a hair inside, so that rounding moves no sample into the wrong period).
-fn span(t: &[f64], start: f64, end: f64) -> std::ops::Range<usize> {
+fn span(t: &[f64], start: f64, end: f64) -> Range<usize> {
     let hair = 1e-9 * (end - start);
     let first = t.partition_point(|&s| s <= start + hair);
     first..t.partition_point(|&s| s < end - hair).max(first)
@@ -187,7 +247,7 @@ mod tests {
         let (t, x) = staircase(8, 2.0, |_| 0.5);
         let steps = Steps::of_record(&t, &x, 1.0, BOUNDS).unwrap();
         let steady = steps.steady.unwrap();
-        assert_eq!(steps.periods.len(), 8);
+        assert_eq!(steps.periods, 8);
         assert_relative_eq!(steady.step, 1.5, max_relative = 1e-14);
         assert_abs_diff_eq!(steady.repeatability.unwrap(), 0.0, epsilon = 1e-14);
         assert_relative_eq!(steady.back_step.unwrap(), 0.25, max_relative = 1e-14);
@@ -240,7 +300,7 @@ mod tests {
         t.push(3.5);
         x.push(20.0);
         let steps = Steps::of_record(&t, &x, 1.0, BOUNDS).unwrap();
-        assert_eq!((steps.periods.len(), steps.net_travel), (3, 15.0));
+        assert_eq!((steps.periods, steps.net_travel), (3, 15.0));
         assert_relative_eq!(steps.mean_speed, 1.0, max_relative = 1e-14);
     }
 

@@ -52,7 +52,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Run scenarios; write trace.csv, events.csv, summary.json, scenario.json and pictures
     ///
-    /// Where contacts go to and fro, also cycles.csv: every cycle's loop. Where a scenario asks for it, springs.csv and memory.csv:
+    /// Of a drive also steps.csv: every step. Where contacts go to and fro, cycles.csv: every cycle's loop. Where a scenario asks for it, springs.csv and memory.csv:
     /// what goes on inside its contacts.
     ///
     /// Everything about a scenario is checked before its folder is made. Exit codes: 0 done, 2 bad input, 3 a run

@@ -76,6 +76,12 @@ pub trait Record {
         true
     }
 
+    /// From when until when rows at the plan's interval are wanted, s, both included; asked where a run begins. The first and the
+    /// last row of the run come anyway.
+    fn rows_within(&self) -> [f64; 2] {
+        [0.0, f64::INFINITY]
+    }
+
     /// Whether events are wanted; their rows cost an evaluation each.
     fn wants_events(&self) -> bool {
         true

@@ -17,7 +17,8 @@ pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
     let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
     match job.start.memories().get(c) {
-        Some(memory) if is_walked(job, c) => {
+        // Where events are left out of a series, turning points may be missing in it.
+        Some(memory) if is_walked(job, c) && job.scenario.written.has_all_events() => {
             let d = d.first().copied().unwrap_or(0.0);
             refined(&samples, law, memory.clone(), (d, f64::from(job.count(c))))
         }

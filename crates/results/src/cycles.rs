@@ -1,14 +1,22 @@
 //! The cycles of a contact, from the moments of a run and the contact's own law between them.
 //!
+//! Cycles are told as they end: of a run of any length no more is kept than the moments of the cycle under way. Those between
+//! reversals of a table, which has no periods, are told at the end of the run.
+//!
 //! Nothing here is read off rows. Ends of cycles are marks, turning points are events; where the contact's law has no time in
 //! it, the way from one to the next is walked once more, and what lies between is asked of the law.
 
-use crate::contact_path::is_walked;
+mod judged;
+mod loops;
+
+pub(crate) use judged::ContactCycles;
+pub use judged::JudgedCycle;
+pub(crate) use loops::Loops;
+
 use crate::job::Job;
-use crate::periods::{Periods, followed};
-use crate::series::Series;
+use crate::periods::followed;
 use std::ops::Range;
-use stickslip_analysis::{Cut, Cycle, split_cycles};
+use stickslip_analysis::Cycle;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 use stickslip_drive::Waveform;
 
@@ -38,14 +46,15 @@ pub struct CycleFigures {
     pub depth: f64,
 }
 
-/// The moments of a contact.
-struct Track<'a> {
-    t: &'a [f64],
-    u: &'a [f64],
-    d: &'a [f64],
-    force: &'a [f64],
-    normal: &'a [f64],
-    friction: &'a [f64],
+/// The moments of a contact, from the start of the cycle under way or, where cycles are told only at the end, from the first.
+#[derive(Debug, Clone, Default)]
+struct Track {
+    t: Vec<f64>,
+    u: Vec<f64>,
+    d: Vec<f64>,
+    force: Vec<f64>,
+    normal: Vec<f64>,
+    friction: Vec<f64>,
 }
 
 /// What the law is asked for in a cycle: between which moment and the next, and at which u; without one, where F_x passes the
@@ -59,44 +68,22 @@ struct Question {
     answer: f64,
 }
 
-/// The cycles of contact `c` that come back along u, in order; of the periods of what drives it, or from one reversal to the next
-/// of the same kind where that is a table.
-pub fn cycles(job: &Job, c: usize, moments: &Series, end: f64) -> Vec<CycleFigures> {
-    let Some((name, law)) = job.model.contacts().nth(c) else { return Vec::new() };
-    let column = |quantity| moments.column(name, quantity);
-    let track = Track {
-        t: moments.time(),
-        u: column("u_m"),
-        d: column("d_m"),
-        force: column("fx_N"),
-        normal: column("fn_N"),
-        friction: column("friction_J"),
-    };
-    let spans: Vec<Range<usize>> =
-        track.spans(job, c, end).into_iter().filter(|span| track.comes_back(span)).collect();
-    if spans.is_empty() {
-        return Vec::new();
+impl Track {
+    fn push(&mut self, t: f64, [u, d, force, normal, friction]: [f64; 5]) {
+        self.t.push(t);
+        let columns = [&mut self.u, &mut self.d, &mut self.force, &mut self.normal, &mut self.friction];
+        columns
+            .into_iter()
+            .zip([u, d, force, normal, friction])
+            .for_each(|(column, value)| column.push(value));
     }
-    let walk = job.start.memories().get(c).filter(|_| is_walked(job, c));
-    let mut walk = walk.map(|memory| Walk { law, memory: memory.clone(), at: None });
-    let count = f64::from(job.count(c));
-    spans.iter().map(|span| track.figures(span, (law, count), walk.as_mut())).collect()
-}
 
-impl Track<'_> {
-    /// First and last moment of all whole cycles.
-    fn spans(&self, job: &Job, c: usize, end: f64) -> Vec<Range<usize>> {
-        if let Some(periods) = Periods::of_contact(job, c, end) {
-            let ends: Vec<usize> = (0..=periods.count).map_while(|k| periods.end_in(self.t, k)).collect();
-            return ends.windows(2).map(|pair| pair[0]..pair[1]).collect();
-        }
-        if table_of(job, c).is_none() {
-            return Vec::new();
-        }
-        let (low, high) = range(self.u);
-        let cut = Cut::Reversals { least: CLOSED * (high - low) };
-        let spans = split_cycles(self.t, self.u, self.force, cut).unwrap_or_default();
-        spans.into_iter().map(|span| span.start..span.end - 1).collect()
+    /// Forgets all but the last moment.
+    fn keep_last(&mut self) {
+        let Self { t, u, d, force, normal, friction } = self;
+        [t, u, d, force, normal, friction].into_iter().for_each(|column| {
+            column.drain(..column.len().saturating_sub(1));
+        });
     }
 
     fn comes_back(&self, span: &Range<usize>) -> bool {
@@ -109,7 +96,7 @@ impl Track<'_> {
         &self,
         span: &Range<usize>,
         (law, count): (&Interface, f64),
-        walk: Option<&mut Walk<'_>>,
+        walk: Option<&mut Walk>,
     ) -> CycleFigures {
         let (a, b) = (span.start, span.end);
         let (u, force) = (&self.u[a..=b], &self.force[a..=b]);
@@ -117,7 +104,7 @@ impl Track<'_> {
         let middle = least + 0.5 * (most - least);
         let mut questions = self.questions(span, (low, high), middle);
         match walk {
-            Some(walk) => walk.answer(self, span, (count, middle), &mut questions),
+            Some(walk) => walk.answer((self, law), span, (count, middle), &mut questions),
             None => questions.iter_mut().for_each(|question| question.answer = self.chord(question, middle)),
         }
         let secant = |extreme: f64| {
@@ -205,23 +192,48 @@ impl Track<'_> {
 }
 
 /// A contact led once more along the moments of a run.
-struct Walk<'a> {
-    law: &'a Interface,
+struct Walk {
     memory: Memory,
-    /// The moment where it stands.
+    /// Indentation, m.
+    d: f64,
+    /// Displacements of moments before those of the track, which it has not been led to yet, m.
+    pending: Vec<f64>,
+    /// The moment of the track where it stands, once it has been led along all that are pending.
     at: Option<usize>,
 }
 
-impl Walk<'_> {
+impl Walk {
+    /// Where the run starts.
+    fn new(memory: Memory) -> Self {
+        Self { memory, d: f64::NAN, pending: Vec::new(), at: None }
+    }
+
+    /// Takes the indentation of the first moment: it is that of all.
+    fn begin(&mut self, d: f64) {
+        if self.d.is_nan() {
+            self.d = d;
+        }
+    }
+
+    /// Leads it along what is pending.
+    fn catch_up(&mut self, law: &Interface) {
+        let Self { memory, d, pending, .. } = self;
+        for u in pending.drain(..) {
+            // The run has been here: its contact was not refused.
+            let _ = memory.commit(law, Segment::Straight(Apex { d: *d, u }));
+        }
+    }
+
     /// Answers questions of a cycle that is not before the one asked about last.
     fn answer(
         &mut self,
-        track: &Track<'_>,
+        (track, law): (&Track, &Interface),
         span: &Range<usize>,
         (count, middle): (f64, f64),
         questions: &mut [Question],
     ) {
-        let d = track.d.first().copied().unwrap_or(0.0);
+        self.catch_up(law);
+        let d = self.d;
         // In order of their moments.
         let mut next = 0;
         for i in self.at.map_or(0, |at| at + 1)..=span.end {
@@ -229,15 +241,14 @@ impl Walk<'_> {
                 let first = next;
                 next += questions[next..].iter().take_while(|question| question.after == i - 1).count();
                 for question in &mut questions[first..next] {
-                    let force = |u: f64| count * self.memory.force(self.law, Apex { d, u });
+                    let force = |u: f64| count * self.memory.force(law, Apex { d, u });
                     question.answer = match question.u {
                         Some(u) => force(u),
                         None => zero(|u| force(u) - middle, [track.u[i - 1], track.u[i]]),
                     };
                 }
             }
-            // The run has been here: its contact was not refused.
-            let _ = self.memory.commit(self.law, Segment::Straight(Apex { d, u: track.u[i] }));
+            let _ = self.memory.commit(law, Segment::Straight(Apex { d, u: track.u[i] }));
             self.at = Some(i);
         }
     }

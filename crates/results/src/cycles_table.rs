@@ -1,11 +1,9 @@
 //! `cycles.csv`: every cycle of the contacts that come back along u.
 
-use crate::files::CYCLES;
-use crate::folder::Folder;
-use crate::record::Draft;
+use crate::cycles::JudgedCycle;
 use crate::sheet::{Sheet, Written};
-use crate::summary::{JudgedCycle, Summary};
 use std::io;
+use tempfile::NamedTempFile;
 
 /// Place of `closed` among the values, after both times.
 const CLOSED: usize = 2;
@@ -32,34 +30,43 @@ const HEAD: [&str; 19] = [
     "regime",
 ];
 
-/// Writes the table of a run; none where no contact has a cycle. Forces and work are those of all identical contacts together;
-/// what a cycle does not have is left empty.
-///
-/// # Errors
-/// What the system says of writing it.
-pub fn cycles_table(summary: &Summary, folder: &Folder) -> io::Result<Option<Draft>> {
-    let contacts = summary.contacts.0.iter();
-    let all = contacts.flat_map(|(name, contact)| contact.cycles.iter().enumerate().map(move |c| (name, c)));
-    let mut all = all.peekable();
-    if all.peek().is_none() {
-        return Ok(None);
+/// The table as its run goes on: cycles in the order in which they end. Forces and work are those of all identical contacts
+/// together; what a cycle does not have is left empty.
+pub(crate) struct CyclesTable {
+    sheet: Sheet,
+    is_empty: bool,
+}
+
+impl CyclesTable {
+    pub(crate) fn new(file: NamedTempFile) -> Self {
+        Self { sheet: Sheet::new(file, HEAD), is_empty: true }
     }
-    let mut sheet = Sheet::new(folder.draft(CYCLES)?, HEAD);
-    for (name, (number, cycle)) in all {
-        sheet.text(name);
-        sheet.word(&(number + 1).to_string());
+
+    /// Writes a cycle of a contact by name, with its number, from 1.
+    pub(crate) fn write(&mut self, (name, number): (&str, usize), cycle: &JudgedCycle) {
+        self.is_empty = false;
+        self.sheet.text(name);
+        self.sheet.word(&number.to_string());
         for (place, value) in values(cycle).into_iter().enumerate() {
             match value {
-                _ if place == CLOSED => sheet.word(if cycle.figures.is_closed { "yes" } else { "no" }),
-                Some(value) => sheet.number(value),
-                None => sheet.word(""),
+                _ if place == CLOSED => self.sheet.word(if cycle.figures.is_closed { "yes" } else { "no" }),
+                Some(value) => self.sheet.number(value),
+                None => self.sheet.word(""),
             }
         }
-        sheet.word(cycle.regime.unwrap_or_default());
-        sheet.end_line();
+        self.sheet.word(cycle.regime.unwrap_or_default());
+        self.sheet.end_line();
     }
-    let Written { file, seal, failure } = sheet.finish()?;
-    failure.map_or(Ok(Some(Draft { name: CYCLES, file, seal })), Err)
+
+    /// Whether its file takes no more.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.sheet.has_failed()
+    }
+
+    /// The written file; none where no contact has a cycle.
+    pub(crate) fn finish(self) -> io::Result<Option<Written>> {
+        if self.is_empty { Ok(None) } else { self.sheet.finish().map(Some) }
+    }
 }
 
 /// The numbers of a cycle, in the order of the columns; in the place of `closed` none.

@@ -19,6 +19,8 @@ pub const FRICTION: &str = "friction.csv";
 pub const INSIDES: [&str; 4] = [SPRINGS, MEMORY, FIELDS, FRICTION];
 /// Every cycle of contacts that come back.
 pub const CYCLES: &str = "cycles.csv";
+/// Every step of a drive.
+pub const STEPS: &str = "steps.csv";
 /// The scenario as it was run.
 pub const SCENARIO: &str = "scenario.json";
 /// What the run came to.
@@ -34,6 +36,10 @@ pub(crate) const FIELD_HEAD: &[&str] =
     &["time_s", "contact", "r_m", "p_Pa", "tau_Pa", "u_m", "slip_m", "w_m", "state", "error_Pa", "error_m"];
 /// Columns of [`FRICTION`].
 pub(crate) const FRICTION_HEAD: &[&str] = &["time_s", "contact", "r_m", "work_J_m2", "way_m"];
+
+/// Columns of [`STEPS`]: number, both times, length, where the body was at first, the least and the largest place within.
+pub(crate) const STEP_HEAD: &[&str] =
+    &["period", "start_s", "end_s", "length_m", "x_m", "least_m", "largest_m"];
 
 /// Where the tables of the insides lie, if they were written.
 #[derive(Debug, Clone)]

@@ -7,6 +7,7 @@ use crate::seal::SealedTable;
 use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::PathBuf;
+use stickslip_drive::state_name;
 use thiserror::Error;
 
 /// Quantities whose columns hold words; all others hold numbers.
@@ -118,7 +119,8 @@ impl Frame {
                 match &mut column.values {
                     Values::Numbers(values) => values.push(rows.number(place, &column.name)?),
                     Values::Words(words) => {
-                        if !words.push(rows.text(place), &mut column.known) {
+                        let word = word(&column.name, rows.text(place));
+                        if !words.push(word, &mut column.known) {
                             return Err(rows.fault(format!("expected at most {MOST_WORDS} different words")));
                         }
                     }
@@ -176,6 +178,17 @@ impl Words {
     pub fn get(&self, row: usize) -> Option<&str> {
         let code = *self.codes.get(row)?;
         self.dictionary.get(code as usize).map(String::as_str)
+    }
+}
+
+/// The word of a cell: a state may stand there as its number.
+fn word<'a>(column: &str, text: &'a str) -> &'a str {
+    if !column.ends_with(".state") {
+        return text;
+    }
+    match text {
+        "0" | "1" | "2" | "3" => state_name(text.parse().unwrap_or(0.0)),
+        word => word,
     }
 }
 

@@ -1,6 +1,7 @@
 //! A scenario that was found good, with everything its run needs.
 
 use crate::columns::Columns;
+use crate::excess;
 use crate::limits;
 use crate::plausibility;
 use crate::program::this_program;
@@ -106,7 +107,9 @@ impl Job {
         let resolved = scenario.resolved();
         let hash = hash(&resolved);
         let program = this_program();
-        Ok(Self { name, folder, scenario, model, start, columns, grids, resolved, hash, program })
+        let job = Self { name, folder, scenario, model, start, columns, grids, resolved, hash, program };
+        excess::check(&job)?;
+        Ok(job)
     }
 
     /// The same job as its results tell it: with the text and the program that they were computed from.

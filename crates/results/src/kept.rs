@@ -8,22 +8,26 @@ use crate::tracks::Tracks;
 use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
 
-/// No place yet.
-const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+/// Pictures that are drawn from rows and moments after events; the others have tables of their own, or nothing over time.
+pub(crate) const FROM_SERIES: [PlotName; 4] =
+    [PlotName::Loop, PlotName::Trajectory, PlotName::Energy, PlotName::Phase];
+
+/// Whether one of these pictures is drawn from a series.
+pub(crate) fn draws_from_series(plots: &[PlotName]) -> bool {
+    plots.iter().any(|plot| FROM_SERIES.contains(plot))
+}
 
 /// What stays in memory of a run.
 pub struct Kept {
     /// Rows and moments after events.
     pub series: Series,
-    /// Moments after events, and the marks: what figures are taken from, whatever rows are asked for.
-    pub moments: Series,
-    /// Least and largest x of the body of the figures in each of their periods, m.
-    pub ranges: Vec<[f64; 2]>,
-    /// The same in the period under way.
-    range: [f64; 2],
+    /// Time reached, s.
+    end: f64,
     /// Moments of the events, where a picture shows them.
     pub tracks: Option<Tracks>,
-    /// Events and marks left out for want of room.
+    /// Time until which the events that were asked for are there without a gap, s, where they were thinned.
+    pub whole_until: Option<f64>,
+    /// Events left out for want of room.
     pub left_out: u64,
     /// For a fingerprint, where one is wanted.
     sketch: Option<Sketch>,
@@ -35,13 +39,17 @@ impl Kept {
         let tracks = plots.contains(&PlotName::Events).then(Tracks::default);
         Self {
             series: Series::new(channels, plots),
-            moments: Series::of_figures(channels),
-            ranges: Vec::new(),
-            range: NOWHERE,
+            end: 0.0,
             tracks,
+            whole_until: None,
             left_out: 0,
             sketch: None,
         }
+    }
+
+    /// The same with a series only where one of these pictures is drawn from it.
+    pub(crate) fn for_pictures(self, plots: &[PlotName]) -> Self {
+        if draws_from_series(plots) { self } else { Self { series: Series::none(), ..self } }
     }
 
     /// The same with a fingerprint of the tables that have these columns.
@@ -62,39 +70,16 @@ impl Kept {
 
     /// Takes the next row of the trace.
     pub fn row(&mut self, values: &[f64]) {
+        self.reach(values);
         self.series.push(values);
         if let Some(sketch) = &mut self.sketch {
             sketch.row(values);
         }
     }
 
-    /// Takes the row of a mark.
-    pub fn mark(&mut self, values: &[f64]) {
-        if self.has_room() {
-            self.moments.push(values);
-        } else {
-            self.left_out += 1;
-        }
-    }
-
-    /// Rows are bounded before the run starts; events and marks are not.
+    /// Rows are bounded before the run starts; events are not.
     fn has_room(&self) -> bool {
-        self.series.size() + self.moments.size() < 2 * MOST_VALUES
-    }
-
-    /// Takes where the body of the figures has been, m.
-    pub fn range(&mut self, [least, most]: [f64; 2]) {
-        self.range = [self.range[0].min(least), self.range[1].max(most)];
-    }
-
-    /// Begins the first period of the figures: what was before it is none of theirs.
-    pub fn begin_range(&mut self) {
-        self.range = NOWHERE;
-    }
-
-    /// Ends a period of the figures.
-    pub fn end_range(&mut self) {
-        self.ranges.push(std::mem::replace(&mut self.range, NOWHERE));
+        self.series.size() < 2 * MOST_VALUES
     }
 
     /// Takes the next event, its source and kind, and the values after it.
@@ -102,9 +87,9 @@ impl Kept {
         if let Some(sketch) = &mut self.sketch {
             sketch.event(words, values);
         }
+        self.reach(values);
         if self.has_room() {
             self.series.push(values);
-            self.moments.push(values);
             if let (Some(tracks), Some(time)) = (&mut self.tracks, values.first()) {
                 tracks.push(words, *time);
             }
@@ -113,8 +98,23 @@ impl Kept {
         }
     }
 
+    /// What it takes, B.
+    pub(crate) fn bytes(&self) -> usize {
+        let tracks = self.tracks.as_ref().map_or(0, Tracks::size);
+        size_of::<f64>() * (self.series.size() as usize + tracks)
+    }
+
     /// Time reached, s.
     pub fn end(&self) -> f64 {
-        self.series.time().last().copied().unwrap_or(0.0)
+        self.end
+    }
+
+    /// Until when its series has all events that were asked for, s.
+    pub fn whole_until(&self) -> f64 {
+        self.whole_until.map_or(self.end, |whole| whole.min(self.end))
+    }
+
+    fn reach(&mut self, values: &[f64]) {
+        self.end = values.first().copied().unwrap_or(self.end);
     }
 }

@@ -14,14 +14,19 @@ pub(crate) const MOST_VALUES: u64 = 250_000_000;
 /// Refuses a run whose rows would fill the memory.
 pub(crate) fn check_rows(scenario: &Scenario, width: usize) -> Result<(), ScenarioError> {
     let Some(every) = scenario.plan.every else { return Ok(()) };
-    let rows = scenario.plan.duration / every;
+    let [from, to] = scenario.written.window;
+    let time = to.min(scenario.plan.duration) - from;
+    let rows = time / every;
     let most = MOST_VALUES as f64 / width as f64;
     if rows <= most {
         return Ok(());
     }
     let message =
         format!("the run would have {rows:.3e} rows of {width} channels, expected at most {most:.3e}");
-    let help = format!("write a row every {:.1e} s or more seldom", scenario.plan.duration / most);
+    let help = format!(
+        "write a row every {:.1e} s or more seldom, or those of a part of the run (output.window)",
+        time / most
+    );
     Err(scenario.locate("output.every", message, Some(help)))
 }
 

@@ -80,6 +80,11 @@ impl Marks {
         (next < f64::INFINITY).then_some(if next > end && next < end * (1.0 + SAME) { end } else { next })
     }
 
+    /// Periods of the figures.
+    pub(crate) fn figures(&self) -> Option<Periods> {
+        self.figures
+    }
+
     /// Which period of the figures a moment ends, from 1; 0 for their beginning.
     pub(crate) fn period_ended(&self, t: f64) -> Option<u64> {
         let periods = self.figures?;

@@ -1,12 +1,17 @@
 //! What came of a run.
 
 use crate::books::Books;
+use crate::cycles::{ContactCycles, JudgedCycle};
+use crate::excess::Excess;
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::record::{Draft, Recorded, Recorder};
+use crate::selection::TakenEvents;
+use crate::tally::Tally;
 use crate::watcher::Watcher;
 use std::io;
 use std::time::Instant;
+use stickslip_analysis::Strides;
 use stickslip_drive::{RunError, State};
 
 /// What came of a run, all of it in memory.
@@ -19,12 +24,36 @@ pub struct Outcome {
     pub kept: Kept,
     /// Energies.
     pub(crate) books: Books,
+    /// What figures are taken from.
+    pub(crate) tally: Tally,
+    /// Cycles of each contact.
+    pub(crate) cycles: Vec<ContactCycles>,
+    /// What became of its events: which are in the table, and in the series.
+    pub events: TakenEvents,
+    /// What it kept in memory at its end that grows with the run: rows and events, steps and cycles, B.
+    pub bytes: usize,
     /// Number of rows of the trace.
     pub rows: u64,
     /// Wall-clock time of the run alone, s.
     pub wall: f64,
+    /// That it was ended because it kept more in memory than it may.
+    pub excess: Option<Excess>,
     /// Why something could not be written any further: the run has ended for that, and its tables may have ended before it.
     pub failure: Option<io::Error>,
+}
+
+impl Outcome {
+    /// The cycles of contact `c` that come back along u, in order, of a run in memory: one with tables has written them down and
+    /// keeps none.
+    pub fn cycles(&self, c: usize) -> &[JudgedCycle] {
+        self.cycles.get(c).map_or(&[], |cycles| &cycles.all)
+    }
+
+    /// Lengths of the steps, m.
+    pub fn step_lengths(&self) -> Vec<f64> {
+        let strides = self.tally.strides();
+        strides.map_or_else(Vec::new, |all| all.part(0..all.count()).map(|stride| stride.length()).collect())
+    }
 }
 
 impl Job {
@@ -63,7 +92,9 @@ impl Ended {
     /// With what was recorded.
     pub(crate) fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
         let Self { error, state, wall } = self;
-        let Recorded { kept, books, rows, drafts, failure } = recorded;
-        (Outcome { error, state, kept, books, rows, wall, failure }, drafts)
+        let Recorded { kept, books, tally, cycles, bytes, events, rows, drafts, excess, failure } = recorded;
+        let outcome =
+            Outcome { error, state, kept, books, tally, cycles, events, bytes, rows, wall, excess, failure };
+        (outcome, drafts)
     }
 }

@@ -55,13 +55,46 @@ impl Periods {
         (self.end_of(self.count - 1), self.end_of(self.count))
     }
 
-    /// Place of a moment of a rising sequence that is the end of period k; none where there is none.
-    pub fn end_in(&self, t: &[f64], k: usize) -> Option<usize> {
-        let end = self.end_of(k);
+    /// How near to the end of period k a moment is that end, s.
+    fn hair(&self, k: usize) -> f64 {
         // Of many periods rounding of t is more.
-        let hair = (SAME * self.length).max(4.0 * f64::EPSILON * end.abs());
-        let place = t.partition_point(|t| *t < end - hair);
-        (*t.get(place)? <= end + hair).then_some(place)
+        (SAME * self.length).max(4.0 * f64::EPSILON * self.end_of(k).abs())
+    }
+}
+
+/// Finds the ends of periods among moments as they come: of each the first moment that is as good as it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tracker {
+    periods: Periods,
+    /// The end that comes next.
+    next: usize,
+    is_over: bool,
+}
+
+impl Tracker {
+    pub(crate) fn new(periods: Periods) -> Self {
+        Self { periods, next: 0, is_over: false }
+    }
+
+    /// Which end a moment is, s, moments ascending; 0 for the beginning of the first period. After one that is missing there are
+    /// no more.
+    pub(crate) fn pass(&mut self, t: f64) -> Option<usize> {
+        if self.is_over {
+            return None;
+        }
+        let (end, hair) = (self.periods.end_of(self.next), self.periods.hair(self.next));
+        if t < end - hair {
+            return None;
+        }
+        let found = (t <= end + hair).then_some(self.next);
+        self.next += 1;
+        self.is_over = found.is_none() || self.next > self.periods.count;
+        found
+    }
+
+    /// Whether no end comes any more.
+    pub(crate) fn is_over(&self) -> bool {
+        self.is_over
     }
 }
 
@@ -140,9 +173,14 @@ mod tests {
     fn rounded_ends_are_found() {
         let t: Vec<f64> = (0..=30).map(|i| f64::from(i) * 0.1).collect();
         let periods = Periods { start: 0.0, length: 0.3, count: 10 };
-        let found: Vec<Option<usize>> = (0..=11).map(|k| periods.end_in(&t, k)).collect();
-        let wanted: Vec<Option<usize>> = (0..=10).map(|k| Some(3 * k)).chain([None]).collect();
-        assert_eq!(found, wanted);
-        assert_eq!(Periods { length: 0.25, ..periods }.end_in(&t, 1), None);
+        let ends = |periods: Periods| {
+            let mut tracker = Tracker::new(periods);
+            t.iter().map(|t| tracker.pass(*t)).collect::<Vec<_>>()
+        };
+        let wanted: Vec<Option<usize>> = (0..=30).map(|i| (i % 3 == 0).then_some(i / 3)).collect();
+        assert_eq!(ends(periods), wanted);
+        // One that is missing is the last.
+        let found: Vec<usize> = ends(Periods { length: 0.25, ..periods }).into_iter().flatten().collect();
+        assert_eq!(found, [0]);
     }
 }

@@ -1,15 +1,21 @@
 //! What a run leaves behind while it goes on: tables on disk, the rest in memory.
 
 use crate::books::Books;
-use crate::files::{EVENTS, TRACE};
+use crate::cycles::{ContactCycles, CycleFigures};
+use crate::cycles_table::CyclesTable;
+use crate::excess::Excess;
+use crate::files::{CYCLES, EVENTS, STEPS, TRACE};
 use crate::folder::Folder;
 use crate::insides::Insides;
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::marks::Marks;
 use crate::seal::Seal;
+use crate::selection::{Selection, TakenEvents};
 use crate::sheet::{LAST_BLOCK, Written};
+use crate::steps_table::StepsTable;
 use crate::table::Table;
+use crate::tally::Tally;
 use crate::watcher::Watcher;
 use std::fs::File;
 use std::io;
@@ -18,13 +24,16 @@ use stickslip_drive::{Event, Record, Source};
 use tempfile::NamedTempFile;
 
 /// Most tables of a run that are written as it goes on.
-const TABLES: usize = 6;
+const TABLES: usize = 8;
+
 /// Writes rows, events and looks into the contacts as they come.
 pub struct Recorder<'a> {
     job: &'a Job,
     watcher: &'a dyn Watcher,
     tables: Option<Tables<'a>>,
     recorded: Recorded,
+    /// What of it is written.
+    selection: Selection,
     /// Time at which the run is stopped, s.
     until: f64,
     /// Where the figures are taken.
@@ -33,12 +42,16 @@ pub struct Recorder<'a> {
     reserve: Vec<File>,
     /// A look that was asked for already, s.
     asked: Option<f64>,
+    /// Scratch: cycles that a moment ends.
+    ended: Vec<(usize, CycleFigures)>,
 }
 
 /// Tables under construction.
 struct Tables<'a> {
     trace: Table,
     events: Table,
+    cycles: CyclesTable,
+    steps: StepsTable,
     insides: Insides<'a>,
 }
 
@@ -58,10 +71,20 @@ pub(crate) struct Recorded {
     pub kept: Kept,
     /// Energies.
     pub books: Books,
+    /// What figures are taken from.
+    pub tally: Tally,
+    /// Cycles of each contact.
+    pub cycles: Vec<ContactCycles>,
+    /// What it kept in memory at its end that grows with the run, B.
+    pub bytes: usize,
+    /// What became of its events.
+    pub events: TakenEvents,
     /// Number of rows of the trace.
     pub rows: u64,
     /// The tables, where there are any.
     pub drafts: Vec<Draft>,
+    /// That more was kept than may be.
+    pub excess: Option<Excess>,
     /// Why something could not be written any further.
     pub failure: Option<io::Error>,
 }
@@ -71,31 +94,53 @@ impl<'a> Recorder<'a> {
     pub fn new(job: &'a Job, watcher: &'a dyn Watcher) -> Self {
         let channels = job.model.channels();
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
-        let recorded = Recorded { kept, books, rows: 0, drafts: Vec::new(), failure: None };
+        let cycles = vec![ContactCycles::default(); job.model.contacts().count()];
+        let tally = Tally::new(job);
+        let selection = Selection::new(job.scenario.written.clone(), &channels);
+        let events = selection.events();
+        let recorded = Recorded {
+            kept,
+            books,
+            tally,
+            cycles,
+            bytes: 0,
+            events,
+            rows: 0,
+            drafts: Vec::new(),
+            excess: None,
+            failure: None,
+        };
         let marks = Marks::of(job);
         Self {
             job,
             watcher,
             tables: None,
             recorded,
+            selection,
             until: f64::INFINITY,
             marks,
             reserve: Vec::new(),
             asked: None,
+            ended: Vec::new(),
         }
     }
 
-    /// The same with tables in a folder.
+    /// The same with tables in a folder. What grows with the run goes there: no rows are kept in memory but those that pictures
+    /// are drawn from.
     ///
     /// # Errors
     /// A table that cannot be begun.
-    pub fn with_tables(self, folder: &Folder) -> io::Result<Self> {
-        let columns = &self.job.columns;
-        let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[]);
-        let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"]);
+    pub fn with_tables(mut self, folder: &Folder) -> io::Result<Self> {
+        let (columns, states) = (&self.job.columns, self.selection.has_state_numbers());
+        let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[], states);
+        let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"], states);
+        let cycles = CyclesTable::new(folder.draft(CYCLES)?);
+        let steps = StepsTable::new(folder.draft(STEPS)?);
         let insides = Insides::new(self.job, folder)?;
+        self.recorded.kept = self.recorded.kept.for_pictures(&self.job.scenario.plots);
+        self.recorded.tally.spill(folder.spare(0)?);
         let reserve = (0..TABLES).map(|_| folder.spare(LAST_BLOCK)).collect::<io::Result<_>>()?;
-        Ok(Self { tables: Some(Tables { trace, events, insides }), reserve, ..self })
+        Ok(Self { tables: Some(Tables { trace, events, cycles, steps, insides }), reserve, ..self })
     }
 
     /// The same with a fingerprint of the tables, written or not.
@@ -117,6 +162,12 @@ impl<'a> Recorder<'a> {
     /// Takes an event whose kind is given by its word.
     pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) {
         self.recorded.books.read_event(values);
+        self.recorded.tally.row(values);
+        self.moment(values);
+        if !self.selection.takes(source, kind, values.first().copied().unwrap_or(0.0)) {
+            return;
+        }
+        let values = self.selection.rounded(values);
         // Names are for those who want them: of a hundred thousand runs in memory nobody reads one.
         if self.tables.is_none() && !self.recorded.kept.wants_words() {
             self.recorded.kept.event(["", ""], values);
@@ -128,6 +179,48 @@ impl<'a> Recorder<'a> {
             tables.events.write(&[&source, kind], values);
         }
         self.recorded.kept.event([&source, kind], values);
+    }
+
+    /// Takes a moment that figures are taken at, and tells the cycles that it ends.
+    fn moment(&mut self, values: &[f64]) {
+        self.recorded.tally.moment(self.job, values, &mut self.ended);
+        if !self.ended.is_empty() {
+            self.tell_cycles();
+        }
+    }
+
+    /// Tells the cycles that have ended.
+    fn tell_cycles(&mut self) {
+        for (c, figures) in self.ended.drain(..) {
+            let contact = self.job.model.contacts().nth(c).zip(self.recorded.cycles.get_mut(c));
+            let Some(((name, law), cycles)) = contact else { continue };
+            let judged = cycles.take(self.job, (c, law), figures);
+            match &mut self.tables {
+                Some(tables) => tables.cycles.write((name, cycles.count), &judged),
+                None => cycles.all.push(judged),
+            }
+        }
+    }
+
+    /// Tells what is known only at the end.
+    fn end(&mut self) {
+        self.ended = self.recorded.tally.finish(self.job);
+        self.tell_cycles();
+        self.recorded.bytes = self.bytes();
+        self.recorded.events = self.selection.events();
+        self.recorded.kept.whole_until = self.recorded.events.whole_until;
+    }
+
+    /// Ends a period of the figures, by its number.
+    fn end_period(&mut self, number: u64) {
+        let Some(stride) = self.recorded.tally.end_range() else { return };
+        if let Some(failure) = self.recorded.tally.take_failure() {
+            self.fail(failure);
+        }
+        if let (Some(tables), Some(periods)) = (&mut self.tables, self.marks.figures()) {
+            let end = |k: u64| periods.end_of(k as usize);
+            tables.steps.write([end(number.saturating_sub(1)), end(number)], stride);
+        }
     }
 
     /// Ends the run, for something beside its tables cannot be written.
@@ -143,9 +236,13 @@ impl<'a> Recorder<'a> {
     pub(crate) fn finish(mut self) -> io::Result<Recorded> {
         // Their last blocks have room, whatever else is full.
         self.reserve.clear();
-        if let Some(Tables { trace, events, insides }) = self.tables {
+        self.end();
+        if let Some(Tables { trace, events, cycles, steps, insides }) = self.tables {
             let written = [(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
-            for (name, Written { file, seal, failure }) in written.into_iter().chain(insides.finish()?) {
+            let optional = [(CYCLES, cycles.finish()?), (STEPS, steps.finish()?)];
+            let optional = optional.into_iter().filter_map(|(name, written)| Some((name, written?)));
+            let all = written.into_iter().chain(insides.finish()?).chain(optional);
+            for (name, Written { file, seal, failure }) in all {
                 self.recorded.drafts.push(Draft { name, file, seal });
                 self.recorded.failure = self.recorded.failure.or(failure);
             }
@@ -154,8 +251,25 @@ impl<'a> Recorder<'a> {
     }
 
     /// What was recorded by a recorder without tables, which has nothing to fail at.
-    pub(crate) fn into_recorded(self) -> Recorded {
+    pub(crate) fn into_recorded(mut self) -> Recorded {
+        self.end();
         self.recorded
+    }
+
+    /// What it keeps in memory that grows with the run, B.
+    fn bytes(&self) -> usize {
+        let cycles = self.recorded.cycles.iter().map(|cycles| size_of_val(cycles.all.as_slice()));
+        self.recorded.kept.bytes() + self.recorded.tally.bytes() + cycles.sum::<usize>()
+    }
+
+    /// Whether it keeps no more than it may.
+    fn has_room(&mut self, t: f64) -> bool {
+        let Some(limit) = self.job.scenario.memory_limit else { return true };
+        let kept = self.bytes() as f64;
+        if kept > limit {
+            self.recorded.excess = Some(Excess { t, kept, limit });
+        }
+        kept <= limit
     }
 
     /// Whether something cannot be written any further.
@@ -166,18 +280,24 @@ impl<'a> Recorder<'a> {
 
 impl Tables<'_> {
     fn has_failed(&self) -> bool {
-        self.trace.has_failed() || self.events.has_failed() || self.insides.has_failed()
+        self.trace.has_failed()
+            || self.events.has_failed()
+            || self.cycles.has_failed()
+            || self.steps.has_failed()
+            || self.insides.has_failed()
     }
 }
 
 impl Record for Recorder<'_> {
     fn row(&mut self, values: &[f64]) {
+        self.recorded.tally.row(values);
+        self.recorded.books.read(values);
+        let values = self.selection.rounded(values);
         if let Some(tables) = &mut self.tables {
             tables.trace.write(&[], values);
         }
         self.recorded.rows += 1;
         self.recorded.kept.row(values);
-        self.recorded.books.read(values);
         self.watcher.reached(values.first().copied().unwrap_or(0.0));
     }
 
@@ -210,10 +330,10 @@ impl Record for Recorder<'_> {
     }
 
     fn mark(&mut self, values: &[f64]) {
-        self.recorded.kept.mark(values);
+        self.moment(values);
         match self.marks.period_ended(values.first().copied().unwrap_or(0.0)) {
-            Some(0) => self.recorded.kept.begin_range(),
-            Some(_) => self.recorded.kept.end_range(),
+            Some(0) => self.recorded.tally.begin_range(),
+            Some(number) => self.end_period(number),
             None => {}
         }
     }
@@ -222,12 +342,16 @@ impl Record for Recorder<'_> {
         self.marks.body
     }
 
+    fn rows_within(&self) -> [f64; 2] {
+        self.selection.window()
+    }
+
     fn range(&mut self, range: [f64; 2]) {
-        self.recorded.kept.range(range);
+        self.recorded.tally.range(range);
     }
 
     fn goes_on(&mut self, t: f64) -> bool {
         self.watcher.reached(t);
-        !self.has_failed() && t < self.until && self.watcher.goes_on()
+        !self.has_failed() && self.has_room(t) && t < self.until && self.watcher.goes_on()
     }
 }

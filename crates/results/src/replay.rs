@@ -29,7 +29,7 @@ pub(crate) fn read(
     (plots, last): (&[PlotName], LastRow),
 ) -> Result<Kept, ResultsError> {
     let channels = columns.channels();
-    let mut kept = Kept::new(&channels, plots).fingerprinted(Columns::all(&channels));
+    let mut kept = Kept::new(&channels, plots).for_pictures(plots).fingerprinted(Columns::all(&channels));
     let mut rows = Replay::open(trace, &channels, &[])?;
     let mut events = Replay::open(events, &channels, &["source", "kind"])?;
     let (mut row, mut next) = (Vec::new(), Vec::new());
@@ -97,7 +97,8 @@ impl<'a> Replay<'a> {
             return Ok(self.rows.number(column, &channel.name)?);
         }
         let text = self.rows.text(column);
-        let code = STATES.into_iter().find(|code| state_name(*code) == text);
+        // As words, or as the numbers that stand for them.
+        let code = STATES.into_iter().find(|code| state_name(*code) == text || format!("{code}") == text);
         code.ok_or_else(|| {
             let text = text.escape_debug();
             self.rows

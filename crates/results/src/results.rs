@@ -75,7 +75,8 @@ impl Results {
         }
         let tables = (&synopsis.table(TRACE)?, &synopsis.table(EVENTS)?);
         let last = if synopsis.text("/status") == "done" { LastRow::End } else { LastRow::Stop };
-        let kept = replay::read(tables, &job.columns, (&job.scenario.plots, last))?;
+        let mut kept = replay::read(tables, &job.columns, (&job.scenario.plots, last))?;
+        kept.whole_until = synopsis.number("/counts/events_whole_until_s");
         // What was not written is not there; what is there must be sealed.
         let optional = |name: &str| match folder.join(name) {
             path if path.exists() => synopsis.table(name),

@@ -8,9 +8,6 @@ use stickslip_scenario::PlotName;
 const KEPT: [&str; 11] =
     ["time_s", "x_m", "vx_m_s", "z_m", "vz_m_s", "pitch_rad", "vpitch_rad_s", "u_m", "d_m", "fx_N", "fn_N"];
 
-/// Quantities from which figures are taken.
-const FIGURES: [&str; 7] = ["time_s", "x_m", "u_m", "d_m", "fx_N", "fn_N", "friction_J"];
-
 /// Part that the energies of the whole belong to.
 pub const ENERGY: &str = "energy";
 
@@ -41,13 +38,9 @@ impl Series {
         Self::kept(channels, is_kept)
     }
 
-    /// An empty series of what figures are taken from.
-    pub fn of_figures(channels: &[Channel]) -> Self {
-        let is_kept = |name: &str| {
-            let quantity = name.rsplit_once('.').map_or(name, |(_, quantity)| quantity);
-            FIGURES.contains(&quantity) && !name.starts_with(&format!("{ENERGY}."))
-        };
-        Self::kept(channels, is_kept)
+    /// One that keeps nothing.
+    pub(crate) fn none() -> Self {
+        Self { columns: Vec::new(), places: HashMap::new() }
     }
 
     fn kept(channels: &[Channel], is_kept: impl Fn(&str) -> bool) -> Self {

@@ -6,20 +6,25 @@ mod steps;
 
 use crate::books::Balance;
 use crate::complaint::words;
+use crate::excess::{self, Excess};
+use crate::files::EVENTS;
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
 use crate::program;
+use crate::quantity::quantity;
 use crate::real::Real;
 use crate::seal::Seal;
+use crate::selection::TakenEvents;
 use crate::warning::{self, Warning};
 use serde::Serialize;
 use serde_json::Value;
 use std::io;
-use stickslip_drive::RunError;
+use stickslip_drive::{RunError, state_name};
 
+pub use crate::cycles::JudgedCycle;
 pub use contacts::ContactSummary;
-pub use fretting::{Fretting, JudgedCycle};
+pub use fretting::Fretting;
 pub use steps::{DriveSummary, SettlingSummary, Steady};
 
 /// Most numbers that are not finite of which a note gives the names.
@@ -48,6 +53,9 @@ pub struct Summary {
     #[serde(rename = "steady_after_periods", skip_serializing_if = "Option::is_none")]
     pub steady_after: Option<usize>,
     counts: Counts,
+    /// What the numbers mean that stand for states, where they do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    states: Option<Parts<&'static str>>,
     /// By name.
     pub contacts: Parts<ContactSummary>,
     /// Steps of the drive; none without a free body driven by a periodic waveform.
@@ -112,7 +120,9 @@ impl Stop {
             advice: UNWRITTEN_ADVICE,
         };
         let stopped = |error: &RunError| Self { message: error.to_string(), advice: error.advice() };
-        outcome.failure.as_ref().map(unwritten).or_else(|| outcome.error.as_ref().map(stopped))
+        let full = |excess: Excess| Self { message: excess.to_string(), advice: excess::ADVICE };
+        let failure = outcome.failure.as_ref().map(unwritten).or_else(|| outcome.excess.map(full));
+        failure.or_else(|| outcome.error.as_ref().map(stopped))
     }
 }
 
@@ -122,6 +132,12 @@ struct Counts {
     rejected: u64,
     evaluations: u64,
     events: u64,
+    /// Those in `events.csv`; told only where there are others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    events_written: Option<u64>,
+    /// Until when all that were asked for are there, where they were thinned.
+    #[serde(rename = "events_whole_until_s", skip_serializing_if = "Option::is_none")]
+    events_whole_until: Option<Real>,
     /// Stretches by the whole law where events accumulated; told only where there are any.
     #[serde(skip_serializing_if = "is_none")]
     detours: u64,
@@ -129,6 +145,15 @@ struct Counts {
     #[serde(skip_serializing_if = "is_none")]
     missed: u64,
     rows: u64,
+}
+
+/// What is said of events that were thinned.
+fn thinned(events: TakenEvents) -> Option<String> {
+    let TakenEvents { seen, taken, whole_until } = events;
+    let whole = quantity(Real(whole_until?), "s");
+    Some(format!(
+        "{EVENTS} has {taken} of {seen} events: all until {whole}, ever fewer of those that follow; output.events asks for more, or for none"
+    ))
 }
 
 /// Whether nothing of a kind has happened.
@@ -150,14 +175,21 @@ impl Summary {
         let mut notes = Vec::new();
         if outcome.kept.left_out > 0 {
             let left_out = outcome.kept.left_out;
-            notes.push(format!("{left_out} events and ends of periods found no room in memory: loops and steps are without them"));
+            notes.push(format!("{left_out} events found no room in memory: pictures are without them"));
+        }
+        if outcome.tally.left_out() > 0 {
+            let left_out = outcome.tally.left_out();
+            notes.push(format!(
+                "{left_out} moments found no room in memory: cycles that they belong to are not told"
+            ));
         }
         let mut warnings = Warning::of_scenario(job);
         warnings.extend(warning::of_run(job, outcome));
         let simulated = outcome.state.time();
         let (name, word, value) = job.stepper();
         let value_if = |wanted| (word == wanted).then_some(Real(value));
-        let counts = outcome.state.counts();
+        let (counts, taken) = (outcome.state.counts(), outcome.events);
+        notes.extend(thinned(taken));
         Self {
             title: job.scenario.title.clone(),
             program: Program { name: program::NAME, version: program::VERSION },
@@ -172,10 +204,16 @@ impl Summary {
                 rejected: counts.rejected,
                 evaluations: counts.evaluations,
                 events: counts.events,
+                events_written: Some(taken.taken).filter(|taken_ones| *taken_ones != taken.seen),
+                events_whole_until: taken.whole_until.map(Real),
                 detours: counts.detours,
                 missed: counts.missed,
                 rows: outcome.rows,
             },
+            states: job.scenario.written.state_numbers.then(|| {
+                let legend = [0.0, 1.0, 2.0, 3.0];
+                Parts(legend.map(|code| (format!("{code}"), state_name(code))).to_vec())
+            }),
             contacts: contacts::of(job, outcome),
             steps: steps::of(job, outcome, &mut notes),
             energy: outcome.books.balance(),
@@ -206,6 +244,11 @@ impl Summary {
     /// Why the run did not come to its end, and what to try.
     pub fn stop(&self) -> Option<(&str, &'static str)> {
         self.error.as_ref().map(|stop| (stop.message.as_str(), stop.advice))
+    }
+
+    /// What there is to say of events that were thinned without having been asked to be.
+    pub fn thinned(&self) -> Option<&str> {
+        self.notes.iter().map(String::as_str).find(|note| note.starts_with(EVENTS))
     }
 
     /// The files beside the summary.
@@ -251,7 +294,7 @@ impl Summary {
     }
 }
 
-/// Names of all that is null, such as `steps.lengths_m[3]`.
+/// Names of all that is null, such as `steps.steady.step_m`.
 fn nulls(name: String, value: &Value, names: &mut Vec<String>) {
     let dot = if name.is_empty() { "" } else { "." };
     match value {
@@ -268,9 +311,10 @@ fn nulls(name: String, value: &Value, names: &mut Vec<String>) {
 
 impl Status {
     fn of(outcome: &Outcome) -> Self {
-        match (&outcome.failure, &outcome.error) {
-            (None, None) => Self::Done,
-            (None, Some(RunError::Interrupted { .. })) => Self::Interrupted,
+        let has_ended = outcome.failure.is_none() && outcome.excess.is_none();
+        match (has_ended, &outcome.error) {
+            (true, None) => Self::Done,
+            (true, Some(RunError::Interrupted { .. })) => Self::Interrupted,
             _ => Self::Stopped,
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::checkpoint;
 use crate::complaint::words;
-use crate::files::{CYCLES, EVENTS, INSIDES, SCENARIO, SUMMARY, TRACE};
+use crate::files::{CYCLES, EVENTS, INSIDES, SCENARIO, STEPS, SUMMARY, TRACE};
 use crate::folder;
 use crate::guard;
 use crate::seal::{Seal, SealedTable};
@@ -147,7 +147,7 @@ impl Synopsis {
 }
 
 /// Tables that runs write, beside those of the insides.
-const SEALED: [&str; 3] = [TRACE, EVENTS, CYCLES];
+const SEALED: [&str; 4] = [TRACE, EVENTS, CYCLES, STEPS];
 
 /// What is wrong with what is told of a summary: a version, a status, the name of a contact.
 fn fault(summary: &Value) -> Option<String> {
@@ -179,7 +179,7 @@ struct Words {
     has_control: bool,
     /// Bytes of the longest.
     longest: usize,
-    /// Bytes of the names of all values, such as `steps.lengths_m[3]`.
+    /// Bytes of the names of all values, such as `steps.steady.step_m`.
     names: usize,
 }
 

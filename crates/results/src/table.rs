@@ -10,22 +10,26 @@ use tempfile::NamedTempFile;
 pub(crate) struct Table {
     sheet: Sheet,
     columns: Columns,
+    /// Whether states are numbers.
+    states: bool,
 }
 
 impl Table {
-    /// A table with `extra` columns of text after the time.
-    pub(crate) fn new(file: NamedTempFile, columns: Columns, extra: &[&str]) -> Self {
+    /// A table with `extra` columns of text after the time; `states` are numbers, or else words.
+    pub(crate) fn new(file: NamedTempFile, columns: Columns, extra: &[&str], states: bool) -> Self {
         let mut names = columns.names();
         let time = names.next();
         let sheet = Sheet::new(file, time.into_iter().chain(extra.iter().copied()).chain(names));
-        Self { sheet, columns }
+        Self { sheet, columns, states }
     }
 
     /// Writes a row: the chosen of all channels' `values`, with the texts after the time.
     pub(crate) fn write(&mut self, extra: &[&str], values: &[f64]) {
         for (i, (place, channel)) in self.columns.places().iter().enumerate() {
             let value = values.get(*place).copied().unwrap_or(f64::NAN);
-            if channel.is_state {
+            if channel.is_state && self.states {
+                self.sheet.word(state_digit(value));
+            } else if channel.is_state {
                 self.sheet.word(state_name(value));
             } else {
                 self.sheet.number(value);
@@ -48,6 +52,16 @@ impl Table {
     }
 }
 
+/// The number for a state, which has one digit.
+fn state_digit(code: f64) -> &'static str {
+    match code {
+        0.0 => "0",
+        1.0 => "1",
+        2.0 => "2",
+        _ => "3",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,7 +74,7 @@ mod tests {
 
     fn written(columns: Columns, extra: &[&str], values: &[f64]) -> String {
         let head: Vec<&str> = extra.iter().map(|_| "kind").collect();
-        let mut table = Table::new(NamedTempFile::new().unwrap(), columns, &head);
+        let mut table = Table::new(NamedTempFile::new().unwrap(), columns, &head, false);
         table.write(extra, values);
         std::fs::read_to_string(table.finish().unwrap().file.path()).unwrap()
     }

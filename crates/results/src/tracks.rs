@@ -33,6 +33,11 @@ impl Tracks {
         self.tracks.push(Track { source: source.to_owned(), kind: kind.to_owned(), times: vec![time] });
     }
 
+    /// Number of moments.
+    pub(crate) fn size(&self) -> usize {
+        self.tracks.iter().map(|track| track.times.len()).sum()
+    }
+
     /// In the order of the first event of each.
     pub fn all(&self) -> &[Track] {
         &self.tracks

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::path::Path;
-use stickslip_results::cycles::{CycleFigures, cycles};
+use stickslip_results::cycles::CycleFigures;
 use stickslip_results::{Job, Summary};
 
 fn example(name: &str, set: &[(&str, &str)]) -> Job {
@@ -20,7 +20,7 @@ fn prepare(file: &Path, set: &[(&str, &str)]) -> Job {
 fn last_cycle(job: &Job, c: usize) -> CycleFigures {
     let outcome = job.run(&());
     assert!(outcome.error.is_none());
-    *cycles(job, c, &outcome.kept.moments, outcome.state.time()).last().unwrap()
+    outcome.cycles(c).last().unwrap().figures
 }
 
 fn near(got: f64, want: f64, within: f64, what: &str) {
@@ -52,7 +52,7 @@ fn the_loops_of_a_table_have_theirs() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/table_loop.json");
     let job = prepare(&file, &[]);
     let outcome = job.run(&());
-    let found = cycles(&job, 0, &outcome.kept.moments, outcome.state.time());
+    let found: Vec<CycleFigures> = outcome.cycles(0).iter().map(|cycle| cycle.figures).collect();
     let times: Vec<[f64; 2]> = found.iter().map(|cycle| cycle.time).collect();
     assert_eq!(times, [[1.0, 5.0], [5.0, 9.0]]);
     found.iter().for_each(|cycle| check_paraboloid(&job, 0, 300e-9, cycle));
@@ -78,7 +78,7 @@ fn a_walk_of_many_periods_comes_to_its_end() {
         example("fretting_sphere", &[("run.duration", "\"5000 s\""), ("output", "{}"), ("plots", "[]")]);
     let outcome = job.run(&());
     assert!(outcome.error.is_none(), "{:?}", outcome.error);
-    assert_eq!(cycles(&job, 0, &outcome.kept.moments, outcome.state.time()).len(), 5000);
+    assert_eq!(outcome.cycles(0).len(), 5000);
 }
 
 fn check_paraboloid(job: &Job, c: usize, amplitude: f64, found: &CycleFigures) {
@@ -128,10 +128,10 @@ fn friction_work_of_a_cycle_is_the_difference_of_the_runs_own() {
     stickslip_drive::run(&job.model, &job.scenario.plan, &mut job.start.clone(), &mut rows).unwrap();
     for (c, (name, _)) in job.model.contacts().enumerate() {
         let at = |k: usize| rows.0[k][place(&format!("{name}.friction_J"))];
-        let found = cycles(&job, c, &outcome.kept.moments, outcome.state.time());
+        let found = outcome.cycles(c);
         assert_eq!(found.len(), 3, "{name}");
         for (k, cycle) in found.iter().enumerate() {
-            near(cycle.cycle.dissipated, at(k + 1) - at(k), 1e-12, name);
+            near(cycle.figures.cycle.dissipated, at(k + 1) - at(k), 1e-12, name);
         }
     }
 }

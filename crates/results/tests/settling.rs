@@ -19,6 +19,7 @@ fn stage() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/stage.json")
 }
 
+/// What the summary says of the steps, with the length of each.
 fn steps(file: &Path, cycles: usize, set: &[(&str, &str)]) -> Value {
     let set = set.iter().copied().chain([("output.every", "1e3"), ("plots", "[]")]);
     let set: Vec<_> = set.map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
@@ -27,7 +28,9 @@ fn steps(file: &Path, cycles: usize, set: &[(&str, &str)]) -> Value {
     let outcome = job.run(&());
     assert!(outcome.error.is_none(), "{:?}", outcome.error);
     let summary: Value = serde_json::from_str(&Summary::new(&job, &outcome).pretty().unwrap()).unwrap();
-    summary["steps"].clone()
+    let mut steps = summary["steps"].clone();
+    steps["lengths_m"] = outcome.step_lengths().into();
+    steps
 }
 
 fn number(value: &Value, key: &str) -> f64 {

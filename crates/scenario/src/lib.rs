@@ -47,7 +47,7 @@ mod units;
 
 pub use error::{Report, ScenarioError, Warning};
 pub use excerpt::Excerpt;
-pub use meaning::{FieldsOutput, Figures, MemoryOutput, SpringsOutput};
+pub use meaning::{FieldsOutput, Figures, MemoryOutput, SpringsOutput, Written, WrittenEvents};
 pub use quantity::quantity;
 pub use scenario::{PlotName, Scenario};
 pub use schema::schema;

@@ -56,7 +56,7 @@ macro_rules! dimensions {
 }
 
 dimensions! {
-    Length Time Frequency Velocity AngularVelocity Acceleration Mass Inertia Force Moment Stiffness Damping Pressure Angle
+    Length Time Frequency Velocity AngularVelocity Acceleration Mass Inertia Force Moment Stiffness Damping Pressure Angle Storage
 }
 
 impl<D> Quantity<D> {

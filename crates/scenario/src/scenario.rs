@@ -5,7 +5,7 @@ use crate::error::{Report, ScenarioError, Warning};
 use crate::fault::Fault;
 use crate::form::Form;
 use crate::meaning::warnings::Oddity;
-use crate::meaning::{self, FieldsOutput, Figures, MemoryOutput, SpringsOutput};
+use crate::meaning::{self, FieldsOutput, Figures, MemoryOutput, SpringsOutput, Written};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
 use crate::reader::Reader;
@@ -103,6 +103,10 @@ pub struct Scenario {
     pub memory: Option<MemoryOutput>,
     /// Stress and displacement under the contacts, if asked for.
     pub fields: Option<FieldsOutput>,
+    /// Which of the rows and events are written, and how.
+    pub written: Written,
+    /// Most memory that the run may keep, B; none without a limit.
+    pub memory_limit: Option<f64>,
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
     /// What is allowed and probably not meant, with its place.
@@ -191,6 +195,8 @@ impl Scenario {
             springs: meaning.springs,
             memory: meaning.memory,
             fields: meaning.fields,
+            written: meaning.written,
+            memory_limit: meaning.memory_limit,
             plots: meaning.plots,
             warnings: warnings(&document, odd),
             form,

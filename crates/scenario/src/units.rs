@@ -29,6 +29,7 @@ pub(crate) enum Kind {
     Voltage,
     Current,
     Capacitance,
+    Storage,
 }
 
 /// How a unit relates to the SI unit of its dimension.
@@ -78,6 +79,7 @@ impl Kind {
             Self::Voltage => ("a voltage", "60 V", "V"),
             Self::Current => ("a current", "100 mA", "A"),
             Self::Capacitance => ("a capacitance", "200 nF", "F"),
+            Self::Storage => ("an amount of memory", "512 MB", "B"),
         }
     }
 }
@@ -154,6 +156,10 @@ pub(crate) const UNITS: &[(&str, Kind, Scale)] = {
         ("uF", Capacitance, Ten(-6)),
         ("mF", Capacitance, Ten(-3)),
         ("F", Capacitance, Ten(0)),
+        ("B", Storage, Ten(0)),
+        ("kB", Storage, Ten(3)),
+        ("MB", Storage, Ten(6)),
+        ("GB", Storage, Ten(9)),
     ]
 };
 

@@ -93,7 +93,7 @@ impl<'a> Chords<'a> {
                 self.horizon.steps.begin(state);
             }
         }
-        self.output.set_out(state.t);
+        self.output.set_out(state.t, record);
         if opening.has_row(&self.output, state.t) {
             self.write_now(state, record);
         }

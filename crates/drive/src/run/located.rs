@@ -153,7 +153,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     /// Takes up a state: begins a run there, or goes on with one.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         state.carry_over(self.setting.model, self.setting.layout);
-        self.output.set_out(state.t);
+        self.output.set_out(state.t, record);
         match state.underway.take() {
             Some(Underway::Located(way)) if way.tolerance == self.setting.tolerance => {
                 self.take_up(state, &way);

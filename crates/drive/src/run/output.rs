@@ -33,13 +33,13 @@ pub(super) struct Output {
 impl Output {
     pub(super) fn new(every: Option<f64>, layout: Layout) -> Self {
         let (row, components) = (Vec::new(), vec![0.0; layout.total()]);
-        let grid = Grid::new(None, 0.0);
+        let grid = Grid::new(None, 0.0, EVERYWHERE);
         Self { every, grid, looks: Looks::NONE, marks: Marks::none(), row, components, evaluations: 0 }
     }
 
     /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
-    pub(super) fn set_out(&mut self, from: f64) {
-        self.grid = Grid::new(self.every, from);
+    pub(super) fn set_out(&mut self, from: f64, record: &dyn Record) {
+        self.grid = Grid::new(self.every, from, record.rows_within());
     }
 
     /// Asks for the first look and the first mark, and takes them if they are at hand.
@@ -115,9 +115,16 @@ impl Opening {
     }
 }
 
-/// Rows due at multiples of an interval, and at the end of a run.
+/// No window: rows are wanted all the way.
+const EVERYWHERE: [f64; 2] = [0.0, f64::INFINITY];
+/// A row this near to the end of its window, in intervals, is in it: ends are rounded.
+const SAME: f64 = 1e-9;
+
+/// Rows due at multiples of an interval, within a window, and at the end of a run.
 pub(super) struct Grid {
     schedule: Schedule,
+    /// From when on none is wanted but the last, s.
+    until: f64,
     /// The next row, s; infinite after the last one.
     next: f64,
     end: f64,
@@ -125,10 +132,23 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub(super) fn new(every: Option<f64>, from: f64) -> Self {
+    pub(super) fn new(every: Option<f64>, from: f64, [opens, closes]: [f64; 2]) -> Self {
         let moments = every.map_or(Moments::At(Vec::new()), Moments::Every);
-        let schedule = Schedule::after(moments, from, f64::INFINITY);
-        Self { next: schedule.due(), schedule, end: f64::INFINITY, row: Vec::new() }
+        let schedule = if opens > from {
+            Schedule::new(moments, opens, f64::INFINITY)
+        } else {
+            Schedule::after(moments, from, f64::INFINITY)
+        };
+        let until = closes + SAME * every.unwrap_or(0.0);
+        let mut grid = Self { schedule, until, next: 0.0, end: f64::INFINITY, row: Vec::new() };
+        grid.next = grid.scheduled();
+        grid
+    }
+
+    /// The next row of the interval, s; infinite after the last one that is wanted.
+    fn scheduled(&self) -> f64 {
+        let due = self.schedule.due();
+        if due <= self.until { due } else { f64::INFINITY }
     }
 
     /// The next row's time, if it lies at `t` or before it.
@@ -141,7 +161,7 @@ impl Grid {
     pub(super) fn end_at(&mut self, end: f64) -> f64 {
         self.end = end;
         self.schedule.end_at(end);
-        self.next = self.schedule.due().min(end);
+        self.next = self.scheduled().min(end);
         self.schedule.nearly()
     }
 
@@ -159,7 +179,7 @@ impl Grid {
         if self.schedule.due() <= t {
             self.schedule.advance();
         }
-        self.next = if t < self.end { self.schedule.due().min(self.end) } else { f64::INFINITY };
+        self.next = if t < self.end { self.scheduled().min(self.end) } else { f64::INFINITY };
     }
 
     /// Writes a row off the grid: the first and the last one.

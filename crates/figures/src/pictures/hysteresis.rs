@@ -82,8 +82,11 @@ fn curves(job: &Job, kept: &Kept, c: usize) -> Vec<Curve> {
         limit: scale.map(|(_, normal)| f64::from(count) * law.friction() * normal),
         is_muted,
     };
+    // Beyond, turning points are missing.
+    let end = kept.whole_until();
     let path = contact_path(job, c, &kept.series);
-    let Some(periods) = Periods::of_contact(job, c, kept.end()) else { return vec![curve("", path, false)] };
+    let path = if end < kept.end() { path.part((f64::NEG_INFINITY, end)) } else { path };
+    let Some(periods) = Periods::of_contact(job, c, end) else { return vec![curve("", path, false)] };
     let last = path.part(periods.last());
     if last.is_closed() {
         return vec![curve("", path, false)];

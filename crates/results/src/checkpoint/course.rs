@@ -116,6 +116,10 @@ impl Record for Journalled<'_> {
         self.recorder.range(range);
     }
 
+    fn rows_within(&self) -> [f64; 2] {
+        self.recorder.rows_within()
+    }
+
     fn goes_on(&mut self, t: f64) -> bool {
         let goes_on = self.recorder.goes_on(t);
         // A journal that cannot be written ends the run at its next checkpoint, which is now.

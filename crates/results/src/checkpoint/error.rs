@@ -102,6 +102,9 @@ pub enum CheckpointError {
         /// The moment, s.
         t: f64,
     },
+    /// Rows and events of the last periods that were written, or were not, before these were known.
+    #[error("{}: with this end the last periods (output.last) begin at another time than those that the run has come to\n   help: give the end it had, or run the scenario anew", .0.display())]
+    LastPeriods(PathBuf),
     /// One folder for two runs.
     #[error("{}: is named twice", .0.display())]
     Twice(PathBuf),

@@ -42,6 +42,11 @@ impl Resumption {
         if reached >= end {
             return Err(CheckpointError::Passed { folder: results.to_owned(), reached, end });
         }
+        let kept = Scenario::load(place.join(SCENARIO))?;
+        let opens = [kept.written.window[0], job.scenario.written.window[0]];
+        if job.scenario.written.goes_by_end && opens[0] != opens[1] && reached > opens[0].min(opens[1]) {
+            return Err(CheckpointError::LastPeriods(results.to_owned()));
+        }
         let digest = playback::check(&place.join(JOURNAL), &stub.mark)?;
         Ok((job, Self { place, stub, state, digest }))
     }

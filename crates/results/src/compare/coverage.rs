@@ -43,5 +43,11 @@ pub(super) fn extents(a: &Results, b: &Results) -> Vec<String> {
                 .push(format!("{name}: the tables end at t = {:?} s: no more could be written", results.end));
         }
     }
+    if a.events_asked != b.events_asked {
+        notes.push("events: A and B write others, as output.events, window and last of their scenarios say; not compared".to_owned());
+    } else if a.events_until.min(b.events_until).is_finite() {
+        let until = a.events_until.min(b.events_until);
+        notes.push(format!("events: compared until t = {until:?} s, from where on they are thinned"));
+    }
     notes
 }

@@ -63,6 +63,9 @@ struct Track<'a> {
 /// Compares the events until `end`, s.
 pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance) -> EventDifferences {
     let mut differences = EventDifferences { allowed: Real(allowance.time), ..EventDifferences::default() };
+    if a.events_asked != b.events_asked {
+        return differences;
+    }
     for track in tracks(a, b, end, allowance) {
         differences.add(&track, allowance.time);
     }
@@ -77,6 +80,9 @@ pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance)
 /// written any more: those are left out.
 fn tracks<'a>(a: &'a Results, b: &'a Results, end: f64, allowance: &Allowance) -> Vec<Track<'a>> {
     let last = if a.end == b.end { f64::INFINITY } else { end - allowance.time };
+    // Of thinned events one more or less moves all that follow.
+    let whole = a.events_until.min(b.events_until);
+    let last = if whole.is_finite() { last.min(whole - allowance.time) } else { last };
     let mut tracks: Vec<Track<'a>> = Vec::new();
     let mut places: HashMap<(&'a str, &'a str), usize> = HashMap::new();
     let wanted = |event: &EventRow<'_>| event.time <= last && !allowance.ignores(event.source);

@@ -2,14 +2,20 @@
 
 use super::soundness::{Extent, Soundness};
 use crate::complaint::words;
-use crate::files::{EVENTS, TRACE};
+use crate::files::{EVENTS, SCENARIO, STEP_HEAD, STEPS, TRACE};
 use crate::frame::{Frame, FrameError};
+use crate::guard;
 use crate::rows::Rows;
+use crate::seal::SealedTable;
 use crate::synopsis::{Synopsis, SynopsisError};
 use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+
+/// Name of the lengths of the steps among the figures, and their place in [`STEP_HEAD`].
+pub(super) const LENGTHS: &str = "lengths_m";
+const LENGTH: usize = 3;
 
 /// What a run left behind.
 pub struct Results {
@@ -26,6 +32,10 @@ pub struct Results {
     pub stepper: Stepper,
     /// What the tables are to the run.
     extent: Extent,
+    /// Until when all its events were written that were asked for, s; infinite where that is to its end.
+    pub events_until: f64,
+    /// Which events that are, as its scenario says.
+    pub events_asked: Value,
     /// Tables that the run wrote, which are not compared and not there.
     pub absent: Vec<String>,
 }
@@ -107,20 +117,38 @@ impl Results {
         let soundness = Soundness { folder: folder.to_owned(), synopsis: &synopsis, extent, end };
         soundness.check(&trace, &events)?;
         let others = synopsis.tables().filter(|name| ![TRACE, EVENTS].contains(name));
-        let mut absent = Vec::new();
+        let (mut absent, mut lengths) = (Vec::new(), None);
         for name in others {
             let table = synopsis.table(name)?;
-            // They are not compared: whoever has sent the rest may have left them out. One that is there is the run's.
-            if table.path.symlink_metadata().is_ok() {
+            // Whoever has sent the rest may have left them out. One that is there is the run's; of most no more is compared.
+            if table.path.symlink_metadata().is_err() {
+                absent.push(name.to_owned());
+            } else if name == STEPS {
+                lengths = Some(step_lengths(&table)?);
+            } else {
                 let mut rows = Rows::open(&table)?;
                 while rows.advance()? {}
-            } else {
-                absent.push(name.to_owned());
             }
         }
-        let summary = synopsis.summary;
-        let mut results =
-            Self { folder: folder.to_owned(), trace, summary, events, end, stepper, extent, absent };
+        let events_until = synopsis.number("/counts/events_whole_until_s").unwrap_or(f64::INFINITY);
+        let events_asked = events_asked(folder);
+        let mut summary = synopsis.summary;
+        // Steps have stood in the summary, and are told by the name that they had there.
+        if let (Some(lengths), Some(Value::Object(steps))) = (lengths, summary.get_mut("steps")) {
+            steps.entry(LENGTHS).or_insert(lengths.into());
+        }
+        let mut results = Self {
+            folder: folder.to_owned(),
+            trace,
+            summary,
+            events,
+            end,
+            stepper,
+            extent,
+            events_until,
+            events_asked,
+            absent,
+        };
         if extent == Extent::Cut {
             results.end = results.last_written();
         }
@@ -173,6 +201,26 @@ impl Results {
     pub fn status(&self) -> &str {
         self.text("/status")
     }
+}
+
+/// What the scenario beside results says of the events that are written: which, and when. An excerpt has none.
+fn events_asked(folder: &Path) -> Value {
+    let scenario = guard::json(&folder.join(SCENARIO)).unwrap_or_default();
+    ["events", "window", "last"]
+        .into_iter()
+        .map(|key| scenario.pointer(&format!("/output/{key}")).cloned().unwrap_or_default())
+        .collect()
+}
+
+/// Lengths of the steps of a run, m.
+fn step_lengths(table: &SealedTable) -> Result<Vec<f64>, FrameError> {
+    let mut rows = Rows::open(table)?;
+    rows.check_head(STEP_HEAD)?;
+    let mut lengths = Vec::new();
+    while rows.advance()? {
+        lengths.push(rows.number(LENGTH, STEP_HEAD[LENGTH])?);
+    }
+    Ok(lengths)
 }
 
 impl Stepper {

@@ -32,8 +32,9 @@ impl Scales {
             let throughput = summary.pointer("/energy/throughput_J").and_then(Value::as_f64);
             let steps = summary.pointer("/steps/lengths_m").and_then(Value::as_array).into_iter().flatten();
             scales.throughput = scales.throughput.max(throughput.unwrap_or(0.0));
-            scales.step =
-                steps.filter_map(Value::as_f64).fold(scales.step, |most, step| most.max(step.abs()));
+            let longest = summary.pointer("/steps/longest_m").into_iter();
+            let steps = steps.chain(longest).filter_map(Value::as_f64);
+            scales.step = steps.fold(scales.step, |most, step| most.max(step.abs()));
             for (name, contact) in summary.get("contacts").and_then(Value::as_object).into_iter().flatten() {
                 let scale = Scale::of(contact);
                 if !scales.contacts.iter().any(|(known, _)| known == name) {

@@ -78,7 +78,8 @@ impl Soundness<'_> {
         }
         // Steppers of fixed steps count none of those that they do not look for.
         if is_whole && self.synopsis.text("/stepper/name") == "event" {
-            let counted = count("/counts/events", "counts.events")?;
+            let written = self.synopsis.count("/counts/events_written");
+            let counted = written.map_or_else(|| count("/counts/events", "counts.events"), Ok)?;
             if events as u64 != counted {
                 let message = format!("counts.events is {counted}, and {EVENTS} has {events} events");
                 return Err(self.summary(message));
@@ -157,8 +158,11 @@ impl Soundness<'_> {
         let scenario = guard::json(&path).map_err(read)?;
         self.check_plan(&scenario).map_err(|message| ResultsError::Unsound { path, line: None, message })?;
         // Keys to come may ask for rows at other moments.
-        let is_known =
-            |key: &String| ["every", "channels", "springs", "memory", "events"].contains(&key.as_str());
+        let is_known = |key: &String| {
+            const KNOWN: [&str; 8] =
+                ["every", "channels", "springs", "memory", "fields", "events", "float", "states"];
+            KNOWN.contains(&key.as_str())
+        };
         if !keys(scenario.get("output")).iter().all(is_known) {
             return Ok(());
         }

@@ -1,7 +1,9 @@
 //! What a run to its end is expected to write and to hold.
 
 use crate::job::Job;
+use crate::kept::draws_from_series;
 use crate::real::Real;
+use crate::selection::expected;
 use crate::series::Series;
 use serde::Serialize;
 use stickslip_drive::facts::{ExpectedEvents, fixed_steps, rows};
@@ -45,6 +47,12 @@ pub struct Expectation {
     /// Lines of `fields.csv`, and of `friction.csv`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub field_lines: Option<Real>,
+    /// Events in `events.csv`, estimated.
+    #[serde(skip)]
+    pub(crate) events_written: Real,
+    /// What of it grows with the run: rows and events that pictures are drawn from, B.
+    #[serde(skip)]
+    pub(crate) kept: Real,
     /// Memory that the program takes, B.
     #[serde(rename = "memory_B")]
     pub memory: Real,
@@ -76,9 +84,11 @@ impl Expectation {
     pub fn of(job: &Job) -> Self {
         let plan = &job.scenario.plan;
         let events = ExpectedEvents::of(job.setup(), plan);
-        let (rows, columns) = (rows(plan), job.columns.len());
+        let (rows, columns) = (written_rows(job), job.columns.len());
+        let written = written_events(job, &events);
         let series = Series::new(&job.model.channels(), &job.scenario.plots);
-        let kept = series.width() as f64 * (rows + events.total());
+        let width = if draws_from_series(&job.scenario.plots) { series.width() } else { 0 };
+        let kept = width as f64 * (rows + written) * size_of::<f64>() as f64;
         let springs: usize = job.grids.iter().flatten().map(|grid| grid.count()).sum();
         let spring_lines =
             job.scenario.springs.as_ref().map(|asked| springs as f64 * asked.moments.count(plan.duration));
@@ -96,11 +106,29 @@ impl Expectation {
             columns,
             trace: Real(rows * columns as f64 * BYTES_PER_VALUE),
             // Two words more in each row.
-            events_file: Real(events.total() * (columns + 2) as f64 * BYTES_PER_VALUE),
-            memory: Real(BASE + OVERHEAD * kept * size_of::<f64>() as f64),
+            events_file: Real(written * (columns + 2) as f64 * BYTES_PER_VALUE),
+            events_written: Real(written),
+            kept: Real(kept),
+            memory: Real(BASE + OVERHEAD * kept),
             events: Events::of(job, events),
         }
     }
+}
+
+/// Rows in the trace.
+fn written_rows(job: &Job) -> f64 {
+    let plan = &job.scenario.plan;
+    let ([from, to], Some(every)) = (job.scenario.written.window, plan.every) else { return rows(plan) };
+    // The first and the last are there anyway.
+    rows(plan).min((to.min(plan.duration) - from).max(0.0) / every + 3.0)
+}
+
+/// Events in their table, about: of some kinds or contacts no more than of all.
+fn written_events(job: &Job, events: &ExpectedEvents) -> f64 {
+    let (written, duration) = (&job.scenario.written, job.scenario.plan.duration);
+    let [from, to] = written.window;
+    let share = ((to.min(duration) - from) / duration).clamp(0.0, 1.0);
+    expected(share * events.total(), written.events.most)
 }
 
 impl Events {

@@ -1,24 +1,8 @@
-//! Fretting loops, and the regimes of their cycles.
+//! Fretting loops.
 
-use crate::cycles::{CycleFigures, cycles};
-use crate::job::Job;
-use crate::outcome::Outcome;
+use crate::cycles::{ContactCycles, JudgedCycle};
 use crate::real::Real;
 use serde::Serialize;
-use stickslip_analysis::{Regime, Thresholds};
-use stickslip_contact::{Interface, Profile};
-
-/// Thresholds below this are those of a flat punch, which are 0.
-const ROUNDING: f64 = 1e-12;
-
-/// A cycle and, where it is a loop under a constant load, its regime on a rigid rig.
-#[derive(Debug, Clone, Copy)]
-pub struct JudgedCycle {
-    /// Its quantities.
-    pub figures: CycleFigures,
-    /// "stick", "partial", "mixed" or "gross".
-    pub regime: Option<&'static str>,
-}
 
 /// The last cycle of a contact that comes back along u.
 #[derive(Debug, Serialize)]
@@ -88,12 +72,12 @@ struct Limits {
 
 impl Fretting {
     /// The last of the cycles.
-    pub(super) fn of(cycles: &[JudgedCycle], thresholds: Option<Thresholds>) -> Option<Self> {
-        let JudgedCycle { figures: last, regime } = cycles.last()?;
+    pub(super) fn of(cycles: &ContactCycles) -> Option<Self> {
+        let JudgedCycle { figures: last, regime } = cycles.last?;
         let cycle = last.cycle;
         let if_closed = |value: Option<f64>| value.filter(|_| last.is_closed).map(Real);
         Some(Fretting {
-            cycles: cycles.len(),
+            cycles: cycles.count,
             cycle: last.time.map(Real),
             closed: last.is_closed,
             displacement_amplitude: Real(cycle.displacement_amplitude),
@@ -108,89 +92,12 @@ impl Fretting {
             stiffness_after_minimum: cycle.stiffness_after_minimum.map(Real),
             secant_after_maximum: if_closed(last.secants[0]),
             secant_after_minimum: if_closed(last.secants[1]),
-            thresholds: thresholds.map(|limits| Limits {
+            thresholds: cycles.thresholds.map(|limits| Limits {
                 energy_ratio: limits.energy_ratio.map(Real),
                 system_free_ratio: limits.system_free_ratio.map(Real),
                 slip_ratio: limits.slip_ratio.map(Real),
             }),
-            regime: *regime,
+            regime,
         })
-    }
-}
-
-/// The cycles of a contact with their regimes, and the thresholds between these; none of them under a load that varies, or of a
-/// damped contact.
-pub(super) fn judged(
-    job: &Job,
-    outcome: &Outcome,
-    (c, law): (usize, &Interface),
-) -> (Vec<JudgedCycle>, Option<Thresholds>) {
-    let cycles = cycles(job, c, &outcome.kept.moments, outcome.state.time());
-    let depth = cycles.first().map_or(0.0, |first| first.depth);
-    let thresholds = thresholds(law.profile(), depth).filter(|_| job.has_law_without_time(c));
-    let judge = |figures: CycleFigures| JudgedCycle {
-        figures,
-        regime: thresholds.filter(|_| figures.is_closed).map(|limits| word(limits.regime(&figures.cycle))),
-    };
-    (cycles.into_iter().map(judge).collect(), thresholds)
-}
-
-/// The limit between partial and gross slip of any profile at indentation d, on a rigid rig. By Masing's rule the loop
-/// of amplitude u_c has `E_d = 4μE*κ(Md - 2N)` and crosses F_x = 0 where M(h) = M(d)/2: A = 1 - 2N/(Md), D = 2h/d - 1; for
-/// f ~ rⁿ these are 1/(2n+1) and 2^{1/(n+1)} - 1. None for an open contact.
-fn thresholds(profile: &Profile, d: f64) -> Option<Thresholds> {
-    let reduced_force = profile.reduced_force(d);
-    let energy = 1.0 - 2.0 * profile.reduced_energy(d) / (reduced_force * d);
-    let slip = 2.0 * profile.height_of_reduced_force(0.5 * reduced_force) / d - 1.0;
-    let positive = |value: f64| value > ROUNDING;
-    (reduced_force > 0.0 && d > 0.0).then(|| Thresholds {
-        energy_ratio: Some(energy),
-        system_free_ratio: (positive(energy) && positive(slip)).then(|| energy / slip),
-        slip_ratio: Some(slip),
-    })
-}
-
-fn word(regime: Regime) -> &'static str {
-    match regime {
-        Regime::Stick => "stick",
-        Regime::Partial => "partial",
-        Regime::Mixed => "mixed",
-        Regime::Gross => "gross",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thresholds_are_those_of_the_closed_form() {
-        let powers = [
-            (Profile::cone(0.1).unwrap(), 1.0),
-            (Profile::paraboloid(1e-3).unwrap(), 2.0),
-            (Profile::power(1e6, 4.0).unwrap(), 4.0),
-        ];
-        for (profile, n) in powers {
-            let (got, want) = (thresholds(&profile, 1e-6).unwrap(), Thresholds::of_profile(n).unwrap());
-            let pairs = [
-                (got.energy_ratio, want.energy_ratio),
-                (got.system_free_ratio, want.system_free_ratio),
-                (got.slip_ratio, want.slip_ratio),
-            ];
-            for (got, want) in pairs {
-                assert!((got.unwrap() - want.unwrap()).abs() < 1e-12, "n = {n}: {got:?}, {want:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_shallow_sphere_has_those_of_the_paraboloid_and_a_punch_none() {
-        // a/R = 1.4e-2: the profiles differ by (a/R)² in order of magnitude.
-        let sphere = thresholds(&Profile::sphere(5e-3).unwrap(), 1e-6).unwrap();
-        assert!((sphere.energy_ratio.unwrap() - 0.2).abs() < 2e-4);
-        assert!((sphere.slip_ratio.unwrap() - 0.25992).abs() < 2e-4);
-        let flat = thresholds(&Profile::flat(1e-3).unwrap(), 1e-6).unwrap();
-        assert!(flat.system_free_ratio.is_none() && flat.energy_ratio.unwrap().abs() < 1e-12);
-        assert!(thresholds(&Profile::flat(1e-3).unwrap(), -1e-6).is_none());
     }
 }

@@ -5,7 +5,7 @@ use crate::outcome::Outcome;
 use crate::periods::Periods;
 use crate::real::Real;
 use serde::Serialize;
-use stickslip_analysis::{Bounds, Settling, Steps};
+use stickslip_analysis::{Bounds, Settling, Steps, Strides};
 use stickslip_drive::scene::{Freedom, Varying};
 
 /// A step below this share of the natural displacement counts as nothing.
@@ -21,9 +21,14 @@ pub struct DriveSummary {
     waveform: String,
     #[serde(rename = "period_s")]
     period: Real,
-    /// Length of every step.
-    #[serde(rename = "lengths_m")]
-    lengths: Vec<Real>,
+    /// Number of steps; `steps.csv` has every one of them.
+    periods: usize,
+    /// Length of the last.
+    #[serde(rename = "last_m")]
+    last: Real,
+    /// Magnitude of the longest.
+    #[serde(rename = "longest_m")]
+    longest: Real,
     /// What the steps do.
     pub settling: SettlingSummary,
     /// The step that they have settled to; none where they have not.
@@ -38,8 +43,8 @@ pub struct DriveSummary {
 
 impl DriveSummary {
     /// Length of the last step, m.
-    pub fn last(&self) -> Option<Real> {
-        self.lengths.last().copied()
+    pub fn last(&self) -> Real {
+        self.last
     }
 }
 
@@ -125,26 +130,21 @@ pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Optio
     if body.part.x.freedom != Freedom::Free {
         return None;
     }
-    let Some(periods) = Periods::until(&waveform.part, outcome.state.time()) else {
+    if Periods::until(&waveform.part, outcome.state.time()).is_none() {
         notes.push(format!(
             "no steps: the run is shorter than a period of {period} s of \"{}\"",
             waveform.name
         ));
         return None;
-    };
-    let moments = &outcome.kept.moments;
-    let places = moments.column(&body.name, "x_m");
-    // A run that was ended between two marks, or had more events than there is room for, lacks the last ones.
-    let ends = (0..=periods.count).map_while(|k| Some(*places.get(periods.end_in(moments.time(), k)?)?));
-    let ends: Vec<f64> = ends.collect();
-    if ends.len() < 2 {
+    }
+    let strides = outcome.tally.strides().filter(|strides| strides.count() > 0);
+    let Some(strides) = strides else {
         notes.push("no steps: the ends of the periods were not recorded".to_owned());
         return None;
-    }
-    let series = outcome.kept.series.column(&body.name, "x_m");
-    let net_travel = series.last().zip(series.first()).map_or(0.0, |(last, first)| last - first);
-    let steps = Steps::of_periods(&ends, &outcome.kept.ranges, period, net_travel, bounds(job));
-    Some(summary(&steps, &body.name, &waveform.name, period))
+    };
+    let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds(job));
+    let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
+    Some(summary(&steps, ends, (&body.name, &waveform.name, period)))
 }
 
 /// What is known of a step before any is made.
@@ -171,12 +171,18 @@ fn stroke(job: &Job) -> Option<f64> {
     (followed || drives).then_some(high - low)
 }
 
-fn summary(steps: &Steps, body: &str, waveform: &str, period: f64) -> DriveSummary {
+fn summary(
+    steps: &Steps,
+    [last, longest]: [f64; 2],
+    (body, waveform, period): (&str, &str, f64),
+) -> DriveSummary {
     DriveSummary {
         body: body.to_owned(),
         waveform: waveform.to_owned(),
         period: Real(period),
-        lengths: steps.periods.iter().map(|p| Real(p.length)).collect(),
+        periods: steps.periods,
+        last: Real(last),
+        longest: Real(longest),
         settling: settling(&steps.settling),
         steady: steps.steady.map(|steady| Steady {
             from: steady.from,

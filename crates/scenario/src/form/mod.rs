@@ -16,6 +16,7 @@ mod profile;
 mod run;
 mod value;
 mod waveform;
+mod written;
 
 pub(crate) use body::{BodyForm, BodyStartForm, FreedomForm};
 pub(crate) use bordered::{
@@ -35,6 +36,7 @@ pub(crate) use profile::{FoundationForm, ProfileForm};
 pub(crate) use run::{FiguresForm, LimitsForm, RunForm, RunStartForm, StepperForm};
 pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::{HarmonicsForm, Periodic, Point, TableForm, WaveformForm};
+pub(crate) use written::{EventsOutputForm, KindForm, MOST_EVENTS, StatesForm, WindowForm};
 
 use crate::PlotName;
 use crate::schema::{no_ground, no_trace_column};

@@ -1,6 +1,6 @@
 //! What is written down.
 
-use super::Count;
+use super::{Count, EventsOutputForm, StatesForm, WindowForm};
 use crate::quantity::{Length, Time};
 use crate::schema::{above_zero, at_least_zero};
 use schemars::JsonSchema;
@@ -20,6 +20,30 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["slider.x_m", "ball.fx_N"]))]
     pub(crate) channels: Option<Vec<String>>,
+    /// Events written to `events.csv`: `all`, `off`, or some kinds or contacts; by default the first 100 000 of the run, and ever
+    /// fewer of those that follow. Figures are taken from all of them whatever is written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"off", example = json!({ "kinds": ["gross slip", "gross slip ends"] }))]
+    pub(crate) events: Option<EventsOutputForm>,
+    /// Rows and events only within these times, by default all the way; the first and the last row are written anyway. This or
+    /// `last`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!({ "from": "90 ms" }))]
+    pub(crate) window: Option<WindowForm>,
+    /// Rows and events only in so many periods of the waveform of `figures` at the end of the run, above 0; by default all the way. This
+    /// or `window`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0), example = 2)]
+    pub(crate) last: Option<f64>,
+    /// Significant digits of the numbers in `trace.csv` and `events.csv`, 1 to 17; by default as many as it takes to read back the same
+    /// bits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 17), example = 9)]
+    pub(crate) float: Option<Count>,
+    /// States of contacts as words, or as numbers: 0 open, 1 stick, 2 partial, 3 slip.
+    #[serde(default, skip_serializing_if = "StatesForm::is_words")]
+    #[schemars(example = &"numbers")]
+    pub(crate) states: StatesForm,
     /// What every spring of every contact does over time, in `springs.csv`; not by default, but the plot `state` asks for
     /// it by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -40,8 +64,10 @@ pub(crate) struct OutputForm {
 
 impl OutputForm {
     pub(crate) fn is_empty(&self) -> bool {
-        let Self { every, channels, springs, memory, fields } = self;
-        every.is_none() && channels.is_none() && springs.is_none() && memory.is_none() && fields.is_none()
+        let Self { every, channels, events, window, last, float, states, springs, memory, fields } = self;
+        let rows = every.is_none() && channels.is_none() && events.is_none() && window.is_none();
+        let form = last.is_none() && float.is_none() && states.is_words();
+        rows && form && springs.is_none() && memory.is_none() && fields.is_none()
     }
 }
 

@@ -1,7 +1,7 @@
 //! How a scene is run.
 
 use super::Count;
-use crate::quantity::Time;
+use crate::quantity::{Storage, Time};
 use crate::schema::{above_zero, duration_or_cycles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -152,11 +152,16 @@ pub(crate) struct LimitsForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 min", transform = above_zero)]
     pub(crate) wall: Option<Time>,
+    /// Most memory that the run may keep, B, above 0: estimated before it starts, counted while it goes on; without end by
+    /// default. What grows with a run is what its pictures are drawn from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"512 MB", transform = above_zero)]
+    pub(crate) memory: Option<Storage>,
 }
 
 impl Default for LimitsForm {
     fn default() -> Self {
-        Self { steps: default_steps(), events: default_events(), wall: None }
+        Self { steps: default_steps(), events: default_events(), wall: None, memory: None }
     }
 }
 

@@ -16,8 +16,10 @@ pub(crate) mod refused;
 mod run;
 pub(crate) mod warnings;
 mod waveform;
+mod written;
 
 pub use output::{FieldsOutput, MemoryOutput, SpringsOutput};
+pub use written::{Written, WrittenEvents};
 
 use crate::PlotName;
 use crate::fault::Fault;
@@ -44,6 +46,9 @@ pub(crate) struct Meaning {
     pub(crate) springs: Option<SpringsOutput>,
     pub(crate) memory: Option<MemoryOutput>,
     pub(crate) fields: Option<FieldsOutput>,
+    pub(crate) written: Written,
+    /// Most memory, B.
+    pub(crate) memory_limit: Option<f64>,
     pub(crate) plots: Vec<PlotName>,
 }
 
@@ -86,6 +91,7 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     builder.plots()?;
     let (springs, memory) = (builder.springs_output(plan)?, builder.memory_output(plan, figures)?);
     let fields = builder.fields_output(plan, figures)?;
+    let (written, memory_limit) = (builder.written(plan, figures)?, builder.memory_limit()?);
     Ok(Meaning {
         plan,
         figures,
@@ -93,6 +99,8 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
         springs,
         memory,
         fields,
+        written,
+        memory_limit,
         plots: form.plots.clone(),
         scene: builder.scene,
     })

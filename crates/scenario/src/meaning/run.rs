@@ -99,6 +99,14 @@ impl Builder<'_> {
         Ok(plan)
     }
 
+    /// Most memory that the run may take, B.
+    pub(super) fn memory_limit(&self) -> Result<Option<f64>, Fault> {
+        let root = At::ROOT;
+        let (run, limits) = (root.key("run"), &self.form.run.limits);
+        let at = run.key("limits");
+        limits.memory.map(|memory| range::above_zero(&at.key("memory"), memory)).transpose()
+    }
+
     fn until_steady(&self, at: &At<'_>, change: f64, figures: Figures) -> Result<UntilSteady, Fault> {
         let change = range::number_between(at, change, CHANGE.0, CHANGE.1)?;
         let none = |message: String, help: &str| Err(at.fault(message).on_key().help(help));

@@ -63,8 +63,9 @@ impl Report {
     }
 
     /// The same of a run with a checkpoint: how to go on with one that was halted.
-    pub(crate) fn resumable(mut self, job: &Job, error: Option<&RunError>) -> Self {
-        let limit = match error {
+    pub(crate) fn resumable(mut self, job: &Job, outcome: &Outcome) -> Self {
+        let limit = match &outcome.error {
+            _ if outcome.excess.is_some() => " --set run.limits.memory=…",
             Some(RunError::OutOfTime { .. }) => " --set run.limits.wall=…",
             Some(RunError::TooManySteps { .. }) => " --set run.limits.steps=…",
             Some(error) if error.is_halt() => "",
@@ -130,7 +131,7 @@ impl Report {
 /// What the steps of a drive have come to.
 fn settling(steps: &DriveSummary) -> String {
     let length = |length: Real| quantity(length, "m");
-    let last = steps.last().map(length).unwrap_or_default();
+    let last = length(steps.last());
     match (&steps.settling, &steps.steady) {
         (_, Some(steady)) => {
             let error = Some(steady.error).filter(|e| e.0 > SHOWN * steady.step.0.abs());
@@ -195,6 +196,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
             lines.push(format!("  {name}: {regime}{} lost per cycle", quantity(fretting.dissipated, "J")));
         }
     }
+    lines.extend(summary.thinned().map(|note| format!("  {note}")));
     lines.push(format!("  {}: {}", job.folder.display(), summary.files().join(", ")));
     lines.join("\n")
 }

@@ -8,24 +8,16 @@ use std::io;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
-use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, SUMMARY, TRACE};
+use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Draft, Job, Outcome, Periods, Recorder, Summary, Watcher, cycles_table};
+use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, Watcher};
 
 /// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.
 const RESERVE: usize = 1 << 16;
 
-/// Bytes of the summary that a period takes.
-const OF_PERIOD: usize = 48;
-/// Most periods that room is kept for.
-const MOST_PERIODS: usize = 1_000_000;
-
 /// Bytes that the files need that come last, the pictures apart.
 fn reserve(job: &Job) -> usize {
-    let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
-    let periods = waveform.and_then(|w| Periods::until(&w.part, job.scenario.plan.duration));
-    let periods = periods.map_or(0, |periods| periods.count.min(MOST_PERIODS));
-    RESERVE + 8 * job.resolved.len() + OF_PERIOD * periods
+    RESERVE + 8 * job.resolved.len()
 }
 
 /// How runs are conducted and drawn.
@@ -61,7 +53,8 @@ pub(crate) fn run(
         return Report::not_written(job, &error);
     }
     // A run that was killed has left its drafts.
-    let names = [TRACE, EVENTS, CYCLES, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
+    let names =
+        [TRACE, EVENTS, CYCLES, STEPS, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
     sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>());
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
     let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
@@ -85,7 +78,7 @@ pub(crate) fn run(
             return write(job, look, folder, (&outcome, drafts));
         };
         let (outcome, drafts) = job.run_kept(recorder, keeper)?;
-        Ok(write(job, look, folder, (&outcome, drafts))?.resumable(job, outcome.error.as_ref()))
+        Ok(write(job, look, folder, (&outcome, drafts))?.resumable(job, &outcome))
     });
     let report = report.unwrap_or_else(|error| Report::not_written(job, &error));
     report.with_pace(paced.map(|paced| paced.words()))
@@ -99,11 +92,6 @@ pub(crate) fn write(
     (outcome, drafts): (&Outcome, Vec<Draft>),
 ) -> io::Result<Report> {
     let mut summary = Summary::new(job, outcome);
-    let cycles = cycles_table(&summary, &folder).unwrap_or_else(|error| {
-        summary.note(format!("{CYCLES} could not be written: {}", words(&error)));
-        None
-    });
-    let drafts: Vec<Draft> = drafts.into_iter().chain(cycles).collect();
     summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;
     if outcome.failure.is_some() {
@@ -117,7 +105,7 @@ pub(crate) fn write(
         None
     };
     folder.release();
-    let optional = INSIDES.into_iter().chain([CYCLES]).map(str::to_owned);
+    let optional = INSIDES.into_iter().chain([CYCLES, STEPS]).map(str::to_owned);
     folder.forget(optional.chain(Look::all_files()).collect());
     let names = folder.names().into_iter().chain([SUMMARY.to_owned()]).collect();
     summary.set_files(names);

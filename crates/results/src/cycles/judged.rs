@@ -1,0 +1,111 @@
+//! Cycles of a contact as they end, with their regimes.
+
+use super::CycleFigures;
+use crate::job::Job;
+use stickslip_analysis::{Regime, Thresholds};
+use stickslip_contact::{Interface, Profile};
+
+/// Thresholds below this are those of a flat punch, which are 0.
+const ROUNDING: f64 = 1e-12;
+
+/// A cycle and, where it is a loop under a constant load, its regime on a rigid rig.
+#[derive(Debug, Clone, Copy)]
+pub struct JudgedCycle {
+    /// Its quantities.
+    pub figures: CycleFigures,
+    /// "stick", "partial", "mixed" or "gross".
+    pub regime: Option<&'static str>,
+}
+
+/// What has been told of the cycles of a contact.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ContactCycles {
+    /// How many.
+    pub(crate) count: usize,
+    /// The last.
+    pub(crate) last: Option<JudgedCycle>,
+    /// All of them, where a run is kept in memory.
+    pub(crate) all: Vec<JudgedCycle>,
+    /// Thresholds of its profile as deep as it stood in the first: none under a load that varies, or of a damped contact.
+    pub(crate) thresholds: Option<Thresholds>,
+}
+
+impl ContactCycles {
+    /// Takes the next cycle of contact `c`.
+    pub(crate) fn take(
+        &mut self,
+        job: &Job,
+        (c, law): (usize, &Interface),
+        figures: CycleFigures,
+    ) -> JudgedCycle {
+        if self.count == 0 {
+            let limits = thresholds(law.profile(), figures.depth);
+            self.thresholds = limits.filter(|_| job.has_law_without_time(c));
+        }
+        let limits = self.thresholds.filter(|_| figures.is_closed);
+        let judged =
+            JudgedCycle { figures, regime: limits.map(|limits| word(limits.regime(&figures.cycle))) };
+        (self.count, self.last) = (self.count + 1, Some(judged));
+        judged
+    }
+}
+
+/// The limit between partial and gross slip of any profile at indentation d, on a rigid rig. By Masing's rule the loop
+/// of amplitude u_c has `E_d = 4μE*κ(Md - 2N)` and crosses F_x = 0 where M(h) = M(d)/2: A = 1 - 2N/(Md), D = 2h/d - 1; for
+/// f ~ rⁿ these are 1/(2n+1) and 2^{1/(n+1)} - 1. None for an open contact.
+fn thresholds(profile: &Profile, d: f64) -> Option<Thresholds> {
+    let reduced_force = profile.reduced_force(d);
+    let energy = 1.0 - 2.0 * profile.reduced_energy(d) / (reduced_force * d);
+    let slip = 2.0 * profile.height_of_reduced_force(0.5 * reduced_force) / d - 1.0;
+    let positive = |value: f64| value > ROUNDING;
+    (reduced_force > 0.0 && d > 0.0).then(|| Thresholds {
+        energy_ratio: Some(energy),
+        system_free_ratio: (positive(energy) && positive(slip)).then(|| energy / slip),
+        slip_ratio: Some(slip),
+    })
+}
+
+fn word(regime: Regime) -> &'static str {
+    match regime {
+        Regime::Stick => "stick",
+        Regime::Partial => "partial",
+        Regime::Mixed => "mixed",
+        Regime::Gross => "gross",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thresholds_are_those_of_the_closed_form() {
+        let powers = [
+            (Profile::cone(0.1).unwrap(), 1.0),
+            (Profile::paraboloid(1e-3).unwrap(), 2.0),
+            (Profile::power(1e6, 4.0).unwrap(), 4.0),
+        ];
+        for (profile, n) in powers {
+            let (got, want) = (thresholds(&profile, 1e-6).unwrap(), Thresholds::of_profile(n).unwrap());
+            let pairs = [
+                (got.energy_ratio, want.energy_ratio),
+                (got.system_free_ratio, want.system_free_ratio),
+                (got.slip_ratio, want.slip_ratio),
+            ];
+            for (got, want) in pairs {
+                assert!((got.unwrap() - want.unwrap()).abs() < 1e-12, "n = {n}: {got:?}, {want:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_shallow_sphere_has_those_of_the_paraboloid_and_a_punch_none() {
+        // a/R = 1.4e-2: the profiles differ by (a/R)² in order of magnitude.
+        let sphere = thresholds(&Profile::sphere(5e-3).unwrap(), 1e-6).unwrap();
+        assert!((sphere.energy_ratio.unwrap() - 0.2).abs() < 2e-4);
+        assert!((sphere.slip_ratio.unwrap() - 0.25992).abs() < 2e-4);
+        let flat = thresholds(&Profile::flat(1e-3).unwrap(), 1e-6).unwrap();
+        assert!(flat.system_free_ratio.is_none() && flat.energy_ratio.unwrap().abs() < 1e-12);
+        assert!(thresholds(&Profile::flat(1e-3).unwrap(), -1e-6).is_none());
+    }
+}

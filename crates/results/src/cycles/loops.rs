@@ -1,0 +1,186 @@
+//! The cycles of a contact as its run goes on.
+
+use super::{CLOSED, CycleFigures, Track, Walk, range, table_of};
+use crate::contact_path::is_walked;
+use crate::job::Job;
+use crate::periods::{Periods, Tracker};
+use std::collections::HashMap;
+use stickslip_analysis::{Cut, split_cycles};
+use stickslip_contact::Interface;
+
+/// Most moments of a cycle that are kept, and of a whole run whose cycles are told at its end.
+const MOST: [usize; 2] = [1 << 18, 1 << 21];
+/// Moments that a walk may be behind: of contacts that never come back no cycle asks for it, and short runs go without.
+const PENDING: usize = 1 << 14;
+/// Quantities of a contact, in the order of its track.
+const QUANTITIES: [&str; 5] = ["u_m", "d_m", "fx_N", "fn_N", "friction_J"];
+
+/// A contact whose cycles are looked for.
+pub(crate) struct Loops {
+    /// Its columns among all channels, in the order of [`QUANTITIES`].
+    places: [usize; 5],
+    cut: Cutting,
+    track: Track,
+    walk: Option<Walk>,
+    /// Number of identical contacts.
+    count: f64,
+    /// Moments for which there was no room.
+    pub(crate) left_out: u64,
+}
+
+/// Where cycles begin and end.
+enum Cutting {
+    /// At the ends of periods.
+    Periods(Tracker),
+    /// At reversals, which are known when all moments are.
+    Reversals,
+    /// There are none any more.
+    Over,
+}
+
+impl Loops {
+    /// Those of contact `c`; none where nothing that drives it has periods or is a table. `places` are those of all channels.
+    pub(crate) fn of(job: &Job, c: usize, places: &HashMap<&str, usize>) -> Option<Self> {
+        let cut = match (Periods::of_contact(job, c, f64::INFINITY), table_of(job, c)) {
+            (Some(periods), _) => Cutting::Periods(Tracker::new(periods)),
+            (None, Some(_)) => Cutting::Reversals,
+            (None, None) => return None,
+        };
+        let (name, _) = job.model.contacts().nth(c)?;
+        let place = |quantity| places.get(format!("{name}.{quantity}").as_str()).copied();
+        let [Some(u), Some(d), Some(force), Some(normal), Some(friction)] = QUANTITIES.map(place) else {
+            return None;
+        };
+        let memory = job.start.memories().get(c).filter(|_| is_walked(job, c));
+        Some(Self {
+            places: [u, d, force, normal, friction],
+            cut,
+            track: Track::default(),
+            walk: memory.map(|memory| Walk::new(memory.clone())),
+            count: f64::from(job.count(c)),
+            left_out: 0,
+        })
+    }
+
+    /// Takes the next moment, a row of all channels; returns the cycle that it ends, where that comes back.
+    pub(crate) fn take(&mut self, law: &Interface, values: &[f64]) -> Option<CycleFigures> {
+        if matches!(self.cut, Cutting::Over) {
+            return None;
+        }
+        let t = values.first().copied()?;
+        let moment = self.places.map(|place| values.get(place).copied().unwrap_or(f64::NAN));
+        let ended = match &mut self.cut {
+            Cutting::Periods(tracker) => tracker.pass(t),
+            _ => None,
+        };
+        let begins = matches!(self.cut, Cutting::Reversals) || ended == Some(0);
+        if begins || !self.track.t.is_empty() {
+            self.push(t, moment);
+        } else {
+            self.wait(law, moment);
+        }
+        let figures = ended.filter(|k| *k > 0).and_then(|_| self.end_cycle(law));
+        if let Cutting::Periods(tracker) = &self.cut
+            && tracker.is_over()
+        {
+            (self.cut, self.track) = (Cutting::Over, Track::default());
+        }
+        if ended.is_some() && !self.track.t.is_empty() {
+            self.begin_cycle(law);
+        }
+        figures
+    }
+
+    /// What it takes, B.
+    pub(crate) fn bytes(&self) -> usize {
+        let pending = self.walk.as_ref().map_or(0, |walk| walk.pending.len());
+        size_of::<f64>() * (6 * self.track.t.len() + pending)
+    }
+
+    /// The cycles that are known only when the run has ended.
+    pub(crate) fn finish(&mut self, law: &Interface) -> Vec<CycleFigures> {
+        if !matches!(self.cut, Cutting::Reversals) || self.track.t.is_empty() {
+            return Vec::new();
+        }
+        let (low, high) = range(&self.track.u);
+        let cut = Cut::Reversals { least: CLOSED * (high - low) };
+        let spans = split_cycles(&self.track.t, &self.track.u, &self.track.force, cut).unwrap_or_default();
+        let spans = spans.into_iter().map(|span| span.start..span.end - 1);
+        let Self { track, walk, count, .. } = self;
+        let back = spans.filter(|span| track.comes_back(span));
+        back.map(|span| track.figures(&span, (law, *count), walk.as_mut())).collect()
+    }
+
+    fn push(&mut self, t: f64, moment: [f64; 5]) {
+        let is_whole = matches!(self.cut, Cutting::Reversals);
+        if self.track.t.len() >= MOST[usize::from(is_whole)] {
+            // A cycle without some of its moments is none.
+            self.left_out += 1;
+            return;
+        }
+        if let Some(walk) = &mut self.walk {
+            walk.begin(moment[1]);
+        }
+        self.track.push(t, moment);
+    }
+
+    /// A moment before the first cycle.
+    fn wait(&mut self, law: &Interface, [u, d, ..]: [f64; 5]) {
+        let Some(walk) = &mut self.walk else { return };
+        walk.begin(d);
+        walk.pending.push(u);
+        if walk.pending.len() >= PENDING {
+            walk.catch_up(law);
+        }
+    }
+
+    /// The cycle that ends with the last moment of the track.
+    fn end_cycle(&mut self, law: &Interface) -> Option<CycleFigures> {
+        let span = 0..self.track.t.len().checked_sub(1)?;
+        let is_whole = self.left_out == 0;
+        let Self { track, walk, count, .. } = self;
+        (is_whole && track.comes_back(&span)).then(|| track.figures(&span, (law, *count), walk.as_mut()))
+    }
+
+    /// Begins a cycle where the one before has ended, with the last moment of the track.
+    fn begin_cycle(&mut self, law: &Interface) {
+        if let Some(walk) = &mut self.walk {
+            // Where no figures were asked for it has been left behind; it never stands inside of a cycle.
+            let behind = walk.at.map_or(0, |at| at + 1);
+            walk.pending.extend(self.track.u.iter().skip(behind));
+            walk.at = Some(0);
+            if walk.pending.len() >= PENDING {
+                walk.catch_up(law);
+            }
+        }
+        self.track.keep_last();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is kept does not grow with the run.
+    #[test]
+    fn no_more_is_kept_than_a_cycle() {
+        let text = include_str!("../../../../scenarios/fretting_sphere.json");
+        let scenario = stickslip_scenario::Scenario::from_str(text, "fretting_sphere", "").unwrap();
+        let job = Job::new(scenario, "fretting_sphere".to_owned(), "".into()).unwrap();
+        let channels = job.model.channels();
+        let places = channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place));
+        let mut loops = Loops::of(&job, 0, &places.collect()).unwrap();
+        let law = job.model.contacts().next().unwrap().1;
+        let period = Periods::of_contact(&job, 0, f64::INFINITY).unwrap().length;
+        let (mut row, mut cycles) = (vec![0.0; channels.len()], 0);
+        for k in 0..100_000 {
+            let share = f64::from(k % 4) / 4.0;
+            row[0] = period * (f64::from(k / 4) + share);
+            row[loops.places[0]] = 1e-7 * if k % 2 == 0 { 0.0 } else { 1.0 - share };
+            row[loops.places[1]] = job.start.memories()[0].apex().d;
+            cycles += usize::from(loops.take(law, &row).is_some());
+            assert!(loops.track.t.len() <= 5 && loops.walk.as_ref().unwrap().pending.len() <= PENDING);
+        }
+        assert_eq!(cycles, 24_999);
+    }
+}

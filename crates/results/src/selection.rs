@@ -1,0 +1,171 @@
+//! Which of the rows and events of a run are written, and with how many digits.
+//!
+//! What is left out is left out of the tables, of the pictures and of their fingerprint alike: pictures drawn again from the tables
+//! are the same. Figures are taken from everything.
+
+use std::fmt::Write;
+use stickslip_drive::{Channel, Source};
+use stickslip_scenario::{Written, WrittenEvents};
+
+/// Parts of the events before thinning that a block has: thinned events keep their neighbours.
+const BLOCKS: u64 = 100;
+
+/// What is written of a run so far.
+pub(crate) struct Selection {
+    written: Written,
+    /// Events of a kind and contact and time that are asked for.
+    asked: u64,
+    /// Those of them that were written.
+    taken: u64,
+    /// All events.
+    seen: u64,
+    /// Time of the last event before the first that was thinned out, s.
+    whole_until: Option<f64>,
+    last: f64,
+    /// Whether a channel is rounded.
+    is_rounded: Vec<bool>,
+    /// Scratch: a rounded row, and a number in words.
+    row: Vec<f64>,
+    text: String,
+}
+
+/// What became of the events of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TakenEvents {
+    /// All of them.
+    pub seen: u64,
+    /// Those that were written.
+    pub taken: u64,
+    /// Where they were thinned, the time until which those asked for are there without a gap, s.
+    pub whole_until: Option<f64>,
+}
+
+impl Selection {
+    /// Nothing yet.
+    pub(crate) fn new(written: Written, channels: &[Channel]) -> Self {
+        // Rounded times would fall together.
+        let is_rounded = channels.iter().enumerate().map(|(place, channel)| place > 0 && !channel.is_state);
+        Self {
+            written,
+            asked: 0,
+            taken: 0,
+            seen: 0,
+            whole_until: None,
+            last: 0.0,
+            is_rounded: is_rounded.collect(),
+            row: Vec::new(),
+            text: String::new(),
+        }
+    }
+
+    /// From when until when rows are wanted, s.
+    pub(crate) fn window(&self) -> [f64; 2] {
+        self.written.window
+    }
+
+    /// Whether states are numbers.
+    pub(crate) fn has_state_numbers(&self) -> bool {
+        self.written.state_numbers
+    }
+
+    /// Whether an event at a time, s, is written. What comes later has no part in that: a run that goes on from a checkpoint writes
+    /// what a whole one does.
+    pub(crate) fn takes(&mut self, source: Source, kind: &str, t: f64) -> bool {
+        self.seen += 1;
+        let ([from, to], events) = (self.written.window, &self.written.events);
+        if !(from..=to).contains(&t) || !is_asked(events, source, kind) || events.most == 0 {
+            return false;
+        }
+        let takes = is_taken(self.asked, events.most);
+        self.asked += 1;
+        self.taken += u64::from(takes);
+        if !takes {
+            self.whole_until.get_or_insert(self.last);
+        }
+        self.last = t;
+        takes
+    }
+
+    /// A row as it is written.
+    pub(crate) fn rounded<'a>(&'a mut self, values: &'a [f64]) -> &'a [f64] {
+        let Some(digits) = self.written.digits else { return values };
+        let Self { is_rounded, row, text, .. } = self;
+        row.clear();
+        row.extend(
+            values.iter().zip(is_rounded).map(
+                |(value, is_rounded)| {
+                    if *is_rounded { round(*value, digits, text) } else { *value }
+                },
+            ),
+        );
+        row
+    }
+
+    /// What became of the events so far.
+    pub(crate) fn events(&self) -> TakenEvents {
+        TakenEvents { seen: self.seen, taken: self.taken, whole_until: self.whole_until }
+    }
+}
+
+fn is_asked(events: &WrittenEvents, source: Source, kind: &str) -> bool {
+    let of_kind = events.kinds.as_ref().is_none_or(|kinds| kinds.contains(&kind));
+    let of_contact = events.contacts.as_ref().is_none_or(|contacts| {
+        let Source::Contact(place) = source else { return false };
+        contacts.contains(&place)
+    });
+    of_kind && of_contact
+}
+
+/// Whether the event of a number, from 0, is written, where `most` are before they are thinned: all of these, and of the
+/// events from 2ᵏ `most` to 2ᵏ⁺¹ `most` one block of `most`/100 in 2ᵏ⁺¹. So a run of any length writes half as many more
+/// whenever it is twice as long.
+fn is_taken(number: u64, most: u64) -> bool {
+    if number < most {
+        return true;
+    }
+    let octave = (number / most).ilog2();
+    let block = number / (most / BLOCKS).max(1);
+    block.is_multiple_of(1 << (octave + 1).min(63))
+}
+
+/// How many of so many events are written, about.
+pub(crate) fn expected(events: f64, most: u64) -> f64 {
+    let most = most as f64;
+    if events <= most { events } else { most * (1.0 + 0.5 * (events / most).log2()) }
+}
+
+/// The number nearest to a value that has so many digits.
+fn round(value: f64, digits: usize, text: &mut String) -> f64 {
+    text.clear();
+    // Writing to a string cannot fail, and what is printed reads back.
+    let _ = write!(text, "{value:.*e}", digits.saturating_sub(1));
+    text.parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_events_without_end_ever_fewer_are_taken_and_always_some() {
+        let most = 1000;
+        let taken: Vec<u64> = (0..1_024_000).filter(|number| is_taken(*number, most)).collect();
+        assert!(taken.iter().copied().take(1000).eq(0..1000));
+        // Half as many more in each of ten octaves.
+        assert_eq!(taken.len(), 1000 + 10 * 500);
+        let between = |from: u64, to: u64| taken.iter().filter(|number| (from..to).contains(number)).count();
+        assert_eq!([between(1000, 2000), between(2000, 4000), between(512_000, 1_024_000)], [500; 3]);
+        // Neighbours stay together, ten by ten.
+        assert!(taken.chunks(10).all(|block| block[9] == block[0] + 9 && block[0] % 10 == 0));
+        assert!((0..100).all(|number| is_taken(number, u64::MAX)) && is_taken(u64::MAX - 1, u64::MAX));
+    }
+
+    #[test]
+    fn numbers_are_rounded_to_the_nearest_with_so_many_digits() {
+        let mut text = String::new();
+        let mut round = |value, digits| round(value, digits, &mut text);
+        assert_eq!([round(1.234_567e-9, 3), round(-9.996, 3), round(0.0, 5)], [1.23e-9, -10.0, 0.0]);
+        assert!(round(f64::NAN, 3).is_nan() && round(f64::INFINITY, 3).is_infinite());
+        assert_eq!(round(0.1 + 0.2, 16), 0.3);
+    }
+}

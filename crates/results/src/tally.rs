@@ -1,0 +1,250 @@
+//! What figures are taken from while a run goes on: no more of it than figures need, however long the run.
+
+use crate::cycles::{CycleFigures, Loops};
+use crate::job::Job;
+use crate::periods::{Periods, Tracker};
+use crate::strides::StrideList;
+use std::collections::HashMap;
+use stickslip_analysis::Stride;
+use stickslip_drive::scene::Freedom;
+
+/// No place yet.
+const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+/// What figures are taken from.
+pub(crate) struct Tally {
+    contacts: Vec<ContactTally>,
+    walker: Option<Walker>,
+    /// Least and largest x of the body of the figures in the period under way, m.
+    range: [f64; 2],
+}
+
+/// What a contact has come to, over all rows and events.
+pub(crate) struct ContactTally {
+    /// Places of `fx_N`, `fn_N` and `d_m` among all channels.
+    places: [Option<usize>; 3],
+    /// Largest magnitudes of the forces, N.
+    pub(crate) peaks: [f64; 2],
+    /// Least and largest normal force, N, and indentation, m.
+    pub(crate) ranges: [[f64; 2]; 2],
+    /// Time in which it was open, s.
+    pub(crate) open: f64,
+    /// The first moment and the last, s, and the indentation at the last, m.
+    first: f64,
+    last: Option<[f64; 2]>,
+    /// Its cycles, where it may have any.
+    loops: Option<Loops>,
+}
+
+/// The body whose steps are counted.
+struct Walker {
+    /// Place of its x among all channels.
+    place: usize,
+    tracker: Tracker,
+    /// Where it was at the last end of a period, and whether the end of the present one has come, m.
+    ends: [Option<f64>; 2],
+    strides: StrideList,
+    /// Where it was at first and at last, m.
+    way: Option<[f64; 2]>,
+}
+
+impl Tally {
+    /// Nothing yet, of the figures of a job.
+    pub(crate) fn new(job: &Job) -> Self {
+        let channels = job.model.channels();
+        let places: HashMap<&str, usize> =
+            channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
+        let names = job.model.contacts().map(|(name, _)| name).enumerate();
+        let contacts = names.map(|(c, name)| ContactTally::new((job, c), name, &places)).collect();
+        Self { contacts, walker: Walker::of(job, &places), range: NOWHERE }
+    }
+
+    /// Keeps what there is too much of in a file without a name.
+    pub(crate) fn spill(&mut self, file: std::fs::File) {
+        if let Some(walker) = &mut self.walker {
+            walker.strides.spill(file);
+        }
+    }
+
+    /// Takes a row, or the row of an event.
+    pub(crate) fn row(&mut self, values: &[f64]) {
+        self.contacts.iter_mut().for_each(|contact| contact.row(values));
+        if let Some(walker) = &mut self.walker
+            && let Some(x) = values.get(walker.place)
+        {
+            let [first, _] = walker.way.unwrap_or([*x; 2]);
+            walker.way = Some([first, *x]);
+        }
+    }
+
+    /// Takes a moment that figures are taken at: after an event, or a mark.
+    pub(crate) fn moment(&mut self, job: &Job, values: &[f64], ended: &mut Vec<(usize, CycleFigures)>) {
+        for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(job.model.contacts()).enumerate() {
+            let Some(loops) = &mut contact.loops else { continue };
+            ended.extend(loops.take(law, values).map(|figures| (c, figures)));
+        }
+        if let Some(walker) = &mut self.walker {
+            walker.moment(values);
+        }
+    }
+
+    /// Takes where the body of the figures has been, m.
+    pub(crate) fn range(&mut self, [least, most]: [f64; 2]) {
+        self.range = [self.range[0].min(least), self.range[1].max(most)];
+    }
+
+    /// Begins the first period of the figures: what was before it is none of theirs.
+    pub(crate) fn begin_range(&mut self) {
+        self.range = NOWHERE;
+    }
+
+    /// Ends a period of the figures.
+    pub(crate) fn end_range(&mut self) -> Option<Stride> {
+        let range = std::mem::replace(&mut self.range, NOWHERE);
+        self.walker.as_mut()?.end_stride(range)
+    }
+
+    /// Why no more steps can be kept.
+    pub(crate) fn take_failure(&mut self) -> Option<std::io::Error> {
+        self.walker.as_mut()?.strides.take_failure()
+    }
+
+    /// What it takes, B.
+    pub(crate) fn bytes(&self) -> usize {
+        let loops = self.contacts.iter().filter_map(|contact| contact.loops.as_ref()).map(Loops::bytes);
+        loops.sum::<usize>() + self.walker.as_ref().map_or(0, |walker| walker.strides.bytes())
+    }
+
+    /// The cycles that are known only at the end.
+    pub(crate) fn finish(&mut self, job: &Job) -> Vec<(usize, CycleFigures)> {
+        let mut found = Vec::new();
+        for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(job.model.contacts()).enumerate() {
+            let Some(loops) = &mut contact.loops else { continue };
+            found.extend(loops.finish(law).into_iter().map(|figures| (c, figures)));
+        }
+        found
+    }
+
+    /// What contact `c` has come to.
+    pub(crate) fn contact(&self, c: usize) -> Option<&ContactTally> {
+        self.contacts.get(c)
+    }
+
+    /// The steps so far; none where no body makes any.
+    pub(crate) fn strides(&self) -> Option<&StrideList> {
+        self.walker.as_ref().map(|walker| &walker.strides)
+    }
+
+    /// The way of the body that steps, m.
+    pub(crate) fn net_travel(&self) -> f64 {
+        let way = self.walker.as_ref().and_then(|walker| walker.way);
+        way.map_or(0.0, |[first, last]| last - first)
+    }
+
+    /// Moments that cycles are without, for there were too many of them.
+    pub(crate) fn left_out(&self) -> u64 {
+        self.contacts.iter().filter_map(|contact| contact.loops.as_ref()).map(|loops| loops.left_out).sum()
+    }
+}
+
+impl ContactTally {
+    fn new((job, c): (&Job, usize), name: &str, places: &HashMap<&str, usize>) -> Self {
+        let place = |quantity| places.get(format!("{name}.{quantity}").as_str()).copied();
+        Self {
+            places: ["fx_N", "fn_N", "d_m"].map(place),
+            peaks: [0.0; 2],
+            ranges: [NOWHERE; 2],
+            open: 0.0,
+            first: 0.0,
+            last: None,
+            loops: Loops::of(job, c, places),
+        }
+    }
+
+    fn row(&mut self, values: &[f64]) {
+        let at = |place: Option<usize>| place.and_then(|place| values.get(place)).copied();
+        let (Some(t), [Some(tangential), Some(normal), Some(d)]) = (at(Some(0)), self.places.map(at)) else {
+            return;
+        };
+        for (peak, force) in self.peaks.iter_mut().zip([tangential, normal]) {
+            *peak = force.abs().max(*peak);
+        }
+        for (range, value) in self.ranges.iter_mut().zip([normal, d]) {
+            *range = [range[0].min(value), range[1].max(value)];
+        }
+        // Touching and lifting off are events: between two of these moments it is open or closed all the time.
+        match self.last {
+            None => self.first = t,
+            Some([before, depth]) if depth + d <= 0.0 => self.open += t - before,
+            Some(_) => {}
+        }
+        self.last = Some([t, d]);
+    }
+
+    /// Share of the time in which it was open; none without a row.
+    pub(crate) fn open_share(&self) -> Option<f64> {
+        let [last, _] = self.last?;
+        let total = last - self.first;
+        Some(if total > 0.0 { self.open / total } else { 0.0 })
+    }
+}
+
+impl Walker {
+    fn of(job: &Job, places: &HashMap<&str, usize>) -> Option<Self> {
+        let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
+        let body = scene.bodies.get(figures.body?)?;
+        let waveform = scene.waveforms.get(figures.waveform?)?;
+        let periods = Periods::until(&waveform.part, f64::INFINITY)?;
+        let place = *places.get(format!("{}.x_m", body.name).as_str())?;
+        (body.part.x.freedom == Freedom::Free).then(|| Self {
+            place,
+            tracker: Tracker::new(periods),
+            ends: [None; 2],
+            strides: StrideList::default(),
+            way: None,
+        })
+    }
+
+    fn moment(&mut self, values: &[f64]) {
+        let (Some(t), Some(x)) = (values.first(), values.get(self.place)) else { return };
+        match self.tracker.pass(*t) {
+            Some(0) => self.ends = [Some(*x), None],
+            Some(_) => self.ends[1] = Some(*x),
+            None => {}
+        }
+    }
+
+    /// The step of a period in whose end it has come to stand; none of one whose end was not among the moments.
+    fn end_stride(&mut self, [least, most]: [f64; 2]) -> Option<Stride> {
+        let [start, end] = self.ends;
+        let stride = Stride { start: start?, end: end?, least, most };
+        self.ends = [end, None];
+        self.strides.push(stride);
+        Some(stride)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bouncing_contact_is_open_between_its_events() {
+        let mut tally = ContactTally {
+            places: [Some(2), Some(2), Some(1)],
+            peaks: [0.0; 2],
+            ranges: [NOWHERE; 2],
+            open: 0.0,
+            first: 0.0,
+            last: None,
+            loops: None,
+        };
+        assert_eq!(tally.open_share(), None);
+        // Falls, touches at 2, rests until 3, lifts off, flies until 8, touches.
+        let rows =
+            [[0.0, -1.0, 0.0], [2.0, 1e-20, 0.0], [2.5, 3.0, 7.0], [3.0, -1e-20, 0.0], [5.0, -9.0, 0.0]];
+        rows.iter().chain(&[[8.0, 1e-20, 0.0], [10.0, 2.0, 4.0]]).for_each(|row| tally.row(row));
+        assert_eq!((tally.open_share(), tally.ranges), (Some(0.7), [[0.0, 7.0], [-9.0, 3.0]]));
+        assert_eq!(tally.peaks, [7.0, 7.0]);
+    }
+}

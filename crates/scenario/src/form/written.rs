@@ -1,0 +1,180 @@
+//! Which of the rows and events are written, and how.
+
+use super::Count;
+use crate::quantity::Time;
+use crate::schema::at_least_zero;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::json;
+use std::borrow::Cow;
+use std::fmt;
+
+/// Which events are written: all, off, or some of them.
+#[derive(Debug, Clone)]
+pub(crate) enum EventsOutputForm {
+    All,
+    Off,
+    Some(SomeEventsForm),
+}
+
+/// Some of the events.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SomeEventsForm {
+    /// Kinds of events that are written; all by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!(["gross slip", "gross slip ends"]))]
+    pub(crate) kinds: Option<Vec<KindForm>>,
+    /// Names of contacts whose events are written, and no others; by default those of everything.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!(["ball"]))]
+    pub(crate) contacts: Option<Vec<String>>,
+    /// Events from which on they are thinned, at least 100: of each twice as many that follow half as large a share is written, in
+    /// blocks of a hundredth of this number.
+    #[serde(default = "default_most")]
+    #[schemars(range(min = 100), example = 1_000_000)]
+    pub(crate) most: Count,
+}
+
+/// A kind of event.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum KindForm {
+    /// The sense of sliding turns.
+    Reversal,
+    /// A piece of the memory is used up.
+    #[serde(rename = "loop closed")]
+    LoopClosed,
+    /// Gross slip begins.
+    #[serde(rename = "gross slip")]
+    GrossSlip,
+    /// Gross slip ends.
+    #[serde(rename = "gross slip ends")]
+    GrossSlipEnds,
+    /// The contact begins to grow in full stick.
+    #[serde(rename = "full stick")]
+    FullStick,
+    /// Slip begins in a contact that grew in full stick.
+    #[serde(rename = "slip begins")]
+    SlipBegins,
+    /// Two bodies touch.
+    Touch,
+    /// Two bodies part.
+    #[serde(rename = "lift-off")]
+    LiftOff,
+    /// A waveform turns a corner.
+    Corner,
+    /// A waveform jumps.
+    Jump,
+}
+
+/// Where rows and events are written.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("minProperties" = 1))]
+pub(crate) struct WindowForm {
+    /// From when on, s, at least 0; by default from the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"90 ms", transform = at_least_zero)]
+    pub(crate) from: Option<Time>,
+    /// Until when, s, at least 0; by default to the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"100 ms", transform = at_least_zero)]
+    pub(crate) to: Option<Time>,
+}
+
+/// How the states of contacts are written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum StatesForm {
+    /// As words: open, stick, partial, slip.
+    #[default]
+    Words,
+    /// As numbers: 0 open, 1 stick, 2 partial, 3 slip.
+    Numbers,
+}
+
+impl StatesForm {
+    #[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
+    pub(crate) fn is_words(&self) -> bool {
+        *self == Self::Words
+    }
+}
+
+/// Events that are written before they are thinned.
+pub(crate) const MOST_EVENTS: u64 = 100_000;
+
+fn default_most() -> Count {
+    Count(MOST_EVENTS)
+}
+
+impl KindForm {
+    /// The word in `events.csv`.
+    pub(crate) fn name(self) -> &'static str {
+        use stickslip_drive::EventKind as Kind;
+        let kind = match self {
+            Self::Reversal => Kind::Reversal,
+            Self::LoopClosed => Kind::LoopClosed,
+            Self::GrossSlip => Kind::GrossSlip,
+            Self::GrossSlipEnds => Kind::GrossSlipEnds,
+            Self::FullStick => Kind::FullStick,
+            Self::SlipBegins => Kind::SlipBegins,
+            Self::Touch => Kind::Touch,
+            Self::LiftOff => Kind::LiftOff,
+            Self::Corner => Kind::Corner,
+            Self::Jump => Kind::Jump,
+        };
+        kind.name()
+    }
+}
+
+impl Serialize for EventsOutputForm {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::All => serializer.serialize_str("all"),
+            Self::Off => serializer.serialize_str("off"),
+            Self::Some(some) => some.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for EventsOutputForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct EventsVisitor;
+        impl<'de> Visitor<'de> for EventsVisitor {
+            type Value = EventsOutputForm;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"all\", \"off\" or an object such as {\"kinds\": [\"gross slip\"]}")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<EventsOutputForm, E> {
+                match word {
+                    "all" => Ok(EventsOutputForm::All),
+                    "off" => Ok(EventsOutputForm::Off),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(word), &self)),
+                }
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<EventsOutputForm, A::Error> {
+                SomeEventsForm::deserialize(MapAccessDeserializer::new(map)).map(EventsOutputForm::Some)
+            }
+        }
+        deserializer.deserialize_any(EventsVisitor)
+    }
+}
+
+impl JsonSchema for EventsOutputForm {
+    fn schema_name() -> Cow<'static, str> {
+        "EventsOutputForm".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Which events are written: all, off, or some of them.",
+            "anyOf": [{ "enum": ["all", "off"] }, generator.subschema_for::<SomeEventsForm>()]
+        })
+    }
+}

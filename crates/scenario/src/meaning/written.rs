@@ -1,0 +1,145 @@
+//! Which of the rows and events are written, and how.
+
+use super::{Builder, Figures, range};
+use crate::document::shown;
+use crate::fault::Fault;
+use crate::form::{EventsOutputForm, KindForm, MOST_EVENTS, StatesForm};
+use crate::guide::Help;
+use crate::path::At;
+use crate::suggest;
+use stickslip_drive::{Plan, Waveform};
+
+/// Digits that a number can be rounded to: with 17 it has its bits.
+const DIGITS: (u64, u64) = (1, 17);
+
+/// Fewest events before they are thinned: they are in blocks of a hundredth.
+const LEAST: u64 = 100;
+
+/// Which of the rows and events are written, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// Which events.
+    pub events: WrittenEvents,
+    /// From when until when, s, both included; the first and the last row of a run are written anyway.
+    pub window: [f64; 2],
+    /// Whether the window goes by the end of the run.
+    pub goes_by_end: bool,
+    /// Digits that numbers are rounded to; none: those that they have.
+    pub digits: Option<usize>,
+    /// Whether the states of contacts are numbers and no words.
+    pub state_numbers: bool,
+}
+
+/// Which events are written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenEvents {
+    /// Their kinds, by the words that events have; none: all.
+    pub kinds: Option<Vec<&'static str>>,
+    /// Places of the contacts whose events are written, and no others; none: those of everything.
+    pub contacts: Option<Vec<usize>>,
+    /// How many are written before they are thinned; 0: none are written at all, the largest number: none are left out.
+    pub most: u64,
+}
+
+impl Written {
+    /// Whether all that happens is written: nothing has to be left out of a comparison, or guessed by a picture.
+    pub fn has_all_events(&self) -> bool {
+        let WrittenEvents { kinds, contacts, most } = &self.events;
+        kinds.is_none() && contacts.is_none() && *most > 0 && self.window == [0.0, f64::INFINITY]
+    }
+}
+
+impl Builder<'_> {
+    /// What is written of rows and events.
+    pub(super) fn written(&self, plan: Plan, figures: Figures) -> Result<Written, Fault> {
+        let root = At::ROOT;
+        let (at, form) = (root.key("output"), &self.form.output);
+        let digits = |digits: crate::form::Count| {
+            range::count_between(&at.key("float"), digits.0, DIGITS.0, DIGITS.1).map(|digits| digits as usize)
+        };
+        Ok(Written {
+            events: self.written_events(&at.key("events"))?,
+            window: self.window(&at, plan, figures)?,
+            goes_by_end: form.last.is_some(),
+            digits: form.float.map(digits).transpose()?.filter(|digits| *digits < DIGITS.1 as usize),
+            state_numbers: form.states == StatesForm::Numbers,
+        })
+    }
+
+    fn written_events(&self, at: &At<'_>) -> Result<WrittenEvents, Fault> {
+        let all = |most: u64| WrittenEvents { kinds: None, contacts: None, most };
+        let some = match &self.form.output.events {
+            None => return Ok(all(MOST_EVENTS)),
+            Some(EventsOutputForm::All) => return Ok(all(u64::MAX)),
+            Some(EventsOutputForm::Off) => return Ok(all(0)),
+            Some(EventsOutputForm::Some(some)) => some,
+        };
+        let most = range::count_between(&at.key("most"), some.most.0, LEAST, u64::MAX)?;
+        let kinds = some.kinds.as_ref().map(|kinds| kinds.iter().copied().map(KindForm::name).collect());
+        let places = |names: &Vec<String>| {
+            let list = at.key("contacts");
+            names.iter().enumerate().map(|(i, name)| self.written_contact(&list.index(i), name)).collect()
+        };
+        let contacts: Option<Result<Vec<usize>, Fault>> = some.contacts.as_ref().map(places);
+        Ok(WrittenEvents { kinds, contacts: contacts.transpose()?, most })
+    }
+
+    /// The place of a contact by name.
+    fn written_contact(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
+        let contacts = &self.form.contacts;
+        contacts.find(name).ok_or_else(|| {
+            let fault = at.fault(format!("there is no contact \"{}\"", shown(name)));
+            fault.maybe_help(suggest::help(name, contacts.names()))
+        })
+    }
+
+    /// From when until when rows and events are written, s.
+    fn window(&self, at: &At<'_>, plan: Plan, figures: Figures) -> Result<[f64; 2], Fault> {
+        let form = &self.form.output;
+        if let Some(periods) = form.last {
+            let at = at.key("last");
+            if form.window.is_some() {
+                let fault = at.fault("the window is given already").on_key();
+                return Err(fault.help("keep one of them"));
+            }
+            return self.last_periods(&at, periods, plan, figures);
+        }
+        let (at, Some(window)) = (at.key("window"), form.window) else { return Ok([0.0, f64::INFINITY]) };
+        if window.from.is_none() && window.to.is_none() {
+            return Err(at.fault("expected \"from\", \"to\" or both").ask(Help::Shape));
+        }
+        let from = window.from.map_or(Ok(0.0), |from| range::at_least_zero(&at.key("from"), from))?;
+        let to = window.to.map_or(Ok(f64::INFINITY), |to| range::at_least_zero(&at.key("to"), to))?;
+        if to < from {
+            return Err(at.key("to").expected(format_args!("a time from {} s on", range::short(from))));
+        }
+        if from > plan.duration {
+            let end = range::short(plan.duration);
+            return Err(at
+                .key("from")
+                .expected(format_args!("a time within the run, which ends at {end} s")));
+        }
+        Ok([from, to])
+    }
+
+    /// The last periods of a run.
+    fn last_periods(
+        &self,
+        at: &At<'_>,
+        periods: f64,
+        plan: Plan,
+        figures: Figures,
+    ) -> Result<[f64; 2], Fault> {
+        let periods = range::number_above_zero(at, periods)?;
+        let waveform = figures.waveform.and_then(|place| self.scene.waveforms.get(place));
+        let Some(period) = waveform.and_then(|waveform| Waveform::period(&waveform.part)) else {
+            let fault = at.fault("there is no waveform, or more than one, to count the periods of").on_key();
+            return Err(fault.help("name one with a period in figures.waveform, or give output.window"));
+        };
+        if plan.until_steady.is_some() {
+            let fault = at.fault("a run that may end early has no last periods beforehand").on_key();
+            return Err(fault.help("give output.window, or leave out run.until_steady"));
+        }
+        Ok([(plan.duration - periods * period).max(0.0), f64::INFINITY])
+    }
+}
