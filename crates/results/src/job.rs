@@ -6,14 +6,13 @@ use crate::limits;
 use crate::plausibility;
 use crate::program::this_program;
 use crate::seal::hash;
-use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use stickslip_contact::Springs;
 use stickslip_drive::facts::{Setup, has_constant_load};
 use stickslip_drive::scene::Normal;
-use stickslip_drive::{Accuracy, Channel, Model, SceneError, State};
-use stickslip_scenario::{Scenario, ScenarioError, Warning, suggestion};
+use stickslip_drive::{Accuracy, Model, SceneError, State};
+use stickslip_scenario::{Scenario, ScenarioError, Warning};
 use thiserror::Error;
 
 /// A checked scenario: no input can be wrong any more.
@@ -99,7 +98,10 @@ impl Job {
         let model = Model::new(&scenario.scene).map_err(locate)?;
         let start = model.start(&scenario.plan).map_err(locate)?;
         let channels = model.channels();
-        let columns = columns(&scenario, &channels)?;
+        let columns = match scenario.columns(&channels)? {
+            Some(places) => Columns::chosen(&channels, &places),
+            None => Columns::all(&channels),
+        };
         limits::check_rows(&scenario, channels.len())?;
         limits::check_curves(&scenario)?;
         limits::check_fields(&scenario)?;
@@ -186,28 +188,4 @@ impl Job {
             }
         }
     }
-}
-
-/// The columns asked for.
-fn columns(scenario: &Scenario, channels: &[Channel]) -> Result<Columns, ScenarioError> {
-    let Some(names) = &scenario.channels else { return Ok(Columns::all(channels)) };
-    let known: HashMap<&str, usize> =
-        channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
-    let (mut places, mut taken) = (Vec::new(), HashSet::new());
-    for (i, name) in names.iter().enumerate() {
-        let at = format!("output.channels[{i}]");
-        let Some(&place) = known.get(name.as_str()) else {
-            let help = suggestion(name, channels.iter().map(|channel| channel.name.as_str()));
-            return Err(scenario.locate(
-                &at,
-                format!("there is no channel \"{}\"", name.escape_debug()),
-                help,
-            ));
-        };
-        if !taken.insert(place) {
-            return Err(scenario.locate(&at, "this channel is in the list already", None));
-        }
-        places.push(place);
-    }
-    Ok(Columns::chosen(channels, &places))
 }

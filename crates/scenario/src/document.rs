@@ -8,6 +8,7 @@ use crate::place::{Inner, Place, Span};
 use crate::syntax;
 use crate::tables::TableFile;
 use serde_json::Value;
+use std::path::PathBuf;
 
 /// A text that values come from.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +38,8 @@ pub(crate) struct Document {
     pub(crate) root: Place,
     /// Tables whose points stand in files of their own.
     pub(crate) tables: Vec<TableFile>,
+    /// The folder that these are looked for in; none of a scenario that may name no files.
+    pub(crate) base: Option<PathBuf>,
 }
 
 /// Most characters of a value that a message repeats.
@@ -51,23 +54,35 @@ impl Document {
             value: Value::Null,
             root: Place { key: None, value: whole, inner: Inner::Leaf },
             tables: Vec::new(),
+            base: None,
         };
         document.add(file.to_owned(), text.to_owned(), SourceKind::Scenario);
         document
     }
 
-    /// Reads a text as strict JSON and notes where everything stands.
-    pub(crate) fn read(file: &str, text: &str) -> Result<Self, ScenarioError> {
+    /// Reads a text as strict JSON and notes where everything stands, and what JSON readers let pass in silence.
+    pub(crate) fn read(file: &str, text: &str) -> Result<(Self, Vec<Fault>), ScenarioError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut document = Self::new(file, text);
         match syntax::read(text, &syntax::Origin { source: 0, offset: 0, path: KeyPath::default() }) {
-            Ok((value, root)) => {
-                document.value = value;
-                document.root = root;
-                Ok(document)
+            Ok(read) => {
+                document.value = read.value;
+                document.root = read.place;
+                Ok((document, read.faults))
             }
             Err(fault) => Err(document.report(fault).into()),
         }
+    }
+
+    /// The table whose file holds the value at a path.
+    pub(crate) fn table(&self, path: &KeyPath) -> Option<&KeyPath> {
+        self.tables.iter().find(|table| table.has(path)).map(TableFile::path)
+    }
+
+    /// As it was before its tables were read.
+    pub(crate) fn forget_tables(&mut self) {
+        self.tables.clear();
+        self.sources.retain(|source| !matches!(source.kind, SourceKind::Table(_)));
     }
 
     /// Adds a text to point into.
@@ -106,11 +121,8 @@ impl Document {
     /// A fault with its place in the file.
     pub(crate) fn report(&self, fault: Fault) -> Report {
         let written = if fault.value { self.written(&fault.path) } else { None };
+        let span = self.span(&fault);
         let help = fault.help.about(&fault.path);
-        let span = fault
-            .span
-            .or_else(|| self.cell(&fault.path))
-            .unwrap_or_else(|| self.locate(&fault.path, fault.mark));
         let mut report = Report {
             file: String::new(),
             is_override: false,
@@ -135,6 +147,23 @@ impl Document {
             }
         }
         report
+    }
+
+    fn span(&self, fault: &Fault) -> Span {
+        let span = fault.bearing.span.or_else(|| self.cell(&fault.path));
+        span.unwrap_or_else(|| self.locate(&fault.path, fault.mark))
+    }
+
+    /// Where a fault stands: its source, or the one that names it, the place there, and the place in a table.
+    pub(crate) fn order(&self, fault: &Fault) -> (usize, usize, usize) {
+        let span = self.span(fault);
+        match self.sources.get(span.source).map(|source| &source.kind) {
+            Some(SourceKind::Table(named)) => {
+                let named = self.locate(named, Mark::Value);
+                (named.source, named.start, span.start)
+            }
+            _ => (span.source, span.start, 0),
+        }
     }
 
     /// File, line and column of a value.

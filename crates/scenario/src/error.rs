@@ -1,15 +1,23 @@
-//! The report of what is wrong with a scenario, as plain values.
+//! The reports of what is wrong with a scenario, as plain values.
 
 use crate::excerpt::Excerpt;
 use std::fmt;
 use std::ops::Deref;
 
-/// What is wrong with a scenario, where, and what would be right. The values are in [`Report`].
+/// What is wrong with a scenario, where, and what would be right: everything that is no consequence of something else, in the
+/// order of the file. It stands for the first [`Report`], [`ScenarioError::reports`] are all.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ScenarioError(pub(crate) Box<Report>);
+pub struct ScenarioError(Box<Reports>);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Reports {
+    first: Report,
+    rest: Vec<Report>,
+    more: bool,
+}
 
 /// What there is to say about a place of a scenario: the parts of a [`ScenarioError`], or a warning.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Report {
     /// The file as it was named, the table that it names, or the argument of `--set` that is to blame.
     pub file: String,
@@ -54,8 +62,30 @@ impl fmt::Display for Warning {
 }
 
 impl From<Report> for ScenarioError {
-    fn from(report: Report) -> Self {
-        Self(Box::new(report))
+    fn from(first: Report) -> Self {
+        Self(Box::new(Reports { first, rest: Vec::new(), more: false }))
+    }
+}
+
+impl ScenarioError {
+    /// Several at once: the first, the others, and whether there are more than these.
+    pub(crate) fn several(first: Report, rest: Vec<Report>, more: bool) -> Self {
+        Self(Box::new(Reports { first, rest, more }))
+    }
+
+    /// Everything that is told, in the order of the file; at least one.
+    pub fn reports(&self) -> impl Iterator<Item = &Report> {
+        std::iter::once(&self.0.first).chain(&self.0.rest)
+    }
+
+    /// Whether there is more wrong than is told.
+    pub fn has_more(&self) -> bool {
+        self.0.more
+    }
+
+    /// The first report by itself.
+    pub(crate) fn into_first(self) -> Report {
+        self.0.first
     }
 }
 
@@ -63,15 +93,23 @@ impl Deref for ScenarioError {
     type Target = Report;
 
     fn deref(&self) -> &Report {
-        &self.0
+        &self.0.first
     }
 }
 
 impl std::error::Error for ScenarioError {}
 
+/// Reports with a blank line between them.
 impl fmt::Display for ScenarioError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
+        self.0.first.fmt(f)?;
+        for report in &self.0.rest {
+            write!(f, "\n\n{report}")?;
+        }
+        if self.0.more {
+            write!(f, "\n\nand more: these are {}", self.reports().count())?;
+        }
+        Ok(())
     }
 }
 

@@ -107,7 +107,8 @@ impl Guide {
         Some(first.to_lowercase().chain(chars).collect())
     }
 
-    fn example<'a>(&'a self, schema: &'a Value) -> Option<&'a Value> {
+    /// An example of what a schema describes.
+    pub(crate) fn example<'a>(&'a self, schema: &'a Value) -> Option<&'a Value> {
         let own = schema.get("examples").and_then(|examples| examples.get(0));
         own.or_else(|| self.parts(schema).find_map(|part| self.example(part)))
     }

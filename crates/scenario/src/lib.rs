@@ -6,14 +6,14 @@
 //! or a plan in `stickslip-drive`, when the model is built. Their typed errors get their words and their place in the file
 //! here: [`Scenario::refusal`].
 //!
-//! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept. The first
-//! error ends the reading: what follows one is too often its consequence. What is allowed and odd is a warning, of which
-//! a [`Scenario`] carries several.
+//! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept. It tells everything
+//! that is wrong and no consequence of something else: `mistakes`. What is allowed and odd is a warning, of which a
+//! [`Scenario`] carries several.
 //!
 //! In reading order: `text` (bytes that are text), `syntax` (strict JSON, limits, duplicate keys, what people write
 //! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
 //! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
-//! fit, as data and in words); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
+//! fit, as data and in words); `mistakes` (what else does not); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
 //! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
 //! `schema`, and `guide`, which answers from it; `substance` (what a material's name means).
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
@@ -28,10 +28,12 @@ mod form;
 mod guide;
 mod meaning;
 mod misfit;
+mod mistakes;
 mod overrides;
 mod pairing;
 mod path;
 mod place;
+mod plot_name;
 mod quantity;
 mod reader;
 mod refusal;
@@ -48,8 +50,9 @@ mod units;
 pub use error::{Report, ScenarioError, Warning};
 pub use excerpt::Excerpt;
 pub use meaning::{FieldsOutput, Figures, MemoryOutput, SpringsOutput, Written, WrittenEvents};
+pub use plot_name::PlotName;
 pub use quantity::quantity;
-pub use scenario::{PlotName, Scenario};
+pub use scenario::Scenario;
 pub use schema::schema;
 pub use substance::{Substance, substance};
 pub use suggest::help as suggestion;

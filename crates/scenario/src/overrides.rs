@@ -1,11 +1,11 @@
 //! `--set path=value`: values put into a read scenario before it is given its meaning.
 
 use crate::document::{Document, SourceKind};
-use crate::error::ScenarioError;
-use crate::fault::Fault;
+use crate::fault::{Fault, Mend};
 use crate::path::{KeyPath, Step};
 use crate::place::{Inner, Place, Span};
-use crate::{suggest, syntax};
+use crate::suggest;
+use crate::syntax::{self, Read};
 use serde_json::{Map, Value};
 
 /// Parts that may be left out of a scenario as a whole: an override makes them.
@@ -13,8 +13,8 @@ const SECTIONS: [&str; 4] = ["run", "output", "figures", "gravity"];
 /// Parts that are maps from names the user gave.
 const NAMED: [&str; 6] = ["materials", "waveforms", "bodies", "contacts", "springs", "actuators"];
 
-/// Puts one value under a path.
-pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Result<(), ScenarioError> {
+/// Puts one value under a path; says what is wrong with it.
+pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Fault> {
     let source = document.sources.len();
     let argument = format!("{path}={text}");
     document.add(argument.clone(), argument, SourceKind::Override);
@@ -23,34 +23,36 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Result<(
         Some(target) if !target.0.is_empty() => target,
         _ => {
             let fault = Fault::new(KeyPath::default(), "expected a key path before the = sign").at_span(name);
-            return Err(document.report(fault.help("such as contacts.ball.friction or loads[0].x")).into());
+            return vec![fault.help("such as contacts.ball.friction or loads[0].x").mend(Mend::Leave)];
         }
     };
     let put = value(text, &syntax::Origin { source, offset: path.len() + 1, path: target.clone() }).and_then(
-        |(value, place)| {
+        |read| {
             known(document, &target, name)?;
-            insert(&mut document.value, &target, value, name)?;
-            Ok(Place { key: Some(name), ..place })
+            insert(&mut document.value, &target, read.value, name)?;
+            Ok((Place { key: Some(name), ..read.place }, read.faults))
         },
     );
     match put {
-        Ok(place) => {
+        Ok((place, faults)) => {
             document.root.put(&target.0, place);
-            Ok(())
+            faults
         }
-        Err(fault) => Err(document.report(fault).into()),
+        // What it was to be stays what it was.
+        Err(fault) => vec![fault.mend(Mend::Leave)],
     }
 }
 
 /// The value is JSON if it reads as JSON, and a string otherwise; so quantities need no quotes on a command line.
-fn value(text: &str, origin: &syntax::Origin) -> Result<(Value, Place), Fault> {
+fn value(text: &str, origin: &syntax::Origin) -> Result<Read, Fault> {
     let start = text.trim_start();
     let must_be_json = start.starts_with(['{', '[', '"']);
     if must_be_json || serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok() {
         return syntax::read(text, origin);
     }
     let span = Span { source: origin.source, start: origin.offset, end: origin.offset + text.len() };
-    Ok((Value::String(text.to_owned()), Place { key: None, value: span, inner: Inner::Leaf }))
+    let place = Place { key: None, value: span, inner: Inner::Leaf };
+    Ok(Read { value: Value::String(text.to_owned()), place, faults: Vec::new() })
 }
 
 /// An override changes what is there or adds a key to it; it does not invent named parts by a slip of the pen.

@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use std::fmt;
 
 /// One step from a value to one inside it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) enum Step {
     /// Into an object.
     Key(String),
@@ -14,7 +14,7 @@ pub(crate) enum Step {
 }
 
 /// A key path; empty for the whole scenario.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
 pub(crate) struct KeyPath(pub(crate) Vec<Step>);
 
 impl KeyPath {
@@ -38,6 +38,18 @@ impl KeyPath {
             }
         }
         Some(Self(steps))
+    }
+
+    /// Whether the value at this path holds the one at another; `*` in the other stands for any key or place.
+    pub(crate) fn holds(&self, other: &Self) -> bool {
+        let any = Step::Key("*".to_owned());
+        self.0.len() <= other.0.len() && self.0.iter().zip(&other.0).all(|(a, b)| a == b || *b == any)
+    }
+
+    /// Whether it lies in the value at another path, with `*` in that.
+    pub(crate) fn lies_in(&self, other: &Self) -> bool {
+        let head = Self(self.0.iter().take(other.0.len()).cloned().collect());
+        head.0.len() == other.0.len() && head.holds(other)
     }
 }
 

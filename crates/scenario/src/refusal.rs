@@ -1,7 +1,7 @@
 //! What does not fit the form, in the words and with the place of a fault.
 
 use crate::document::{Document, shown};
-use crate::fault::Fault;
+use crate::fault::{Fault, Mend};
 use crate::guide::{Guide, Help};
 use crate::misfit::{Misfit, Wanted};
 use crate::path::{KeyPath, Step};
@@ -13,7 +13,7 @@ use serde_path_to_error::Segment;
 /// Gives a refusal its place and its words.
 pub(crate) fn fault(document: &Document, error: &serde_path_to_error::Error<Misfit>) -> Fault {
     let refusal = Refusal { document, guide: Guide::get(), path: path(document, error.path()) };
-    refusal.fault(error.inner())
+    refusal.fault(error.inner()).of_shape()
 }
 
 /// The path as far as it stands in the file: serde also counts variants that are bare strings.
@@ -24,9 +24,21 @@ fn path(document: &Document, path: &serde_path_to_error::Path) -> KeyPath {
         Segment::Unknown => None,
     });
     let mut path = KeyPath(steps.collect());
-    let (_, depth) = document.root.deepest(&path);
-    path.0.truncate(depth);
+    path.0.truncate(depth(document, &path));
     path
+}
+
+/// How many steps of a path lead somewhere.
+fn depth(document: &Document, path: &KeyPath) -> usize {
+    let mut here = Some(&document.value);
+    let mut enter = |step: &Step| {
+        here = here.and_then(|value| match step {
+            Step::Key(key) => value.get(key),
+            Step::Index(index) => value.get(index),
+        });
+        here.is_some()
+    };
+    path.0.iter().take_while(|step| enter(step)).count()
 }
 
 /// A value that does not fit.
@@ -63,11 +75,13 @@ impl Refusal<'_> {
         parent.0.pop_if(|last| *last == step);
         self.path = parent.clone();
         self.path.0.push(step);
-        let (_, depth) = self.document.root.deepest(&self.path);
-        self.path.0.truncate(depth);
+        self.path.0.truncate(depth(self.document, &self.path));
         let known: Vec<&str> = known.iter().copied().filter(|key| self.guide.knows(&parent, key)).collect();
         let help = suggest::slip(name, &known).or_else(|| self.elsewhere(&parent, name, &known));
-        Fault::new(self.path, "unknown key").on_key().maybe_help(help)
+        let fault = Fault::new(self.path, "unknown key").on_key().maybe_help(help);
+        let Some(meant) = suggest::meant(name, &known) else { return fault.mend(Mend::Stray) };
+        parent.0.push(Step::Key(meant.to_owned()));
+        fault.mend(Mend::Rename(meant.to_owned())).against_path(parent)
     }
 
     /// What is known here, and where the key would have been known.
@@ -88,14 +102,20 @@ impl Refusal<'_> {
         let help = suggest::slip(name, &known);
         let follow = self.follow_help();
         let step = Step::Key(name.to_owned());
-        let is_key = self.document.root.deepest(&self.path).0.step(&step).is_some();
-        if is_key {
-            self.path.0.push(step);
+        self.path.0.push(step);
+        let is_key = depth(self.document, &self.path) == self.path.0.len();
+        if !is_key {
+            self.path.0.pop();
         }
         let message = format!("expected {}, got \"{}\"", one_of(&kinds), shown(name));
         let ask = if is_key { Help::None } else { Help::Shape };
         let fault = Fault::new(self.path, message).maybe_help(help).maybe_help(follow).ask(ask);
-        if is_key { fault.on_key() } else { fault }
+        match suggest::meant(name, &known) {
+            Some(meant) if is_key => fault.on_key().mend(Mend::Rename(meant.to_owned())),
+            Some(meant) => fault.mend(Mend::With(meant.into())),
+            None if is_key => fault.on_key(),
+            None => fault,
+        }
     }
 
     fn unfit(self, wanted: &Wanted) -> Fault {
@@ -124,7 +144,10 @@ impl Refusal<'_> {
         let is_number = matches!(wanted, Wanted::Number | Wanted::WholeNumber);
         let quoted = || self.number_in_quotes().filter(|_| is_number);
         let help = self.follow_help().or_else(quoted).or_else(|| self.unnamed());
-        Fault::new(self.path, message).maybe_help(help).ask(ask)
+        let unnamed = self.unnamed().is_some();
+        let section = KeyPath(self.path.0.iter().take(1).cloned().collect());
+        let fault = Fault::new(self.path, message).maybe_help(help).ask(ask);
+        if unnamed { fault.mend(Mend::Around(section)) } else { fault }
     }
 
     /// Something inside a kind of value that has no inside.

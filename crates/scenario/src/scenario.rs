@@ -2,87 +2,23 @@
 
 use crate::document::Document;
 use crate::error::{Report, ScenarioError, Warning};
-use crate::fault::Fault;
+use crate::fault::{Fault, Mend};
 use crate::form::Form;
 use crate::meaning::warnings::Oddity;
-use crate::meaning::{self, FieldsOutput, Figures, MemoryOutput, SpringsOutput, Written};
+use crate::meaning::{self, FieldsOutput, Figures, Meaning, MemoryOutput, SpringsOutput, Written};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
+use crate::plot_name::PlotName;
 use crate::reader::Reader;
-use crate::{document, overrides, refusal, resolved, suggest, syntax, tables, text};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{document, mistakes, overrides, refusal, resolved, suggest, syntax, tables, text};
 use serde_json::Value;
 use std::path::Path;
-use stickslip_drive::{Plan, Scene, SceneError};
+use stickslip_drive::{Channel, Plan, Scene, SceneError};
 
 /// Version of the form that this program reads.
 const VERSION: u64 = 1;
 /// Most warnings of one scenario.
 const MAX_WARNINGS: usize = 20;
-
-/// A picture a scenario asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum PlotName {
-    /// The scene to scale: bodies, contacts, springs, forces, and what is free or follows a waveform.
-    Layout,
-    /// Tangential force over displacement of each contact.
-    Loop,
-    /// Positions over time.
-    Trajectory,
-    /// Energies over time, and what their books miss.
-    Energy,
-    /// Velocity over displacement, of every free coordinate.
-    Phase,
-    /// Events over time.
-    Events,
-    /// What every spring does over time: open, stick, slip forward or backward; from `springs.csv`.
-    State,
-    /// The memory curve of each contact at some moments, in its wedge; from `memory.csv`.
-    Memory,
-    /// Pressure, shear stress, displacement and slip under each contact at some moments, rings of stick and slip shaded; from
-    /// `fields.csv`.
-    Fields,
-    /// Each contact as its row of springs at some moments, pressed and sheared; from `memory.csv`.
-    Substitute,
-    /// Friction work over radius and time; from `friction.csv`.
-    Friction,
-}
-
-impl PlotName {
-    /// All of them.
-    pub const ALL: [Self; 11] = [
-        Self::Layout,
-        Self::Loop,
-        Self::Trajectory,
-        Self::Energy,
-        Self::Phase,
-        Self::Events,
-        Self::State,
-        Self::Memory,
-        Self::Fields,
-        Self::Substitute,
-        Self::Friction,
-    ];
-
-    /// The name in the file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Layout => "layout",
-            Self::Loop => "loop",
-            Self::Trajectory => "trajectory",
-            Self::Energy => "energy",
-            Self::Phase => "phase",
-            Self::Events => "events",
-            Self::State => "state",
-            Self::Memory => "memory",
-            Self::Fields => "fields",
-            Self::Substitute => "substitute",
-            Self::Friction => "friction",
-        }
-    }
-}
 
 /// A scenario, read and checked.
 #[derive(Debug, Clone)]
@@ -172,18 +108,19 @@ impl Scenario {
         base: Option<&Path>,
         overrides: &[(&str, &str)],
     ) -> Result<Self, ScenarioError> {
-        let mut document = Document::read(name, text)?;
-        check_version(&document).map_err(|fault| document.report(fault))?;
+        let (mut document, mut faults) = Document::read(name, text)?;
+        document.base = base.map(Path::to_owned);
+        faults.extend(check_version(&document).err());
         for (path, value) in overrides {
-            overrides::apply(&mut document, path, value)?;
+            faults.extend(overrides::apply(&mut document, path, value));
         }
-        // Once more: an override may have touched it.
-        check_version(&document).map_err(|fault| document.report(fault))?;
-        let mut form: Form = serde_path_to_error::deserialize(Reader(&document.value))
-            .map_err(|error| document.report(refusal::fault(&document, &error)))?;
-        let inlined =
-            tables::inline(&mut form, base, &mut document).map_err(|fault| document.report(fault))?;
-        let meaning = meaning::of(&form).map_err(|fault| document.report(fault))?;
+        if !faults.is_empty() {
+            return Err(mistakes::all(document, faults));
+        }
+        let Interpreted { form, inlined, meaning } = match interpret(&mut document) {
+            Ok(interpreted) => interpreted,
+            Err(fault) => return Err(mistakes::all(document, vec![fault])),
+        };
         let is_written = |path: &KeyPath| document.root.deepest(path).1 == path.0.len();
         let odd = meaning::warnings::of(&form, &meaning, is_written);
         let scenario = Self {
@@ -230,15 +167,25 @@ impl Scenario {
         serde_json::to_value(&self.form).map(|value| resolved::print(&value)).unwrap_or_default()
     }
 
-    /// What the scene or the plan is refused for, pointed into the file.
+    /// What the scene or the plan is refused for, pointed into the file, and what else is.
     pub fn refusal(&self, error: &SceneError) -> ScenarioError {
-        self.document.report(meaning::refused::fault(&self.scene, self.plan, error)).into()
+        let fault = meaning::refused::fault(&self.scene, self.plan, error);
+        mistakes::all(self.document.clone(), vec![fault])
+    }
+
+    /// The places of the columns that are asked for among all channels; none where all are.
+    ///
+    /// # Errors
+    /// Names that none of them has, or one twice.
+    pub fn columns(&self, channels: &[Channel]) -> Result<Option<Vec<usize>>, ScenarioError> {
+        let Some(names) = &self.channels else { return Ok(None) };
+        let places = meaning::channels::places(names, channels);
+        places.map(Some).map_err(|fault| mistakes::all(self.document.clone(), vec![fault]))
     }
 
     /// Something odd that a later check finds, pointed into the file; `path` as in the file, such as `contacts.ball.normal`.
     pub fn warning(&self, kind: &'static str, path: &str, message: String, help: &str) -> Warning {
-        let ScenarioError(report) = self.locate(path, message, Some(help.to_owned()));
-        Warning { kind, report: *report }
+        Warning { kind, report: self.locate(path, message, Some(help.to_owned())).into_first() }
     }
 
     /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.
@@ -247,6 +194,24 @@ impl Scenario {
         let report = self.document.report(Fault::new(steps, message).maybe_help(help));
         ScenarioError::from(Report { path: path.to_owned(), ..report })
     }
+}
+
+/// A form and what it means.
+pub(crate) struct Interpreted {
+    pub(crate) form: Form,
+    /// Whether points of its tables lie in files.
+    pub(crate) inlined: bool,
+    pub(crate) meaning: Meaning,
+}
+
+/// Gives a document its meaning, or the first thing that is wrong with it.
+pub(crate) fn interpret(document: &mut Document) -> Result<Interpreted, Fault> {
+    check_version(document)?;
+    let mut form: Form = serde_path_to_error::deserialize(Reader(&document.value))
+        .map_err(|error| refusal::fault(document, &error))?;
+    let inlined = tables::inline(&mut form, document)?;
+    let meaning = meaning::of(&form)?;
+    Ok(Interpreted { form, inlined, meaning })
 }
 
 /// Each warning looks up its line; a file full of oddities is told of the first.
@@ -294,20 +259,22 @@ fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
 fn check_version(document: &Document) -> Result<(), Fault> {
     let root = At::ROOT;
     let Some(entries) = document.value.as_object() else {
-        return Err(root.fault("a scenario is a JSON object { … }"));
+        return Err(root.fault("a scenario is a JSON object { … }").mend(Mend::Nothing));
     };
     let at = root.key("stickslip");
     match entries.get("stickslip") {
         Some(version) if version.as_f64() == Some(VERSION as f64) => Ok(()),
         Some(Value::String(text)) => {
             let message = format!("expected {VERSION}, got \"{}\"", document::shown(text));
-            Err(at.fault(message).help("the version of the form, a number without quotes"))
+            let one = at.fault(message).help("the version of the form, a number without quotes");
+            Err(one.mend(Mend::With(VERSION.into())))
         }
         Some(version) => {
             let newer = version.as_f64().is_some_and(|v| v > VERSION as f64);
             let help =
                 if newer { "this file needs a newer program" } else { "the version of the form, a number" };
-            Err(at.expected(VERSION).help(help))
+            // In another version everything may mean something else.
+            Err(at.expected(VERSION).help(help).mend(Mend::Nothing))
         }
         None => {
             let near = entries.keys().find(|key| suggest::slip(key, &["stickslip"]).is_some());

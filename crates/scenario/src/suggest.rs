@@ -92,6 +92,14 @@ pub fn help<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Op
     }
 }
 
+/// The key that was meant by another name, or by nearly its own.
+pub(crate) fn meant<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let lower = word.to_lowercase();
+    let synonym = SYNONYMS.iter().find(|(other, name, _)| *other == lower && known.contains(name));
+    let synonym = synonym.and_then(|(_, name, _)| known.iter().copied().find(|known| known == name));
+    synonym.or_else(|| nearest(word, known.iter().copied()))
+}
+
 /// Help for a key that goes by another name here, or by nearly the same.
 pub(crate) fn slip(word: &str, known: &[&str]) -> Option<String> {
     let lower = word.to_lowercase();

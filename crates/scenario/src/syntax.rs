@@ -3,7 +3,7 @@
 mod bracket;
 mod slip;
 
-use crate::fault::Fault;
+use crate::fault::{Fault, Mend};
 use crate::path::{KeyPath, Step};
 use crate::place::{Inner, Place, Span};
 use crate::quantity::out_of_reach;
@@ -12,10 +12,13 @@ use jsonc_parser::common::{Range, Ranged};
 use jsonc_parser::{CollectOptions, ParseOptions};
 use serde_json::Value;
 use slip::Slip;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Largest scenario taken, bytes.
 pub(crate) const MAX_BYTES: usize = 4 << 20;
+/// Most faults noted of a text.
+const MAX_FAULTS: usize = 100;
 /// Deepest nesting of objects and lists taken; the form itself needs less than ten.
 const MAX_DEPTH: usize = 64;
 
@@ -44,20 +47,35 @@ impl Origin {
     }
 }
 
-/// Reads a text: its value for the form, and the place of everything in it.
-pub(crate) fn read(text: &str, origin: &Origin) -> Result<(Value, Place), Fault> {
+/// A text that was read.
+pub(crate) struct Read {
+    /// Its value for the form.
+    pub(crate) value: Value,
+    /// The place of everything in it.
+    pub(crate) place: Place,
+    /// What JSON readers let pass in silence.
+    pub(crate) faults: Vec<Fault>,
+}
+
+/// Reads a text; what is not JSON ends the reading where it is.
+pub(crate) fn read(text: &str, origin: &Origin) -> Result<Read, Fault> {
     if text.len() > MAX_BYTES {
         let message = format!("a scenario has at most {MAX_BYTES} bytes, this one has {}", text.len());
         return Err(origin.fault(Range::new(0, 1), message));
     }
     check_outline(text, origin)?;
     let tree = parse(text, origin)?;
-    let mut path = origin.path.clone();
-    let place = walk(&tree, None, &mut path, origin)?;
+    let mut walk = Walk { origin, path: origin.path.clone(), faults: Vec::new(), unread: Vec::new() };
+    let place = walk.value(&tree, None);
     // The values are read a second time, by serde_json: it rounds numbers correctly, and it refuses whatever the
     // first reader let pass that is not JSON.
-    let value = serde_json::from_str(text).map_err(|error| second_opinion(text, &error, origin))?;
-    Ok((value, place))
+    let mut plain = Cow::Borrowed(text);
+    for range in walk.unread {
+        let number = format!("{:<1$}", 0, range.end - range.start);
+        plain.to_mut().replace_range(range.start..range.end, &number);
+    }
+    let value = serde_json::from_str(&plain).map_err(|error| second_opinion(text, &error, origin))?;
+    Ok(Read { value, place, faults: walk.faults })
 }
 
 /// What must be known before anything recurses: nesting, and strings that swallow the lines after them.
@@ -129,64 +147,78 @@ fn second_opinion(text: &str, error: &serde_json::Error, origin: &Origin) -> Fau
     origin.fault(Range::new(at, at + 1), format!("not JSON: {message}"))
 }
 
-/// Notes the places; refuses what JSON readers let pass in silence.
-fn walk(
-    value: &ast::Value<'_>,
-    key: Option<Span>,
-    path: &mut KeyPath,
-    origin: &Origin,
-) -> Result<Place, Fault> {
-    let span = origin.span(value.range());
-    let fault = |path: &KeyPath, message: &str| Fault::new(path.clone(), message).at_span(span);
-    let inner = match value {
-        ast::Value::Object(object) => walk_object(object, path, origin)?,
-        ast::Value::Array(array) => {
-            let mut places = Vec::with_capacity(array.elements.len());
-            for (i, element) in array.elements.iter().enumerate() {
-                path.0.push(Step::Index(i));
-                places.push(walk(element, None, path, origin)?);
-                path.0.pop();
-            }
-            Inner::List(places)
-        }
-        ast::Value::NumberLit(number) => {
-            // Whatever the parser takes for a number is one.
-            let value = number.value.parse().unwrap_or(f64::NAN);
-            if let Some(why) = out_of_reach(number.value, value) {
-                return Err(fault(path, why));
-            }
-            Inner::Leaf
-        }
-        ast::Value::NullKeyword(_) => {
-            return Err(
-                fault(path, "null is not a value of a scenario").help("leave the key out for its default")
-            );
-        }
-        ast::Value::StringLit(_) | ast::Value::BooleanLit(_) => Inner::Leaf,
-    };
-    Ok(Place { key, value: span, inner })
+/// Notes the places, and what JSON readers let pass in silence.
+struct Walk<'a> {
+    origin: &'a Origin,
+    path: KeyPath,
+    faults: Vec<Fault>,
+    /// Numbers that no reader takes.
+    unread: Vec<Range>,
 }
 
-fn walk_object(object: &ast::Object<'_>, path: &mut KeyPath, origin: &Origin) -> Result<Inner, Fault> {
-    let mut first: HashMap<&str, usize> = HashMap::new();
-    let mut entries = Vec::with_capacity(object.properties.len());
-    for property in &object.properties {
-        let name = property.name.as_str();
-        let range = match &property.name {
-            ast::ObjectPropName::String(literal) => literal.range,
-            ast::ObjectPropName::Word(literal) => literal.range,
-        };
-        path.0.push(Step::Key(name.to_owned()));
-        if let Some(before) = first.insert(name, entries.len()) {
-            let twice = Fault::new(path.clone(), "this key stands here twice").at_span(origin.span(range));
-            let value = &object.properties[before].value;
-            return Err(twice.help(format!("remove one; the first is {}", brief(value))));
+impl Walk<'_> {
+    fn note(&mut self, fault: Fault) {
+        if self.faults.len() < MAX_FAULTS {
+            self.faults.push(fault);
         }
-        let place = walk(&property.value, Some(origin.span(range)), path, origin)?;
-        path.0.pop();
-        entries.push((name.to_owned(), place));
     }
-    Ok(Inner::Object(entries))
+
+    fn value(&mut self, value: &ast::Value<'_>, key: Option<Span>) -> Place {
+        let span = self.origin.span(value.range());
+        let inner = match value {
+            ast::Value::Object(object) => self.object(object),
+            ast::Value::Array(array) => {
+                let mut places = Vec::with_capacity(array.elements.len());
+                for (i, element) in array.elements.iter().enumerate() {
+                    self.path.0.push(Step::Index(i));
+                    places.push(self.value(element, None));
+                    self.path.0.pop();
+                }
+                Inner::List(places)
+            }
+            ast::Value::NumberLit(number) => {
+                // Whatever the parser takes for a number is one.
+                let value = number.value.parse().unwrap_or(f64::NAN);
+                if let Some(why) = out_of_reach(number.value, value) {
+                    self.note(Fault::new(self.path.clone(), why).at_span(span));
+                    self.unread.push(number.range);
+                }
+                Inner::Leaf
+            }
+            ast::Value::NullKeyword(_) => {
+                let fault = Fault::new(self.path.clone(), "null is not a value of a scenario").at_span(span);
+                self.note(fault.help("leave the key out for its default"));
+                Inner::Leaf
+            }
+            ast::Value::StringLit(_) | ast::Value::BooleanLit(_) => Inner::Leaf,
+        };
+        Place { key, value: span, inner }
+    }
+
+    fn object(&mut self, object: &ast::Object<'_>) -> Inner {
+        let mut first: HashMap<&str, usize> = HashMap::new();
+        let mut entries = Vec::with_capacity(object.properties.len());
+        for property in &object.properties {
+            let name = property.name.as_str();
+            let range = match &property.name {
+                ast::ObjectPropName::String(literal) => literal.range,
+                ast::ObjectPropName::Word(literal) => literal.range,
+            };
+            let span = self.origin.span(range);
+            self.path.0.push(Step::Key(name.to_owned()));
+            if let Some(&before) = first.get(name) {
+                let twice = Fault::new(self.path.clone(), "this key stands here twice").at_span(span);
+                let help = format!("remove one; the first is {}", brief(&object.properties[before].value));
+                self.note(twice.help(help).mend(Mend::Leave));
+            } else {
+                first.insert(name, entries.len());
+            }
+            let place = self.value(&property.value, Some(span));
+            self.path.0.pop();
+            entries.push((name.to_owned(), place));
+        }
+        Inner::Object(entries)
+    }
 }
 
 fn brief(value: &ast::Value<'_>) -> String {

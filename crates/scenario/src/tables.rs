@@ -8,7 +8,7 @@ mod sheet;
 pub use pairs::{Pairs, pairs};
 
 use crate::document::{Document, Source, SourceKind, shown};
-use crate::fault::Fault;
+use crate::fault::{Fault, Mend};
 use crate::folder::{self, Denied};
 use crate::form::{Form, FreedomForm, Moving, NormalForm, Point, WaveformForm, WaveformRef};
 use crate::path::{At, KeyPath, Step};
@@ -38,6 +38,17 @@ pub(crate) struct TableFile {
 }
 
 impl TableFile {
+    /// Whether a value is one of its rows.
+    pub(crate) fn has(&self, path: &KeyPath) -> bool {
+        let list = self.path.0.iter().cloned().chain([Step::Key(self.list.to_owned())]);
+        KeyPath(list.collect()).holds(path)
+    }
+
+    /// Path of the table.
+    pub(crate) fn path(&self) -> &KeyPath {
+        &self.path
+    }
+
     /// The place of the time or value at a path such as `waveforms.w.table.points[3][0]`, if it is in this table.
     pub(crate) fn locate(&self, path: &KeyPath, sources: &[Source]) -> Option<Span> {
         let [Step::Key(points), Step::Index(row), rest @ ..] = path.0.strip_prefix(self.path.0.as_slice())?
@@ -54,10 +65,9 @@ impl TableFile {
     }
 }
 
-/// Replaces the files of all tables by their points; `base` is the scenario's folder, if it has one. Says whether there
-/// were any.
-pub(crate) fn inline(form: &mut Form, base: Option<&Path>, document: &mut Document) -> Result<bool, Fault> {
-    let mut shelf = Shelf { base, document, bytes: 0 };
+/// Replaces the files of all tables by their points. Says whether there were any.
+pub(crate) fn inline(form: &mut Form, document: &mut Document) -> Result<bool, Fault> {
+    let mut shelf = Shelf { document, bytes: 0 };
     let root = At::ROOT;
     let at = root.key("waveforms");
     for (name, waveform) in &mut form.waveforms.0 {
@@ -101,8 +111,6 @@ type Rows<const N: usize> = (Vec<[f64; N]>, [Option<Kind>; N]);
 
 /// The files of a scenario.
 struct Shelf<'a> {
-    /// The scenario's folder, if it has one.
-    base: Option<&'a Path>,
     document: &'a mut Document,
     /// Bytes read so far.
     bytes: usize,
@@ -144,6 +152,16 @@ impl Shelf<'_> {
     /// The rows of a file by the columns that an object names under these keys, and the dimensions that their heads tell. The list
     /// is what the rows become.
     fn rows<const N: usize>(
+        &mut self,
+        at: &At<'_>,
+        file: &str,
+        list: &'static str,
+        columns: &[(&str, Option<String>, Column); N],
+    ) -> Result<Rows<N>, Fault> {
+        self.read_rows(at, file, list, columns).map_err(|fault| fault.mend(Mend::Around(at.path())))
+    }
+
+    fn read_rows<const N: usize>(
         &mut self,
         at: &At<'_>,
         file: &str,
@@ -192,7 +210,7 @@ impl Shelf<'_> {
 
     fn read(&mut self, at: &At<'_>, file: &str) -> Result<Vec<u8>, Fault> {
         let unreadable = |error: io::Error| at.fault(format!("cannot read \"{}\": {error}", shown(file)));
-        let Some(base) = self.base else {
+        let Some(base) = self.document.base.as_deref() else {
             return Err(at.fault("this scenario has no folder: it may name no files").on_key());
         };
         let path = folder::find(base, Path::new(file)).map_err(|denied| match denied {
@@ -231,14 +249,15 @@ fn no_columns(at: &At<'_>, columns: &[(&str, Option<String>)]) -> Result<(), Fau
         None => Ok(()),
         Some((key, _)) => {
             let fault = at.key(key).fault("names a column, but there is no file").on_key();
-            Err(fault.help("leave it out; points have no columns"))
+            Err(fault.help("leave it out; points have no columns").mend(Mend::Around(at.path())))
         }
     }
 }
 
 /// A file beside what it would bring.
 fn given_twice(at: &At<'_>) -> Fault {
-    at.key("file").fault("the points are given already").on_key().help("keep one of them")
+    let fault = at.key("file").fault("the points are given already").on_key().mend(Mend::Around(at.path()));
+    fault.help("keep one of them")
 }
 
 /// The place of a column by its head, or by its head without the unit where no head is that.

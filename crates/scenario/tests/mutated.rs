@@ -194,7 +194,14 @@ fn check(text: &str, validator: &jsonschema::Validator) -> Result<(), TestCaseEr
             prop_assert!(excerpt.line >= 1 && excerpt.line <= text.matches('\n').count() + 1);
             prop_assert!(excerpt.marker.start < excerpt.marker.end);
             prop_assert!(excerpt.marker.start <= excerpt.text.chars().count());
-            prop_assert!(error.to_string().lines().count() <= 4, "{}", error);
+            for report in error.reports() {
+                prop_assert!(
+                    report.excerpt.is_some() && report.to_string().lines().count() <= 4,
+                    "{}",
+                    error
+                );
+            }
+            prop_assert!(error.reports().count() <= 20, "{}", error);
         }
     }
     Ok(())

@@ -14,8 +14,15 @@ use stickslip_scenario::Report;
 struct Finding<'a> {
     file: &'a Path,
     ok: bool,
+    /// The first of the errors.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Fault>,
+    /// Everything that is wrong and no consequence of something else, in the order of the file; at most twenty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    errors: Vec<Fault>,
+    /// Whether there is more wrong than is told.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    more: bool,
     /// What is allowed and probably not meant.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<Fault>,
@@ -66,7 +73,9 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
         let finding = Finding {
             file,
             ok: job.is_ok(),
-            error: job.as_ref().err().map(|refusal| Fault::of(refusal, file)),
+            error: job.as_ref().err().and_then(|refusal| Fault::all(refusal, file).into_iter().next()),
+            errors: job.as_ref().err().map_or_else(Vec::new, |refusal| Fault::all(refusal, file)),
+            more: matches!(job, Err(Refusal::Scenario(error)) if error.has_more()),
             warnings: odd.iter().map(|odd| Fault { kind: Some(odd.kind), ..Fault::at(odd, file) }).collect(),
         };
         // A path that is not Unicode is the only thing that JSON has no words for.
@@ -87,10 +96,10 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
 }
 
 impl Fault {
-    fn of(refusal: &Refusal, file: &Path) -> Self {
+    fn all(refusal: &Refusal, file: &Path) -> Vec<Self> {
         match refusal {
-            Refusal::Scenario(error) => Self::at(error, file),
-            other => Self { message: other.to_string(), ..Self::default() },
+            Refusal::Scenario(error) => error.reports().map(|report| Self::at(report, file)).collect(),
+            other => vec![Self { message: other.to_string(), ..Self::default() }],
         }
     }
 

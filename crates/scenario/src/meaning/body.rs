@@ -66,13 +66,13 @@ impl Builder<'_> {
             }
         };
         let Some(start) = form.start else { return Ok(Coordinate { freedom, ..Coordinate::default() }) };
-        let (position, velocity) = self.body_start(&at.key("start"), axis, freedom, start)?;
+        let (position, velocity) = self.body_start(at, axis, freedom, start)?;
         Ok(Coordinate { freedom, position, velocity })
     }
 
     fn body_start(
         &self,
-        at: &At<'_>,
+        body: &At<'_>,
         axis: Axis,
         freedom: Freedom,
         form: BodyStartForm,
@@ -82,8 +82,11 @@ impl Builder<'_> {
             Axis::Z => ("vz", form.z.map(|z| z.si), form.vz.map(|v| v.si)),
             Axis::Pitch => ("vpitch", form.pitch.map(|p| p.si), form.vpitch.map(|v| v.si)),
         };
-        let key = axis.key();
-        let refused = |key: &str, message: &str| Err(at.key(key).fault(message).on_key());
+        let (at, key) = (body.key("start"), axis.key());
+        let refused = |key: &str, message: &str| {
+            let fault = at.key(key).fault(message).on_key();
+            Err(fault.against_path(body.key(axis.key()).path()))
+        };
         if position.is_some() && matches!(freedom, Freedom::Follows(_)) {
             return refused(key, &format!("{key} follows a waveform, which says where it starts"));
         }
@@ -102,7 +105,7 @@ impl Builder<'_> {
         for (key, given) in [(key, position), (rate, velocity)] {
             if settled && given.is_some() {
                 return refused(key, "run.start is \"equilibrium\", which says where it starts")
-                    .map_err(|fault| fault.help("remove one of the two"));
+                    .map_err(|fault: Fault| fault.against(["run.start"]).help("remove one of the two"));
             }
         }
         Ok((position.unwrap_or(0.0), velocity.unwrap_or(0.0)))

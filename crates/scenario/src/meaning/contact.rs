@@ -1,11 +1,10 @@
 //! Contacts: pair, profile, what presses them and how they start.
 
 use super::profile::profile;
-use super::{Builder, range};
+use super::{Builder, names, range};
 use crate::fault::Fault;
 use crate::form::{ContactForm, ContactStartForm, EngineForm, NormalForm};
 use crate::path::At;
-use crate::suggest;
 use stickslip_contact::{FrictionError, Interface, Pair};
 use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal};
 
@@ -51,10 +50,7 @@ impl Builder<'_> {
         let find = |i: usize| {
             let materials = &self.form.materials;
             let index = materials.find(&names[i]).ok_or_else(|| {
-                let fault = at
-                    .index(i)
-                    .fault(format!("there is no material \"{}\"", crate::document::shown(&names[i])));
-                fault.maybe_help(suggest::help(&names[i], materials.names()))
+                names::unknown(&at.index(i), ("material", "materials"), &names[i], materials)
             })?;
             self.material(index)
         };
@@ -79,7 +75,7 @@ impl Builder<'_> {
         self.springs += count;
         if self.springs > MAX_SPRINGS {
             let message = format!("expected at most {MAX_SPRINGS} springs in all rows, got {}", self.springs);
-            return Err(at.key("count").fault(message));
+            return Err(at.key("count").fault(message).against_all());
         }
         let span = springs.span.map(|span| range::above_zero(&at.key("span"), span)).transpose()?;
         Ok(EngineChoice::Springs { count: count as usize, span })
@@ -94,7 +90,8 @@ fn gap(at: &At<'_>, form: &ContactForm) -> Result<f64, Fault> {
         (_, Some(_)) => {
             let message =
                 "only a contact whose normal is \"coupled\" has a gap: here the indentation is given";
-            Err(at.key("gap").fault(message).on_key().help("remove it, or make \"normal\" \"coupled\""))
+            let fault = at.key("gap").fault(message).on_key().against_path(at.key("normal").path());
+            Err(fault.help("remove it, or make \"normal\" \"coupled\""))
         }
     }
 }

@@ -49,7 +49,9 @@ impl Builder<'_> {
                 return Err(at.key(key).not_yet().help("give the free \"stroke\" that follows a waveform"));
             }
             let Some(stroke) = &actuator.stroke else {
-                return Err(at.missing("stroke").help("such as {\"follows\": \"drive\"}"));
+                let keys = later.iter().map(|(key, _)| at.key(key).path());
+                let fault = keys.fold(at.missing("stroke"), Fault::against_path);
+                return Err(fault.help("such as {\"follows\": \"drive\"}"));
             };
             let part = Actuator {
                 between: self.between(&at, &actuator.between)?,

@@ -10,7 +10,7 @@ use crate::quantity::Frequency;
 use stickslip_drive::{Command, Cycle, Generator, Heading, Shape, Steps};
 
 /// A generator whose values at first are within their ranges, and whose ranges leave room for the flyback.
-pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values) -> Result<Shape, Fault> {
+pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values<'_>) -> Result<Shape, Fault> {
     let bounds = at.key("range");
     let frequencies = frequencies(&bounds.key("frequency"), &form.range.frequency)?;
     let cycle = match &form.shape {
@@ -20,7 +20,8 @@ pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values) -> R
             let at = at.key("sawtooth");
             let flyback = range::above_zero(&at.key("flyback"), sawtooth.flyback)?;
             let highest = bounds.key("frequency");
-            room(&highest.index(1), flyback, frequencies.1)?;
+            room(&highest.index(1), flyback, frequencies.1)
+                .map_err(|fault| fault.against_path(at.key("flyback").path()))?;
             Cycle::Sawtooth { flyback }
         }
     };
@@ -29,6 +30,7 @@ pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values) -> R
     if stroke < strokes.0 || stroke > strokes.1 {
         let [low, high] = [strokes.0, strokes.1].map(|bound| shown(bound, values.kind));
         let fault = at.key("stroke").expected(format_args!("a value in its range, {low} to {high}"));
+        let fault = fault.against_path(bounds.path());
         return Err(fault.help("widen range.stroke, or begin inside it"));
     }
     let frequency = range::at_least_zero(&at.key("frequency"), form.frequency)?;
@@ -36,6 +38,7 @@ pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values) -> R
         let [low, high] = [frequencies.0, frequencies.1].map(range::short);
         let fault =
             at.key("frequency").expected(format_args!("a frequency in its range, {low} Hz to {high} Hz"));
+        let fault = fault.against_path(bounds.path());
         return Err(fault.help("widen range.frequency, or begin inside it"));
     }
     let heading = match form.heading {
@@ -47,11 +50,12 @@ pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values) -> R
     Ok(Shape::Generator(Generator { cycle, initial, strokes, frequencies }))
 }
 
-fn strokes(at: &At<'_>, bounds: &Bounds, values: &mut Values) -> Result<(f64, f64), Fault> {
+fn strokes(at: &At<'_>, bounds: &Bounds, values: &mut Values<'_>) -> Result<(f64, f64), Fault> {
     let low = values.take(&at.index(0), bounds.0)?;
     let high = values.take(&at.index(1), bounds.1)?;
     if high < low {
         let fault = at.index(1).expected(format_args!("a value of at least {}", shown(low, values.kind)));
+        let fault = fault.against_path(at.path());
         return Err(fault.help("a range is [smallest, largest]"));
     }
     Ok((low, high))
@@ -62,7 +66,11 @@ fn frequencies(at: &At<'_>, bounds: &Bounds<Frequency>) -> Result<(f64, f64), Fa
     let high = bounds.1.si;
     if high < low {
         let what = format!("a frequency of at least {} Hz", range::short(low));
-        return Err(at.index(1).expected(what).help("a range is [smallest, largest]"));
+        return Err(at
+            .index(1)
+            .expected(what)
+            .against_path(at.path())
+            .help("a range is [smallest, largest]"));
     }
     Ok((low, high))
 }

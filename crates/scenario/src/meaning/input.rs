@@ -10,14 +10,14 @@ use crate::units::Kind;
 use stickslip_drive::{Interpolation, Shape};
 
 /// An input whose initial value and bounds agree.
-pub(super) fn shape(at: &At<'_>, form: &InputForm, values: &mut Values) -> Result<Shape, Fault> {
+pub(super) fn shape(at: &At<'_>, form: &InputForm, values: &mut Values<'_>) -> Result<Shape, Fault> {
     let initial = values.take(&at.key("initial"), form.initial)?;
     let bounds = at.key("range");
     let low = values.take(&bounds.index(0), form.range.0)?;
     let high = values.take(&bounds.index(1), form.range.1)?;
     if high < low {
         let fault = bounds.index(1).expected(format_args!("a value of at least {}", shown(low, values.kind)));
-        return Err(fault.help("a range is [smallest, largest]"));
+        return Err(fault.against_path(bounds.path()).help("a range is [smallest, largest]"));
     }
     // The largest jump; what is beyond all numbers is no value of it.
     if !(high - low).is_finite() {
@@ -26,7 +26,7 @@ pub(super) fn shape(at: &At<'_>, form: &InputForm, values: &mut Values) -> Resul
     if initial < low || initial > high {
         let (low, high) = (shown(low, values.kind), shown(high, values.kind));
         let fault = at.key("initial").expected(format_args!("a value in the range, {low} to {high}"));
-        return Err(fault.help("widen the range, or start inside it"));
+        return Err(fault.against_path(bounds.path()).help("widen the range, or start inside it"));
     }
     let interpolation = match form.interpolation {
         InterpolationForm::Held => Interpolation::Held,

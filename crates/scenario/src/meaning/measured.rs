@@ -23,26 +23,31 @@ pub(super) fn table(at: &At<'_>, form: &GapTableForm) -> Result<Profile, Fault> 
             fault.help("radii count from the axis, gaps from where the bodies touch first")
         }
         ProfileError::Order { index } => {
-            points_at.index(index).index(0).expected("a radius beyond that of the point before it")
+            let fault =
+                points_at.index(index).index(0).expected("a radius beyond that of the point before it");
+            fault.against_path(points_at.path())
         }
         ProfileError::Fall { index } => {
-            points_at.index(index).index(1).expected("a gap not below that of the point before it")
+            let fault =
+                points_at.index(index).index(1).expected("a gap not below that of the point before it");
+            fault.against_path(points_at.path())
         }
         ProfileError::NoRise => {
             let fault =
                 points_at.index(points.len() - 1).index(1).fault("expected a gap above 0 m in the end");
-            fault.help("a table of zeros is a flat punch: \"flat\"")
+            fault.help("a table of zeros is a flat punch: \"flat\"").against_path(points_at.path())
         }
         ProfileError::Kink { index, .. } => {
             let fault =
                 kinks_at.index(index).expected("the radius of a point between the first and the last");
+            let fault = fault.against_path(points_at.path());
             fault.help("a kink is a point of the table; points beside it may be as near as you like")
         }
         ProfileError::NotRising { index, .. } => {
             let message =
                 "the profile bends down so far before this point that its equivalent g(x) does not rise";
             let help = "circles of contact that grow need a profile that is convex, or nearly so";
-            points_at.index(index).fault(message).help(help)
+            points_at.index(index).fault(message).help(help).against_path(points_at.path())
         }
         _ => few(&points_at, &error),
     })
@@ -62,14 +67,19 @@ pub(super) fn normal_law(at: &At<'_>, form: &NormalLawForm, pair: Pair) -> Resul
             fault.help("indentations and forces count from the first touch")
         }
         ProfileError::Order { index } => {
-            at.index(index).index(0).expected("an indentation beyond that of the point before it")
+            let fault =
+                at.index(index).index(0).expected("an indentation beyond that of the point before it");
+            fault.against_path(at.path())
         }
         ProfileError::Fall { index } => {
-            at.index(index).index(1).expected("a force above that of the point before it")
+            let fault = at.index(index).index(1).expected("a force above that of the point before it");
+            fault.against_path(at.path())
         }
         ProfileError::Softening { index } => {
             let fault = at.index(index).fault("the force rises less steeply up to this point than before it");
-            fault.help("a contact grows as it is pressed: its stiffness does not fall")
+            fault
+                .help("a contact grows as it is pressed: its stiffness does not fall")
+                .against_path(at.path())
         }
         _ => few(&at, &error),
     })
@@ -85,7 +95,7 @@ pub(super) fn rough(at: &At<'_>, form: &RoughForm) -> Result<Profile, Fault> {
     let (heights, spacing) = match (&form.heights, &form.self_affine) {
         (Some(_), Some(_)) => {
             let fault = at.key("self_affine").fault("the heights are given already").on_key();
-            return Err(fault.help("keep one of them"));
+            return Err(fault.against_path(heights_at.path()).help("keep one of them"));
         }
         (None, None) => {
             let help = "or \"file\" with the name of its column \"height\", or \"self_affine\"";
@@ -141,17 +151,19 @@ fn made(at: &At<'_>, form: &SelfAffineForm) -> Result<Vec<f64>, Fault> {
         RoughnessError::Longest { length, .. } => {
             let wanted =
                 format!("a wavelength above 0 m and at most the length of {} m", range::short(length));
-            at.key("longest").expected(wanted)
+            at.key("longest").expected(wanted).against_path(at.key("length").path())
         }
         RoughnessError::Swapped { longest, .. } => {
             let wanted =
                 format!("a wavelength above 0 m and at most the longest of {} m", range::short(longest));
-            at.key("shortest").expected(wanted).help("are \"longest\" and \"shortest\" swapped?")
+            let fault = at.key("shortest").expected(wanted).against_path(at.key("longest").path());
+            fault.help("are \"longest\" and \"shortest\" swapped?")
         }
         RoughnessError::Shortest { least, .. } => {
             let wanted =
                 format!("a wavelength of at least two distances of points, {} m", range::short(least));
-            at.key("shortest").expected(wanted).help("or take more points")
+            let fault = at.key("shortest").expected(wanted).against_path(at.key("length").path());
+            fault.against_path(at.key("points").path()).help("or take more points")
         }
         RoughnessError::NoWave => at.fault(error.to_string()).help("bring the cut-offs further apart"),
     })

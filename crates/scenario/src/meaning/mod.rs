@@ -1,6 +1,7 @@
 //! From the form to a scene and a plan, and from what these are refused for back to the form.
 
 mod body;
+pub(crate) mod channels;
 mod contact;
 mod coupling;
 mod generator;
@@ -25,7 +26,8 @@ use crate::PlotName;
 use crate::fault::Fault;
 use crate::form::Form;
 use crate::units::Kind;
-use stickslip_drive::{Plan, Scene};
+use stickslip_drive::scene::Start;
+use stickslip_drive::{Model, Plan, Scene, SceneError};
 
 /// Whose period and whose motion make steps and speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -70,6 +72,19 @@ struct Course {
     kind: Option<Kind>,
     /// Delay, s.
     delay: f64,
+}
+
+/// Makes of a meaning what a run starts from, as far as that can be done at once: what is refused there is known before it.
+pub(crate) fn start(meaning: &Meaning) -> Result<(), Fault> {
+    let Meaning { scene, plan, .. } = meaning;
+    let refused = |error: SceneError| refused::fault(scene, *plan, &error);
+    let model = Model::new(scene).map_err(refused)?;
+    if scene.start == Start::Given {
+        // An equilibrium is searched for, and found or not by all that there is.
+        model.start(plan).map_err(refused)?;
+    }
+    let names = meaning.channels.as_deref().unwrap_or_default();
+    channels::places(names, &model.channels()).map(|_| ())
 }
 
 /// Gives a form its meaning; the files of its tables are already points.

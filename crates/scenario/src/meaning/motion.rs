@@ -7,6 +7,10 @@ use crate::path::At;
 use stickslip_drive::Scene;
 use stickslip_drive::scene::{Body, Coordinate, Freedom, Named, Side};
 
+/// What names the bodies that something acts on.
+const ACTING: [&str; 5] =
+    ["contacts.*.between", "springs.*.between", "actuators.*.between", "loads.*.on", "gravity"];
+
 impl Builder<'_> {
     /// Every free body has something that acts on it, and every spring something to do.
     pub(super) fn actions(&self) -> Result<(), Fault> {
@@ -19,6 +23,7 @@ impl Builder<'_> {
             if freedom == Freedom::Free && velocity == 0.0 && !named && !falls {
                 let at = at.key(&body.name);
                 let fault = at.key("x").fault("nothing acts on this free body: it would never move");
+                let fault = fault.against(ACTING).against_path(at.key("start").path());
                 return Err(fault.help("name it in a contact, spring, actuator or load"));
             }
         }
@@ -27,6 +32,7 @@ impl Builder<'_> {
             let part = spring.part;
             if part.stiffness == 0.0 && part.damping == 0.0 && part.preload == 0.0 {
                 let fault = at.key(&spring.name).fault("this spring does nothing").on_key();
+                let fault = fault.against_path(at.key(&spring.name).path());
                 return Err(fault.help("give it a \"stiffness\", a \"damping\" or a \"preload\""));
             }
         }
@@ -38,12 +44,13 @@ impl Builder<'_> {
         let root = At::ROOT;
         let at = root.key("plots");
         for (i, plot) in self.form.plots.iter().enumerate() {
-            let lacks = match plot {
-                PlotName::Loop if self.scene.contacts.is_empty() => "contact",
-                PlotName::Layout | PlotName::Trajectory if self.scene.bodies.is_empty() => "body",
+            let (lacks, section) = match plot {
+                PlotName::Loop if self.scene.contacts.is_empty() => ("contact", "contacts"),
+                PlotName::Layout | PlotName::Trajectory if self.scene.bodies.is_empty() => ("body", "bodies"),
                 _ => continue,
             };
             let fault = at.index(i).fault(format!("there is no {lacks} to draw"));
+            let fault = fault.against([section]);
             return Err(fault.help("leave this picture out"));
         }
         Ok(())
@@ -57,7 +64,7 @@ impl Builder<'_> {
         }
         let moving = self.scene.bodies.iter().filter(|body| moves(body)).map(|body| body.name.as_str());
         let moving: Vec<&str> = moving.collect();
-        let fault = at.expected("a body that moves");
+        let fault = at.expected("a body that moves").against(["figures", "bodies"]);
         Err(match moving.as_slice() {
             [] => fault.help("here none is free or follows a waveform"),
             moving => fault.help(format!("here these do: {}", moving.join(", "))),

@@ -1,7 +1,8 @@
 //! Names of parts, and references to them.
 
 use super::Builder;
-use crate::fault::Fault;
+use crate::document::shown;
+use crate::fault::{Fault, Mend};
 use crate::form::{Form, Parts, Two};
 use crate::path::At;
 use crate::suggest;
@@ -26,7 +27,8 @@ pub(super) fn check(form: &Form) -> Result<(), Fault> {
     check_count(&root.key("loads"), form.loads.len())?;
     if form.bodies.find(GROUND).is_some() {
         let fault = root.key("bodies").key(GROUND).fault("the ground is always there, fixed");
-        return Err(fault.on_key().help("choose another name for this body"));
+        let fault = fault.on_key().mend(Mend::Misnamed);
+        return Err(fault.help("choose another name for this body"));
     }
     check_columns(form)
 }
@@ -47,7 +49,7 @@ fn check_part<T>(at: &At<'_>, parts: &Parts<T>) -> Result<(), Fault> {
         if name.is_empty() || !trimmed || name.chars().count() > MAX_LENGTH || !name.chars().all(good) {
             let fault = at.key(name).fault("this name cannot be used").on_key();
             let help = format!("1 to {MAX_LENGTH} letters, digits, _, -, + or blanks inside");
-            return Err(fault.help(help));
+            return Err(fault.help(help).mend(Mend::Misnamed));
         }
     }
     Ok(())
@@ -55,28 +57,42 @@ fn check_part<T>(at: &At<'_>, parts: &Parts<T>) -> Result<(), Fault> {
 
 /// A trace's columns are headed by the names of bodies and contacts alike.
 fn check_columns(form: &Form) -> Result<(), Fault> {
-    let at = At::ROOT;
-    let at = at.key("contacts");
+    let root = At::ROOT;
+    let at = root.key("contacts");
     for name in form.contacts.names() {
         if form.bodies.find(name).is_some() || name == GROUND {
             let fault = at.key(name).fault("a body has this name already").on_key();
+            let fault = fault.against_path(root.key("bodies").key(name).path()).mend(Mend::Misnamed);
             return Err(fault.help("bodies and contacts head columns of one table: choose another name"));
         }
         if name == "energy" || name == "time_s" {
-            return Err(at.key(name).fault("the trace needs this name for a column of its own").on_key());
+            let fault = at.key(name).fault("the trace needs this name for a column of its own").on_key();
+            return Err(fault.mend(Mend::Misnamed));
         }
     }
     Ok(())
+}
+
+/// A reference to a part that is not there; what the part is called, and its section.
+pub(super) fn unknown<T>(
+    at: &At<'_>,
+    (what, section): (&str, &'static str),
+    name: &str,
+    parts: &Parts<T>,
+) -> Fault {
+    let fault = at.fault(format!("there is no {what} \"{}\"", shown(name)));
+    let instead = suggest::nearest(name, parts.names()).or_else(|| parts.names().next()).map(str::to_owned);
+    let fault = fault.against_path(At::ROOT.key(section).key(name).path());
+    fault
+        .mend(Mend::Name { section, name: name.to_owned(), instead })
+        .maybe_help(suggest::help(name, parts.names()))
 }
 
 impl Builder<'_> {
     /// The place of a body by name.
     pub(super) fn body(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
         let bodies = &self.form.bodies;
-        bodies.find(name).ok_or_else(|| {
-            let fault = at.fault(format!("there is no body \"{}\"", crate::document::shown(name)));
-            fault.maybe_help(suggest::help(name, bodies.names()))
-        })
+        bodies.find(name).ok_or_else(|| unknown(at, ("body", "bodies"), name, bodies))
     }
 
     /// Both ends of a contact, spring or actuator.
@@ -84,18 +100,25 @@ impl Builder<'_> {
         let at = at.key("between");
         let side = |i: usize| match names.0[i].as_str() {
             GROUND => Ok(Side::Ground),
-            name => {
-                self.body(&at.index(i), name).map(Side::Body).map_err(|fault| self.or_ground(fault, name))
-            }
+            name => self
+                .body(&at.index(i), name)
+                .map(Side::Body)
+                .map_err(|fault| self.or_ground(fault, name, &names.0[1 - i])),
         };
         Side::two(side(0)?, side(1)?).map_err(|_| {
             let message = format!("expected two different bodies, got \"{}\" twice", names.0[0]);
-            at.index(1).fault(message).help("name two bodies, or one and \"ground\"")
+            let fault = at.index(1).fault(message).against_path(at.path());
+            fault.help("name two bodies, or one and \"ground\"")
         })
     }
 
-    /// Here the ground would have been right, too.
-    fn or_ground(&self, fault: Fault, name: &str) -> Fault {
-        fault.maybe_help(suggest::help(name, self.form.bodies.names().chain([GROUND])))
+    /// Here the ground would have been right, too; the other end is taken.
+    fn or_ground(&self, mut fault: Fault, name: &str, other: &str) -> Fault {
+        let names = || self.form.bodies.names().chain([GROUND]);
+        let free = || names().filter(|name| *name != other);
+        if let Mend::Name { instead, .. } = &mut fault.bearing.mend {
+            *instead = suggest::nearest(name, free()).or_else(|| free().next()).map(str::to_owned);
+        }
+        fault.maybe_help(suggest::help(name, names()))
     }
 }

@@ -1,7 +1,7 @@
 //! What is written of the insides of the contacts, and when.
 
 use super::contact::MAX_SPRINGS;
-use super::{Builder, Figures, range};
+use super::{Builder, Figures, range, run};
 use crate::PlotName;
 use crate::fault::Fault;
 use crate::form::{FieldsOutputForm, MemoryOutputForm};
@@ -67,7 +67,7 @@ impl Builder<'_> {
         };
         let form = form.clone().unwrap_or_default();
         let every = match form.every {
-            Some(every) => interval(&at.key("every"), every, plan)?,
+            Some(every) => self.interval(&at.key("every"), every, plan)?,
             None => plan.every.unwrap_or(plan.duration / STATES),
         };
         let count = range::count_between(&at.key("count"), form.count.0, 1, MAX_COUNT)?;
@@ -76,7 +76,8 @@ impl Builder<'_> {
         let springs = self.springs + count * curves as u64;
         if springs > MAX_SPRINGS {
             let message = format!("expected at most {MAX_SPRINGS} springs in all contacts, got {springs}");
-            return Err(asked.fault(message).help("show fewer springs of each contact with \"count\""));
+            let fault = asked.fault(message).against_all();
+            return Err(fault.help("show fewer springs of each contact with \"count\""));
         }
         Ok(Some(SpringsOutput {
             count: count as usize,
@@ -100,7 +101,8 @@ impl Builder<'_> {
         if let Some(row) = self.scene.contacts.iter().find(|contact| on_row(&contact.part.engine)) {
             let message = format!("the contact \"{}\" is a row of springs: it has no memory curve", row.name);
             let help = "output.springs shows a row; the engine \"curve\" has a memory curve";
-            return Err(asked.fault(message).help(help));
+            let fault = asked.fault(message).against(["contacts.*.engine"]);
+            return Err(fault.help(help));
         }
         let MemoryOutputForm { every, at: times } = form.clone().unwrap_or_default();
         let moments = self.moments(&at, (every, times.as_deref()), plan, figures)?;
@@ -120,6 +122,7 @@ impl Builder<'_> {
         let shapeless = |contact: &Named<Contact>| !contact.part.interface.profile().has_shape();
         if self.scene.contacts.iter().all(shapeless) {
             let fault = asked.fault("no contact here has a shape in three dimensions");
+            let fault = fault.against(["contacts.*.profile"]);
             return Err(
                 fault.help("lists of springs and normal laws have forces and no stress; springs.csv has the force of each spring")
             );
@@ -140,8 +143,8 @@ impl Builder<'_> {
         figures: Figures,
     ) -> Result<Moments, Fault> {
         Ok(match (every, times) {
-            (Some(every), None) => Moments::Every(interval(&at.key("every"), every, plan)?),
-            (None, Some(times)) => Moments::At(list(&at.key("at"), times, plan)?),
+            (Some(every), None) => Moments::Every(self.interval(&at.key("every"), every, plan)?),
+            (None, Some(times)) => Moments::At(self.list(&at.key("at"), times, plan)?),
             (None, None) => self.last_period(plan, figures),
             (Some(_), Some(_)) => {
                 let fault = at.key("at").fault("the interval of the moments is given already").on_key();
@@ -160,7 +163,9 @@ impl Builder<'_> {
         let place = self.form.plots.iter().position(|name| wanted_by.contains(name));
         let asked = key.or(place.map(|place| plots.index(place)));
         match asked {
-            Some(at) if self.scene.contacts.is_empty() => Err(at.fault("there is no contact to look into")),
+            Some(at) if self.scene.contacts.is_empty() => {
+                Err(at.fault("there is no contact to look into").against(["contacts"]))
+            }
             asked => Ok(asked),
         }
     }
@@ -179,34 +184,36 @@ impl Builder<'_> {
         let last = (0..CURVES).rev().map(|k| plan.duration - share(k) * span);
         Moments::At(first.chain(last).collect())
     }
-}
 
-/// An interval above 0 and not beyond the run.
-fn interval(at: &At<'_>, every: Time, plan: Plan) -> Result<f64, Fault> {
-    let every = range::above_zero(at, every)?;
-    if every <= plan.duration { Ok(every) } else { Err(beyond(at, plan)) }
-}
-
-/// Moments in ascending order, within the run.
-fn list(at: &At<'_>, times: &[Time], plan: Plan) -> Result<Vec<f64>, Fault> {
-    if times.is_empty() {
-        return Err(at.fault("expected at least one moment").ask(Help::Shape));
+    /// An interval above 0 and not beyond the run.
+    fn interval(&self, at: &At<'_>, every: Time, plan: Plan) -> Result<f64, Fault> {
+        let every = range::above_zero(at, every)?;
+        if every <= plan.duration { Ok(every) } else { Err(self.beyond(at, plan)) }
     }
-    let mut moments = Vec::with_capacity(times.len());
-    for (i, time) in times.iter().enumerate() {
-        let at = at.index(i);
-        let time = range::at_least_zero(&at, *time)?;
-        if time > plan.duration {
-            return Err(beyond(&at, plan));
-        }
-        if moments.last().is_some_and(|before| *before >= time) {
-            return Err(at.expected("a time after the moment before it"));
-        }
-        moments.push(time);
-    }
-    Ok(moments)
-}
 
-fn beyond(at: &At<'_>, plan: Plan) -> Fault {
-    at.expected(format_args!("a time up to the duration of the run, {} s", plan.duration))
+    /// Moments in ascending order, within the run.
+    fn list(&self, at: &At<'_>, times: &[Time], plan: Plan) -> Result<Vec<f64>, Fault> {
+        if times.is_empty() {
+            return Err(at.fault("expected at least one moment").ask(Help::Shape));
+        }
+        let mut moments = Vec::with_capacity(times.len());
+        for (i, time) in times.iter().enumerate() {
+            let (before, at) = (at, at.index(i));
+            let time = range::at_least_zero(&at, *time)?;
+            if time > plan.duration {
+                return Err(self.beyond(&at, plan));
+            }
+            if moments.last().is_some_and(|before| *before >= time) {
+                let fault = at.expected("a time after the moment before it");
+                return Err(fault.against_path(before.path()));
+            }
+            moments.push(time);
+        }
+        Ok(moments)
+    }
+
+    fn beyond(&self, at: &At<'_>, plan: Plan) -> Fault {
+        let fault = at.expected(format_args!("a time up to the duration of the run, {} s", plan.duration));
+        fault.against(run::duration(self.form).iter().copied())
+    }
 }

@@ -23,11 +23,13 @@ impl Builder<'_> {
 
     /// A point on a body that is neither of the two.
     fn stranger(&self, at: &At<'_>, name: &str, between: &Two) -> Fault {
+        let sides = ["contacts.*.between", "springs.*.between", "actuators.*.between"];
         let shown = crate::document::shown(name);
         let fault = match self.form.bodies.find(name) {
             Some(_) => at.fault(format!("\"{shown}\" is neither of the two bodies in \"between\"")),
             None => at.fault(format!("there is no body \"{shown}\"")),
         };
+        let fault = fault.against(sides).against_path(At::ROOT.key("bodies").key(name).path());
         fault.on_key().maybe_help(suggest::help(name, between.0.iter().map(String::as_str)))
     }
 }

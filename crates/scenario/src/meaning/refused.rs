@@ -6,11 +6,60 @@ use crate::fault::Fault;
 use crate::path::{KeyPath, Step};
 use stickslip_contact::FirstLoadingError;
 use stickslip_drive::scene::{Axis, Normal, Scene, Varying};
-use stickslip_drive::{Part, Plan, SceneError, SceneFault};
+use stickslip_drive::{Field, Part, Plan, SceneError, SceneFault};
 
 /// The fault that a refusal is in the file.
 pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
     let path = address::path(scene, plan, error.part, error.field);
+    let fault = worded(scene, path, error);
+    let part = address::path(scene, plan, error.part, Field::Whole);
+    let pressed = pressing(scene, error.part);
+    let inside = |key: &str| KeyPath(part.0.iter().cloned().chain([Step::Key(key.to_owned())]).collect());
+    match (&error.fault, pressed) {
+        // By a number alone.
+        (SceneFault::NotFinite(_) | SceneFault::BelowZero(_) | SceneFault::NotAboveZero(_), _)
+        | (SceneFault::NoContact | SceneFault::BalancedPitch, _) => fault,
+        (SceneFault::NoInertia(_) | SceneFault::BalancedMass(_), _) => fault.against_path(part),
+        (SceneFault::DampedJump(name), _) => {
+            fault.against_path(part.clone()).against_path(waveform(name)).against(["bodies", "actuators"])
+        }
+        (SceneFault::UnlocatedJump, _) => fault.against(["waveforms", "run.stepper"]),
+        (SceneFault::Loading(reason), Some((value, normal))) => {
+            let fault = follow(fault, scene, value).against_path(inside("normal"));
+            match (reason, normal) {
+                (FirstLoadingError::NormalForce(low) | FirstLoadingError::Radius(low), _) if *low < 0.0 => {
+                    fault
+                }
+                (FirstLoadingError::TangentialForce { .. }, Normal::Force(_)) => {
+                    fault.against_path(inside("friction"))
+                }
+                _ => fault.against_path(part).against(["materials"]),
+            }
+        }
+        (SceneFault::Springs(_) | SceneFault::Narrow { .. }, Some((value, _))) => {
+            follow(fault, scene, value).against_path(part).against(["materials"])
+        }
+        _ => fault.against_all(),
+    }
+}
+
+fn waveform(name: &str) -> KeyPath {
+    KeyPath(vec![Step::Key("waveforms".to_owned()), Step::Key(name.to_owned())])
+}
+
+/// Judged by the waveform that a value follows, too.
+fn follow(fault: Fault, scene: &Scene, value: Varying) -> Fault {
+    match value {
+        Varying::Constant(_) => fault,
+        Varying::Follows(w) => match scene.waveforms.get(w) {
+            Some(named) => fault.against_path(waveform(&named.name)),
+            None => fault,
+        },
+    }
+}
+
+/// In words.
+fn worded(scene: &Scene, path: KeyPath, error: &SceneError) -> Fault {
     match &error.fault {
         SceneFault::NotAboveZero(_) => {
             Fault::expected(path, address::kind(error).map_or(range::ABOVE.to_owned(), range::above))

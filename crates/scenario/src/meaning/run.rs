@@ -1,10 +1,9 @@
 //! Figures, plan and output.
 
-use super::{Builder, Figures, range, refused};
+use super::{Builder, Figures, names, range, refused};
 use crate::fault::Fault;
-use crate::form::{LimitsForm, StepperForm};
+use crate::form::{Form, LimitsForm, StepperForm};
 use crate::path::At;
-use crate::suggest;
 use stickslip_drive::scene::Freedom;
 use stickslip_drive::{Accuracy, Limits, Plan, Stepper, UntilSteady};
 
@@ -14,6 +13,15 @@ const TOLERANCE: (f64, f64) = (1e-13, 1e-2);
 const FRAME_ACCURACY: (f64, f64) = (1e-9, 1e-1);
 /// Changes of a step that may count as none.
 const CHANGE: (f64, f64) = (1e-12, 0.1);
+
+/// What says which waveform and which body make the figures.
+const MOVING: [&str; 7] =
+    ["waveforms", "figures", "bodies.*.x", "bodies.*.z", "actuators.*.stroke", "contacts.*.normal", "loads"];
+/// What says how long a run is.
+pub(super) fn duration(form: &Form) -> &'static [&'static str] {
+    let all = &["run.duration", "run.cycles", "waveforms", "figures"];
+    if form.run.duration.is_some() { &all[..2] } else { all }
+}
 
 impl Builder<'_> {
     /// Whose period and motion count: those named, or the only ones there are.
@@ -38,10 +46,9 @@ impl Builder<'_> {
     /// The place of a waveform with a period.
     fn periodic(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
         let waveforms = &self.form.waveforms;
-        let index = waveforms.find(name).ok_or_else(|| {
-            let fault = at.fault(format!("there is no waveform \"{}\"", crate::document::shown(name)));
-            fault.maybe_help(suggest::help(name, waveforms.names()))
-        })?;
+        let index = waveforms
+            .find(name)
+            .ok_or_else(|| names::unknown(at, ("waveform", "waveforms"), name, waveforms))?;
         let waveform = &self.scene.waveforms[index].part;
         if waveform.period().is_some() {
             return Ok(index);
@@ -52,7 +59,9 @@ impl Builder<'_> {
             (None, None) => "a table",
         };
         let fault = at.expected("a waveform with a period");
-        Err(fault.help(format!("{which} repeats nothing: there are no steps to count")))
+        Err(fault
+            .against_path(At::ROOT.key("waveforms").key(name).path())
+            .help(format!("{which} repeats nothing: there are no steps to count")))
     }
 
     /// The only free body, or the only body.
@@ -75,7 +84,8 @@ impl Builder<'_> {
             (Some(duration), None) => duration.si,
             (None, Some(cycles)) => self.cycles(&at.key("cycles"), cycles, figures)?,
             (None, None) => {
-                return Err(at.missing("duration").help("a run has a duration or a number of cycles"));
+                let fault = at.missing("duration").against(["run.cycles"]);
+                return Err(fault.help("a run has a duration or a number of cycles"));
             }
             (Some(_), Some(_)) => {
                 return Err(at
@@ -95,7 +105,7 @@ impl Builder<'_> {
         let plan = Plan { duration, stepper, limits, every, until_steady };
         // Before anything is compared with its numbers.
         plan.check().map_err(|error| refused::fault(&self.scene, plan, &error))?;
-        within_run(&at.key("stepper"), plan)?;
+        within_run(&at.key("stepper"), plan, self.form)?;
         Ok(plan)
     }
 
@@ -109,7 +119,7 @@ impl Builder<'_> {
 
     fn until_steady(&self, at: &At<'_>, change: f64, figures: Figures) -> Result<UntilSteady, Fault> {
         let change = range::number_between(at, change, CHANGE.0, CHANGE.1)?;
-        let none = |message: String, help: &str| Err(at.fault(message).on_key().help(help));
+        let none = |message: String, help: &str| Err(at.fault(message).on_key().help(help).against(MOVING));
         let Some(waveform) = figures.waveform else {
             let message = "there is no waveform, or more than one, whose periods could make steps";
             return none(message.to_owned(), "name one in figures.waveform");
@@ -135,15 +145,18 @@ impl Builder<'_> {
         let cycles = range::number_above_zero(at, cycles)?;
         let Some(index) = figures.waveform else {
             let fault = at.fault("there is no waveform, or more than one, to count the cycles of").on_key();
+            let fault = fault.against(MOVING);
             return Err(fault.help("name one in figures.waveform, or give run.duration"));
         };
         let named = &self.scene.waveforms[index];
         let Some(period) = named.part.period() else {
             let fault = at.fault(format!("the waveform \"{}\" has no period", named.name)).on_key();
+            let fault = fault.against(MOVING);
             return Err(fault.help("name another in figures.waveform, or give run.duration"));
         };
         let duration = self.courses[index].delay + cycles * period;
-        if duration.is_finite() { Ok(duration) } else { Err(at.expected("fewer cycles")) }
+        let fewer = || at.expected("fewer cycles").against(MOVING);
+        if duration.is_finite() { Ok(duration) } else { Err(fewer()) }
     }
 }
 
@@ -168,7 +181,7 @@ fn stepper(at: &At<'_>, form: &StepperForm) -> Result<Stepper, Fault> {
 }
 
 /// A fixed step is not longer than the run.
-fn within_run(at: &At<'_>, plan: Plan) -> Result<(), Fault> {
+fn within_run(at: &At<'_>, plan: Plan, form: &Form) -> Result<(), Fault> {
     let name = plan.stepper.name();
     let (key, step) = match plan.stepper.accuracy() {
         Accuracy::Step(step) => ("step", step),
@@ -180,7 +193,7 @@ fn within_run(at: &At<'_>, plan: Plan) -> Result<(), Fault> {
     }
     let duration = range::short(plan.duration);
     let what = format!("a time up to the duration of the run, {duration} s");
-    Err(at.key(name).key(key).expected(what))
+    Err(at.key(name).key(key).expected(what).against(self::duration(form).iter().copied()))
 }
 
 fn limits(at: &At<'_>, form: &LimitsForm) -> Result<Limits, Fault> {

@@ -1,12 +1,11 @@
 //! Waveforms: shapes, timing and the dimension of their values.
 
-use super::{Builder, Course, generator, input, range};
+use super::{Builder, Course, generator, input, names, range};
 use crate::fault::Fault;
 use crate::form::{HarmonicsForm, Moving, Periodic, Point, TableForm, WaveformForm, WaveformRef};
 use crate::guide::Help;
 use crate::path::At;
 use crate::quantity::{AnyQuantity, Dimension, Time};
-use crate::suggest;
 use crate::units::Kind;
 use stickslip_drive::scene::{Named, Varying};
 use stickslip_drive::{Harmonic, Shape, Timing, Waveform, WaveformError};
@@ -17,17 +16,19 @@ const MAX_ORDER: u64 = 1000;
 const MAX_TERMS: usize = 1000;
 
 /// Collects the dimension that the values of one waveform agree on.
-#[derive(Default)]
-pub(super) struct Values {
+pub(super) struct Values<'a> {
     pub(super) kind: Option<Kind>,
+    /// The waveform.
+    at: At<'a>,
 }
 
-impl Values {
+impl Values<'_> {
     pub(super) fn take(&mut self, at: &At<'_>, value: AnyQuantity) -> Result<f64, Fault> {
         match (self.kind, value.kind) {
             (Some(known), Some(new)) if known != new => {
                 let message = format!("expected {} like the values before it", known.article());
-                Err(at.expected(message.trim_start_matches("expected ")))
+                let fault = at.expected(message.trim_start_matches("expected "));
+                Err(fault.against_path(self.at.path()))
             }
             (known, new) => {
                 self.kind = known.or(new);
@@ -55,10 +56,10 @@ impl Builder<'_> {
             if self.terms > MAX_TERMS {
                 let message =
                     format!("expected at most {MAX_TERMS} terms in all waveforms, got {}", self.terms);
-                return Err(at.key("harmonics").key("terms").fault(message));
+                return Err(at.key("harmonics").key("terms").fault(message).against_all());
             }
         }
-        let mut values = Values::default();
+        let mut values = Values { kind: None, at: *at };
         let (part, delay) = waveform(at, form, &mut values)?;
         self.scene.waveforms.push(Named { name, part });
         self.courses.push(Course { kind: values.kind, delay });
@@ -68,19 +69,23 @@ impl Builder<'_> {
     /// The place of a waveform whose values must be of this dimension. One written out in place is named by its path.
     pub(super) fn follow(&mut self, at: &At<'_>, waveform: &WaveformRef, kind: Kind) -> Result<usize, Fault> {
         let at = at.key("follows");
-        let index = match waveform {
-            WaveformRef::Name(name) => self.form.waveforms.find(name).ok_or_else(|| {
-                let fault = at.fault(format!("there is no waveform \"{}\"", crate::document::shown(name)));
-                fault.maybe_help(suggest::help(name, self.form.waveforms.names()))
-            })?,
-            WaveformRef::Inline(form) => self.add(&at, at.path().to_string(), form)?,
-        };
+        let index =
+            match waveform {
+                WaveformRef::Name(name) => self.form.waveforms.find(name).ok_or_else(|| {
+                    names::unknown(&at, ("waveform", "waveforms"), name, &self.form.waveforms)
+                })?,
+                WaveformRef::Inline(form) => self.add(&at, at.path().to_string(), form)?,
+            };
         match self.courses.get(index).and_then(|course| course.kind) {
             Some(found) if found != kind => {
                 let message =
                     format!("expected a waveform of {}s", kind.article().split_once(' ').map_or("", |w| w.1));
                 let help = format!("its values have the unit of {}", found.article());
-                Err(at.fault(message).help(help))
+                let course = match waveform {
+                    WaveformRef::Name(name) => At::ROOT.key("waveforms").key(name).path(),
+                    WaveformRef::Inline(_) => at.path(),
+                };
+                Err(at.fault(message).help(help).against_path(course))
             }
             _ => Ok(index),
         }
@@ -95,7 +100,7 @@ impl Builder<'_> {
     }
 }
 
-fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values) -> Result<(Waveform, f64), Fault> {
+fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values<'_>) -> Result<(Waveform, f64), Fault> {
     let named = |name| at.key(name);
     let (key, shape, timing) = match form {
         WaveformForm::Sawtooth(form) => {
@@ -145,7 +150,10 @@ fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values) -> Result<(Wa
         WaveformForm::Step(_) => return Err(named("step").not_yet()),
     };
     let delay = timing.delay;
-    let waveform = Waveform::new(shape, timing).map_err(|error| refused(&at.key(key), &error))?;
+    let waveform = Waveform::new(shape, timing).map_err(|error| {
+        let at = at.key(key);
+        refused(&at, &error).against_path(at.path())
+    })?;
     Ok((waveform, delay))
 }
 
@@ -168,7 +176,7 @@ fn refused(at: &At<'_>, error: &WaveformError) -> Fault {
     }
 }
 
-fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values) -> Result<Shape, Fault> {
+fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values<'_>) -> Result<Shape, Fault> {
     let at = at.key("terms");
     if form.terms.is_empty() {
         return Err(at.fault("expected at least one term").ask(Help::Shape));
@@ -184,19 +192,26 @@ fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values) -> Result<S
 }
 
 fn flyback(at: &At<'_>, flyback: Time, period: f64) -> Result<f64, Fault> {
+    let timing = ["period", "frequency"].map(|key| at.key(key).path());
     let at = at.key("flyback");
     let value = range::at_least_zero(&at, flyback)?;
     if value < period {
         return Ok(value);
     }
     let period = range::short(period);
-    Err(at.expected(format_args!("a time below the period of {period} s")))
+    let fault = at.expected(format_args!("a time below the period of {period} s"));
+    Err(timing.into_iter().fold(fault, Fault::against_path))
 }
 
-fn table(at: &At<'_>, form: &TableForm, values: &mut Values) -> Result<(&'static str, Shape, Timing), Fault> {
+fn table(
+    at: &At<'_>,
+    form: &TableForm,
+    values: &mut Values<'_>,
+) -> Result<(&'static str, Shape, Timing), Fault> {
     let Some(points) = &form.points else {
         return Err(at
             .missing("points")
+            .against_path(at.path())
             .help("or \"file\" with the names of its columns \"time\" and \"value\""));
     };
     let delay = range::at_least_zero(&at.key("delay"), form.delay)?;
@@ -205,15 +220,17 @@ fn table(at: &At<'_>, form: &TableForm, values: &mut Values) -> Result<(&'static
         let fault = at.fault(format!("expected at least two points, got {}", points.len()));
         return Err(fault.ask(Help::Shape));
     }
+    let list = at.path();
     let mut pairs: Vec<(f64, f64)> = Vec::with_capacity(points.len());
     for (i, &Point(time, value)) in points.iter().enumerate() {
         let at = at.index(i);
         if pairs.last().is_some_and(|last| time.si < last.0) {
-            let fault = at.index(0).expected("a time not before the point before it");
+            let fault =
+                at.index(0).expected("a time not before the point before it").against_path(list.clone());
             return Err(fault.help("times rise; two points at one time are a jump"));
         }
         if pairs.len() > 1 && pairs[i - 2].0 == time.si {
-            let fault = at.index(0).fault("three points have the same time");
+            let fault = at.index(0).fault("three points have the same time").against_path(list.clone());
             return Err(fault.help("two points at one time are a jump; a third says nothing"));
         }
         pairs.push((time.si, values.take(&at.index(1), value)?));
@@ -226,7 +243,8 @@ fn timing(at: &At<'_>, form: Periodic, name: &str) -> Result<Timing, Fault> {
         (Some(period), None) => range::above_zero(&at.key("period"), period)?,
         (None, Some(frequency)) => 1.0 / range::above_zero(&at.key("frequency"), frequency)?,
         (None, None) => {
-            return Err(at.missing("period").help(format!("a {name} has a period or a frequency")));
+            let fault = at.missing("period").against_path(at.key("frequency").path());
+            return Err(fault.help(format!("a {name} has a period or a frequency")));
         }
         (Some(_), Some(_)) => {
             return Err(at

@@ -2,7 +2,7 @@
 
 use super::head::Column;
 use super::{Shelf, given_twice, no_columns};
-use crate::fault::Fault;
+use crate::fault::{Fault, Mend};
 use crate::form::{GapPoint, GapTableForm, LawPoint, NormalLawForm, ProfileForm, RoughForm};
 use crate::path::At;
 use crate::quantity::{Force, Length};
@@ -57,7 +57,7 @@ impl Shelf<'_> {
         };
         if line.heights.is_some() || line.self_affine.is_some() {
             let fault = at.key("file").fault("the heights are given already").on_key();
-            return Err(fault.help("keep one of them"));
+            return Err(fault.mend(Mend::Around(at.path())).help("keep one of them"));
         }
         let height = ("height", height, Column::Of(Kind::Length));
         let (rows, _) = self.rows(at, &file, "heights", &[height])?;

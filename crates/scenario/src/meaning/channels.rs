@@ -1,0 +1,31 @@
+//! Columns of the trace that are asked for by name.
+
+use crate::document::shown;
+use crate::fault::Fault;
+use crate::path::At;
+use crate::suggest;
+use std::collections::{HashMap, HashSet};
+use stickslip_drive::Channel;
+
+/// The places of the channels with these names.
+pub(crate) fn places(names: &[String], channels: &[Channel]) -> Result<Vec<usize>, Fault> {
+    let known: HashMap<&str, usize> =
+        channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
+    let output = At::ROOT;
+    let output = output.key("output");
+    let at = output.key("channels");
+    let (mut places, mut taken) = (Vec::new(), HashSet::new());
+    for (i, name) in names.iter().enumerate() {
+        let at = at.index(i);
+        let Some(&place) = known.get(name.as_str()) else {
+            let fault = at.fault(format!("there is no channel \"{}\"", shown(name)));
+            let fault = fault.against(["bodies", "contacts"]);
+            return Err(fault.maybe_help(suggest::help(name, channels.iter().map(|c| c.name.as_str()))));
+        };
+        if !taken.insert(place) {
+            return Err(at.fault("this channel is in the list already").against(["output.channels"]));
+        }
+        places.push(place);
+    }
+    Ok(places)
+}
