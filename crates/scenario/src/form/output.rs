@@ -40,7 +40,7 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 17), example = 9)]
     pub(crate) float: Option<Count>,
-    /// States of contacts as words, or as numbers: 0 open, 1 stick, 2 partial, 3 slip.
+    /// States of contacts as words (default), or as numbers: 0 open, 1 stick, 2 partial, 3 slip.
     #[serde(default, skip_serializing_if = "StatesForm::is_words")]
     #[schemars(example = &"numbers")]
     pub(crate) states: StatesForm,
