@@ -167,6 +167,9 @@ fn steps<'a>(curve: &TimesCurve<'a>, place: usize) -> Series<'a> {
     Series { style, ..Series::new(curve.name, xs, ys) }
 }
 
+/// Colours of the palettes.
+const COLOURS: usize = 6;
+
 /// Marks on the outline that they belong to; equal ones lie on each other.
 fn points<'a>(marked: &MarkedTimes<'a>, colour: usize, curves: &[TimesCurve<'a>]) -> Series<'a> {
     let height = |time: f64| {
@@ -177,7 +180,9 @@ fn points<'a>(marked: &MarkedTimes<'a>, colour: usize, curves: &[TimesCurve<'a>]
     // A gap after each: points that no line joins.
     let xs: Vec<f64> = marked.times.iter().flat_map(|time| [*time, f64::NAN]).collect();
     let ys: Vec<f64> = marked.times.iter().flat_map(|time| [height(*time), f64::NAN]).collect();
-    let style = Style { ink: Some(Ink::Palette(colour)), dash: Some(Dash::Solid), width: 2.0 };
+    // Beyond the palette one would have the colour of a curve.
+    let ink = if colour < COLOURS { Ink::Palette(colour) } else { Ink::Foreground };
+    let style = Style { ink: Some(ink), dash: Some(Dash::Solid), width: 2.0 };
     Series { style, marked: true, ..Series::new(marked.name, xs, ys) }
 }
 
