@@ -38,7 +38,8 @@ fn the_gallery_has_the_pictures_of_run_and_a_page_that_names_their_commands() {
     );
     assert_eq!(listing(&out), ["README.md", "oblique_loading", "quickstart"]);
     // Small ones as SVG, too.
-    let names = ["loop-dark.png", "loop.png", "trajectory-dark.png", "trajectory.png"];
+    let names =
+        ["loop-dark.png", "loop.png", "loop.svg", "trajectory-dark.png", "trajectory.png", "trajectory.svg"];
     assert_eq!(listing(&out.join("quickstart")), names);
     let ran = run_example("quickstart", root.path(), &["run.duration=20 ms"]);
     for name in ["loop.png", "trajectory.png"] {

@@ -72,6 +72,11 @@ fn pictures_come_in_the_forms_asked_for_beside_the_others() {
         std::fs::read(folder.join("loop.png")).unwrap()
             != std::fs::read(folder.join("loop-dark.png")).unwrap()
     );
+    let [light, dark] = ["loop.png", "loop-dark.png"].map(|name| std::fs::read(folder.join(name)).unwrap());
+    let both = plot(&folder, &["--plots", "loop", "--theme", "light,dark,light"]);
+    assert!(stdout(&both).ends_with("quickstart: loop.png, loop-dark.png\n"), "{}", stderr(&both));
+    assert!(std::fs::read(folder.join("loop.png")).unwrap() == light);
+    assert!(std::fs::read(folder.join("loop-dark.png")).unwrap() == dark);
     // Another run takes all pictures of this one away.
     run_example("quickstart", out.path(), &["run.duration=20 ms", "plots=[\"trajectory\"]"]);
     assert_eq!(pictures(&folder), ["trajectory.png"]);

@@ -154,7 +154,8 @@ fn draw(curves: &[Curve]) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
         .zip(&series)
         .map(|(curve, (sizes, costs))| {
             let (name, unit) = curve.kind.words();
-            GrowthCurve { name, unit, sizes, costs }
+            let per_size = unit == "s";
+            GrowthCurve { name, unit, sizes, costs, per_size }
         })
         .collect();
     let mut figure = growth_figure("What more costs: P1 with more of one thing at a time", COST, &curves);

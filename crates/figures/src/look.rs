@@ -8,8 +8,8 @@ use stickslip_scenario::PlotName;
 pub struct Look {
     /// Kinds of picture files.
     pub formats: Vec<Format>,
-    /// Colours: light for paper, dark for screens (`NAME-dark.png`).
-    pub theme: Colours,
+    /// Colours: light for paper, dark for screens (`NAME-dark.png`); every picture in each of them.
+    pub themes: Vec<Colours>,
     /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (`NAME@2x.png`).
     pub scale: u32,
 }
@@ -52,13 +52,13 @@ impl Format {
 
 impl Look {
     /// Name of a picture's file.
-    pub fn file(&self, plot: PlotName, format: Format) -> String {
-        self.file_of(plot.name(), format)
+    pub fn file(&self, plot: PlotName, theme: Colours, format: Format) -> String {
+        self.file_of(plot.name(), theme, format)
     }
 
     /// The same of a picture that no scenario can ask for, by its name.
-    pub fn file_of(&self, plot: &str, format: Format) -> String {
-        let theme = match self.theme {
+    pub fn file_of(&self, plot: &str, theme: Colours, format: Format) -> String {
+        let theme = match theme {
             Colours::Light => "",
             Colours::Dark => "-dark",
         };
@@ -76,9 +76,9 @@ impl Look {
         let mut names = Vec::new();
         for theme in [Colours::Light, Colours::Dark] {
             for scale in [1, 2] {
-                let look = Self { formats: Vec::new(), theme, scale };
+                let look = Self { formats: Vec::new(), themes: Vec::new(), scale };
                 for format in [Format::Png, Format::Svg] {
-                    names.extend(plots.iter().map(|plot| look.file_of(plot, format)));
+                    names.extend(plots.iter().map(|plot| look.file_of(plot, theme, format)));
                 }
             }
         }
@@ -102,15 +102,19 @@ impl Pen<'_> {
         if figures.is_empty() || !self.look.formats.contains(&Format::Png) {
             return Ok(Vec::new());
         }
-        let figures: Vec<Figure<'_>> = figures.into_iter().map(|figure| self.looking(figure)).collect();
-        Ok(vec![(self.look.file_of(plot, Format::Png), draw_animation(&figures, delay)?)])
+        let film = |theme: &Colours| {
+            let figures: Vec<Figure<'_>> =
+                figures.iter().map(|figure| self.looking(figure.clone(), *theme)).collect();
+            Ok((self.look.file_of(plot, *theme, Format::Png), draw_animation(&figures, delay)?))
+        };
+        self.look.themes.iter().map(film).collect()
     }
 
-    /// A figure in the look.
-    fn looking<'f>(&self, mut figure: Figure<'f>) -> Figure<'f> {
+    /// A figure in the look, in one of its colours.
+    fn looking<'f>(&self, mut figure: Figure<'f>, theme: Colours) -> Figure<'f> {
         let (width, height) = figure.size;
         figure.size = (width * self.look.scale, height * self.look.scale);
-        figure.theme = match self.look.theme {
+        figure.theme = match theme {
             Colours::Light => Theme::light(),
             Colours::Dark => Theme::dark(),
         };
@@ -120,14 +124,17 @@ impl Pen<'_> {
 
     /// The same under a name of its own.
     pub(crate) fn draw_as(&self, plot: &str, figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
-        let figure = self.looking(figure);
-        let picture = |format: &Format| {
-            let bytes = match format {
-                Format::Png => draw_png(&figure)?,
-                Format::Svg => draw_svg(&figure)?.into_bytes(),
-            };
-            Ok((self.look.file_of(plot, *format), bytes))
-        };
-        self.look.formats.iter().map(picture).collect()
+        let mut pictures = Vec::new();
+        for &theme in &self.look.themes {
+            let figure = self.looking(figure.clone(), theme);
+            for &format in &self.look.formats {
+                let bytes = match format {
+                    Format::Png => draw_png(&figure)?,
+                    Format::Svg => draw_svg(&figure)?.into_bytes(),
+                };
+                pictures.push((self.look.file_of(plot, theme, format), bytes));
+            }
+        }
+        Ok(pictures)
     }
 }

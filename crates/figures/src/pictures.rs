@@ -1,6 +1,7 @@
 //! The pictures of results, drawn alike from a run that has just ended and from its folder: the table of their kinds, each
 //! in a file of its own.
 
+mod alike;
 mod energy;
 mod events;
 mod fields;
@@ -14,6 +15,8 @@ mod substitute;
 mod trajectory;
 
 use crate::look::{Look, Pen, Picture};
+use std::panic::resume_unwind;
+use std::thread;
 use stickslip_plot::PlotError;
 use stickslip_results::Job;
 use stickslip_results::Kept;
@@ -78,7 +81,16 @@ pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, Figu
     plots.sort_by_key(|plot| *plot as u8);
     plots.dedup();
     let pen = Pen { look, provenance: provenance(sources.job, sources.kept) };
-    plots.into_iter().map(|plot| picture(sources, plot, &pen)).collect()
+    let (sources, pen) = (&sources, &pen);
+    let one = |plot| move || picture(sources, plot, pen);
+    // Each on a thread of its own; in what order they end is nobody's business.
+    thread::scope(|scope| {
+        let drawing: Vec<_> = plots.into_iter().map(|plot| scope.spawn(one(plot))).collect();
+        drawing
+            .into_iter()
+            .map(|picture| picture.join().unwrap_or_else(|panic| resume_unwind(panic)))
+            .collect()
+    })
 }
 
 /// What a kind of picture shows.

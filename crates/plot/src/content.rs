@@ -8,7 +8,7 @@ use crate::notes::PlacedNote;
 use crate::paint::{DOT, Painter};
 use crate::panel::{Band, Lane, Mark, Reference, Series, is_drawable};
 use crate::theme::{Dash, Stroke};
-use crate::thin::{Point, length, thinned, without_repeats, without_retraced};
+use crate::thin::{Point, length, straightened, thinned, without_repeats, without_retraced};
 use plotters_backend::DrawingBackend;
 
 /// A curve longer than this many times the frame's sides fills areas, where dashes only cost time.
@@ -85,11 +85,15 @@ impl<B: DrawingBackend> Painter<'_, B> {
         }
         let lines =
             if stroke.dash == Dash::Solid { without_repeats(lines) } else { without_retraced(&lines) };
+        let lines = straightened(lines);
         for line in &lines {
             match line[..] {
                 [only] => self.canvas.disc(only, DOT * stroke.width, stroke.colour)?,
                 _ => self.canvas.line(line, stroke)?,
             }
+        }
+        if series.directed {
+            self.arrows(&lines, stroke)?;
         }
         let marked = place.panel.points(series).flatten().filter(|_| series.marked);
         marked

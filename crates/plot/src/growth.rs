@@ -16,6 +16,8 @@ pub struct GrowthCurve<'a> {
     pub sizes: &'a [f64],
     /// Costs, as many, s.
     pub costs: &'a [f64],
+    /// Whether a cost is one per size already: in proportion, it stays the same.
+    pub per_size: bool,
 }
 
 /// Panels in a row of the grid.
@@ -23,8 +25,8 @@ const COLUMNS: usize = 3;
 /// A panel shows at least a decade of costs, so that what does not grow looks flat.
 const LEAST: f64 = 10.0;
 
-/// A panel for each thing that grows, both axes logarithmic: the cost, and behind it what would be in proportion to the size,
-/// through the largest.
+/// A panel for each thing that grows, both axes logarithmic: the cost, and behind it what would be in proportion to that of the
+/// smallest. What rises above the line costs more than its share, what stays below it less.
 pub fn growth_figure<'a>(title: &str, cost: &str, curves: &[GrowthCurve<'a>]) -> Figure<'a> {
     if curves.iter().all(|curve| curve.sizes.is_empty()) {
         return Figure::without_data(title, "nothing grows");
@@ -51,7 +53,7 @@ fn panel<'a>(curve: &GrowthCurve<'a>, cost: &str) -> Panel<'a> {
     Panel {
         x: axis(curve.name, curve.unit),
         y: Axis { covers: Some((largest / LEAST, largest)), ..axis(cost, "s") },
-        series: [proportional(curve, largest / LEAST).map(|(sizes, costs)| Series {
+        series: [proportional(curve, largest).map(|(sizes, costs)| Series {
             style: style(Ink::Muted, Dash::Dashed, 0.7),
             ..Series::new("in proportion", sizes, costs)
         })]
@@ -63,10 +65,12 @@ fn panel<'a>(curve: &GrowthCurve<'a>, cost: &str) -> Panel<'a> {
     }
 }
 
-/// The straight line through the last point, no lower than what is shown anyway.
-fn proportional(curve: &GrowthCurve<'_>, least: f64) -> Option<(Vec<f64>, Vec<f64>)> {
-    let (size, cost) = (*curve.sizes.last()?, *curve.costs.last()?);
-    let smallest = curve.costs.iter().copied().fold(least, f64::min);
-    let from = curve.sizes.first()?.max(size * smallest / cost);
-    Some((vec![from, size], vec![cost * from / size, cost]))
+/// The straight line through the first point, no higher than what is shown anyway.
+fn proportional(curve: &GrowthCurve<'_>, largest: f64) -> Option<(Vec<f64>, Vec<f64>)> {
+    let (from, to, cost) = (*curve.sizes.first()?, *curve.sizes.last()?, *curve.costs.first()?);
+    if curve.per_size {
+        return Some((vec![from, to], vec![cost; 2]));
+    }
+    let to = to.min(from * (largest / cost).max(1.0));
+    Some((vec![from, to], vec![cost, cost * to / from]))
 }

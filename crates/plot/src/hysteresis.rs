@@ -2,7 +2,7 @@
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
-use crate::panel::{Axis, Note, Panel, Reference, Series};
+use crate::panel::{Axis, Note, Panel, Reference, Rescaled, Series};
 use crate::theme::{Dash, Ink, Style};
 
 /// One loop, of a contact or of a cycle.
@@ -20,8 +20,9 @@ pub struct HysteresisLoop<'a> {
     pub limit: Option<f64>,
 }
 
-/// Force over displacement: in units on the left; on the right, for the loops that have them, divided by `u_c` and
-/// `μF_N`, with the limits ±1. The left panel shows the limit `μF_N` where all loops have the same.
+/// Force over displacement. Where all loops have the same `u_c` and `μF_N`, axes above and on the right count in these; where
+/// some have others, a panel on the right has those that have any divided by theirs, with the limits ±1. The first panel shows
+/// the limit `μF_N` where all loops have the same.
 pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> {
     if loops.is_empty() {
         return Figure::without_data(title, "no contacts");
@@ -33,6 +34,12 @@ pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> 
         references: common_limit(loops).map(limits).unwrap_or_default(),
         ..Panel::default()
     };
+    if let Some((gross_slip, limit)) = common_scale(loops) {
+        let top = Some(Rescaled { label: Label::markup("u/u_c"), by: gross_slip });
+        let right = Some(Rescaled { label: Label::markup("F_x/(μF_N)"), by: limit });
+        let panels = vec![Panel { top, right, ..plain }];
+        return Figure { title: Label::plain(title), panels, ..Figure::default() }.with_room_for_legends();
+    }
     // Places in the palette go with the left panel, so that one legend serves both.
     let scaled: Vec<Series<'a>> =
         loops.iter().enumerate().filter_map(|(place, l)| normalised(place, l)).collect();
@@ -77,6 +84,13 @@ pub fn marked_loop_figure<'a>(
 fn common_limit(loops: &[HysteresisLoop<'_>]) -> Option<f64> {
     let first = usable(loops.first()?.limit)?;
     loops.iter().all(|l| l.limit == Some(first)).then_some(first)
+}
+
+/// `u_c` and `μF_N` of all loops; none where they differ or one has none.
+fn common_scale(loops: &[HysteresisLoop<'_>]) -> Option<(f64, f64)> {
+    let gross_slip = usable(loops.first()?.gross_slip)?;
+    let limit = common_limit(loops)?;
+    loops.iter().all(|l| l.gross_slip == Some(gross_slip)).then_some((gross_slip, limit))
 }
 
 fn limits(of: f64) -> Vec<Reference> {

@@ -1,6 +1,7 @@
 //! Where everything goes: title, legends, panels.
 
 use crate::PlotError;
+use crate::beside::Beside;
 use crate::figure::Figure;
 use crate::label::Label;
 use crate::lanes::Names;
@@ -30,6 +31,8 @@ pub(crate) struct Placed<'f, 'a> {
     pub(crate) cell: Area,
     pub(crate) x: Scale,
     pub(crate) y: Scale,
+    /// Both axes in other units.
+    pub(crate) beside: Beside,
     /// Names of the lanes, in place of the y axis.
     pub(crate) names: Names,
     /// Left edge of the numbers of the y axis; its label stands further left, px.

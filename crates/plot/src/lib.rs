@@ -16,13 +16,16 @@
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
-//! * `paint`, `content` – the figure in strokes, areas and texts, which `canvas` hands to any backend of plotters;
-//! * `font`, `raster` – the backend for pictures: coverage-exact strokes and glyphs;
+//! * `paint`, `beside`, `content`, `arrow` – the figure in strokes, areas and texts, which `canvas` hands to any backend of
+//!   plotters;
+//! * `font`, `stroke`, `raster` – the backend for pictures: glyphs, and strokes by coverage; `palette` – their few colours;
 //! * [`png`], [`svg`] – the two outputs; [`carried`] – what they carry unseen.
 //!
 //! Same figure, same bytes: nothing is read but the figure, the font is built in.
 
 pub mod anchors;
+mod arrow;
+mod beside;
 mod canvas;
 pub mod carried;
 pub mod compare;
@@ -45,6 +48,7 @@ pub mod memory;
 mod mosaic;
 mod notes;
 mod paint;
+mod palette;
 pub mod panel;
 pub mod phase;
 mod place;
@@ -56,6 +60,7 @@ pub mod realtime;
 mod scale;
 pub mod scene;
 pub mod state;
+mod stroke;
 pub mod substitute;
 pub mod svg;
 pub mod theme;
@@ -76,7 +81,7 @@ pub use growth::{GrowthCurve, growth_figure};
 pub use hysteresis::{HysteresisLoop, loop_figure, marked_loop_figure};
 pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
-pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Series, Shape};
+pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Rescaled, Series, Shape};
 pub use phase::{PhasePath, phase_figure};
 pub use png::{draw_animation, draw_png};
 pub use profile::{ProfilePair, profile_figure};

@@ -1,5 +1,6 @@
 //! Mosaics in pixels: cells of few classes, mixed by area where a pixel holds several.
 
+use crate::palette::{Word, word};
 use crate::panel::Mosaic;
 use crate::scale::Scale;
 use crate::theme::{Colour, Theme};
@@ -11,6 +12,13 @@ pub(crate) struct Image {
     pub(crate) height: usize,
     /// Red, green, blue of every pixel.
     pub(crate) rgb: Vec<u8>,
+}
+
+impl Image {
+    /// The colour of every pixel, row by row.
+    pub(crate) fn colours(&self) -> impl Iterator<Item = Word> + Clone + '_ {
+        self.rgb.chunks_exact(3).map(|c| word([c[0], c[1], c[2]]))
+    }
 }
 
 /// Light of a colour (linear in what the eye adds up) and the area it covers.

@@ -71,6 +71,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
     /// Grid, ticks, numbers and labels.
     fn axes(&mut self, place: &Placed<'_, '_>) -> Result<(), PlotError> {
         self.x_axis(place)?;
+        self.beside(place)?;
         if place.panel.lanes.is_empty() { self.y_axis(place) } else { self.names(place) }
     }
 
@@ -188,7 +189,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         Stroke { colour: self.theme.grid, dash: Dash::Solid, width: 1.5 }
     }
 
-    fn mark(&self) -> Stroke {
+    pub(crate) fn mark(&self) -> Stroke {
         Stroke { colour: self.theme.foreground, dash: Dash::Solid, width: 2.0 }
     }
 }

@@ -31,6 +31,10 @@ pub struct Panel<'a> {
     pub lanes: Vec<Lane>,
     /// What is said where there is nothing to show; "no data" where empty.
     pub absence: Label,
+    /// The horizontal axis in other units, above the frame.
+    pub top: Option<Rescaled>,
+    /// The vertical axis in other units, right of the frame.
+    pub right: Option<Rescaled>,
     /// Width over height of the frame; fills its place by default.
     pub aspect: Option<f64>,
     /// Share of the figure, relative to the other panels' shares; 1 where not above 0.
@@ -55,6 +59,15 @@ pub struct Axis {
     pub logarithmic: bool,
 }
 
+/// A dimensionless axis beside another: the same values as shares of something.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rescaled {
+    /// What it measures.
+    pub label: Label,
+    /// Of what they are shares, in the axis' unit; nothing is shown where it is not above 0.
+    pub by: f64,
+}
+
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series<'a> {
@@ -68,6 +81,8 @@ pub struct Series<'a> {
     pub style: Style,
     /// Whether every point is marked, where few points were measured.
     pub marked: bool,
+    /// Whether heads of arrows say which way it is run through.
+    pub directed: bool,
 }
 
 /// The area between two curves over one axis.
@@ -264,7 +279,14 @@ impl<'a> Series<'a> {
         xs: impl Into<Cow<'a, [f64]>>,
         ys: impl Into<Cow<'a, [f64]>>,
     ) -> Self {
-        Self { label: label.into(), xs: xs.into(), ys: ys.into(), style: Style::default(), marked: false }
+        Self {
+            label: label.into(),
+            xs: xs.into(),
+            ys: ys.into(),
+            style: Style::default(),
+            marked: false,
+            directed: false,
+        }
     }
 
     /// Whether it is points that no line joins: one, or several with a gap between any two.

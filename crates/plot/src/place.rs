@@ -1,6 +1,7 @@
 //! Frames and scales of the panels: frames of one figure are aligned and share what the labels leave.
 
 use crate::PlotError;
+use crate::beside::Beside;
 use crate::figure::{Arrangement, Figure};
 use crate::label::Label;
 use crate::lanes::Names;
@@ -23,8 +24,8 @@ const MARGIN: f64 = 0.04;
 /// A frame smaller than this, em of the tick labels, shows nothing.
 const LEAST_FRAME: f64 = 3.0;
 /// Heights of a line of tick labels and of an axis label, em.
-const TICK_LINE: f64 = 1.45;
-const LABEL_LINE: f64 = 1.4;
+pub(crate) const TICK_LINE: f64 = 1.45;
+pub(crate) const LABEL_LINE: f64 = 1.4;
 /// Height of a line of a heading, em of the tick labels.
 pub(crate) const HEADING_LINE: f64 = 1.35;
 /// Between two panels, and between a lane and its note, em of the tick labels.
@@ -70,12 +71,15 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
     let margin = |tight: bool| if tight { 0.0 } else { MARGIN };
     let place = |(i, (request, (x, y))): (usize, (Request<'f, 'a>, (Extent, Extent)))| {
         let (panel, x, y) = (request.panel, if share_x { all.0 } else { x }, if share_y { all.1 } else { y });
+        let x = Scale::new(&panel.x, x.range(margin(panel.x.tight)));
+        let y = Scale::new(&panel.y, y.range(margin(panel.y.tight)));
         Placed {
             panel,
             frame: Area::default(),
             cell: Area::default(),
-            x: Scale::new(&panel.x, x.range(margin(panel.x.tight))),
-            y: Scale::new(&panel.y, y.range(margin(panel.y.tight))),
+            beside: Beside::new((panel.top.as_ref(), panel.right.as_ref()), (&x, &y)),
+            x,
+            y,
             names: Names::default(),
             numbers_left: 0.0,
             heading: (request.heading, (0.0, 0.0)),
@@ -138,6 +142,7 @@ impl Placer<'_, '_> {
             for (i, place) in self.placed.iter_mut().enumerate() {
                 fit_aspect(place, sizes)?;
                 place.x.set_ticks(Along::Width(place.frame.width), sizes.tick)?;
+                place.beside.set_top_ticks(place.frame.width, sizes.tick)?;
                 let beyond = place.x.overhang(place.frame.width, sizes.tick)?;
                 left[column(i)] = left[column(i)].max(beyond.0);
                 right[column(i)] = right[column(i)].max(beyond.1);
@@ -180,6 +185,7 @@ impl Placer<'_, '_> {
 /// Ticks of the y axis, or names of the lanes.
 fn set_y_ticks(place: &mut Placed<'_, '_>, sizes: Sizes, width: f64) -> Result<(), PlotError> {
     if place.panel.lanes.is_empty() {
+        place.beside.set_right_ticks(place.frame.height, sizes.tick)?;
         return place.y.set_ticks(Along::Height(place.frame.height), sizes.tick);
     }
     let lane = (LANE_NAMES * width, place.frame.height / place.panel.lanes.len() as f64);
@@ -216,9 +222,10 @@ fn label_width(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     if bare || !place.numbered.1 { 0.0 } else { LABEL_LINE * sizes.label }
 }
 
-/// Width of the notes right of a frame, px; a little where there are none.
+/// Width of the notes or the other axis right of a frame, px; a little where there are none.
 fn notes(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
-    place.panel.lanes.iter().try_fold(0.2 * sizes.tick, |most: f64, lane| {
+    let least = place.beside.width(sizes)?.max(0.2 * sizes.tick);
+    place.panel.lanes.iter().try_fold(least, |most: f64, lane| {
         let width = Label::plain(&lane.note).width(place.names.em)?;
         Ok(most.max(if width > 0.0 { width + NOTE_GAP * sizes.tick } else { 0.0 }))
     })
@@ -234,9 +241,10 @@ fn below(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     sizes.mark + TICK_LINE * sizes.tick + if bare { 0.0 } else { LABEL_LINE * sizes.label }
 }
 
-/// Height of what stands above a frame, px: heading, legend and a gap, which half a number of the y axis may fill.
+/// Height of what stands above a frame, px: heading, legend, the other axis and a gap, which half a number of the y axis may fill.
 fn above(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
-    heading_height(place, sizes) + place.legend.0.height(sizes.tick) + 0.4 * sizes.tick
+    let texts = heading_height(place, sizes) + place.legend.0.height(sizes.tick);
+    texts + place.beside.height(sizes) + 0.4 * sizes.tick
 }
 
 fn heading_height(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {

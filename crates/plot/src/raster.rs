@@ -1,4 +1,4 @@
-//! The backend for pictures: coverage-exact strokes with round joins, glyphs as outlines.
+//! The backend for pictures: strokes by coverage with round joins, glyphs as outlines.
 //!
 //! Plotters' own bitmap smooths lines of 1 px only, leaves a curve hollow where it runs over itself, and sets
 //! glyphs without their left bearing.
@@ -6,6 +6,8 @@
 use crate::canvas::{BASELINE, FONT_SIZE, UNITS};
 use crate::font;
 use crate::mosaic::Image;
+use crate::palette::Word;
+use crate::stroke::Coverage;
 use crate::theme::Colour;
 use plotters_backend::text_anchor::HPos;
 use plotters_backend::{
@@ -13,14 +15,12 @@ use plotters_backend::{
     FontTransform,
 };
 use thiserror::Error;
-use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Stroke,
-    Transform,
-};
+use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform};
 
 /// A picture in the making.
 pub(crate) struct Raster {
     pixmap: Pixmap,
+    coverage: Coverage,
 }
 
 /// What the raster cannot do.
@@ -36,20 +36,22 @@ pub(crate) enum RasterError {
 
 type Drawn = Result<(), DrawingErrorKind<RasterError>>;
 
-/// A path is stroked in pieces of this many points: the cost of a single one grows faster than its length.
-const PIECE: usize = 1000;
-
 impl Raster {
     /// A picture of one colour; none for a size of zero or beyond memory.
     pub(crate) fn new((width, height): (u32, u32), Colour(r, g, b): Colour) -> Option<Self> {
         let mut pixmap = Pixmap::new(width, height)?;
         pixmap.fill(Color::from_rgba8(r, g, b, 255));
-        Some(Self { pixmap })
+        Some(Self { pixmap, coverage: Coverage::new((width, height)) })
     }
 
     /// Red, green, blue of every pixel, row by row.
     pub(crate) fn rgb(&self) -> Vec<u8> {
         self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
+    }
+
+    /// The colour of every pixel, row by row.
+    pub(crate) fn colours(&self) -> impl Iterator<Item = Word> + Clone + '_ {
+        self.pixmap.data().as_chunks().0.iter().map(|pixel| Word::from_le_bytes(*pixel))
     }
 
     /// Puts an opaque image in place of what is there; what reaches beyond the picture is left out.
@@ -112,22 +114,20 @@ impl DrawingBackend for Raster {
         style: &S,
     ) -> Drawn {
         let points: Vec<(f32, f32)> = path.into_iter().map(pixels).collect();
-        let stroke = Stroke {
-            width: style.stroke_width() as f32 / UNITS as f32,
-            line_cap: LineCap::Round,
-            line_join: LineJoin::Round,
-            ..Stroke::default()
-        };
-        let paint = paint(style.color());
-        let mut start = 0;
-        while start + 1 < points.len() {
-            let end = (start + PIECE).min(points.len());
-            if let Some(path) = polyline(&points[start..end], false) {
-                self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
-            }
-            // Neighbouring pieces share a point.
-            start = end - 1;
-        }
+        let width = style.stroke_width() as f32 / UNITS as f32;
+        let BackendColor { rgb: (r, g, b), alpha } = style.color();
+        let (ink, alpha) = ([r, g, b].map(f32::from), alpha.clamp(0.0, 1.0) as f32);
+        let pixels = self.pixmap.pixels_mut();
+        self.coverage.draw(&points, width, |place, share| {
+            let Some(pixel) = pixels.get_mut(place) else { return };
+            let mixed = |behind: u8, ink: f32| {
+                let behind = f32::from(behind);
+                (behind + alpha * share * (ink - behind) + 0.5) as u8
+            };
+            let [r, g, b] =
+                [mixed(pixel.red(), ink[0]), mixed(pixel.green(), ink[1]), mixed(pixel.blue(), ink[2])];
+            *pixel = PremultipliedColorU8::from_rgba(r, g, b, 255).unwrap_or(*pixel);
+        });
         Ok(())
     }
 
@@ -156,7 +156,7 @@ impl DrawingBackend for Raster {
         style: &S,
     ) -> Drawn {
         let points: Vec<(f32, f32)> = path.into_iter().map(pixels).collect();
-        if let Some(path) = polyline(&points, true) {
+        if let Some(path) = polygon(&points) {
             self.fill_path(&path, style.color(), Transform::identity());
         }
         Ok(())
@@ -187,15 +187,13 @@ impl DrawingBackend for Raster {
     }
 }
 
-fn polyline(points: &[(f32, f32)], closed: bool) -> Option<Path> {
+fn polygon(points: &[(f32, f32)]) -> Option<Path> {
     let mut path = PathBuilder::with_capacity(points.len() + 1, points.len() + 1);
     let mut points = points.iter();
     let &(x, y) = points.next()?;
     path.move_to(x, y);
     points.for_each(|&(x, y)| path.line_to(x, y));
-    if closed {
-        path.close();
-    }
+    path.close();
     path.finish()
 }
 

@@ -90,6 +90,11 @@ impl Scale {
         (value - self.offset - self.low) / (self.high - self.low)
     }
 
+    /// The values at both ends; none of an empty axis.
+    pub(crate) fn range(&self) -> Option<(f64, f64)> {
+        self.shown.map(|_| (self.offset + self.low, self.offset + self.high))
+    }
+
     /// The value at the end of the axis.
     pub(crate) fn end(&self) -> f64 {
         self.offset + self.high

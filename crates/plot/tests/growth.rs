@@ -21,6 +21,7 @@ fn what_is_in_proportion_lies_on_its_line() {
             unit: if name == "simulated time" { "s" } else { "" },
             sizes: &sizes,
             costs,
+            per_size: name == "simulated time",
         })
         .collect();
     let figure = growth_figure("What more costs", "time per simulated second", &curves);
@@ -38,6 +39,11 @@ fn what_is_in_proportion_lies_on_its_line() {
     }
     let rise = |line: &[(f64, f64)]| line[0].1 - line[4].1;
     assert!(rise(&measured[1]).abs() < 1.0 && rise(&measured[0]) > 100.0 && rise(&measured[2]) > 100.0);
+    // The dashes in grey begin where the curve does: in proportion, it lies on them; what costs the same per size is level.
+    let dashes = polylines(&drawing, &hex(theme.muted));
+    let near = |(x, y): (f64, f64)| dashes.iter().flatten().any(|p| (p.0 - x).hypot(p.1 - y) < 12.0);
+    let on_line = |line: &[(f64, f64)]| line.iter().filter(|&&point| near(point)).count();
+    assert_eq!([&measured[0], &measured[1], &measured[2]].map(|line| on_line(line)), [5, 5, 1]);
     let texts = texts(&drawing);
     let count = |name: &str| texts.iter().filter(|text| text.text == name).count();
     assert_eq!((count("measured"), count("in proportion")), (1, 1));

@@ -122,7 +122,7 @@ fn energies() {
     let stored = polygons(&drawing, &hex(Theme::light().shades[2]));
     let line = polylines(&drawing, &hex(Theme::light().foreground))
         .into_iter()
-        .find(|line| line.len() > 1000)
+        .find(|line| line.len() > 50)
         .unwrap();
     for (x, y) in line {
         let near = stored.iter().flatten().any(|p| (p.0 - x).abs() < 0.2 && (p.1 - y).abs() < 0.2);

@@ -1,37 +1,101 @@
 //! The way of a contact through (u, F_x), fine enough to be drawn and measured.
 
+mod motion;
+
 use crate::job::Job;
 use crate::series::Series;
 use crate::trail::Trail;
+use motion::Motion;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 use stickslip_drive::Waveform;
 
 /// Samples between the limit forces of one sign and the other.
 const FINENESS: f64 = 128.0;
+/// Most parts of the way between two samples, where it is walked along the motion.
+const PARTS: f64 = 64.0;
+/// Parts of a bent way: so many times the root of its bend. A chord then leaves it by 1/110² of the stroke, a tenth of a pixel.
+const BENDS: f64 = 110.0;
+/// Parts of any way along which the force changes by more than [`STILL`] of its range.
+const LEAST: f64 = 8.0;
+const STILL: f64 = 1e-3;
+/// Where the force found at a sample is off by more of the range of forces, the motion is not known between samples that far
+/// apart; what it is off by less is shared out along the way.
+const OFF: f64 = 0.05;
+/// Samples from which on there are enough of them.
+const MANY: usize = 50_000;
 
 /// The way of contact `c`, all identical contacts together. Without damping the law has no time in it: between two samples on one
-/// branch the force follows from the way alone, and all turning points are events. So under a constant load the contact
-/// is walked once more through the samples, and asked in between. Elsewhere the samples stand alone.
+/// branch the force follows from the way alone, and all turning points are events. So the contact is walked once more through the
+/// samples, and asked in between: under a constant load along the straight way, for the force depends on u alone; where the load
+/// varies, along the motion of its bodies, on the cubics through their places and velocities. Elsewhere the samples stand alone.
 pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
     let Some((name, law)) = job.model.contacts().nth(c) else { return Trail::default() };
     let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
-    match job.start.memories().get(c) {
-        // Where events are left out of a series, turning points may be missing in it.
-        Some(memory) if is_walked(job, c) && job.scenario.written.has_all_events() => {
-            let d = d.first().copied().unwrap_or(0.0);
-            refined(&samples, law, memory.clone(), (d, f64::from(job.count(c))))
-        }
-        _ => samples,
+    let Some(memory) = job.start.memories().get(c) else { return samples };
+    let count = f64::from(job.count(c));
+    // Where events are left out of a series, turning points may be missing in it.
+    if is_walked(job, c) && job.scenario.written.has_all_events() {
+        let d = d.first().copied().unwrap_or(0.0);
+        return refined(&samples, law, memory.clone(), (d, count));
+    }
+    let knows = knows_turns(job) && job.scenario.written.has_all_events();
+    let motion = Motion::new(job, c, series).filter(|_| knows && samples.t.len() < MANY);
+    match motion.filter(|_| law.damping() == 0.0) {
+        Some(motion) => moved(&samples, (law, d, count), memory.clone(), &motion).unwrap_or(samples),
+        None => samples,
     }
 }
 
 /// Whether the force of contact `c` between two moments of a run follows from the contact's own law: that has no time in it, and
 /// all turning points are events.
 pub(crate) fn is_walked(job: &Job, c: usize) -> bool {
+    knows_turns(job) && job.has_law_without_time(c)
+}
+
+/// Whether all turning points of a run are events, and nothing jumps.
+fn knows_turns(job: &Job) -> bool {
     let jumps = job.scenario.scene.waveforms.iter().any(|w| Waveform::has_jumps(&w.part));
-    let turns_known = job.model.effective(job.scenario.plan.stepper).locates_events();
-    turns_known && !jumps && job.has_law_without_time(c)
+    !jumps && job.model.effective(job.scenario.plan.stepper).locates_events()
+}
+
+/// The way with points between its samples where the load varies: the contact is walked along the motion of its bodies. None
+/// where it cannot be.
+fn moved(
+    samples: &Trail,
+    (law, d, count): (&Interface, &[f64], f64),
+    mut memory: Memory,
+    motion: &Motion<'_>,
+) -> Option<Trail> {
+    let range = samples.y.iter().fold((0.0_f64, 0.0_f64), |(low, high), &y| (low.min(y), high.max(y)));
+    let (range, stroke) = (range.1 - range.0, samples.stroke());
+    let mut path = Trail::default();
+    for i in 0..samples.t.len() {
+        let (t, end) = (samples.t[i], Apex { d: d[i], u: samples.x[i] });
+        if i > 0 && t > samples.t[i - 1] && range > 0.0 {
+            let leg = motion.leg(i);
+            let change = (samples.y[i] - samples.y[i - 1]).abs() / range;
+            let parts = (FINENESS * change).max(BENDS * leg.bend(stroke).sqrt());
+            let parts = parts.max(if change > STILL { LEAST } else { 1.0 }).ceil().min(PARTS);
+            let first = path.t.len();
+            for k in 1..parts as u32 {
+                let share = f64::from(k) / parts;
+                let at = leg.at(share);
+                memory.commit(law, Segment::Straight(at)).ok()?;
+                let force = count * memory.force(law, at);
+                path.push(samples.t[i - 1] + share * (t - samples.t[i - 1]), at.u, force);
+            }
+            let off = samples.y[i] - count * memory.force(law, end);
+            if off.abs() > OFF * range {
+                path.cut(first);
+            }
+            let shares = (1..).map(|k| f64::from(k) / parts);
+            path.y[first..].iter_mut().zip(shares).for_each(|(force, share)| *force += share * off);
+        }
+        memory.commit(law, Segment::Straight(end)).ok()?;
+        path.push(t, samples.x[i], samples.y[i]);
+    }
+    Some(path)
 }
 
 /// The way with points between its samples; at indentation d, of `count` contacts.

@@ -22,6 +22,13 @@ impl Trail {
         self.y.push(y);
     }
 
+    /// Leaves the first points only.
+    pub(crate) fn cut(&mut self, length: usize) {
+        self.t.truncate(length);
+        self.x.truncate(length);
+        self.y.truncate(length);
+    }
+
     /// The part from one time to another, both ends interpolated.
     pub fn part(&self, (from, to): (f64, f64)) -> Self {
         let mut part = Self::default();

@@ -10,9 +10,9 @@ pub(crate) struct LookArguments {
     /// Kinds of picture files
     #[arg(long = "format", value_name = "KIND,…", value_delimiter = ',', default_value = "png")]
     formats: Vec<FormatArgument>,
-    /// Colours: light for paper, dark for screens (NAME-dark.png)
-    #[arg(long, value_name = "NAME", default_value = "light")]
-    theme: ColoursArgument,
+    /// Colours: light for paper, dark for screens (NAME-dark.png), or both (light,dark)
+    #[arg(long = "theme", value_name = "NAME,…", value_delimiter = ',', default_value = "light")]
+    themes: Vec<ColoursArgument>,
     /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (NAME@2x.png)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
     scale: u32,
@@ -46,10 +46,17 @@ impl LookArguments {
             FormatArgument::Png => Format::Png,
             FormatArgument::Svg => Format::Svg,
         };
-        let theme = match self.theme {
+        let colours = |theme: &ColoursArgument| match theme {
             ColoursArgument::Light => Colours::Light,
             ColoursArgument::Dark => Colours::Dark,
         };
-        Look { formats: self.formats.iter().map(format).collect(), theme, scale: self.scale }
+        let mut themes = Vec::new();
+        for theme in self.themes.iter().map(colours) {
+            // One named twice is drawn once.
+            if !themes.contains(&theme) {
+                themes.push(theme);
+            }
+        }
+        Look { formats: self.formats.iter().map(format).collect(), themes, scale: self.scale }
     }
 }

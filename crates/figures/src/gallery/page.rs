@@ -25,7 +25,7 @@ pub struct Exhibit {
 impl Exhibit {
     /// The pictures that a job left: `file` is its scenario, `files` are the names of the pictures.
     pub fn new(job: &Job, file: &Path, files: Vec<String>) -> Self {
-        let is_there = |plot: &PlotName| files.contains(&look(Colours::Light).file(*plot, Format::Png));
+        let is_there = |plot: &PlotName| files.contains(&look().file(*plot, Colours::Light, Format::Png));
         let plots = PlotName::ALL.into_iter().filter(is_there).collect();
         Self { name: job.name.clone(), title: job.title().to_owned(), file: file.to_owned(), plots, files }
     }
@@ -65,7 +65,7 @@ pub fn page(exhibits: &[Exhibit], scenarios: &Path, out: &Path) -> io::Result<St
 
 fn picture(page: &mut String, exhibit: &Exhibit, plot: PlotName) {
     let path = |name: &str| link(&Path::new(&exhibit.name).join(name));
-    let file = |colours, format| look(colours).file(plot, format);
+    let file = |colours, format| look().file(plot, colours, format);
     let light = path(&file(Colours::Light, Format::Png));
     let dark = path(&file(Colours::Dark, Format::Png));
     let mut others = format!("[dark]({dark})");
@@ -84,6 +84,6 @@ fn picture(page: &mut String, exhibit: &Exhibit, plot: PlotName) {
     );
 }
 
-fn look(theme: Colours) -> Look {
-    Look { formats: Vec::new(), theme, scale: 1 }
+fn look() -> Look {
+    Look { formats: Vec::new(), themes: Vec::new(), scale: 1 }
 }

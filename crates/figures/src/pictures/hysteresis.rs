@@ -1,6 +1,6 @@
 //! Hysteresis loops of the contacts.
 
-use super::{Kind, Sources, Undrawn, of_contacts};
+use super::{Kind, Sources, Undrawn, alike, of_contacts};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{HysteresisLoop, Ink, loop_figure};
 use stickslip_results::Job;
@@ -11,7 +11,7 @@ use stickslip_results::contact_path;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "tangential force over displacement, in newtons and as shares of μF_N and u_c",
+    shows: "tangential force over displacement, in newtons and as shares of μF_N and u_c; the last period bold, those before it pale",
     needs: |job| of_contacts(job, &["u_m", "d_m", "fx_N"]),
     draw,
 };
@@ -22,16 +22,30 @@ struct Curve {
     path: Trail,
     gross_slip: Option<f64>,
     limit: Option<f64>,
-    /// Stands behind the others.
-    is_muted: bool,
+    /// Place of its colour.
+    place: usize,
+    /// Came before what is to be seen, and stands behind it.
+    is_pale: bool,
 }
 
-/// Force over displacement. A contact that comes back to its start in every cycle is shown all the way. One that
-/// travels on, as in a drive, would smear its loops over the picture: of it the last period is shown, and behind it,
-/// if it is the only contact, the first in grey; u counts from the start of the period.
+/// Width of what is to be seen, and of what came before.
+const BOLD: f64 = 1.15;
+const FINE: f64 = 0.9;
+
+/// Force over displacement. The last period is to be seen; the ones before it stand behind, pale. Of a contact that comes back to its
+/// start in every cycle that is all the way. One that travels on, as in a drive, would smear its loops over the picture: if it is
+/// the only contact, the first period stands behind; u counts from the start of the period. Contacts whose loops nobody
+/// could tell apart are one curve.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
-    let curves: Vec<Curve> = (0..job.model.contacts().count()).flat_map(|c| curves(job, kept, c)).collect();
+    let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
+    let columns = contacts.iter().map(|name| ["u_m", "fx_N"].map(|q| kept.series.column(name, q)).to_vec());
+    let groups = alike::groups(&columns.collect::<Vec<_>>());
+    let of_group =
+        |(place, group): (usize, &Vec<usize>)| curves(job, kept, group, (place, groups.len() == 1));
+    let mut curves: Vec<Curve> = groups.iter().enumerate().flat_map(of_group).collect();
+    // What stands behind is drawn first.
+    curves.sort_by_key(|curve| !curve.is_pale);
     let loops: Vec<HysteresisLoop<'_>> = curves
         .iter()
         .map(|curve| HysteresisLoop {
@@ -43,44 +57,41 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         })
         .collect();
     let mut figure = loop_figure(job.title(), &loops);
-    let inks = inks(&curves);
     for (place, series) in figure.panels.iter_mut().flat_map(|panel| panel.series.iter_mut().enumerate()) {
         // The panel of normalised loops leaves out those without limits; its series say whose they are.
         let place = if let Some(Ink::Palette(curve)) = series.style.ink { curve } else { place };
-        series.style.ink = inks.get(place).copied();
+        let Some(curve) = curves.get(place) else { continue };
+        let (ink, width) =
+            if curve.is_pale { (Ink::Pale(curve.place), FINE) } else { (Ink::Palette(curve.place), BOLD) };
+        (series.style.ink, series.style.width, series.directed) = (Some(ink), width, !curve.is_pale);
     }
     Ok(pen.draw(PlotName::Loop, figure)?)
 }
 
-/// Grey for what stands behind, the palette for the others.
-fn inks(curves: &[Curve]) -> Vec<Ink> {
-    let mut place = 0;
-    let ink = |curve: &Curve| {
-        if curve.is_muted {
-            return Ink::Muted;
-        }
-        place += 1;
-        Ink::Palette(place - 1)
+/// The curves of contacts that are alike.
+fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bool)) -> Vec<Curve> {
+    let named = |c: &usize| {
+        let (name, _) = job.model.contacts().nth(*c)?;
+        let count = job.count(*c);
+        Some(if count > 1 { format!("{name} × {count}") } else { name.to_owned() })
     };
-    curves.iter().map(ink).collect()
-}
-
-fn curves(job: &Job, kept: &Kept, c: usize) -> Vec<Curve> {
-    let Some((name, law)) = job.model.contacts().nth(c) else { return Vec::new() };
-    let count = job.count(c);
-    let is_alone = job.model.contacts().count() == 1;
-    let name = if count > 1 { format!("{name} × {count}") } else { name.to_owned() };
+    let names: Vec<String> = group.iter().filter_map(named).collect();
+    let Some((c, (_, law))) = group.first().and_then(|&c| Some((c, job.model.contacts().nth(c)?))) else {
+        return Vec::new();
+    };
+    let name = alike::name(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let scale = job.model.contact_scale(c).filter(|_| job.has_constant_load(c));
-    let curve = |words: &str, path: Trail, is_muted: bool| Curve {
-        name: match (is_alone, words) {
+    let curve = |words: &str, path: Trail, is_pale: bool| Curve {
+        name: match (is_alone && group.len() == 1, words) {
             (_, "") => name.clone(),
             (true, words) => words.to_owned(),
             (false, words) => format!("{name}, {words}"),
         },
         path,
         gross_slip: scale.map(|(u_c, _)| u_c),
-        limit: scale.map(|(_, normal)| f64::from(count) * law.friction() * normal),
-        is_muted,
+        limit: scale.map(|(_, normal)| f64::from(job.count(c)) * law.friction() * normal),
+        place,
+        is_pale,
     };
     // Beyond, turning points are missing.
     let end = kept.whole_until();
@@ -88,15 +99,15 @@ fn curves(job: &Job, kept: &Kept, c: usize) -> Vec<Curve> {
     let path = if end < kept.end() { path.part((f64::NEG_INFINITY, end)) } else { path };
     let Some(periods) = Periods::of_contact(job, c, end) else { return vec![curve("", path, false)] };
     let last = path.part(periods.last());
-    if last.is_closed() {
-        return vec![curve("", path, false)];
+    let words = format!("period {}", periods.count);
+    match (last.is_closed(), periods.count > 1) {
+        (true, true) => vec![curve("before", path, true), curve(&words, last, false)],
+        (true, false) => vec![curve("", path, false)],
+        (false, true) => {
+            let first = is_alone
+                .then(|| curve("first period", path.part(periods.first()).counted_from_start(), true));
+            first.into_iter().chain([curve(&words, last.counted_from_start(), false)]).collect()
+        }
+        (false, false) => vec![curve("first period", last.counted_from_start(), false)],
     }
-    let mut curves = Vec::new();
-    if periods.count > 1 && is_alone {
-        curves.push(curve("first period", path.part(periods.first()).counted_from_start(), true));
-    }
-    let words =
-        if periods.count > 1 { format!("period {}", periods.count) } else { "first period".to_owned() };
-    curves.push(curve(&words, last.counted_from_start(), false));
-    curves
 }

@@ -1,6 +1,6 @@
 //! The motion of the bodies over time.
 
-use super::{Kind, Sources, Undrawn, of_contacts};
+use super::{Kind, Sources, Undrawn, alike, of_contacts};
 use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Axis, Body, Freedom, Named, Side};
 use stickslip_plot::{Coordinate, Motion, Track, Trajectory, trajectory_figure};
@@ -25,12 +25,19 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
             let (feet, sliders) = tracks(job, series, axis);
             Motion { coordinate, feet, sliders }
         });
+    let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
+    let columns: Vec<Vec<&[f64]>> = contacts.iter().map(|name| vec![series.column(name, "u_m")]).collect();
+    let groups = alike::groups(&columns);
+    let named = |group: &Vec<usize>| alike::name(&group.iter().map(|&c| contacts[c]).collect::<Vec<_>>());
+    let names: Vec<String> = groups.iter().map(named).collect();
+    let relative =
+        groups.iter().zip(&names).map(|(group, name)| Track { name, values: columns[group[0]][0] });
     let trajectory = Trajectory {
         time: series.time(),
         feet,
         sliders,
         beside: beside.into_iter().filter(|motion| !motion.sliders.is_empty()).collect(),
-        relative: job.model.contacts().map(|(name, _)| track(series, name, "u_m")).collect(),
+        relative: relative.collect(),
         gross_slip: gross_slip(job, kept),
     };
     Ok(pen.draw(PlotName::Trajectory, trajectory_figure(job.title(), &trajectory))?)

@@ -137,7 +137,10 @@ pub(crate) fn hex(Colour(r, g, b): Colour) -> String {
 }
 
 pub(crate) fn decode(bytes: &[u8]) -> Picture {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+    // Palettes become colours.
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
     let mut rgb = vec![0; reader.output_buffer_size()];
     let info = reader.next_frame(&mut rgb).unwrap();
     Picture { width: info.width as usize, height: info.height as usize, rgb }

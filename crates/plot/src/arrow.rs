@@ -1,0 +1,92 @@
+//! Heads of arrows on curves: which way they are run through.
+
+use crate::PlotError;
+use crate::paint::Painter;
+use crate::theme::Stroke;
+use crate::thin::Point;
+use plotters_backend::DrawingBackend;
+
+/// Length and half width of a head, in widths of the line.
+const LENGTH: f64 = 5.5;
+const HALF: f64 = 2.4;
+/// A curve shorter than this many heads has none.
+const LEAST: f64 = 6.0;
+
+impl<B: DrawingBackend> Painter<'_, B> {
+    /// A head on the longest way forth and one on the longest way back of a curve of one or more pieces: where it swings
+    /// about, nobody would see one.
+    pub(crate) fn arrows(&mut self, lines: &[Vec<Point>], stroke: Stroke) -> Result<(), PlotError> {
+        let head = LENGTH * stroke.width * self.sizes.scale;
+        let ways = lines.iter().flat_map(|line| ways(line));
+        let mut longest: [Option<&[Point]>; 2] = [None; 2];
+        for way in ways {
+            let slot = &mut longest[usize::from(way[way.len() - 1].0 < way[0].0)];
+            if slot.is_none_or(|other| length(other) < length(way)) {
+                *slot = Some(way);
+            }
+        }
+        for way in longest.into_iter().flatten().filter(|way| length(way) > LEAST * head) {
+            let middle = length(way) / 2.0;
+            let [tail, tip] = [middle - head / 2.0, middle + head / 2.0].map(|gone| at(way, gone));
+            let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
+            let share = HALF / LENGTH * head / dx.hypot(dy).max(f64::MIN_POSITIVE);
+            let corner = |sign: f64| (tail.0 - sign * share * dy, tail.1 + sign * share * dx);
+            self.canvas.polygon(&[tip, corner(1.0), corner(-1.0)], stroke.colour)?;
+        }
+        Ok(())
+    }
+}
+
+/// The parts of a polyline between its turns to the left or to the right.
+fn ways(line: &[Point]) -> Vec<&[Point]> {
+    let mut ways = Vec::new();
+    let (mut start, mut sense) = (0, 0.0);
+    for i in 1..line.len() {
+        let step = line[i].0 - line[i - 1].0;
+        if step * sense < 0.0 {
+            ways.push(&line[start..i]);
+            start = i - 1;
+        }
+        if step != 0.0 {
+            sense = step;
+        }
+    }
+    if line.len() > start + 1 {
+        ways.push(&line[start..]);
+    }
+    ways
+}
+
+/// Length of a way, px.
+fn length(way: &[Point]) -> f64 {
+    way.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum()
+}
+
+/// The point so far along a way, px.
+fn at(way: &[Point], gone: f64) -> Point {
+    let mut left = gone;
+    for pair in way.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let step = (to.0 - from.0).hypot(to.1 - from.1);
+        if step >= left && step > 0.0 {
+            let share = left / step;
+            return (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
+        }
+        left -= step;
+    }
+    way.last().copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_parted_where_it_turns() {
+        let line = [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0), (5.0, 4.0), (1.0, 4.0), (1.0, 0.0), (2.0, 0.0)];
+        let parts: Vec<(usize, f64)> = ways(&line).into_iter().map(|way| (way.len(), length(way))).collect();
+        assert_eq!(parts, [(4, 9.0), (3, 8.0), (2, 1.0)]);
+        assert_eq!([2.0, 5.0, 99.0].map(|gone| at(&line[..4], gone)), [(2.0, 0.0), (3.0, 2.0), (5.0, 4.0)]);
+        assert!(ways(&line[..1]).is_empty());
+    }
+}
