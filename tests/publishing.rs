@@ -261,7 +261,7 @@ fn a_full_disk_keeps_what_was_computed() {
 fn pictures_without_room_leave_the_rest() {
     let out = tempdir().unwrap();
     let set = ["--set", "run.duration=1 ms", "--scale", "2", "--set", "plots=[\"loop\", \"trajectory\"]"];
-    let output = run_with_small_files(260, out.path(), &set);
+    let output = run_with_small_files(160, out.path(), &set);
     let folder = out.path().join("quickstart");
     assert_eq!(code(&output), 3, "{}", stderr(&output));
     let help = format!("   help: make room, then `stickslip plot {}`\n", folder.display());

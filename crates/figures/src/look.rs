@@ -93,6 +93,10 @@ impl Pen<'_> {
     }
 
     /// Draws figures as an animation under a name of its own, which is a PNG; none where no PNG is asked for.
+    #[allow(
+        clippy::needless_pass_by_value,
+        reason = "a figure is drawn once, in all its themes, and handed over by its builder"
+    )]
     pub(crate) fn animate(
         &self,
         plot: &str,
@@ -123,6 +127,10 @@ impl Pen<'_> {
     }
 
     /// The same under a name of its own.
+    #[allow(
+        clippy::needless_pass_by_value,
+        reason = "a figure is drawn once, in all its themes, and handed over by its builder"
+    )]
     pub(crate) fn draw_as(&self, plot: &str, figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
         let mut pictures = Vec::new();
         for &theme in &self.look.themes {

@@ -70,8 +70,8 @@ fn moved(
     let range = samples.y.iter().fold((0.0_f64, 0.0_f64), |(low, high), &y| (low.min(y), high.max(y)));
     let (range, stroke) = (range.1 - range.0, samples.stroke());
     let mut path = Trail::default();
-    for i in 0..samples.t.len() {
-        let (t, end) = (samples.t[i], Apex { d: d[i], u: samples.x[i] });
+    for (i, (&t, &d)) in samples.t.iter().zip(d).enumerate() {
+        let end = Apex { d, u: samples.x[i] };
         if i > 0 && t > samples.t[i - 1] && range > 0.0 {
             let leg = motion.leg(i);
             let change = (samples.y[i] - samples.y[i - 1]).abs() / range;
