@@ -67,15 +67,15 @@ fn a_run_in_memory_has_the_cycles_of_the_table() {
 
 #[test]
 fn a_run_that_keeps_too_much_stops_and_says_what_to_change() {
-    let mut job = job("p1", &[]);
+    let mut job = job("p1", &[("run.cycles", "2000"), ("output.every", "\"20 us\"")]);
     // Less than its pictures take: the estimate beforehand would have refused it.
-    job.scenario.memory_limit = Some(100e3);
+    job.scenario.memory_limit = Some(1e6);
     let outcome = job.run(&());
     let excess = outcome.excess.unwrap();
-    assert!(excess.kept > 100e3 && excess.kept < 300e3 && excess.t < 0.02, "{excess:?}");
+    assert!(excess.kept > 1e6 && excess.kept < 3e6 && excess.t < 1.0, "{excess:?}");
     let summary = Summary::new(&job, &outcome);
     let (message, advice) = summary.stop().unwrap();
-    assert!(message.contains("more than the 100.0 kB of run.limits.memory"), "{message}");
+    assert!(message.contains("more than the 1.000 MB of run.limits.memory"), "{message}");
     assert!(advice.contains("raise run.limits.memory"));
     assert_eq!(summary.status, stickslip_results::summary::Status::Stopped);
 }
