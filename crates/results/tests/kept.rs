@@ -42,7 +42,7 @@ fn ten_times_the_periods_keep_no_more() {
 
 /// Cycles stayed as well.
 #[test]
-fn ten_times_the_cycles_keep_no_more() {
+fn thousands_of_cycles_are_not_kept() {
     let bytes = [500, 5000].map(|periods: u32| {
         let duration = format!("\"{periods} s\"");
         let set = [("run.duration", duration.as_str()), ("output", r#"{"events": "off"}"#), ("plots", "[]")];
@@ -52,7 +52,8 @@ fn ten_times_the_cycles_keep_no_more() {
         assert_eq!(outcome.events.taken, 0);
         outcome.bytes
     });
-    assert!(bytes[1] <= bytes[0] + bytes[0] / 10 && bytes[1] < 1_000_000, "{bytes:?}");
+    // All cycles would be 2 MB. What a walk may be behind, 16 384 moments of a contact, is not reached by either run.
+    assert!(bytes.iter().all(|bytes| *bytes < 100_000), "{bytes:?}");
 }
 
 /// In memory cycles are kept, to be read; they are those of the table.
