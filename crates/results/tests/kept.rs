@@ -42,7 +42,7 @@ fn ten_times_the_periods_keep_no_more() {
 
 /// Cycles stayed as well.
 #[test]
-fn ten_times_the_cycles_keep_no_more() {
+fn thousands_of_cycles_are_not_kept() {
     let bytes = [500, 5000].map(|periods: u32| {
         let duration = format!("\"{periods} s\"");
         let set = [("run.duration", duration.as_str()), ("output", r#"{"events": "off"}"#), ("plots", "[]")];
@@ -52,7 +52,8 @@ fn ten_times_the_cycles_keep_no_more() {
         assert_eq!(outcome.events.taken, 0);
         outcome.bytes
     });
-    assert!(bytes[1] <= bytes[0] + bytes[0] / 10 && bytes[1] < 1_000_000, "{bytes:?}");
+    // All cycles would be 2 MB. What a walk may be behind, 16 384 moments of a contact, is not reached by either run.
+    assert!(bytes.iter().all(|bytes| *bytes < 100_000), "{bytes:?}");
 }
 
 /// In memory cycles are kept, to be read; they are those of the table.
@@ -67,15 +68,15 @@ fn a_run_in_memory_has_the_cycles_of_the_table() {
 
 #[test]
 fn a_run_that_keeps_too_much_stops_and_says_what_to_change() {
-    let mut job = job("p1", &[]);
+    let mut job = job("p1", &[("run.cycles", "2000"), ("output.every", "\"20 us\"")]);
     // Less than its pictures take: the estimate beforehand would have refused it.
-    job.scenario.memory_limit = Some(100e3);
+    job.scenario.memory_limit = Some(1e6);
     let outcome = job.run(&());
     let excess = outcome.excess.unwrap();
-    assert!(excess.kept > 100e3 && excess.kept < 300e3 && excess.t < 0.02, "{excess:?}");
+    assert!(excess.kept > 1e6 && excess.kept < 3e6 && excess.t < 1.0, "{excess:?}");
     let summary = Summary::new(&job, &outcome);
     let (message, advice) = summary.stop().unwrap();
-    assert!(message.contains("more than the 100.0 kB of run.limits.memory"), "{message}");
+    assert!(message.contains("more than the 1.000 MB of run.limits.memory"), "{message}");
     assert!(advice.contains("raise run.limits.memory"));
     assert_eq!(summary.status, stickslip_results::summary::Status::Stopped);
 }

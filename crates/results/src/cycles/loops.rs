@@ -93,8 +93,8 @@ impl Loops {
 
     /// What it takes, B.
     pub(crate) fn bytes(&self) -> usize {
-        let pending = self.walk.as_ref().map_or(0, |walk| walk.pending.len());
-        size_of::<f64>() * (6 * self.track.t.len() + pending)
+        let pending = self.walk.as_ref().map_or(0, |walk| walk.pending.capacity());
+        size_of::<f64>() * (6 * self.track.t.capacity() + pending)
     }
 
     /// The cycles that are known only when the run has ended.
