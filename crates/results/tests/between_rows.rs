@@ -1,5 +1,9 @@
 //! Loops between rows: what is drawn of a run is what a hundred times more rows would show.
-#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and shows what it measured"
+)]
 
 use std::path::Path;
 use stickslip_results::{Job, Periods, Trail, contact_path};
