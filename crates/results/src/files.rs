@@ -35,6 +35,18 @@ pub(crate) const FIELD_HEAD: &[&str] =
 /// Columns of [`FRICTION`].
 pub(crate) const FRICTION_HEAD: &[&str] = &["time_s", "contact", "r_m", "work_J_m2", "way_m"];
 
+/// The tables whose columns are the same in every run, with these; of `events.csv` the ones before those of the trace.
+pub fn heads() -> [(&'static str, &'static [&'static str]); 6] {
+    [
+        (EVENTS, &["source", "kind"]),
+        (SPRINGS, SPRING_HEAD),
+        (MEMORY, MEMORY_HEAD),
+        (FIELDS, FIELD_HEAD),
+        (FRICTION, FRICTION_HEAD),
+        (CYCLES, &crate::cycles_table::HEAD),
+    ]
+}
+
 /// Where the tables of the insides lie, if they were written.
 #[derive(Debug, Clone)]
 pub struct InsideTables {
