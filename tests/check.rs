@@ -123,8 +123,6 @@ fn what_is_odd_is_good_and_said() {
     assert_eq!(stderr(&check(folder.path(), &["-q", "mine.json"])), "");
     let output = check(folder.path(), &["--json", "mine.json"]);
     let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
-    assert_eq!(line["errors"], Value::Array(vec![line["error"].clone()]));
-    assert_eq!(line.get("more"), None);
     assert_eq!((code(&output), &line["ok"], line.get("error")), (0, &true.into(), None));
     let warning = &line["warnings"][0];
     assert_eq!((&warning["line"], &warning["column"]), (&10.into(), &15.into()));
@@ -142,8 +140,6 @@ fn a_broken_table_is_named_to_machines() {
     std::fs::write(folder.path().join("t.csv"), "t,x\n0,0\n1,far\n").unwrap();
     let output = check(folder.path(), &["--json", "mine.json"]);
     let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
-    assert_eq!(line["errors"], Value::Array(vec![line["error"].clone()]));
-    assert_eq!(line.get("more"), None);
     let error = &line["error"];
     assert_eq!((&line["file"], &error["table"]), (&"mine.json".into(), &"t.csv".into()));
     assert_eq!((&error["line"], &error["column"], &error["width"]), (&3.into(), &3.into(), &3.into()));

@@ -14,6 +14,7 @@ mod damaged_results;
 mod endings;
 mod gallery;
 mod golden;
+mod guide;
 mod info;
 mod info_tables;
 mod insides;

@@ -95,6 +95,27 @@ pub(crate) enum Command {
     /// input.
     #[command(after_long_help = NEW_EXAMPLES)]
     New(NewArguments),
+    /// Explain a key of a scenario, a column of a table or a figure of summary.json
+    ///
+    /// Names may be whole or only their end: slider.x_m and x_m, contacts.ball.friction and friction. Exit codes: 0 done, 2 nothing has
+    /// that name.
+    #[command(after_long_help = EXPLAIN_EXAMPLES)]
+    Explain {
+        /// What to explain
+        #[arg(value_name = "KEY|COLUMN|FIGURE", required = true)]
+        names: Vec<String>,
+    },
+    /// List the materials that contacts may name without describing them: elastic constants, each with its source
+    #[command(
+        after_long_help = "Example:\n  stickslip materials\n\n  \"materials\": [\"ruby\", \"steel\"] of a contact then needs no section \"materials\"."
+    )]
+    Materials,
+    /// Print what a shell needs to complete commands, options and files
+    #[command(after_long_help = COMPLETIONS_EXAMPLES)]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
     /// Print the JSON Schema of the scenario file
     #[command(after_long_help = "Example:\n  stickslip schema > scenario-1.json")]
     Schema,
@@ -149,6 +170,21 @@ Examples:
   stickslip info drive.json
   stickslip info drive.json --set contacts.ball.normal.force=\"1 N\"
   stickslip info drive.json --json     numbers in SI, the unit in each key";
+
+const EXPLAIN_EXAMPLES: &str = "\
+Examples:
+  stickslip explain friction              a key of a scenario, wherever it stands
+  stickslip explain run.until_steady      one of them
+  stickslip explain ball.stick_m          a column of trace.csv
+  stickslip explain steady.step_m         a figure of summary.json
+
+All columns and figures stand on the page docs/definitions.md.";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  stickslip completions bash > ~/.local/share/bash-completion/completions/stickslip
+  stickslip completions zsh  > ~/.zfunc/_stickslip       with fpath+=~/.zfunc before compinit in ~/.zshrc
+  stickslip completions fish > ~/.config/fish/completions/stickslip.fish";
 
 const NEW_EXAMPLES: &str = "\
 Examples:

@@ -3,9 +3,12 @@
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod completions;
 pub(crate) mod contact;
+pub(crate) mod explain;
 pub(crate) mod gallery;
 pub(crate) mod info;
+pub(crate) mod materials;
 pub(crate) mod new;
 pub(crate) mod plot;
 pub(crate) mod realtime;

@@ -10,8 +10,8 @@ mod console;
 use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
-    bench, check, compare, contact, gallery, info, new, plot, realtime, repro, resume, run, schema, soak,
-    validate,
+    bench, check, compare, completions, contact, explain, gallery, info, materials, new, plot, realtime,
+    repro, resume, run, schema, soak, validate,
 };
 use std::process::ExitCode;
 
@@ -24,6 +24,9 @@ fn main() -> ExitCode {
         Command::Contact(arguments) => contact::contact(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Schema => schema::print(),
+        Command::Explain { names } => explain::explain(&names),
+        Command::Materials => materials::list(),
+        Command::Completions { shell } => completions::print(shell),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Repro(arguments) => repro::repro(&arguments),

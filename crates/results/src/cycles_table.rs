@@ -8,7 +8,7 @@ use tempfile::NamedTempFile;
 /// Place of `closed` among the values, after both times.
 const CLOSED: usize = 2;
 /// Names of the columns.
-const HEAD: [&str; 19] = [
+pub(crate) const HEAD: [&str; 19] = [
     "contact",
     "cycle",
     "start_s",

@@ -40,6 +40,18 @@ pub(crate) const FRICTION_HEAD: &[&str] = &["time_s", "contact", "r_m", "work_J_
 /// Columns of [`STEPS`]: number, both times, length, where the body was at first, the least and the largest place within.
 pub(crate) const STEP_HEAD: &[&str] =
     &["period", "start_s", "end_s", "length_m", "x_m", "least_m", "largest_m"];
+/// The tables whose columns are the same in every run, with these; of `events.csv` the ones before those of the trace.
+pub fn heads() -> [(&'static str, &'static [&'static str]); 7] {
+    [
+        (EVENTS, &["source", "kind"]),
+        (SPRINGS, SPRING_HEAD),
+        (MEMORY, MEMORY_HEAD),
+        (FIELDS, FIELD_HEAD),
+        (FRICTION, FRICTION_HEAD),
+        (CYCLES, &crate::cycles_table::HEAD),
+        (STEPS, STEP_HEAD),
+    ]
+}
 
 /// Where the tables of the insides lie, if they were written.
 #[derive(Debug, Clone)]

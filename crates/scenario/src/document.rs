@@ -3,7 +3,7 @@
 use crate::error::{Report, ScenarioError};
 use crate::excerpt::{Excerpt, visible};
 use crate::fault::{Fault, Mark};
-use crate::path::KeyPath;
+use crate::path::{KeyPath, Step};
 use crate::place::{Inner, Place, Span};
 use crate::syntax;
 use crate::tables::TableFile;
@@ -119,7 +119,8 @@ impl Document {
     }
 
     /// A fault with its place in the file.
-    pub(crate) fn report(&self, fault: Fault) -> Report {
+    pub(crate) fn report(&self, mut fault: Fault) -> Report {
+        fault.path = self.given(&fault.path);
         let written = if fault.value { self.written(&fault.path) } else { None };
         let span = self.span(&fault);
         let help = fault.help.about(&fault.path);
@@ -147,6 +148,18 @@ impl Document {
             }
         }
         report
+    }
+
+    /// The path of a value that the file may give by another key.
+    fn given(&self, path: &KeyPath) -> KeyPath {
+        let mut other = path.clone();
+        if let Some(Step::Key(key)) = other.0.last_mut()
+            && key == "radius"
+        {
+            "diameter".clone_into(key);
+        }
+        let stands = |path: &KeyPath| self.root.deepest(path).1 == path.0.len();
+        if !stands(path) && stands(&other) { other } else { path.clone() }
     }
 
     fn span(&self, fault: &Fault) -> Span {

@@ -128,6 +128,24 @@ impl Guide {
         kinds
     }
 
+    /// The keys of which one says which kind of value stands under a path; none where there is no such choice.
+    pub(crate) fn choices(&self, path: &KeyPath) -> Vec<String> {
+        let Some(schema) = self.at(path) else { return Vec::new() };
+        let mut parts: Vec<&Value> = self.parts(schema).collect();
+        parts.push(schema);
+        // Keys that exclude each other are a rule, not kinds.
+        let is_choice = |part: &&Value| {
+            ["oneOf", "anyOf"].iter().any(|key| {
+                let kinds = part.get(key).and_then(Value::as_array).into_iter().flatten();
+                kinds.clone().count() > 0
+                    && kinds
+                        .clone()
+                        .all(|kind| kind.get("required").is_none() || kind.get("properties").is_some())
+            })
+        };
+        if parts.iter().any(is_choice) { self.kinds(path) } else { Vec::new() }
+    }
+
     fn add_kinds(&self, schema: &Value, kinds: &mut Vec<String>) {
         let words = schema.get("enum").and_then(Value::as_array).into_iter().flatten();
         kinds.extend(words.filter_map(Value::as_str).map(str::to_owned));
@@ -189,6 +207,26 @@ impl Guide {
         level.retain(|(_, inner)| inner.get("const").is_none());
         level
     }
+}
+
+/// What the schema says about a key of a scenario: by its path, such as `contacts.ball.friction`, or by its name alone, wherever it
+/// stands. Each place with its description; none where there is no such key.
+pub fn explained(key: &str) -> Vec<(String, String)> {
+    let guide = Guide::get();
+    let Some(path) = KeyPath::parse(key).filter(|path| !path.0.is_empty()) else { return Vec::new() };
+    let told = |path: &KeyPath| {
+        let schema = guide.at(path)?;
+        let own = schema
+            .get("description")
+            .or_else(|| guide.parts(schema).find_map(|part| part.get("description")));
+        Some((path.to_string(), own?.as_str()?.to_owned()))
+    };
+    if let Some(found) = told(&path) {
+        return vec![found];
+    }
+    let [Step::Key(name)] = path.0.as_slice() else { return Vec::new() };
+    let homes = guide.homes(&KeyPath::default(), name);
+    homes.iter().filter_map(|home| told(&KeyPath::parse(&format!("{home}.{name}"))?)).collect()
 }
 
 /// Part of the form, but of a later version.

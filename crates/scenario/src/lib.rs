@@ -10,12 +10,12 @@
 //! that is wrong and no consequence of something else: `mistakes`. What is allowed and odd is a warning, of which a
 //! [`Scenario`] carries several.
 //!
-//! In reading order: `text` (bytes that are text), `syntax` (strict JSON, limits, duplicate keys, what people write
+//! In reading order: `text` (bytes that are text), `syntax` (JSON with comments, limits, duplicate keys, what people write
 //! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
 //! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
 //! fit, as data and in words); `mistakes` (what else does not); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
 //! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
-//! `schema`, and `guide`, which answers from it; `substance` (what a material's name means).
+//! `schema`, and `guide`, which answers from it; `named` (materials by name) and `substance` (what a material's name means).
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
 mod address;
@@ -29,6 +29,7 @@ mod guide;
 mod meaning;
 mod misfit;
 mod mistakes;
+mod named;
 mod overrides;
 mod pairing;
 mod path;
@@ -50,6 +51,8 @@ mod units;
 pub use error::{Report, ScenarioError, Warning};
 pub use excerpt::Excerpt;
 pub use meaning::{FieldsOutput, Figures, MemoryOutput, SpringsOutput, Written, WrittenEvents};
+pub use guide::explained;
+pub use named::{MATERIALS, NamedMaterial};
 pub use plot_name::PlotName;
 pub use quantity::quantity;
 pub use scenario::Scenario;

@@ -2,6 +2,7 @@
 
 use crate::document::{Document, SourceKind};
 use crate::fault::{Fault, Mend};
+use crate::guide::Guide;
 use crate::path::{KeyPath, Step};
 use crate::place::{Inner, Place, Span};
 use crate::suggest;
@@ -10,6 +11,16 @@ use serde_json::{Map, Value};
 
 /// Parts that may be left out of a scenario as a whole: an override makes them.
 const SECTIONS: [&str; 4] = ["run", "output", "figures", "gravity"];
+/// Parts that are lists.
+const LISTS: [&str; 2] = ["loads", "plots"];
+/// Keys of which one is given.
+const ALTERNATIVES: &[&[&str]] = &[
+    &["duration", "cycles"],
+    &["period", "frequency"],
+    &["radius", "diameter"],
+    &["every", "at"],
+    &["heights", "self_affine"],
+];
 /// Parts that are maps from names the user gave.
 const NAMED: [&str; 6] = ["materials", "waveforms", "bodies", "contacts", "springs", "actuators"];
 
@@ -19,7 +30,7 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Faul
     let argument = format!("{path}={text}");
     document.add(argument.clone(), argument, SourceKind::Override);
     let name = Span { source, start: 0, end: path.len() };
-    let target = match KeyPath::parse(path) {
+    let target = match KeyPath::parse(&numbered(&document.value, path)) {
         Some(target) if !target.0.is_empty() => target,
         _ => {
             let fault = Fault::new(KeyPath::default(), "expected a key path before the = sign").at_span(name);
@@ -29,6 +40,10 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Faul
     let put = value(text, &syntax::Origin { source, offset: path.len() + 1, path: target.clone() }).and_then(
         |read| {
             known(document, &target, name)?;
+            for other in alternatives(&document.value, &target) {
+                clear(&mut document.value, &other);
+                document.root.clear(&other.0);
+            }
             insert(&mut document.value, &target, read.value, name)?;
             Ok((Place { key: Some(name), ..read.place }, read.faults))
         },
@@ -40,6 +55,67 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Faul
         }
         // What it was to be stays what it was.
         Err(fault) => vec![fault.mend(Mend::Leave)],
+    }
+}
+
+/// The path with the number of the next entry where `[+]` adds one.
+fn numbered(root: &Value, path: &str) -> String {
+    let mut path = path.to_owned();
+    while let Some(at) = path.find("[+]") {
+        let list = KeyPath::parse(&path[..at]).and_then(|path| look(root, &path.0));
+        let next = list.and_then(Value::as_array).map_or(0, Vec::len);
+        path.replace_range(at..at + 3, &format!("[{next}]"));
+    }
+    path
+}
+
+fn look<'a>(root: &'a Value, path: &[Step]) -> Option<&'a Value> {
+    path.iter().try_fold(root, |here, step| match step {
+        Step::Key(key) => here.get(key),
+        Step::Index(index) => here.get(index),
+    })
+}
+
+/// What an override puts out of force: the other key of two that exclude each other, the other kind where one is chosen.
+fn alternatives(root: &Value, target: &KeyPath) -> Vec<KeyPath> {
+    let mut others = Vec::new();
+    for depth in 1..=target.0.len() {
+        let (parent, Step::Key(key)) = (&target.0[..depth - 1], &target.0[depth - 1]) else { continue };
+        let parent = KeyPath(parent.to_vec());
+        let here = look(root, &parent.0);
+        let kinds = Guide::get().choices(&parent);
+        if !kinds.contains(key) {
+            let group = ALTERNATIVES.iter().filter(|group| group.contains(&key.as_str())).copied().flatten();
+            let beside =
+                group.filter(|other| *other != key && here.is_some_and(|here| here.get(other).is_some()));
+            others.extend(
+                beside.map(|other| KeyPath([&parent.0[..], &[Step::Key((*other).to_owned())]].concat())),
+            );
+            continue;
+        }
+        match here {
+            // A word or a quantity where now a kind with an inside stands.
+            Some(Value::String(_) | Value::Number(_)) => others.push(parent),
+            Some(Value::Object(entries)) => {
+                let rest = entries.keys().filter(|other| *other != key && kinds.contains(other));
+                others
+                    .extend(rest.map(|other| KeyPath([&parent.0[..], &[Step::Key(other.clone())]].concat())));
+            }
+            _ => {}
+        }
+    }
+    others
+}
+
+/// Takes an entry out of its object, or makes an empty one of a plain value.
+fn clear(root: &mut Value, path: &KeyPath) {
+    let Some((Step::Key(key), parent)) = path.0.split_last() else { return };
+    let parent = parent.iter().try_fold(root, |here, step| match step {
+        Step::Key(key) => here.get_mut(key),
+        Step::Index(index) => here.get_mut(index),
+    });
+    if let Some(Value::Object(entries)) = parent {
+        entries.shift_remove(key);
     }
 }
 
@@ -73,7 +149,7 @@ fn known(document: &Document, target: &KeyPath, name: Span) -> Result<(), Fault>
             unknown(2, suggest::help(entry, names))
         }
         [_, ..]
-            if entries.is_none() && !SECTIONS.contains(&part.as_str()) && !NAMED.contains(&part.as_str()) =>
+            if entries.is_none() && ![&SECTIONS[..], &NAMED, &LISTS].concat().contains(&part.as_str()) =>
         {
             let parts = document.value.as_object().map(|m| m.keys().map(String::as_str));
             unknown(1, suggest::help(part, parts.into_iter().flatten().chain(SECTIONS)))
@@ -91,16 +167,27 @@ fn extent(length: usize) -> String {
     }
 }
 
+/// What a step leads into.
+fn empty(step: Option<&Step>) -> Value {
+    match step {
+        Some(Step::Index(_)) => Value::Array(Vec::new()),
+        _ => Value::Object(Map::new()),
+    }
+}
+
 fn insert(root: &mut Value, target: &KeyPath, value: Value, name: Span) -> Result<(), Fault> {
     let mut here = root;
     for (depth, step) in target.0.iter().enumerate() {
         let fault = |message: String| Fault::new(KeyPath(target.0[..depth].to_vec()), message).at_span(name);
         here = match (step, here) {
             (Step::Key(key), Value::Object(entries)) => {
-                entries.entry(key.clone()).or_insert_with(|| Value::Object(Map::new()))
+                entries.entry(key.clone()).or_insert_with(|| empty(target.0.get(depth + 1)))
             }
             (Step::Index(index), Value::Array(entries)) => {
                 let length = entries.len();
+                if *index == length {
+                    entries.push(empty(target.0.get(depth + 1)));
+                }
                 entries.get_mut(*index).ok_or_else(|| fault(format!("the list {}", extent(length))))?
             }
             (Step::Key(_), _) => return Err(fault("this value has no keys".to_owned())),

@@ -61,6 +61,15 @@ impl Place {
         (here, path.0.len())
     }
 
+    /// Takes the place under a path away.
+    pub(crate) fn clear(&mut self, path: &[Step]) {
+        let Some((Step::Key(last), parent)) = path.split_last() else { return };
+        let parent = parent.iter().try_fold(self, |here, step| here.step_mut(step));
+        if let Some(Self { inner: Inner::Object(entries), .. }) = parent {
+            entries.retain(|(name, _)| name != last);
+        }
+    }
+
     /// Puts a place under a path; an object is made of what stands in the way of a key that is not there.
     pub(crate) fn put(&mut self, path: &[Step], place: Self) {
         let Some((first, rest)) = path.split_first() else {
@@ -69,6 +78,16 @@ impl Place {
             self.inner = place.inner;
             return;
         };
+        if let (Step::Index(index), Inner::Object(entries)) = (first, &self.inner)
+            && (*index, entries.len()) == (0, 0)
+        {
+            self.inner = Inner::List(Vec::new());
+        }
+        if let (Step::Index(index), Inner::List(entries)) = (first, &mut self.inner)
+            && *index == entries.len()
+        {
+            entries.push(Self { key: place.key, value: place.value, inner: Inner::Object(Vec::new()) });
+        }
         if self.step(first).is_none()
             && let Step::Key(key) = first
         {

@@ -10,7 +10,7 @@ use crate::path::{At, KeyPath};
 use crate::place::Span;
 use crate::plot_name::PlotName;
 use crate::reader::Reader;
-use crate::{document, mistakes, overrides, refusal, resolved, suggest, syntax, tables, text};
+use crate::{document, mistakes, named, overrides, refusal, resolved, suggest, syntax, tables, text};
 use serde_json::Value;
 use std::path::Path;
 use stickslip_drive::{Channel, Plan, Scene, SceneError};
@@ -209,6 +209,7 @@ pub(crate) fn interpret(document: &mut Document) -> Result<Interpreted, Fault> {
     check_version(document)?;
     let mut form: Form = serde_path_to_error::deserialize(Reader(&document.value))
         .map_err(|error| refusal::fault(document, &error))?;
+    named::fill(&mut form);
     let inlined = tables::inline(&mut form, document)?;
     let meaning = meaning::of(&form)?;
     Ok(Interpreted { form, inlined, meaning })

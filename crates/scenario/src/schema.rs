@@ -4,8 +4,8 @@ mod rule;
 
 pub(crate) use rule::{
     above_zero, at_least_zero, duration_or_cycles, gaps_or_file, heights_or_file, inertia_where_free,
-    law_or_file, names, no_ground, no_trace_column, period_or_frequency, points_or_file, something_on_it,
-    something_to_do, stroke_needed,
+    law_or_file, names, no_ground, no_trace_column, period_or_frequency, points_or_file, radius_or_diameter,
+    something_on_it, something_to_do, stroke_needed,
 };
 
 use crate::form::Form;
@@ -25,6 +25,8 @@ pub(crate) fn tree() -> Value {
     let generator = SchemaSettings::draft2020_12().into_generator();
     let mut schema = generator.into_root_schema_for::<Form>();
     tidy(&mut schema);
+    // What editors of JSON make of comments and of a comma too many.
+    schema.insert("allowComments".to_owned(), json!(true));
     schema.insert("defaultSnippets".to_owned(), json!([{ "label": "a drive", "body": snippet() }]));
     schema.to_value()
 }

@@ -1,6 +1,7 @@
 //! "Did you mean": the nearest of the names that would have been right.
 
 use crate::document::shown;
+use std::collections::HashSet;
 
 /// Most names that are listed.
 const LISTED: usize = 30;
@@ -77,7 +78,8 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
 
 /// Help for a name that is not known: the nearest one, or all of them.
 pub fn help<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let all: Vec<&str> = candidates.into_iter().collect();
+    let mut seen = HashSet::new();
+    let all: Vec<&str> = candidates.into_iter().filter(|name| seen.insert(*name)).collect();
     match nearest(word, all.iter().copied()) {
         Some(near) => Some(format!("did you mean \"{}\"?", shown(near))),
         None if all.is_empty() => None,

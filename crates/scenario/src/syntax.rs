@@ -1,6 +1,7 @@
-//! Strict JSON: limits, syntax, duplicate keys and the places of all values.
+//! JSON with comments: limits, syntax, duplicate keys and the places of all values.
 
 mod bracket;
+mod comment;
 mod slip;
 
 use crate::fault::{Fault, Mend};
@@ -63,6 +64,10 @@ pub(crate) fn read(text: &str, origin: &Origin) -> Result<Read, Fault> {
         let message = format!("a scenario has at most {MAX_BYTES} bytes, this one has {}", text.len());
         return Err(origin.fault(Range::new(0, 1), message));
     }
+    let text = &*comment::blanked(text).map_err(|range| {
+        let fault = origin.fault(Range::new(range.start, range.end), "not JSON: this comment does not end");
+        fault.help("close it with */, or begin it with // to end with its line")
+    })?;
     check_outline(text, origin)?;
     let tree = parse(text, origin)?;
     let mut walk = Walk { origin, path: origin.path.clone(), faults: Vec::new(), unread: Vec::new() };
@@ -113,6 +118,7 @@ fn check_outline(text: &str, origin: &Origin) -> Result<(), Fault> {
 
 fn parse<'a>(text: &'a str, origin: &Origin) -> Result<ast::Value<'a>, Fault> {
     let strict = ParseOptions {
+        // They are blanks by now.
         allow_comments: false,
         allow_loose_object_property_names: false,
         allow_trailing_commas: false,

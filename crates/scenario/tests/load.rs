@@ -297,7 +297,7 @@ fn a_bad_override_is_blamed_itself() {
     assert!(refused(&[("", "1")]).contains("expected a key path"));
     assert!(refused(&[("contacts.ball.friction.x", "1")]).contains("this value has no keys"));
     assert!(refused(&[("stickslip", "2")]).contains("expected 1, got 2"));
-    assert!(refused(&[("run.stepper.verlet.step", "1 us")]).contains("got event, verlet"));
+    assert!(refused(&[("run.stepper", r#"{"event": {}, "verlet": {}}"#)]).contains("got event, verlet"));
     assert!(refused(&[("wavforms.drive.sawtooth.stroke", "1 um")]).contains("did you mean \"waveforms\"?"));
 }
 

@@ -177,8 +177,15 @@ fn check(text: &str, validator: &jsonschema::Validator) -> Result<(), TestCaseEr
         Ok(scenario) => {
             let again = Scenario::from_str(&scenario.resolved(), "again.json", "/nowhere");
             prop_assert!(again.is_ok(), "{}", again.unwrap_err());
+            let resolved = scenario.resolved();
             prop_assert_eq!(again.unwrap().scene, scenario.scene);
-            let value = serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap();
+            let bare = text.trim_start_matches('\u{feff}');
+            // With comments it is for editors to read.
+            let value =
+                serde_json::from_str(bare).unwrap_or_else(|_| serde_json::from_str(&resolved).unwrap());
+            prop_assert!(
+                bare.contains("//") || bare.contains("/*") || serde_json::from_str::<Value>(bare).is_ok()
+            );
             let errors: Vec<_> = validator.iter_errors(&value).map(|error| error.to_string()).collect();
             prop_assert!(errors.is_empty(), "the schema refuses what the program takes: {errors:?}");
             for warning in &scenario.warnings {

@@ -51,7 +51,10 @@ const JUDGED_BY: &[(&[&str], &[&str])] = &[
         &["waveform_of_wrong_dimension", "input_of_wrong", "table_unit_of_a_force"],
         &["waveforms", "bodies.foot"],
     ),
-    (&["jump_through_damper"], &["waveforms", "bodies", "actuators", "contacts.ball.between"]),
+    (
+        &["jump_through_damper"],
+        &["waveforms", "bodies", "actuators", "contacts.ball.between", "figures", "loads"],
+    ),
     (&["too_steep", "flyback_too_long"], &["waveforms"]),
     // How long the run is.
     (
@@ -67,6 +70,10 @@ const MEDDLING: &[(&[&str], &[&str])] = &[
     (&["memory_of_row", "memory_plot_of_row"], &["output.memory", "plots"]),
     (&["duration_and_cycles", "duration_missing"], &["run.duration", "run.cycles"]),
     (&["body_is_ground"], &["springs", "loads", "actuators"]),
+    // A force where a length is followed, by one more; a key that is given elsewhere, or at last.
+    (&["input_of_wrong", "table_unit_of_a_force"], &["actuators"]),
+    (&["period_missing", "period_and_frequency"], &["waveforms.drive"]),
+    (&["friction_missing", "friction_in_material"], &["contacts.ball.friction", "materials"]),
 ];
 
 /// A value at a place, or none.

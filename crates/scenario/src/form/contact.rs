@@ -15,7 +15,8 @@ pub(crate) struct ContactForm {
     /// First (lower) and second body; `ground` is one too.
     #[schemars(extend("uniqueItems" = true), example = json!(["foot", "slider"]))]
     pub(crate) between: Two,
-    /// Names of the two materials; their order does not matter.
+    /// Names of the two materials; their order does not matter. Those of `materials`, or alumina, aluminium, brass, glass,
+    /// PTFE, ruby, sapphire, silicon, steel, titanium, zirconia.
     #[schemars(example = json!(["ruby", "steel"]))]
     pub(crate) materials: Two,
     /// Profile of the gap.

@@ -62,7 +62,8 @@ pub(crate) struct Form {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     #[schemars(example = &"Sawtooth drive on three ruby balls")]
     pub(crate) title: String,
-    /// Materials by name; none by default.
+    /// Materials by name; none by default. Common ones need not be described: `stickslip materials` lists them with their
+    /// sources.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
     #[schemars(example = json!({ "ruby": { "youngs_modulus": "400 GPa", "poisson_ratio": 0.27 } }))]
     pub(crate) materials: Parts<MaterialForm>,

@@ -4,10 +4,10 @@ use super::{
     GapTableForm, Lengths, NormalLawForm, PowersForm, RoughForm, RoundedFlatForm, TippedParaboloidForm,
     TruncatedConeForm, TruncatedParaboloidForm,
 };
-use crate::quantity::Length;
-use crate::schema::{above_zero, at_least_zero};
+use crate::quantity::{HELP, Length};
+use crate::schema::{above_zero, at_least_zero, radius_or_diameter};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de};
 use serde_json::json;
 
 /// Profile of the gap between the undeformed bodies.
@@ -16,16 +16,16 @@ use serde_json::json;
 pub(crate) enum ProfileForm {
     /// Flat cylindrical punch.
     #[schemars(example = json!({ "flat": { "radius": "50 um" } }))]
-    Flat(FlatForm),
+    Flat(#[schemars(with = "FlatKeys")] FlatForm),
     /// Cone, f = slope · r.
     #[schemars(example = json!({ "cone": { "slope": 0.01 } }))]
     Cone(ConeForm),
     /// Paraboloid, f = r²/(2R): Hertz.
     #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
-    Paraboloid(BallForm),
+    Paraboloid(#[schemars(with = "BallKeys")] BallForm),
     /// Sphere, f = R - √(R²-r²), exact.
     #[schemars(example = json!({ "sphere": { "radius": "0.5 mm" } }))]
-    Sphere(BallForm),
+    Sphere(#[schemars(with = "BallKeys")] BallForm),
     /// Power law, f = A rⁿ.
     #[schemars(example = json!({ "power": { "coefficient": 1e6, "exponent": 4 } }))]
     Power(PowerForm),
@@ -81,21 +81,67 @@ impl ProfileForm {
 }
 
 /// A flat punch.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Serialize)]
 pub(crate) struct FlatForm {
-    /// Radius of the flat face, m, above 0; typical 10 um to 5 mm.
+    pub(crate) radius: Length,
+}
+
+/// A flat punch.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = radius_or_diameter)]
+struct FlatKeys {
+    /// Radius of the flat face, m, above 0; typical 10 um to 5 mm. Give this or `diameter`.
     #[schemars(example = &"50 um", transform = above_zero)]
+    radius: Option<Length>,
+    /// Diameter of the flat face, m, above 0; this or `radius`, which results name.
+    #[schemars(example = &"100 um", transform = above_zero)]
+    diameter: Option<Length>,
+}
+
+/// A ball.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct BallForm {
     pub(crate) radius: Length,
 }
 
 /// A ball.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct BallForm {
-    /// Radius of curvature R, m, above 0; typical 0.1 mm to 50 mm.
+#[schemars(transform = radius_or_diameter)]
+struct BallKeys {
+    /// Radius of curvature R, m, above 0; typical 0.1 mm to 50 mm. Give this or `diameter`.
     #[schemars(example = &"0.5 mm", transform = above_zero)]
-    pub(crate) radius: Length,
+    radius: Option<Length>,
+    /// Diameter 2R, m, above 0; this or `radius`, which results name.
+    #[schemars(example = &"1 mm", transform = above_zero)]
+    diameter: Option<Length>,
+}
+
+/// The radius, given as such or by the diameter.
+fn radius<E: de::Error>(radius: Option<Length>, diameter: Option<Length>) -> Result<Length, E> {
+    match (radius, diameter) {
+        (Some(radius), None) => Ok(radius),
+        (None, Some(diameter)) => Ok(Length::new(diameter.si / 2.0)),
+        (None, None) => Err(E::missing_field("radius")),
+        (Some(_), Some(_)) => {
+            Err(E::custom(format!("the radius and the diameter are given{HELP}keep one of them")))
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for FlatForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let keys = FlatKeys::deserialize(deserializer)?;
+        radius(keys.radius, keys.diameter).map(|radius| Self { radius })
+    }
+}
+
+impl<'de> Deserialize<'de> for BallForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let keys = BallKeys::deserialize(deserializer)?;
+        radius(keys.radius, keys.diameter).map(|radius| Self { radius })
+    }
 }
 
 /// A cone.

@@ -31,6 +31,12 @@ impl<T> Parts<T> {
         self.0.iter().map(|(name, part)| (name.as_str(), part))
     }
 
+    /// Adds a part with a name of its own.
+    pub(crate) fn add(&mut self, name: String, part: T) {
+        self.1.insert(name.clone(), self.0.len());
+        self.0.push((name, part));
+    }
+
     pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.1.get(name).copied()
     }

@@ -4,7 +4,9 @@ use super::profile::profile;
 use super::{Builder, names, range};
 use crate::fault::Fault;
 use crate::form::{ContactForm, ContactStartForm, EngineForm, NormalForm};
+use crate::named::MATERIALS;
 use crate::path::At;
+use crate::suggest;
 use stickslip_contact::{FrictionError, Interface, Pair};
 use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal};
 
@@ -50,7 +52,13 @@ impl Builder<'_> {
         let find = |i: usize| {
             let materials = &self.form.materials;
             let index = materials.find(&names[i]).ok_or_else(|| {
-                names::unknown(&at.index(i), ("material", "materials"), &names[i], materials)
+                let fault = names::unknown(&at.index(i), ("material", "materials"), &names[i], materials);
+                let own = suggest::nearest(&names[i], materials.names());
+                let known = suggest::nearest(&names[i], MATERIALS.iter().map(|material| material.name));
+                match (own, known) {
+                    (None, Some(known)) => fault.help(format!("did you mean \"{known}\"?")),
+                    _ => fault,
+                }
             })?;
             self.material(index)
         };

@@ -62,6 +62,11 @@ pub(crate) fn duration_or_cycles(schema: &mut Schema) {
     either(schema, "duration", "cycles");
 }
 
+/// A round face or a ball has one of the two.
+pub(crate) fn radius_or_diameter(schema: &mut Schema) {
+    either(schema, "radius", "diameter");
+}
+
 fn either(schema: &mut Schema, one: &str, other: &str) {
     schema.insert("oneOf".to_owned(), json!([{ "required": [one] }, { "required": [other] }]));
 }

@@ -34,7 +34,7 @@ pub(super) fn at_character(text: &str, at: usize) -> Option<Slip> {
     let range = at..at + c.len_utf8();
     let line_end = text[at..].find('\n').map_or(text.len(), |i| at + i);
     Some(match c {
-        '#' => slip(at..line_end, "comments are not allowed", "remarks fit into \"title\""),
+        '#' => slip(at..line_end, "a comment begins with //", "or stands between /* and */"),
         '/' if text[at..].starts_with("/*") || text[at..].starts_with("//") => return None,
         ';' => slip(range, "expected a comma, got a semicolon", "entries are separated by commas"),
         '=' => slip(range, "expected a colon, got an equals sign", "write \"key\": value"),
@@ -224,7 +224,6 @@ fn quotes(line: &str) -> Vec<usize> {
 /// The parser's own complaint in our words.
 fn wording(text: &str, range: Range<usize>, kind: &ParseErrorKind) -> Slip {
     let (message, help) = match kind {
-        ParseErrorKind::CommentsNotAllowed => ("comments are not allowed", "remarks fit into \"title\""),
         ParseErrorKind::TrailingCommasNotAllowed => {
             ("a comma before a closing bracket", "remove the comma, or the entry after it got lost")
         }
@@ -250,9 +249,6 @@ fn wording(text: &str, range: Range<usize>, kind: &ParseErrorKind) -> Slip {
         }
         ParseErrorKind::UnexpectedTokenInObject => {
             ("expected a key", "write \"key\": value; entries without keys stand in [ ]")
-        }
-        ParseErrorKind::UnterminatedCommentBlock => {
-            ("comments are not allowed", "remarks fit into \"title\"")
         }
         _ => ("this is no JSON value", "numbers are finite decimals; strings stand in double quotes"),
     };

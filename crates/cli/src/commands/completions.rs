@@ -1,0 +1,15 @@
+//! `stickslip completions SHELL`: what a shell completes a command line by.
+
+use crate::arguments::Arguments;
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
+use clap::CommandFactory;
+use clap_complete::Shell;
+
+/// Prints the script.
+pub(crate) fn print(shell: Shell) -> Verdict {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "stickslip", &mut script);
+    say(format_args!("{}", String::from_utf8_lossy(&script).trim_end()));
+    Verdict::Done
+}

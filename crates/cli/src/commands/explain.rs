@@ -1,0 +1,33 @@
+//! `stickslip explain NAME`: keys of scenarios from the schema, columns and figures from the table of definitions.
+
+use crate::console::answer::{complain, say};
+use crate::console::verdict::Verdict;
+use stickslip_results::definitions;
+use stickslip_scenario::{explained, suggestion};
+
+/// Explains every name, or says that nothing has it.
+pub(crate) fn explain(names: &[String]) -> Verdict {
+    let mut verdict = Verdict::Done;
+    for name in names {
+        let mut found = false;
+        for definition in definitions().filter(|definition| definition.is(name)) {
+            found = true;
+            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
+        }
+        for (path, text) in explained(name) {
+            found = true;
+            say(format_args!("scenario  {path}\n    {text}"));
+        }
+        if !found {
+            let known = definitions().filter_map(|definition| definition.name.rsplit('.').next());
+            let help = suggestion(name, known).filter(|help| help.starts_with("did you mean"));
+            let help = help.unwrap_or_else(|| {
+                "docs/definitions.md lists columns and figures, stickslip schema the keys of scenarios"
+                    .to_owned()
+            });
+            complain(format_args!("nothing is called \"{}\"\n   help: {help}", name.escape_debug()));
+            verdict = Verdict::BadInput;
+        }
+    }
+    verdict
+}

@@ -1,0 +1,15 @@
+//! `stickslip materials`: the table of named materials.
+
+use crate::console::answer::say;
+use crate::console::verdict::Verdict;
+use stickslip_scenario::MATERIALS;
+
+/// Prints the table, a line each.
+pub(crate) fn list() -> Verdict {
+    say(format_args!("{:<10} {:>7}  {:>5}  source", "name", "E, GPa", "nu"));
+    for material in MATERIALS {
+        let (modulus, ratio) = (material.youngs_modulus / 1e9, material.poisson_ratio);
+        say(format_args!("{:<10} {modulus:>7}  {ratio:>5.2}  {}", material.name, material.source));
+    }
+    Verdict::Done
+}
