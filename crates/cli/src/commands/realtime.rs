@@ -7,6 +7,7 @@ mod stepper;
 mod wires;
 
 use crate::arguments::RealtimeArguments;
+use crate::arguments::realtime::Inputs;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::{Bar, Progress};
@@ -43,7 +44,11 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
         }
         complain(format_args!("{}", stage.introduction()));
     }
-    let mut drafts = Drafts::default();
+    let replayed = match &arguments.wires.inputs {
+        Some(Inputs::Replay(path)) => Some(path.as_path()),
+        _ => None,
+    };
+    let mut drafts = Drafts::beside(std::iter::once(arguments.file.as_path()).chain(replayed));
     let Wires { wiring, mut reels, recorded } = wires::open(&stage, &mut drafts)?;
     let order = stage.order(recorded)?;
     let (probe, rows) = stage.measure(!arguments.quiet)?;

@@ -92,7 +92,7 @@ pub enum SceneFault {
     #[error("a damper cannot follow the jumps of waveform `{0}`")]
     DampedJump(String),
     /// Steps of a given length or without events on waveforms that jump.
-    #[error("only the stepper \"event\" follows waveforms that jump")]
+    #[error("only the steppers \"event\" and \"frames\" follow waveforms that jump")]
     UnlocatedJump,
     /// A fixed step with which the stiffest motion grows.
     #[error("expected less than {limit:.3e} s, from where on the stiffest motion grows, got {step:e} s")]

@@ -119,7 +119,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
     ) -> Result<(), RunError> {
         self.chords.aim(goal);
         let mut outcome = self.chords.bounds.tried(state).map(drop);
-        while self.chords.goes_on(state) && outcome.is_ok() {
+        while self.goes_on(state) && outcome.is_ok() {
             match self.step(state, record) {
                 Ok(Progress::Made) => {}
                 Ok(Progress::Short) => break,
@@ -167,18 +167,33 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         self.chords.settle(state);
     }
 
+    /// Rounding of moments at about a time, s: frames are multiplied by others, and may come out a digit longer.
+    fn slack(&self, t: f64) -> f64 {
+        REMAINDER * self.grid.step + 4.0 * f64::EPSILON * t.abs()
+    }
+
+    /// Whether the run is not yet where it was to go; where it stands on a corner, by more than rounding.
+    fn goes_on(&self, state: &State) -> bool {
+        let t = state.t;
+        let on_corner =
+            !self.chords.crossing && state.pieces.iter().any(|piece| piece.start == t || piece.end == t);
+        let slack = if on_corner { self.slack(t) } else { 0.0 };
+        t < self.chords.horizon.limit() - slack
+    }
+
     /// One step, up to the next moment of the grid or to where the run is cut before it.
     fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         let aim = self.frame.moment(self.grid, self.grid.count + 1.0);
-        // Frames are multiplied by others, and may come out a digit longer.
-        let slack = REMAINDER * self.grid.step + 4.0 * f64::EPSILON * aim.abs();
+        let slack = self.slack(aim);
         if self.chords.horizon.is_beyond(aim) {
             return Ok(Progress::Short);
         }
         let crossing = self.chords.crossing;
         let mut turned = !crossing && self.chords.turn(state, record)?;
         let corner = if crossing { state.next_input(self.chords.model) } else { state.next_corner() };
-        let stop = self.chords.horizon.until.min(corner);
+        let until = self.chords.horizon.until;
+        // A corner where a frame ends is that corner, to the last bit, whether a frame ends there or not.
+        let stop = if (until - corner).abs() <= slack { corner } else { until.min(corner) };
         let mut end = if aim > stop - slack { stop } else { aim };
         if crossing {
             turned = self.chords.enter(state, end);

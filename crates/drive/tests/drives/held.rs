@@ -252,6 +252,25 @@ fn who_watches_frames_changes_no_bit() {
     assert!(compared > 1000, "{compared}");
 }
 
+/// Frames that end where waveforms turn, and the whole run: the same bits, though moments of both are rounded each its own way.
+#[test]
+fn frames_that_end_at_corners_are_the_whole_run() {
+    let model = Model::new(&p1()).unwrap();
+    for length in [20e-6, 50e-6, 100e-6] {
+        let plan = plan(Stepper::Frames { length, accuracy: 1e-3 }, 1.0);
+        let [mut whole, mut frames] =
+            [(); 2].map(|()| Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap());
+        let last = (20e-3 / length).round() as i32;
+        for k in 1..=last {
+            frames.advance(f64::from(k) * length, &mut ()).unwrap();
+        }
+        whole.advance(f64::from(last) * length, &mut ()).unwrap();
+        let bytes = |run: &Run<'_>| run.state().to_bytes(&model, &KEY);
+        assert_eq!(whole.state().body(&model, 1), frames.state().body(&model, 1), "{length}");
+        assert!(bytes(&whole) == bytes(&frames), "{length}");
+    }
+}
+
 /// After two seconds a digit of time is more than a part in 10⁹ of a step; a frame still takes its own steps and no others.
 #[test]
 fn frames_far_from_the_start_take_their_own_steps() {

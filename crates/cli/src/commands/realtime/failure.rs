@@ -111,6 +111,12 @@ pub(crate) enum Failure {
         /// What the system says.
         source: io::Error,
     },
+    /// Something else than a file, which a file would replace.
+    #[error("{}: it is a device, a pipe or a link; give the name of a file", .0.display())]
+    NoPlainFile(PathBuf),
+    /// What the command reads.
+    #[error("{}: it is read by this command; give another name", .0.display())]
+    IsRead(PathBuf),
     /// A file for two things.
     #[error("{}: it is asked for twice; give another name", .0.display())]
     Twice(PathBuf),

@@ -20,24 +20,40 @@ const FRAMES: &str = "frames.csv";
 
 /// Files that are written while the loop runs; they get their names when it is over.
 #[derive(Debug, Default)]
-pub(super) struct Drafts(Vec<(NamedTempFile, PathBuf)>);
+pub(super) struct Drafts {
+    files: Vec<(NamedTempFile, PathBuf)>,
+    /// What the command reads, and must not replace.
+    read: Vec<PathBuf>,
+}
 
 impl Drafts {
+    /// None yet; what is at these paths is read.
+    pub(super) fn beside<'p>(read: impl IntoIterator<Item = &'p Path>) -> Self {
+        let read = read.into_iter().filter_map(|path| path.canonicalize().ok()).collect();
+        Self { read, ..Self::default() }
+    }
+
     /// Begins a file.
     pub(super) fn begin(&mut self, path: &Path) -> Result<BufWriter<File>, Failure> {
         let failed = |source| Failure::File { path: path.to_owned(), source };
         let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let name = path.file_name().ok_or_else(|| failed(std::io::ErrorKind::IsADirectory.into()))?;
-        if path.is_dir() {
-            return Err(failed(std::io::ErrorKind::IsADirectory.into()));
+        // A draft takes the place of what is there: of a device, a pipe or a link it would be the end.
+        match path.symlink_metadata() {
+            Ok(there) if there.is_dir() => return Err(failed(std::io::ErrorKind::IsADirectory.into())),
+            Ok(there) if !there.is_file() => return Err(Failure::NoPlainFile(path.to_owned())),
+            _ => {}
         }
         let at = folder.canonicalize().map_err(failed)?.join(name);
-        if self.0.iter().any(|(_, known)| *known == at) {
+        if self.read.contains(&at) {
+            return Err(Failure::IsRead(path.to_owned()));
+        }
+        if self.files.iter().any(|(_, known)| *known == at) {
             return Err(Failure::Twice(path.to_owned()));
         }
         let file = draft(folder, &name.to_string_lossy()).map_err(failed)?;
         let writer = file.as_file().try_clone().map_err(failed)?;
-        self.0.push((file, at));
+        self.files.push((file, at));
         Ok(BufWriter::new(writer))
     }
 
@@ -47,7 +63,7 @@ impl Drafts {
             let error = file.persist(&path).err()?.error;
             Some(format!("{}: {}", path.display(), words(&error)))
         };
-        let lost: Vec<String> = self.0.into_iter().filter_map(name).collect();
+        let lost: Vec<String> = self.files.into_iter().filter_map(name).collect();
         if lost.is_empty() { Ok(()) } else { Err(Failure::Cut(lost.join("; "))) }
     }
 }
@@ -76,6 +92,20 @@ pub(super) fn write(stage: &Stage<'_>, report: &Report, ended: &Ended) -> Result
 mod tests {
     use super::*;
     use std::io::Write;
+
+    #[cfg(unix)]
+    #[test]
+    fn neither_what_is_read_nor_what_is_no_file_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let [scene, link] = ["scene.json", "link"].map(|name| folder.path().join(name));
+        std::fs::write(&scene, "scene").unwrap();
+        std::os::unix::fs::symlink(&scene, &link).unwrap();
+        let mut drafts = Drafts::beside([scene.as_path()]);
+        assert!(matches!(drafts.begin(&scene), Err(Failure::IsRead(_))));
+        assert!(matches!(drafts.begin(&link), Err(Failure::NoPlainFile(_))));
+        assert!(matches!(drafts.begin(Path::new("/dev/null")), Err(Failure::NoPlainFile(_))));
+        assert_eq!(std::fs::read(&scene).unwrap(), b"scene");
+    }
 
     #[test]
     fn what_cannot_be_kept_is_told_and_the_others_are_kept() {
