@@ -36,6 +36,10 @@ pub struct Recorder<'a> {
     selection: Selection,
     /// Time at which the run is stopped, s.
     until: f64,
+    /// What may be kept, B.
+    limit: Option<f64>,
+    /// Whether cycles without a table stay in memory.
+    keeps_cycles: bool,
     /// Where the figures are taken.
     marks: Marks,
     /// Room on the disk for the last blocks of the tables, each for itself.
@@ -118,6 +122,8 @@ impl<'a> Recorder<'a> {
             recorded,
             selection,
             until: f64::INFINITY,
+            limit: job.scenario.memory_limit,
+            keeps_cycles: true,
             marks,
             reserve: Vec::new(),
             asked: None,
@@ -147,6 +153,17 @@ impl<'a> Recorder<'a> {
     pub fn fingerprinted(mut self) -> Self {
         self.recorded.kept = self.recorded.kept.fingerprinted(self.job.columns.clone());
         self
+    }
+
+    /// The same where nothing but the fingerprint is wanted: nothing that grows with the run is kept, and so nothing is bounded that
+    /// another recorder may have kept more or less of.
+    ///
+    /// # Errors
+    /// No file for the steps.
+    pub fn only_fingerprinted(mut self) -> io::Result<Self> {
+        self.recorded.kept = self.recorded.kept.for_pictures(&[]);
+        self.recorded.tally.spill(tempfile::tempfile()?);
+        Ok(Self { limit: None, keeps_cycles: false, ..self }.fingerprinted())
     }
 
     /// The same for a run that is to stop at a time, s, at which an earlier one was stopped.
@@ -197,7 +214,8 @@ impl<'a> Recorder<'a> {
             let judged = cycles.take(self.job, (c, law), figures);
             match &mut self.tables {
                 Some(tables) => tables.cycles.write((name, cycles.count), &judged),
-                None => cycles.all.push(judged),
+                None if self.keeps_cycles => cycles.all.push(judged),
+                None => {}
             }
         }
     }
@@ -264,7 +282,7 @@ impl<'a> Recorder<'a> {
 
     /// Whether it keeps no more than it may.
     fn has_room(&mut self, t: f64) -> bool {
-        let Some(limit) = self.job.scenario.memory_limit else { return true };
+        let Some(limit) = self.limit else { return true };
         let kept = self.bytes() as f64;
         if kept > limit {
             self.recorded.excess = Some(Excess { t, kept, limit });

@@ -131,7 +131,12 @@ fn is_taken(number: u64, most: u64) -> bool {
 /// How many of so many events are written, about.
 pub(crate) fn expected(events: f64, most: u64) -> f64 {
     let most = most as f64;
-    if events <= most { events } else { most * (1.0 + 0.5 * (events / most).log2()) }
+    // Of none the logarithm is infinite.
+    if most == 0.0 {
+        0.0
+    } else if events <= most {
+        events
+    } else { most * (1.0 + 0.5 * (events / most).log2()) }
 }
 
 /// The number nearest to a value that has so many digits.
@@ -158,6 +163,15 @@ mod tests {
         // Neighbours stay together, ten by ten.
         assert!(taken.chunks(10).all(|block| block[9] == block[0] + 9 && block[0] % 10 == 0));
         assert!((0..100).all(|number| is_taken(number, u64::MAX)) && is_taken(u64::MAX - 1, u64::MAX));
+    }
+
+    #[test]
+    fn so_many_are_expected_as_are_taken() {
+        for seen in [500, 1000, 2000, 32_000, 1_024_000] {
+            let taken = (0..seen).filter(|number| is_taken(*number, 1000)).count();
+            assert_eq!(expected(seen as f64, 1000), taken as f64, "{seen}");
+        }
+        assert_eq!([0.0, 1e6].map(|events| expected(events, 0)), [0.0; 2]);
     }
 
     #[test]
