@@ -38,6 +38,8 @@ pub struct Recorder<'a> {
     until: f64,
     /// What may be kept, B.
     limit: Option<f64>,
+    /// Whether rows are wanted in a part of the run only.
+    has_window: bool,
     /// Whether cycles without a table stay in memory.
     keeps_cycles: bool,
     /// Where the figures are taken.
@@ -85,6 +87,8 @@ pub(crate) struct Recorded {
     pub events: TakenEvents,
     /// Number of rows of the trace.
     pub rows: u64,
+    /// Tables of which nothing could be written.
+    pub absent: Vec<&'static str>,
     /// The tables, where there are any.
     pub drafts: Vec<Draft>,
     /// That more was kept than may be.
@@ -110,6 +114,7 @@ impl<'a> Recorder<'a> {
             bytes: 0,
             events,
             rows: 0,
+            absent: Vec::new(),
             drafts: Vec::new(),
             excess: None,
             failure: None,
@@ -123,6 +128,7 @@ impl<'a> Recorder<'a> {
             selection,
             until: f64::INFINITY,
             limit: job.scenario.memory_limit,
+            has_window: job.scenario.written.window != [0.0, f64::INFINITY],
             keeps_cycles: true,
             marks,
             reserve: Vec::new(),
@@ -257,8 +263,17 @@ impl<'a> Recorder<'a> {
         self.end();
         if let Some(Tables { trace, events, cycles, steps, insides }) = self.tables {
             let written = [(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
-            let optional = [(CYCLES, cycles.finish()?), (STEPS, steps.finish()?)];
-            let optional = optional.into_iter().filter_map(|(name, written)| Some((name, written?)));
+            let mut optional = Vec::new();
+            for (name, finished) in [(CYCLES, cycles.finish()), (STEPS, steps.finish())] {
+                match finished {
+                    Ok(written) => optional.extend(written.map(|written| (name, written))),
+                    // The others are worth something without it.
+                    Err(failure) => {
+                        self.recorded.failure.get_or_insert(failure);
+                        self.recorded.absent.push(name);
+                    }
+                }
+            }
             let all = written.into_iter().chain(insides.finish()?).chain(optional);
             for (name, Written { file, seal, failure }) in all {
                 self.recorded.drafts.push(Draft { name, file, seal });
@@ -348,6 +363,11 @@ impl Record for Recorder<'_> {
     }
 
     fn mark(&mut self, values: &[f64]) {
+        if self.has_window {
+            // Rows outside are not there to be read: their place is taken by what is.
+            self.recorded.tally.row(values);
+            self.recorded.books.read(values);
+        }
         self.moment(values);
         match self.marks.period_ended(values.first().copied().unwrap_or(0.0)) {
             Some(0) => self.recorded.tally.begin_range(),
