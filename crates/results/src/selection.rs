@@ -180,7 +180,9 @@ mod tests {
             let window = [0.0, f64::INFINITY];
             let written = Written { events, window, goes_by_end: false, digits: None, state_numbers: false };
             let mut selection = Selection::new(written, &[]);
-            times.iter().for_each(|t| drop(selection.takes(Source::Contact(0), "touch", *t)));
+            for t in times {
+                selection.takes(Source::Contact(0), "touch", *t);
+            }
             selection.events().whole_until
         };
         let mut times: Vec<f64> = (0..110).map(f64::from).collect();
