@@ -10,7 +10,7 @@ use stickslip_drive::RunError;
 use stickslip_results::complaint::words;
 use stickslip_results::files::InsideTables;
 use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Recorder, Watcher};
+use stickslip_results::{Excess, Job, Recorder, Watcher};
 use thiserror::Error;
 
 pub use page::{Exhibit, page};
@@ -28,6 +28,14 @@ pub enum GalleryError {
         name: String,
         /// What the run says.
         source: RunError,
+    },
+    /// A run that kept too much.
+    #[error("{name}: {source}\n   help: {}", .source.advice())]
+    Full {
+        /// The scenario.
+        name: String,
+        /// How much.
+        source: Excess,
     },
     /// A picture.
     #[error("{name}: {source}")]
@@ -61,6 +69,10 @@ pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryErr
     if let Some(failure) = outcome.failure {
         return Err(failed(failure));
     }
+    // Such a run says that it was interrupted.
+    if let Some(source) = outcome.excess {
+        return Err(GalleryError::Full { name: job.name.clone(), source });
+    }
     if let Some(source) = outcome.error {
         return Err(GalleryError::Stopped { name: job.name.clone(), source });
     }
@@ -88,4 +100,25 @@ pub fn write(path: &Path, pictures: &[Picture]) -> io::Result<Vec<String>> {
     let names = folder.names();
     folder.publish()?;
     Ok(names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// It was told as an interruption, with advice to be patient.
+    #[test]
+    fn a_run_that_keeps_too_much_is_told_as_one() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
+        let set = [("run.cycles", "2000"), ("output.every", "\"20 us\"")];
+        let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let mut job = Job::prepare(&file, &set, Path::new("")).unwrap();
+        // Less than its pictures take: the estimate beforehand would have refused it.
+        job.scenario.memory_limit = Some(1e6);
+        let drawn = draw(&job, &());
+        assert!(matches!(drawn, Err(GalleryError::Full { .. })));
+        let Err(error) = drawn else { return };
+        let said = error.to_string();
+        assert!(said.starts_with("p1: at t = ") && said.contains("help: raise run.limits.memory"), "{said}");
+    }
 }

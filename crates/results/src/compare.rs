@@ -7,6 +7,7 @@
 
 mod alignment;
 mod allowance;
+mod asked;
 mod channels;
 mod comparison;
 mod coverage;

@@ -2,7 +2,7 @@
 
 use crate::info::Expectation;
 use crate::job::Job;
-use crate::kept::FROM_SERIES;
+use crate::kept::grows;
 use crate::quantity::quantity;
 use crate::real::Real;
 use stickslip_scenario::{PlotName, ScenarioError};
@@ -23,15 +23,24 @@ pub struct Excess {
     pub limit: f64,
 }
 
+impl Excess {
+    /// What to try.
+    pub fn advice(&self) -> &'static str {
+        ADVICE
+    }
+}
+
 /// Refuses a run that would keep more than it may.
 pub(crate) fn check(job: &Job) -> Result<(), ScenarioError> {
     let Some(limit) = job.scenario.memory_limit else { return Ok(()) };
     let expected = Expectation::of(job);
     let kept = expected.kept.0;
-    if kept <= limit {
+    // Whatever cannot be estimated is bounded while the run goes on.
+    let is_more = kept > limit;
+    if !is_more {
         return Ok(());
     }
-    let plots = job.scenario.plots.iter().filter(|plot| FROM_SERIES.contains(plot));
+    let plots = job.scenario.plots.iter().filter(|plot| grows(**plot));
     let plots: Vec<&str> = plots.copied().map(PlotName::name).collect();
     let (rows, events, size) = (expected.rows.0, expected.events_written.0, quantity(Real(kept), "B"));
     let message = format!(

@@ -4,6 +4,7 @@ use crate::complaint::words;
 use crate::limits::MOST_VALUES;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
+use crate::states::state_code;
 use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::PathBuf;
@@ -186,9 +187,9 @@ fn word<'a>(column: &str, text: &'a str) -> &'a str {
     if !column.ends_with(".state") {
         return text;
     }
-    match text {
-        "0" | "1" | "2" | "3" => state_name(text.parse().unwrap_or(0.0)),
-        word => word,
+    match state_code(text) {
+        Some(code) => state_name(code),
+        None => text,
     }
 }
 

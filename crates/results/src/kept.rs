@@ -12,6 +12,11 @@ use stickslip_scenario::PlotName;
 pub(crate) const FROM_SERIES: [PlotName; 4] =
     [PlotName::Loop, PlotName::Trajectory, PlotName::Energy, PlotName::Phase];
 
+/// Whether a picture is drawn from what grows with the run.
+pub(crate) fn grows(plot: PlotName) -> bool {
+    FROM_SERIES.contains(&plot) || plot == PlotName::Events
+}
+
 /// Whether one of these pictures is drawn from a series.
 pub(crate) fn draws_from_series(plots: &[PlotName]) -> bool {
     plots.iter().any(|plot| FROM_SERIES.contains(plot))
@@ -29,6 +34,8 @@ pub struct Kept {
     pub whole_until: Option<f64>,
     /// Events left out for want of room.
     pub left_out: u64,
+    /// Most numbers that events may add to.
+    most: u64,
     /// For a fingerprint, where one is wanted.
     sketch: Option<Sketch>,
 }
@@ -43,13 +50,16 @@ impl Kept {
             tracks,
             whole_until: None,
             left_out: 0,
+            most: 2 * MOST_VALUES,
             sketch: None,
         }
     }
 
-    /// The same with a series only where one of these pictures is drawn from it.
+    /// The same with a series and tracks only where one of these pictures is drawn from them.
     pub(crate) fn for_pictures(self, plots: &[PlotName]) -> Self {
-        if draws_from_series(plots) { self } else { Self { series: Series::none(), ..self } }
+        let tracks = self.tracks.filter(|_| plots.contains(&PlotName::Events));
+        let series = if draws_from_series(plots) { self.series } else { Series::none() };
+        Self { series, tracks, ..self }
     }
 
     /// The same with a fingerprint of the tables that have these columns.
@@ -79,7 +89,7 @@ impl Kept {
 
     /// Rows are bounded before the run starts; events are not.
     fn has_room(&self) -> bool {
-        self.series.size() < 2 * MOST_VALUES
+        self.size() < self.most
     }
 
     /// Takes the next event, its source and kind, and the values after it.
@@ -100,8 +110,12 @@ impl Kept {
 
     /// What it takes, B.
     pub(crate) fn bytes(&self) -> usize {
-        let tracks = self.tracks.as_ref().map_or(0, Tracks::size);
-        size_of::<f64>() * (self.series.size() as usize + tracks)
+        size_of::<f64>() * self.size() as usize
+    }
+
+    /// Numbers kept: of the series and of the tracks.
+    fn size(&self) -> u64 {
+        self.series.size() + self.tracks.as_ref().map_or(0, Tracks::size)
     }
 
     /// Time reached, s.
@@ -116,5 +130,19 @@ impl Kept {
 
     fn reach(&mut self, values: &[f64]) {
         self.end = values.first().copied().unwrap_or(self.end);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_of_events_are_bounded_without_a_series_as_well() {
+        let plots = [PlotName::Events];
+        let mut kept = Kept { most: 10, ..Kept::new(&[], &plots).for_pictures(&plots) };
+        (0..25).for_each(|k| kept.event(["ball", "touch"], &[f64::from(k)]));
+        assert_eq!((kept.size(), kept.bytes(), kept.left_out, kept.end()), (10, 80, 15, 24.0));
+        assert_eq!(kept.for_pictures(&[]).size(), 0);
     }
 }

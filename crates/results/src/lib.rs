@@ -66,6 +66,7 @@ mod selection;
 mod series;
 mod sheet;
 pub mod springs;
+mod states;
 mod steps_table;
 mod strides;
 pub mod summary;

@@ -34,6 +34,8 @@ pub struct Outcome {
     pub bytes: usize,
     /// Number of rows of the trace.
     pub rows: u64,
+    /// Tables of which nothing could be written.
+    pub absent: Vec<&'static str>,
     /// Wall-clock time of the run alone, s.
     pub wall: f64,
     /// That it was ended because it kept more in memory than it may.
@@ -92,9 +94,23 @@ impl Ended {
     /// With what was recorded.
     pub(crate) fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
         let Self { error, state, wall } = self;
-        let Recorded { kept, books, tally, cycles, bytes, events, rows, drafts, excess, failure } = recorded;
-        let outcome =
-            Outcome { error, state, kept, books, tally, cycles, events, bytes, rows, wall, excess, failure };
+        let Recorded { kept, books, tally, cycles, bytes, events, rows, absent, drafts, excess, failure } =
+            recorded;
+        let outcome = Outcome {
+            error,
+            state,
+            kept,
+            books,
+            tally,
+            cycles,
+            events,
+            bytes,
+            rows,
+            absent,
+            wall,
+            excess,
+            failure,
+        };
         (outcome, drafts)
     }
 }

@@ -36,6 +36,12 @@ pub struct Recorder<'a> {
     selection: Selection,
     /// Time at which the run is stopped, s.
     until: f64,
+    /// What may be kept, B.
+    limit: Option<f64>,
+    /// Whether rows are wanted in a part of the run only.
+    has_window: bool,
+    /// Whether cycles without a table stay in memory.
+    keeps_cycles: bool,
     /// Where the figures are taken.
     marks: Marks,
     /// Room on the disk for the last blocks of the tables, each for itself.
@@ -81,6 +87,8 @@ pub(crate) struct Recorded {
     pub events: TakenEvents,
     /// Number of rows of the trace.
     pub rows: u64,
+    /// Tables of which nothing could be written.
+    pub absent: Vec<&'static str>,
     /// The tables, where there are any.
     pub drafts: Vec<Draft>,
     /// That more was kept than may be.
@@ -106,6 +114,7 @@ impl<'a> Recorder<'a> {
             bytes: 0,
             events,
             rows: 0,
+            absent: Vec::new(),
             drafts: Vec::new(),
             excess: None,
             failure: None,
@@ -118,6 +127,9 @@ impl<'a> Recorder<'a> {
             recorded,
             selection,
             until: f64::INFINITY,
+            limit: job.scenario.memory_limit,
+            has_window: job.scenario.written.window != [0.0, f64::INFINITY],
+            keeps_cycles: true,
             marks,
             reserve: Vec::new(),
             asked: None,
@@ -147,6 +159,17 @@ impl<'a> Recorder<'a> {
     pub fn fingerprinted(mut self) -> Self {
         self.recorded.kept = self.recorded.kept.fingerprinted(self.job.columns.clone());
         self
+    }
+
+    /// The same where nothing but the fingerprint is wanted: nothing that grows with the run is kept, and so nothing is bounded that
+    /// another recorder may have kept more or less of.
+    ///
+    /// # Errors
+    /// No file for the steps.
+    pub fn only_fingerprinted(mut self) -> io::Result<Self> {
+        self.recorded.kept = self.recorded.kept.for_pictures(&[]);
+        self.recorded.tally.spill(tempfile::tempfile()?);
+        Ok(Self { limit: None, keeps_cycles: false, ..self }.fingerprinted())
     }
 
     /// The same for a run that is to stop at a time, s, at which an earlier one was stopped.
@@ -197,7 +220,8 @@ impl<'a> Recorder<'a> {
             let judged = cycles.take(self.job, (c, law), figures);
             match &mut self.tables {
                 Some(tables) => tables.cycles.write((name, cycles.count), &judged),
-                None => cycles.all.push(judged),
+                None if self.keeps_cycles => cycles.all.push(judged),
+                None => {}
             }
         }
     }
@@ -239,8 +263,17 @@ impl<'a> Recorder<'a> {
         self.end();
         if let Some(Tables { trace, events, cycles, steps, insides }) = self.tables {
             let written = [(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
-            let optional = [(CYCLES, cycles.finish()?), (STEPS, steps.finish()?)];
-            let optional = optional.into_iter().filter_map(|(name, written)| Some((name, written?)));
+            let mut optional = Vec::new();
+            for (name, finished) in [(CYCLES, cycles.finish()), (STEPS, steps.finish())] {
+                match finished {
+                    Ok(written) => optional.extend(written.map(|written| (name, written))),
+                    // The others are worth something without it.
+                    Err(failure) => {
+                        self.recorded.failure.get_or_insert(failure);
+                        self.recorded.absent.push(name);
+                    }
+                }
+            }
             let all = written.into_iter().chain(insides.finish()?).chain(optional);
             for (name, Written { file, seal, failure }) in all {
                 self.recorded.drafts.push(Draft { name, file, seal });
@@ -264,7 +297,7 @@ impl<'a> Recorder<'a> {
 
     /// Whether it keeps no more than it may.
     fn has_room(&mut self, t: f64) -> bool {
-        let Some(limit) = self.job.scenario.memory_limit else { return true };
+        let Some(limit) = self.limit else { return true };
         let kept = self.bytes() as f64;
         if kept > limit {
             self.recorded.excess = Some(Excess { t, kept, limit });
@@ -330,6 +363,11 @@ impl Record for Recorder<'_> {
     }
 
     fn mark(&mut self, values: &[f64]) {
+        if self.has_window {
+            // Rows outside are not there to be read: their place is taken by what is.
+            self.recorded.tally.row(values);
+            self.recorded.books.read(values);
+        }
         self.moment(values);
         match self.marks.period_ended(values.first().copied().unwrap_or(0.0)) {
             Some(0) => self.recorded.tally.begin_range(),

@@ -6,11 +6,9 @@ use crate::kept::Kept;
 use crate::results::ResultsError;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
-use stickslip_drive::{Channel, state_name};
+use crate::states::state_code;
+use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
-
-/// Codes of the states of a contact.
-const STATES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
 /// What the last row of a trace shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,9 +95,7 @@ impl<'a> Replay<'a> {
             return Ok(self.rows.number(column, &channel.name)?);
         }
         let text = self.rows.text(column);
-        // As words, or as the numbers that stand for them.
-        let code = STATES.into_iter().find(|code| state_name(*code) == text || format!("{code}") == text);
-        code.ok_or_else(|| {
+        state_code(text).ok_or_else(|| {
             let text = text.escape_debug();
             self.rows
                 .fault(format!("{}: expected open, stick, partial or slip, got \"{text}\"", channel.name))

@@ -19,9 +19,11 @@ pub(crate) struct Selection {
     taken: u64,
     /// All events.
     seen: u64,
-    /// Time of the last event before the first that was thinned out, s.
+    /// The last moment before that of the first event that was thinned out, s: those of one moment may be torn apart.
     whole_until: Option<f64>,
+    /// Time of the last event that was asked for, and of the last before that moment, s.
     last: f64,
+    before: f64,
     /// Whether a channel is rounded.
     is_rounded: Vec<bool>,
     /// Scratch: a rounded row, and a number in words.
@@ -52,6 +54,7 @@ impl Selection {
             seen: 0,
             whole_until: None,
             last: 0.0,
+            before: 0.0,
             is_rounded: is_rounded.collect(),
             row: Vec::new(),
             text: String::new(),
@@ -79,10 +82,12 @@ impl Selection {
         let takes = is_taken(self.asked, events.most);
         self.asked += 1;
         self.taken += u64::from(takes);
-        if !takes {
-            self.whole_until.get_or_insert(self.last);
+        if t > self.last {
+            (self.before, self.last) = (self.last, t);
         }
-        self.last = t;
+        if !takes {
+            self.whole_until.get_or_insert(self.before);
+        }
         takes
     }
 
@@ -131,7 +136,14 @@ fn is_taken(number: u64, most: u64) -> bool {
 /// How many of so many events are written, about.
 pub(crate) fn expected(events: f64, most: u64) -> f64 {
     let most = most as f64;
-    if events <= most { events } else { most * (1.0 + 0.5 * (events / most).log2()) }
+    // Of none the logarithm is infinite.
+    if most == 0.0 {
+        0.0
+    } else if events <= most {
+        events
+    } else {
+        most * (1.0 + 0.5 * (events / most).log2())
+    }
 }
 
 /// The number nearest to a value that has so many digits.
@@ -158,6 +170,36 @@ mod tests {
         // Neighbours stay together, ten by ten.
         assert!(taken.chunks(10).all(|block| block[9] == block[0] + 9 && block[0] % 10 == 0));
         assert!((0..100).all(|number| is_taken(number, u64::MAX)) && is_taken(u64::MAX - 1, u64::MAX));
+    }
+
+    /// Of three events of one moment, the second of which is thinned out, the first is there.
+    #[test]
+    fn a_moment_that_was_torn_apart_is_not_whole() {
+        let until = |times: &[f64]| {
+            let events = WrittenEvents { kinds: None, contacts: None, most: 100 };
+            let window = [0.0, f64::INFINITY];
+            let written = Written { events, window, goes_by_end: false, digits: None, state_numbers: false };
+            let mut selection = Selection::new(written, &[]);
+            for t in times {
+                selection.takes(Source::Contact(0), "touch", *t);
+            }
+            selection.events().whole_until
+        };
+        let mut times: Vec<f64> = (0..110).map(f64::from).collect();
+        // The block of the hundredth, one event, is written, and the next is not.
+        assert_eq!(until(&times), Some(100.0));
+        times[101] = 100.0;
+        assert_eq!(until(&times), Some(99.0));
+        assert_eq!(until(&times[..101]), None);
+    }
+
+    #[test]
+    fn so_many_are_expected_as_are_taken() {
+        for seen in [500, 1000, 2000, 32_000, 1_024_000] {
+            let taken = (0..seen).filter(|number| is_taken(*number, 1000)).count();
+            assert_eq!(expected(seen as f64, 1000), taken as f64, "{seen}");
+        }
+        assert_eq!([0.0, 1e6].map(|events| expected(events, 0)), [0.0; 2]);
     }
 
     #[test]

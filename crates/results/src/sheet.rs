@@ -25,6 +25,10 @@ pub(crate) struct Sheet<F = NamedTempFile> {
     /// Lines below the names: in the file, and in the block.
     rows: [u64; 2],
     failure: Option<io::Error>,
+    /// Whether the file has taken a block.
+    has_block: bool,
+    /// The first block and its lines, where the file has not taken even that.
+    first: Option<(Vec<u8>, u64)>,
 }
 
 /// A file that can be cut.
@@ -46,8 +50,16 @@ impl<F: Target> Sheet<F> {
     pub(crate) fn new<'a>(file: F, head: impl IntoIterator<Item = &'a str>) -> Self {
         let block = Vec::with_capacity(LAST_BLOCK);
         let digest = Digest::default();
-        let mut sheet =
-            Self { file, block, digits: zmij::Buffer::new(), digest, rows: [0; 2], failure: None };
+        let mut sheet = Self {
+            file,
+            block,
+            digits: zmij::Buffer::new(),
+            digest,
+            rows: [0; 2],
+            failure: None,
+            has_block: false,
+            first: None,
+        };
         head.into_iter().for_each(|name| sheet.text(name));
         if let Some(last) = sheet.block.last_mut() {
             *last = b'\n';
@@ -106,8 +118,14 @@ impl<F: Target> Sheet<F> {
                 Ok(()) => {
                     self.block = self.digest.take(std::mem::take(&mut self.block), is_last);
                     self.rows[0] += rows;
+                    self.has_block = true;
                 }
-                Err(failure) => self.failure = Some(failure),
+                Err(failure) => {
+                    self.failure = Some(failure);
+                    if !self.has_block {
+                        self.first = Some((std::mem::take(&mut self.block), rows));
+                    }
+                }
             }
         }
         // What a file without room has not taken is lost.
@@ -117,14 +135,19 @@ impl<F: Target> Sheet<F> {
     /// The written file.
     ///
     /// # Errors
-    /// A file that did not take its first block, or cannot be cut where its last whole one ends.
+    /// A file that does not take its first block now either, or cannot be cut where its last whole one ends.
     pub(crate) fn finish(mut self) -> io::Result<Written<F>> {
         self.flush(true);
-        let (length, sha256) = self.digest.finish()?;
-        if let Some(failure) = self.failure.take_if(|_| length == 0) {
-            return Err(failure);
+        let is_cut = self.failure.is_some();
+        if let Some((block, rows)) = self.first.take() {
+            // Room has been left for the end of each file: for this one its beginning is its end.
+            self.file.cut(0)?;
+            self.file.write_all(&block)?;
+            self.digest.take(block, true);
+            self.rows[0] = rows;
         }
-        if self.failure.is_some() {
+        let (length, sha256) = self.digest.finish()?;
+        if is_cut {
             self.file.cut(length)?;
         }
         Ok(Written { file: self.file, seal: Seal { rows: self.rows[0], sha256 }, failure: self.failure })
@@ -205,6 +228,24 @@ mod tests {
             assert_eq!(seal, Seal { rows: text.lines().count() as u64 - 1, sha256: hash(&text) });
         }
         assert_eq!(fill(length).unwrap().seal, whole.seal);
+    }
+
+    /// A disk that was full at the first block of a table once took all others with it.
+    #[test]
+    fn a_first_block_goes_where_room_was_left_for_the_end() {
+        let mut sheet = Sheet::new(small(100), ["time_s", "ball.state"]);
+        for row in 0..20_000_u32 {
+            sheet.number(f64::from(row));
+            sheet.word("stick");
+            sheet.end_line();
+        }
+        assert!(sheet.has_failed());
+        sheet.file.room = LAST_BLOCK;
+        let Written { file, seal, failure } = sheet.finish().unwrap();
+        assert_eq!(failure.unwrap().kind(), io::ErrorKind::StorageFull);
+        let text = String::from_utf8(file.bytes).unwrap();
+        assert!(text.len() >= BLOCK && text.starts_with("time_s,ball.state\n0.0,stick\n"));
+        assert_eq!(seal, Seal { rows: text.lines().count() as u64 - 1, sha256: hash(&text) });
     }
 
     proptest! {

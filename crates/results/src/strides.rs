@@ -43,7 +43,9 @@ impl StrideList {
             let numbers = self.recent.iter().flat_map(|s| [s.start, s.end, s.least, s.most]);
             let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
             let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
-            match file.seek(SeekFrom::End(0)).and_then(|_| file.write_all(&bytes)) {
+            // What a write that failed has left behind is written over.
+            let end = SeekFrom::Start((BYTES * self.spilled) as u64);
+            match file.seek(end).and_then(|_| file.write_all(&bytes)) {
                 Ok(()) => {
                     self.spilled += self.recent.len();
                     self.recent.clear();
@@ -143,6 +145,17 @@ mod tests {
         // One that is read while it grows goes on at its end.
         spilled.push(stride(count));
         assert_eq!(spilled.last(), Some(stride(count)));
+    }
+
+    #[test]
+    fn what_a_failed_write_has_left_is_written_over() {
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(b"torn").unwrap();
+        let mut strides = StrideList::default();
+        strides.spill(file);
+        let stride = Stride { start: 0.5, end: 1.0, least: 0.25, most: 2.0 };
+        (0..MOST).for_each(|_| strides.push(stride));
+        assert!(strides.recent.is_empty() && strides.part(0..MOST).all(|read| read == stride));
     }
 
     #[test]

@@ -16,11 +16,12 @@ use crate::quantity::quantity;
 use crate::real::Real;
 use crate::seal::Seal;
 use crate::selection::TakenEvents;
+use crate::states::legend;
 use crate::warning::{self, Warning};
 use serde::Serialize;
 use serde_json::Value;
 use std::io;
-use stickslip_drive::{RunError, state_name};
+use stickslip_drive::RunError;
 
 pub use crate::cycles::JudgedCycle;
 pub use contacts::ContactSummary;
@@ -183,6 +184,8 @@ impl Summary {
                 "{left_out} moments found no room in memory: cycles that they belong to are not told"
             ));
         }
+        let unwritten = outcome.absent.iter();
+        notes.extend(unwritten.map(|name| format!("{name} is not there: nothing of it could be written")));
         let mut warnings = Warning::of_scenario(job);
         warnings.extend(warning::of_run(job, outcome));
         let simulated = outcome.state.time();
@@ -210,10 +213,7 @@ impl Summary {
                 missed: counts.missed,
                 rows: outcome.rows,
             },
-            states: job.scenario.written.state_numbers.then(|| {
-                let legend = [0.0, 1.0, 2.0, 3.0];
-                Parts(legend.map(|code| (format!("{code}"), state_name(code))).to_vec())
-            }),
+            states: job.scenario.written.state_numbers.then(|| Parts(legend())),
             contacts: contacts::of(job, outcome),
             steps: steps::of(job, outcome, &mut notes),
             energy: outcome.books.balance(),

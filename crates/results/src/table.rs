@@ -2,6 +2,7 @@
 
 use crate::columns::Columns;
 use crate::sheet::{Sheet, Written};
+use crate::states::state_digit;
 use std::io;
 use stickslip_drive::state_name;
 use tempfile::NamedTempFile;
@@ -49,16 +50,6 @@ impl Table {
     /// The written file.
     pub(crate) fn finish(self) -> io::Result<Written> {
         self.sheet.finish()
-    }
-}
-
-/// The number for a state, which has one digit.
-fn state_digit(code: f64) -> &'static str {
-    match code {
-        0.0 => "0",
-        1.0 => "1",
-        2.0 => "2",
-        _ => "3",
     }
 }
 

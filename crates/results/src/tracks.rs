@@ -8,6 +8,8 @@ pub struct Tracks {
     tracks: Vec<Track>,
     /// Places of the tracks by source.
     places: HashMap<String, Vec<usize>>,
+    /// Number of moments.
+    size: u64,
 }
 
 /// The events of one kind from one source.
@@ -24,6 +26,7 @@ pub struct Track {
 impl Tracks {
     /// Takes the next event.
     pub fn push(&mut self, [source, kind]: [&str; 2], time: f64) {
+        self.size += 1;
         let places = self.places.get(source).map_or(&[][..], |places| places);
         if let Some(place) = places.iter().find(|place| self.tracks[**place].kind == kind) {
             self.tracks[*place].times.push(time);
@@ -34,8 +37,8 @@ impl Tracks {
     }
 
     /// Number of moments.
-    pub(crate) fn size(&self) -> usize {
-        self.tracks.iter().map(|track| track.times.len()).sum()
+    pub(crate) fn size(&self) -> u64 {
+        self.size
     }
 
     /// In the order of the first event of each.

@@ -86,9 +86,46 @@ fn a_run_that_would_keep_too_much_is_refused() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
     let limit = ("run.limits.memory".to_owned(), "\"500 kB\"".to_owned());
     let error = Job::prepare(&file, std::slice::from_ref(&limit), Path::new("")).err().unwrap().to_string();
-    assert!(error.contains("run.limits.memory: the run would keep 735.0 kB in memory"), "{error}");
-    assert!(error.contains("for its pictures (loop, trajectory)"), "{error}");
+    assert!(error.contains("run.limits.memory: the run would keep 736.6 kB in memory"), "{error}");
+    assert!(error.contains("for its pictures (loop, trajectory, events)"), "{error}");
     // Without them nothing grows.
     let none = ("plots".to_owned(), "[]".to_owned());
     assert!(Job::prepare(&file, &[limit, none], Path::new("")).is_ok());
+}
+
+/// Without events the estimate was no number, and every run refused.
+#[test]
+fn a_run_without_events_has_an_estimate() {
+    let limit = ("run.limits.memory", "\"512 MB\"");
+    job("p1", &[("output.events", "\"off\""), limit]);
+}
+
+/// The picture of the events has a time of each, which nothing counted.
+#[test]
+fn moments_of_events_are_in_the_estimate() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
+    let set = [
+        ("run.limits.memory", "\"500 kB\""),
+        ("run.cycles", "20000"),
+        ("output", r#"{"events": "all"}"#),
+        ("plots", r#"["events"]"#),
+    ];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let error = Job::prepare(&file, &set, Path::new("")).err().unwrap().to_string();
+    assert!(error.contains("for its pictures (events)"), "{error}");
+}
+
+/// What a fingerprint needs does not grow, and no limit is asked for it: that of the run bounds what its pictures need.
+#[test]
+fn a_fingerprint_alone_needs_no_room() {
+    let mut job = job("p1", &[("run.cycles", "2000"), ("output.every", "\"20 us\"")]);
+    let recorder = Recorder::new(&job, &()).only_fingerprinted().unwrap();
+    let (outcome, _) = job.run_recorded(recorder).unwrap();
+    assert!(outcome.bytes < 600_000 && outcome.error.is_none(), "{}", outcome.bytes);
+    let whole = Recorder::new(&job, &()).fingerprinted();
+    assert_eq!(outcome.kept.fingerprint(), job.run_recorded(whole).unwrap().0.kept.fingerprint());
+    job.scenario.memory_limit = Some(1.0);
+    let recorder = Recorder::new(&job, &()).only_fingerprinted().unwrap();
+    let (limited, _) = job.run_recorded(recorder).unwrap();
+    assert!(limited.excess.is_none() && limited.kept.fingerprint() == outcome.kept.fingerprint());
 }

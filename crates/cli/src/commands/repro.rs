@@ -83,15 +83,17 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     let job = &origin.job;
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     let bar = progress.start(&job.name, [0.0, job.scenario.plan.duration], &interrupt);
-    let mut recorder = Recorder::new(job, &bar).fingerprinted();
+    let mut recorder = Recorder::new(job, &bar);
     if !origin.is_whole() {
         recorder = recorder.until(origin.end);
     }
     let written = |source| ReproFailure::Write { folder: job.folder.clone(), source };
     let folder = arguments.out.as_deref().map(Folder::make).transpose().map_err(written)?;
-    if let Some(folder) = &folder {
-        recorder = recorder.with_tables(folder).map_err(written)?;
-    }
+    let recorder = match &folder {
+        Some(folder) => recorder.fingerprinted().with_tables(folder),
+        None => recorder.only_fingerprinted(),
+    };
+    let recorder = recorder.map_err(written)?;
     let (outcome, drafts) = job.run_recorded(recorder).map_err(written)?;
     drop(bar);
     if let Some(mut folder) = folder {

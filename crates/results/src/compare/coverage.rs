@@ -43,9 +43,15 @@ pub(super) fn extents(a: &Results, b: &Results) -> Vec<String> {
                 .push(format!("{name}: the tables end at t = {:?} s: no more could be written", results.end));
         }
     }
-    if a.events_asked != b.events_asked {
+    let Some([from, to]) = a.asked.common(&b.asked, 0.0) else {
         notes.push("events: A and B write others, as output.events, window and last of their scenarios say; not compared".to_owned());
-    } else if a.events_until.min(b.events_until).is_finite() {
+        return notes;
+    };
+    if !a.asked.has_same_window(&b.asked) {
+        let to = to.min(a.end).min(b.end);
+        notes.push(format!("events: compared from t = {from:?} s to {to:?} s, where both windows are"));
+    }
+    if a.events_until.min(b.events_until).is_finite() {
         let until = a.events_until.min(b.events_until);
         notes.push(format!("events: compared until t = {until:?} s, from where on they are thinned"));
     }

@@ -63,10 +63,8 @@ struct Track<'a> {
 /// Compares the events until `end`, s.
 pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance) -> EventDifferences {
     let mut differences = EventDifferences { allowed: Real(allowance.time), ..EventDifferences::default() };
-    if a.events_asked != b.events_asked {
-        return differences;
-    }
-    for track in tracks(a, b, end, allowance) {
+    let Some(window) = a.asked.common(&b.asked, allowance.time) else { return differences };
+    for track in tracks((a, b), (window, end), allowance) {
         differences.add(&track, allowance.time);
     }
     let by_time = |p: &Lone, q: &Lone| p.time.0.total_cmp(&q.time.0);
@@ -78,14 +76,20 @@ pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance)
 
 /// The tracks in order of appearance. Where one run ends before the other, an event at its very end may not have been
 /// written any more: those are left out.
-fn tracks<'a>(a: &'a Results, b: &'a Results, end: f64, allowance: &Allowance) -> Vec<Track<'a>> {
+fn tracks<'a>(
+    (a, b): (&'a Results, &'a Results),
+    ([from, to], end): ([f64; 2], f64),
+    allowance: &Allowance,
+) -> Vec<Track<'a>> {
     let last = if a.end == b.end { f64::INFINITY } else { end - allowance.time };
     // Of thinned events one more or less moves all that follow.
     let whole = a.events_until.min(b.events_until);
     let last = if whole.is_finite() { last.min(whole - allowance.time) } else { last };
+    let last = last.min(to);
     let mut tracks: Vec<Track<'a>> = Vec::new();
     let mut places: HashMap<(&'a str, &'a str), usize> = HashMap::new();
-    let wanted = |event: &EventRow<'_>| event.time <= last && !allowance.ignores(event.source);
+    let wanted =
+        |event: &EventRow<'_>| (from..=last).contains(&event.time) && !allowance.ignores(event.source);
     let mut file = |event: EventRow<'a>, is_first: bool| {
         let place = *places.entry((event.source, event.kind)).or_insert_with(|| {
             tracks.push(Track { source: event.source, kind: event.kind, a: Vec::new(), b: Vec::new() });

@@ -50,7 +50,8 @@ pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> Figure
         figures_b.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let has_same_span = a.end == b.end;
     let rows = |results: &Results| results.summary.pointer("/counts/rows").cloned();
-    let has_same_rows = rows(a) == rows(b);
+    // As many rows may be others: those of another window, or of another interval.
+    let has_same_rows = rows(a) == rows(b) && a.asked.has_same_rows(&b.asked);
     // Whoever has sent one of them may have left out the table of the steps.
     let lists = |results: &Results| results.summary.pointer("/steps/lengths_m").is_some();
     let both_list = lists(a) && lists(b);

@@ -1,10 +1,10 @@
 //! A folder of results, read back.
 
+use super::asked::Asked;
 use super::soundness::{Extent, Soundness};
 use crate::complaint::words;
-use crate::files::{EVENTS, SCENARIO, STEP_HEAD, STEPS, TRACE};
+use crate::files::{EVENTS, STEP_HEAD, STEPS, TRACE};
 use crate::frame::{Frame, FrameError};
-use crate::guard;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
 use crate::synopsis::{Synopsis, SynopsisError};
@@ -34,8 +34,8 @@ pub struct Results {
     extent: Extent,
     /// Until when all its events were written that were asked for, s; infinite where that is to its end.
     pub events_until: f64,
-    /// Which events that are, as its scenario says.
-    pub events_asked: Value,
+    /// Which events and rows were asked for.
+    pub(super) asked: Asked,
     /// Tables that the run wrote, which are not compared and not there.
     pub absent: Vec<String>,
 }
@@ -131,7 +131,7 @@ impl Results {
             }
         }
         let events_until = synopsis.number("/counts/events_whole_until_s").unwrap_or(f64::INFINITY);
-        let events_asked = events_asked(folder);
+        let asked = Asked::of(folder);
         let mut summary = synopsis.summary;
         // Steps have stood in the summary, and are told by the name that they had there.
         if let (Some(lengths), Some(Value::Object(steps))) = (lengths, summary.get_mut("steps")) {
@@ -146,7 +146,7 @@ impl Results {
             stepper,
             extent,
             events_until,
-            events_asked,
+            asked,
             absent,
         };
         if extent == Extent::Cut {
@@ -201,15 +201,6 @@ impl Results {
     pub fn status(&self) -> &str {
         self.text("/status")
     }
-}
-
-/// What the scenario beside results says of the events that are written: which, and when. An excerpt has none.
-fn events_asked(folder: &Path) -> Value {
-    let scenario = guard::json(&folder.join(SCENARIO)).unwrap_or_default();
-    ["events", "window", "last"]
-        .into_iter()
-        .map(|key| scenario.pointer(&format!("/output/{key}")).cloned().unwrap_or_default())
-        .collect()
 }
 
 /// Lengths of the steps of a run, m.

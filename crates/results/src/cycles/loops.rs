@@ -24,8 +24,12 @@ pub(crate) struct Loops {
     walk: Option<Walk>,
     /// Number of identical contacts.
     count: f64,
+    /// Most moments of its track.
+    most: usize,
     /// Moments for which there was no room.
     pub(crate) left_out: u64,
+    /// Whether some of the cycle under way are among them.
+    is_torn: bool,
 }
 
 /// Where cycles begin and end.
@@ -46,6 +50,7 @@ impl Loops {
             (None, Some(_)) => Cutting::Reversals,
             (None, None) => return None,
         };
+        let most = MOST[usize::from(matches!(cut, Cutting::Reversals))];
         let (name, _) = job.model.contacts().nth(c)?;
         let place = |quantity| places.get(format!("{name}.{quantity}").as_str()).copied();
         let [Some(u), Some(d), Some(force), Some(normal), Some(friction)] = QUANTITIES.map(place) else {
@@ -58,7 +63,9 @@ impl Loops {
             track: Track::default(),
             walk: memory.map(|memory| Walk::new(memory.clone())),
             count: f64::from(job.count(c)),
+            most,
             left_out: 0,
+            is_torn: false,
         })
     }
 
@@ -75,7 +82,7 @@ impl Loops {
         };
         let begins = matches!(self.cut, Cutting::Reversals) || ended == Some(0);
         if begins || !self.track.t.is_empty() {
-            self.push(t, moment);
+            self.push(law, t, moment);
         } else {
             self.wait(law, moment);
         }
@@ -111,12 +118,17 @@ impl Loops {
         back.map(|span| track.figures(&span, (law, *count), walk.as_mut())).collect()
     }
 
-    fn push(&mut self, t: f64, moment: [f64; 5]) {
-        let is_whole = matches!(self.cut, Cutting::Reversals);
-        if self.track.t.len() >= MOST[usize::from(is_whole)] {
-            // A cycle without some of its moments is none.
+    fn push(&mut self, law: &Interface, t: f64, moment: [f64; 5]) {
+        let is_full = self.track.t.len() >= self.most;
+        if is_full && matches!(self.cut, Cutting::Reversals) {
             self.left_out += 1;
             return;
+        }
+        if is_full {
+            // A cycle without some of its moments is none; those after it are, so that their contact goes on.
+            self.is_torn = true;
+            self.left_out += self.track.t.len() as u64 - 1;
+            self.forget(law);
         }
         if let Some(walk) = &mut self.walk {
             walk.begin(moment[1]);
@@ -137,13 +149,19 @@ impl Loops {
     /// The cycle that ends with the last moment of the track.
     fn end_cycle(&mut self, law: &Interface) -> Option<CycleFigures> {
         let span = 0..self.track.t.len().checked_sub(1)?;
-        let is_whole = self.left_out == 0;
+        let is_whole = !self.is_torn;
         let Self { track, walk, count, .. } = self;
         (is_whole && track.comes_back(&span)).then(|| track.figures(&span, (law, *count), walk.as_mut()))
     }
 
     /// Begins a cycle where the one before has ended, with the last moment of the track.
     fn begin_cycle(&mut self, law: &Interface) {
+        self.is_torn = false;
+        self.forget(law);
+    }
+
+    /// Forgets all moments but the last, along which its contact still has to be led.
+    fn forget(&mut self, law: &Interface) {
         if let Some(walk) = &mut self.walk {
             // Where no figures were asked for it has been left behind; it never stands inside of a cycle.
             let behind = walk.at.map_or(0, |at| at + 1);
@@ -161,18 +179,56 @@ impl Loops {
 mod tests {
     use super::*;
 
+    fn sphere() -> Job {
+        let text = include_str!("../../../../scenarios/fretting_sphere.json");
+        let scenario = stickslip_scenario::Scenario::from_str(text, "fretting_sphere", "").unwrap();
+        Job::new(scenario, "fretting_sphere".to_owned(), "".into()).unwrap()
+    }
+
+    fn loops(job: &Job) -> Loops {
+        let channels = job.model.channels();
+        let places = channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place));
+        Loops::of(job, 0, &places.collect()).unwrap()
+    }
+
+    /// One cycle with more moments than there is room for once silenced all that came after it.
+    #[test]
+    fn a_cycle_without_room_is_lost_and_no_other() {
+        let job = sphere();
+        let law = job.model.contacts().next().unwrap().1;
+        let period = Periods::of_contact(&job, 0, f64::INFINITY).unwrap().length;
+        let told = |most: usize| {
+            let mut loops = Loops { most, ..loops(&job) };
+            let (mut row, mut told) = (vec![0.0; job.model.channels().len()], Vec::new());
+            for cycle in 0..6 {
+                let count = if cycle == 2 { 100 } else { 8 };
+                for k in 0..count {
+                    let share = f64::from(k) / f64::from(count);
+                    row[0] = period * (f64::from(cycle) + share);
+                    // Not the same in each, so that figures hang on the way until then.
+                    let turn = 2.0 * std::f64::consts::PI * share;
+                    row[loops.places[0]] = 1e-7 * (turn.sin() + 0.1 * f64::from(cycle) * (3.0 * turn).sin());
+                    row[loops.places[1]] = job.start.memories()[0].apex().d;
+                    row[loops.places[2]] = turn.cos();
+                    told.extend(loops.take(law, &row));
+                }
+            }
+            assert!(loops.track.t.capacity() < 2 * most.min(128), "{}", loops.track.t.capacity());
+            (told, loops.left_out)
+        };
+        let ((all, none), (some, left_out)) = (told(MOST[0]), told(20));
+        assert_eq!((all.len(), none, left_out > 0), (5, 0, true));
+        assert_eq!(some, [&all[..2], &all[3..]].concat());
+    }
+
     /// What is kept does not grow with the run.
     #[test]
     fn no_more_is_kept_than_a_cycle() {
-        let text = include_str!("../../../../scenarios/fretting_sphere.json");
-        let scenario = stickslip_scenario::Scenario::from_str(text, "fretting_sphere", "").unwrap();
-        let job = Job::new(scenario, "fretting_sphere".to_owned(), "".into()).unwrap();
-        let channels = job.model.channels();
-        let places = channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place));
-        let mut loops = Loops::of(&job, 0, &places.collect()).unwrap();
+        let job = sphere();
+        let mut loops = loops(&job);
         let law = job.model.contacts().next().unwrap().1;
         let period = Periods::of_contact(&job, 0, f64::INFINITY).unwrap().length;
-        let (mut row, mut cycles) = (vec![0.0; channels.len()], 0);
+        let (mut row, mut cycles) = (vec![0.0; job.model.channels().len()], 0);
         for k in 0..100_000 {
             let share = f64::from(k % 4) / 4.0;
             row[0] = period * (f64::from(k / 4) + share);

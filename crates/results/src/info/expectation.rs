@@ -7,6 +7,7 @@ use crate::selection::expected;
 use crate::series::Series;
 use serde::Serialize;
 use stickslip_drive::facts::{ExpectedEvents, fixed_steps, rows};
+use stickslip_scenario::PlotName;
 
 /// Bytes of a number with its comma in a table: 13.9 to 19.7 on the examples.
 const BYTES_PER_VALUE: f64 = 19.0;
@@ -88,7 +89,9 @@ impl Expectation {
         let written = written_events(job, &events);
         let series = Series::new(&job.model.channels(), &job.scenario.plots);
         let width = if draws_from_series(&job.scenario.plots) { series.width() } else { 0 };
-        let kept = width as f64 * (rows + written) * size_of::<f64>() as f64;
+        // A picture of the events has the time of each.
+        let times = if job.scenario.plots.contains(&PlotName::Events) { written } else { 0.0 };
+        let kept = (width as f64 * (rows + written) + times) * size_of::<f64>() as f64;
         let springs: usize = job.grids.iter().flatten().map(|grid| grid.count()).sum();
         let spring_lines =
             job.scenario.springs.as_ref().map(|asked| springs as f64 * asked.moments.count(plan.duration));
