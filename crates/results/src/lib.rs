@@ -80,8 +80,8 @@ mod watcher;
 
 pub use columns::Columns;
 pub use contact_path::contact_path;
-pub use excess::Excess;
 pub use definitions::{Definition, definitions, definitions_page};
+pub use excess::Excess;
 pub use files::heads;
 pub use job::{Job, Refusal};
 pub use kept::Kept;
