@@ -13,7 +13,16 @@ pub struct ScenarioError(Box<Reports>);
 struct Reports {
     first: Report,
     rest: Vec<Report>,
-    more: bool,
+    beyond: Beyond,
+}
+
+/// What is beyond the reports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Beyond {
+    /// More is known to be wrong.
+    pub(crate) more: bool,
+    /// Not everything was judged: more may be wrong.
+    pub(crate) unjudged: bool,
 }
 
 /// What there is to say about a place of a scenario: the parts of a [`ScenarioError`], or a warning.
@@ -63,14 +72,14 @@ impl fmt::Display for Warning {
 
 impl From<Report> for ScenarioError {
     fn from(first: Report) -> Self {
-        Self(Box::new(Reports { first, rest: Vec::new(), more: false }))
+        Self(Box::new(Reports { first, rest: Vec::new(), beyond: Beyond::default() }))
     }
 }
 
 impl ScenarioError {
-    /// Several at once: the first, the others, and whether there are more than these.
-    pub(crate) fn several(first: Report, rest: Vec<Report>, more: bool) -> Self {
-        Self(Box::new(Reports { first, rest, more }))
+    /// Several at once: the first, the others, and what is beyond these.
+    pub(crate) fn several(first: Report, rest: Vec<Report>, beyond: Beyond) -> Self {
+        Self(Box::new(Reports { first, rest, beyond }))
     }
 
     /// Everything that is told, in the order of the file; at least one.
@@ -80,7 +89,12 @@ impl ScenarioError {
 
     /// Whether there is more wrong than is told.
     pub fn has_more(&self) -> bool {
-        self.0.more
+        self.0.beyond.more
+    }
+
+    /// Whether not everything could be judged, so that there may be more wrong than is told.
+    pub fn may_have_more(&self) -> bool {
+        self.0.beyond.unjudged
     }
 
     /// The first report by itself.
@@ -106,8 +120,11 @@ impl fmt::Display for ScenarioError {
         for report in &self.0.rest {
             write!(f, "\n\n{report}")?;
         }
-        if self.0.more {
+        if self.0.beyond.more {
             write!(f, "\n\nand more: these are {}", self.reports().count())?;
+        }
+        if self.0.beyond.unjudged {
+            f.write_str("\n\nand maybe more: the rest was not judged")?;
         }
         Ok(())
     }

@@ -34,8 +34,8 @@ pub(crate) enum Mend {
     With(Value),
     /// The name of a part that is there, for one that is not; where none is, an example of the part itself.
     Name { section: &'static str, name: String, instead: Option<String> },
-    /// What is there: it can be read, though it cannot be what was meant.
-    Leave,
+    /// What is there: it can be read, though at this path, if any, it cannot be what was meant.
+    Leave(Option<KeyPath>),
     /// Nothing: with this wrong nothing else can be judged.
     Nothing,
 }

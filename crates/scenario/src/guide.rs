@@ -130,20 +130,35 @@ impl Guide {
 
     /// The keys of which one says which kind of value stands under a path; none where there is no such choice.
     pub(crate) fn choices(&self, path: &KeyPath) -> Vec<String> {
-        let Some(schema) = self.at(path) else { return Vec::new() };
-        let mut parts: Vec<&Value> = self.parts(schema).collect();
-        parts.push(schema);
-        // Keys that exclude each other are a rule, not kinds.
-        let is_choice = |part: &&Value| {
-            ["oneOf", "anyOf"].iter().any(|key| {
-                let kinds = part.get(key).and_then(Value::as_array).into_iter().flatten();
-                kinds.clone().count() > 0
-                    && kinds
-                        .clone()
-                        .all(|kind| kind.get("required").is_none() || kind.get("properties").is_some())
-            })
+        let chooses = self.at(path).is_some_and(|schema| self.is_choice(schema));
+        if chooses { self.kinds(path) } else { Vec::new() }
+    }
+
+    /// Whether a schema is one of several kinds, each a plain value or an object with the one key that it must have. An object whose
+    /// keys may stand beside each other is none of them, nor is a rule about keys.
+    fn is_choice(&self, schema: &Value) -> bool {
+        let name = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
+        if let Some(named) = name.and_then(|name| self.root.get("$defs")?.get(name)) {
+            return self.is_choice(named);
+        }
+        let kinds = ["oneOf", "anyOf"].iter().find_map(|key| schema.get(key)?.as_array());
+        kinds.is_some_and(|kinds| kinds.iter().all(|kind| self.is_kind(kind)))
+    }
+
+    fn is_kind(&self, schema: &Value) -> bool {
+        let plain = |kind: &Value| {
+            let is_object = kind.get("type").and_then(Value::as_str) == Some("object");
+            !is_object && ["required", "$ref", "oneOf", "anyOf"].iter().all(|key| kind.get(key).is_none())
         };
-        if parts.iter().any(is_choice) { self.kinds(path) } else { Vec::new() }
+        let one_key = |kind: &Value| {
+            let required = kind.get("required").and_then(Value::as_array);
+            kind.get("properties").is_some() && required.is_some_and(|required| required.len() == 1)
+        };
+        let name = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
+        match name.and_then(|name| self.root.get("$defs")?.get(name)) {
+            Some(named) => self.is_kind(named),
+            None => plain(schema) || one_key(schema) || self.is_choice(schema),
+        }
     }
 
     fn add_kinds(&self, schema: &Value, kinds: &mut Vec<String>) {
@@ -171,18 +186,33 @@ impl Guide {
     /// Where in a scenario a key stands: the places that share most with the one where it was looked for, of those the
     /// ones closest to the root. Names of parts that are not shared are written as NAME.
     pub(crate) fn homes(&self, sought: &KeyPath, key: &str) -> Vec<String> {
-        let mut homes: Vec<KeyPath> = Vec::new();
-        let mut level = vec![(KeyPath::default(), &self.root)];
-        while !level.is_empty() {
-            let here = level.iter().filter(|(_, schema)| self.keys_of(schema).any(|known| known == key));
-            homes.extend(here.map(|(path, _)| path.clone()));
-            level = level.iter().flat_map(|(path, schema)| self.next_level(sought, path, schema)).collect();
-        }
+        let mut homes = self.places(sought, key);
         let shared = |home: &KeyPath| home.0.iter().zip(&sought.0).take_while(|(a, b)| a == b).count();
         let rank = |home: &KeyPath| (shared(home), Reverse(home.0.len()));
         let best = homes.iter().map(rank).max();
         homes.retain(|home| Some(rank(home)) == best && !home.0.is_empty());
         homes.iter().map(KeyPath::to_string).collect()
+    }
+
+    /// All places where a key stands.
+    fn places(&self, sought: &KeyPath, key: &str) -> Vec<KeyPath> {
+        let mut places: Vec<KeyPath> = Vec::new();
+        let mut level = vec![(KeyPath::default(), &self.root)];
+        while !level.is_empty() {
+            let here = level.iter().filter(|(_, schema)| self.keys_of(schema).any(|known| known == key));
+            places.extend(here.map(|(path, _)| path.clone()));
+            level = level.iter().flat_map(|(path, schema)| self.next_level(sought, path, schema)).collect();
+        }
+        places
+    }
+
+    /// Places of a key whose paths end in some steps: the ones closest to the root.
+    fn places_ending(&self, steps: &[Step], key: &str) -> Vec<KeyPath> {
+        let mut places = self.places(&KeyPath::default(), key);
+        places.retain(|place| place.0.ends_with(steps));
+        let least = places.iter().map(|place| place.0.len()).min();
+        places.retain(|place| Some(place.0.len()) == least);
+        places
     }
 
     fn next_level<'a>(
@@ -209,8 +239,8 @@ impl Guide {
     }
 }
 
-/// What the schema says about a key of a scenario: by its path, such as `contacts.ball.friction`, or by its name alone, wherever it
-/// stands. Each place with its description; none where there is no such key.
+/// What the schema says about a key of a scenario: by its path, such as `contacts.ball.friction`, or by the end of it, wherever
+/// that stands. Each place with its description; none where there is no such key.
 pub fn explained(key: &str) -> Vec<(String, String)> {
     let guide = Guide::get();
     let Some(path) = KeyPath::parse(key).filter(|path| !path.0.is_empty()) else { return Vec::new() };
@@ -224,7 +254,15 @@ pub fn explained(key: &str) -> Vec<(String, String)> {
     if let Some(found) = told(&path) {
         return vec![found];
     }
-    let [Step::Key(name)] = path.0.as_slice() else { return Vec::new() };
+    let Some((Step::Key(name), before)) = path.0.split_last() else { return Vec::new() };
+    if !before.is_empty() {
+        // The end of a path, such as `sawtooth.flyback`.
+        let whole = guide.places_ending(before, name).into_iter().map(|mut place| {
+            place.0.push(Step::Key(name.clone()));
+            place
+        });
+        return whole.filter_map(|path| told(&path)).collect();
+    }
     let homes = guide.homes(&KeyPath::default(), name);
     homes.iter().filter_map(|home| told(&KeyPath::parse(&format!("{home}.{name}"))?)).collect()
 }

@@ -6,7 +6,7 @@
 //! know what to do with half a scenario.
 
 use crate::document::Document;
-use crate::error::{Report, ScenarioError};
+use crate::error::{Beyond, Report, ScenarioError};
 use crate::fault::{Fault, Mend};
 use crate::guide::Guide;
 use crate::meaning;
@@ -14,7 +14,6 @@ use crate::path::{KeyPath, Step};
 use crate::scenario::interpret;
 use serde_json::Value;
 use std::collections::{HashMap, VecDeque};
-use std::time::{Duration, Instant};
 
 /// Most that are told of.
 const TOLD: usize = 20;
@@ -22,8 +21,10 @@ const TOLD: usize = 20;
 const SOUGHT: usize = 64;
 /// How often a value is mended before what it stands in is.
 const TRIES: u32 = 2;
-/// How long anything more is looked for: only files of megabytes, or with contacts of a million springs, take as long.
-const PATIENCE: Duration = Duration::from_millis(400);
+/// Most bytes that are read again, all readings together, and the fewest that one counts for. It is counted and not timed: the
+/// same file is told the same on every machine.
+const WORK: usize = 8 << 20;
+const LEAST_WORK: usize = 64 << 10;
 
 /// Keys that are given in the place of one that is missing.
 const KIN: [(&str, &str); 3] = [("period", "frequency"), ("frequency", "period"), ("duration", "length")];
@@ -32,32 +33,27 @@ const KIN: [(&str, &str); 3] = [("period", "frequency"), ("frequency", "period")
 pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
     let mut mistakes = Mistakes::default();
     let mut known = VecDeque::from(first);
-    let begun = Instant::now();
-    let mut exhausted = false;
+    let mut unjudged = false;
     while mistakes.found.len() < SOUGHT {
         let fault = match known.pop_front() {
             Some(fault) => fault,
-            None if begun.elapsed() > PATIENCE => {
-                exhausted = true;
-                break;
-            }
-            None => match judge(&mut document) {
-                Ok(()) => break,
-                Err(fault) => fault,
+            None => match mistakes.judge(&mut document) {
+                Some(Ok(())) => break,
+                Some(Err(fault)) => fault,
+                None => {
+                    unjudged = true;
+                    break;
+                }
             },
         };
+        // A fault that says itself that nothing else can be judged needs no more words.
+        let is_all = fault.bearing.mend == Mend::Nothing;
         if !mistakes.take(&mut document, fault) && known.is_empty() {
+            unjudged = !is_all;
             break;
         }
     }
-    mistakes.told(exhausted)
-}
-
-/// What is wrong with a scenario that may have been mended.
-fn judge(document: &mut Document) -> Result<(), Fault> {
-    document.forget_tables();
-    let meaning = interpret(document)?.meaning;
-    meaning::start(&meaning)
+    mistakes.told(unjudged)
 }
 
 /// Where a report stands: its source, or the one that names it, the place there and the place in a table.
@@ -76,9 +72,24 @@ struct Mistakes {
     lacking: Vec<Step>,
     /// Sections with parts that cannot have the names they have: what refers to a part that is not there means one of them.
     misnamed: Vec<Step>,
+    /// Bytes that were read again.
+    work: usize,
 }
 
 impl Mistakes {
+    /// What is wrong with a scenario that may have been mended; none where enough has been read.
+    fn judge(&mut self, document: &mut Document) -> Option<Result<(), Fault>> {
+        if self.work >= WORK {
+            return None;
+        }
+        // Tables count, too: they are read again with the rest.
+        let bytes = document.sources.iter().map(|source| source.text.len()).sum();
+        self.work += LEAST_WORK.max(bytes);
+        document.forget_tables();
+        let interpreted = interpret(document);
+        Some(interpreted.and_then(|interpreted| meaning::start(&interpreted.meaning)))
+    }
+
     /// Notes a fault, if it is one by itself, and mends it; false where nothing can.
     fn take(&mut self, document: &mut Document, mut fault: Fault) -> bool {
         if !self.follows(&fault) {
@@ -129,7 +140,10 @@ impl Mistakes {
             if !is_here || !set(&mut document.value, &subject, value.clone()) {
                 continue;
             }
-            if judge(document).map_or_else(|next| !subject.holds(&next.subject()), |()| true) {
+            let judged = self.judge(document);
+            if judged
+                .is_some_and(|judged| judged.map_or_else(|next| !subject.holds(&next.subject()), |()| true))
+            {
                 self.strays.swap_remove(i);
                 self.spoilt.push(subject);
                 return true;
@@ -145,8 +159,8 @@ impl Mistakes {
         let mut target = fault.subject();
         match &fault.bearing.mend {
             Mend::Nothing => return false,
-            Mend::Leave => {
-                self.spoilt.push(target);
+            Mend::Leave(meant) => {
+                self.spoilt.extend(meant.clone());
                 return true;
             }
             Mend::Rename(name) => return self.rename(root, target, name),
@@ -202,12 +216,16 @@ impl Mistakes {
     }
 
     /// In the order of the file.
-    fn told(mut self, exhausted: bool) -> ScenarioError {
+    fn told(mut self, unjudged: bool) -> ScenarioError {
         self.found.sort_by_key(|(order, _)| *order);
-        let more = exhausted || self.found.len() > TOLD;
+        let more = self.found.len() > TOLD;
         let mut reports = self.found.into_iter().map(|(_, report)| report).take(TOLD);
         let first = reports.next();
-        ScenarioError::several(first.unwrap_or_default(), reports.collect(), more)
+        ScenarioError::several(
+            first.unwrap_or_default(),
+            reports.collect(),
+            Beyond { more, unjudged: unjudged && !more },
+        )
     }
 }
 

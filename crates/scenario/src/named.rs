@@ -5,7 +5,6 @@
 
 use crate::form::{Form, MaterialForm};
 use crate::quantity::Pressure;
-use crate::suggest;
 
 /// A material that a contact may name without describing it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,20 +56,23 @@ const fn of(name: &'static str, gigapascals: f64, poisson_ratio: f64, source: &'
     NamedMaterial { name, youngs_modulus: gigapascals * 1e9, poisson_ratio, source }
 }
 
-/// Gives contacts the materials that they name and nobody describes. A name near one that is described is a slip of the pen, and
-/// no name of this table.
+/// Gives contacts the materials that they name and nobody describes. Only a name as it stands in the table is one of it; where a
+/// material is described whose name differs by capitals alone, that one is meant.
 pub(crate) fn fill(form: &mut Form) {
-    let named = form.contacts.iter().flat_map(|(_, contact)| contact.materials.0.clone());
-    let mut wanted: Vec<String> = named.filter(|name| form.materials.find(name).is_none()).collect();
-    wanted.dedup();
-    for name in wanted {
-        let is_slip = suggest::nearest(&name, form.materials.names()).is_some();
-        let known = MATERIALS.iter().find(|material| material.name == name);
-        if let (Some(material), false) = (known, is_slip) {
-            let youngs_modulus = Pressure::new(material.youngs_modulus);
-            let described = MaterialForm { youngs_modulus, poisson_ratio: material.poisson_ratio };
-            form.materials.add(name, described);
+    let is_known = |material: &&NamedMaterial, name: &str| material.name == name;
+    let named = form.contacts.iter().flat_map(|(_, contact)| &contact.materials.0);
+    let mut wanted: Vec<&'static NamedMaterial> = Vec::new();
+    // The table is short: what is in it is found before anything is asked of the form, which may be long.
+    for material in named.filter_map(|name| MATERIALS.iter().find(|material| is_known(material, name))) {
+        if !wanted.contains(&material) {
+            wanted.push(material);
         }
+    }
+    wanted.retain(|material| !form.materials.names().any(|own| own.eq_ignore_ascii_case(material.name)));
+    for material in wanted {
+        let youngs_modulus = Pressure::new(material.youngs_modulus);
+        let described = MaterialForm { youngs_modulus, poisson_ratio: material.poisson_ratio };
+        form.materials.add(material.name.to_owned(), described);
     }
 }
 

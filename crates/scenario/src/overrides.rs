@@ -20,6 +20,7 @@ const ALTERNATIVES: &[&[&str]] = &[
     &["radius", "diameter"],
     &["every", "at"],
     &["heights", "self_affine"],
+    &["window", "last"],
 ];
 /// Parts that are maps from names the user gave.
 const NAMED: [&str; 6] = ["materials", "waveforms", "bodies", "contacts", "springs", "actuators"];
@@ -34,7 +35,9 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Faul
         Some(target) if !target.0.is_empty() => target,
         _ => {
             let fault = Fault::new(KeyPath::default(), "expected a key path before the = sign").at_span(name);
-            return vec![fault.help("such as contacts.ball.friction or loads[0].x").mend(Mend::Leave)];
+            let fault = fault.help("such as contacts.ball.friction or loads[0].x").of_shape();
+            // Nobody knows what it speaks of: it stands for itself.
+            return vec![fault.mend(Mend::Leave(None))];
         }
     };
     let put = value(text, &syntax::Origin { source, offset: path.len() + 1, path: target.clone() }).and_then(
@@ -54,7 +57,7 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Faul
             faults
         }
         // What it was to be stays what it was.
-        Err(fault) => vec![fault.mend(Mend::Leave)],
+        Err(fault) => vec![fault.of_shape().mend(Mend::Leave(Some(target)))],
     }
 }
 
@@ -83,6 +86,15 @@ fn alternatives(root: &Value, target: &KeyPath) -> Vec<KeyPath> {
         let (parent, Step::Key(key)) = (&target.0[..depth - 1], &target.0[depth - 1]) else { continue };
         let parent = KeyPath(parent.to_vec());
         let here = look(root, &parent.0);
+        // What stands there already is changed and puts nothing else out of force; the schema is written for no less.
+        let stays = match here {
+            Some(Value::Object(entries)) => entries.is_empty() || entries.contains_key(key),
+            Some(Value::String(_) | Value::Number(_)) => false,
+            _ => true,
+        };
+        if stays {
+            continue;
+        }
         let kinds = Guide::get().choices(&parent);
         if !kinds.contains(key) {
             let group = ALTERNATIVES.iter().filter(|group| group.contains(&key.as_str())).copied().flatten();

@@ -215,7 +215,7 @@ impl Walk<'_> {
             if let Some(&before) = first.get(name) {
                 let twice = Fault::new(self.path.clone(), "this key stands here twice").at_span(span);
                 let help = format!("remove one; the first is {}", brief(&object.properties[before].value));
-                self.note(twice.help(help).mend(Mend::Leave));
+                self.note(twice.help(help).mend(Mend::Leave(Some(self.path.clone()))));
             } else {
                 first.insert(name, entries.len());
             }

@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 use std::fs;
-use stickslip_scenario::{MATERIALS, Scenario, ScenarioError};
+use stickslip_scenario::{MATERIALS, Scenario, ScenarioError, explained};
 
 fn good() -> String {
     fs::read_to_string("tests/good/several.json").unwrap()
@@ -148,4 +148,55 @@ fn common_materials_need_no_description() {
     let near = bare.replace("\"ruby\"", "\"rubi\"");
     let told = Scenario::from_str(&near, "a.json", "").unwrap_err().to_string();
     assert!(told.contains("did you mean \"ruby\"?"), "{told}");
+}
+
+/// A name of the table is taken as it stands, whatever else is described or was taken.
+#[test]
+fn a_name_of_the_table_is_no_slip_for_a_neighbour() {
+    let with_pair = |pair: &str, ruby: &str| {
+        let text = good().replace("[\"ruby\", \"steel\"]", pair).replace("\"ruby\":  {", ruby);
+        assert!(text.contains(pair) && text.contains(ruby));
+        Scenario::from_str(&text, "a.json", "")
+    };
+    let named =
+        |scenario: &Scenario| scenario.materials().map(|(name, _)| name.to_owned()).collect::<Vec<_>>();
+    let both = with_pair("[\"alumina\", \"aluminium\"]", "\"ruby\":  {").unwrap();
+    assert!(named(&both).iter().filter(|name| name.starts_with("alumin")).count() == 2, "{:?}", named(&both));
+    let beside = with_pair("[\"ruby\", \"steel\"]", "\"rubys\":  {").unwrap();
+    assert!(named(&beside).contains(&"ruby".to_owned()));
+    let told = with_pair("[\"wolfram\", \"steel\"]", "\"ruby\":  {").unwrap_err().to_string();
+    assert!(told.contains("known here: ruby, steel, alumina, aluminium"), "{told}");
+}
+
+#[test]
+fn keys_that_stand_beside_each_other_are_not_switched() {
+    let some = r#"{"kinds": ["gross slip"], "contacts": ["ball"]}"#;
+    let root = with(&[("output.events", some), ("output.events.most", "1000")]).unwrap();
+    let events = serde_json::json!({ "kinds": ["gross slip"], "contacts": ["ball"], "most": 1000 });
+    assert_eq!(root["output"]["events"], events);
+    let root = with(&[("output.last", "2"), ("output.window.from", "50 ms")]).unwrap();
+    assert_eq!(root["output"].get("last"), None);
+    assert_eq!(root["output"]["window"]["from"], 0.05);
+}
+
+/// An override that cannot be put anywhere keeps nothing else back.
+#[test]
+fn a_bad_override_hides_nothing() {
+    let told = |set: &[(&str, &str)]| {
+        let error = with(set).unwrap_err();
+        error.reports().map(|report| report.path.clone()).collect::<Vec<_>>()
+    };
+    let wrong = ("bodies.slider.mass", "-1 g");
+    assert_eq!(told(&[("a[", "1"), wrong]), ["", "bodies.slider.mass"]);
+    assert_eq!(told(&[wrong, ("a[", "1"), ("b[", "1")]), ["bodies.slider.mass", "", ""]);
+    let far = told(&[("loads[0].x", "1 m"), ("loads[7].x", "1 N"), ("loads[9].x", "1 N")]);
+    assert_eq!(far, ["loads[0].x", "loads", "loads"]);
+}
+
+#[test]
+fn the_end_of_a_path_is_explained() {
+    let places = |asked: &str| explained(asked).into_iter().map(|(path, _)| path).collect::<Vec<_>>();
+    assert_eq!(places("sawtooth.flyback"), ["waveforms.NAME.sawtooth.flyback"]);
+    assert_eq!(places("event.tolerance"), ["run.stepper.event.tolerance"]);
+    assert!(places("sawtooth.nothing").is_empty() && places("nothing.flyback").is_empty());
 }

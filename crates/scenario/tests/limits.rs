@@ -118,3 +118,23 @@ fn endless_names_are_not_compared() {
     let error = load(&format!(r#""waveforms": {{ "w": {table} }}"#), folder.path()).unwrap_err();
     assert!(error.to_string().len() < 1000 && error.message.starts_with("the file has no column \"bbbb"));
 }
+
+/// Each of the names that nobody describes was once compared with each that somebody does, at every reading.
+#[test]
+fn many_materials_that_nobody_describes_are_not_compared() {
+    let mut root: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string("tests/good/several.json").unwrap()).unwrap();
+    let ball = root["contacts"]["ball"].clone();
+    let steel = root["materials"]["steel"].clone();
+    for i in 0..9_000 {
+        root["materials"][format!("described material number {i:05}")] = steel.clone();
+        let mut contact = ball.clone();
+        let pair = [2 * i, 2 * i + 1].map(|i| format!("another substance of mine {i:05}"));
+        contact["materials"] = pair.to_vec().into();
+        root["contacts"][format!("c{i}")] = contact;
+    }
+    let begun = Instant::now();
+    let error = Scenario::from_str(&root.to_string(), "a.json", "").unwrap_err();
+    assert!(error.to_string().contains("there is no material \"another substance of mine 00000\""));
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+}

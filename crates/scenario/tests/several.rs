@@ -282,10 +282,33 @@ fn consequences_are_not_told() {
         ("\"friction\": 0.2", "\"colour\": \"red\"", &["contacts.ball", "contacts.ball.colour"]),
         ("\"duration\": \"100 ms\"", "\"duration\": \"100 m\"", &["run.duration"]),
         ("\"run\":    {", "\"runs\":    {", &["runs"]),
+        // What is written goes by the run, and by the waveform of the figures.
+        (
+            "\"duration\": \"100 ms\", \"stepper\": { \"event\": { \"tolerance\": 1e-8 } } },\n  \"output\": {",
+            "\"duration\": \"0.1 m\" },\n  \"output\": { \"window\": { \"from\": \"90 s\" },",
+            &["run.duration"],
+        ),
     ] {
         assert!(good.contains(right), "{right}");
         let error = refusal(&good.replacen(right, wrong, 1)).unwrap();
         let told: Vec<&str> = error.reports().map(|report| report.path.as_str()).collect();
         assert_eq!(told, paths, "{error}");
     }
+}
+
+/// How much is looked for is counted, not timed: three and a half megabytes are read three times more, on every machine.
+#[test]
+fn where_not_everything_is_judged_it_is_said() {
+    let good = fs::read_to_string("tests/good/several.json").unwrap();
+    let load = "{ \"on\": \"slider\", \"x\": \"-0.02 N\" }";
+    let loads = vec!["{ \"on\": \"slider\", \"x\": \"1 m\" }"; 30].join(",\n");
+    let long = format!("{}{}", good.replacen(load, &loads, 1), " ".repeat(7 << 19));
+    let error = refusal(&long).unwrap();
+    assert_eq!(error.reports().count(), 4, "{error}");
+    assert!(!error.has_more() && error.may_have_more());
+    assert!(error.to_string().ends_with("\n\nand maybe more: the rest was not judged"));
+    // Of one mistake it is known that it is the only one.
+    let one = format!("{}{}", good.replacen("\"10 g\"", "\"-10 g\"", 1), " ".repeat(7 << 19));
+    let error = refusal(&one).unwrap();
+    assert!(error.reports().count() == 1 && !error.has_more() && !error.may_have_more(), "{error}");
 }

@@ -157,4 +157,15 @@ pub(super) const COLUMNS: &[Definition] = &[
         "regime",
         "`stick`, `partial`, `gross` or `mixed`, by A, B and D against the thresholds of summary.json",
     ),
+    of("steps.csv", "period", "number of the period, from 1"),
+    of("steps.csv", "start_s", "time at its start"),
+    of("steps.csv", "end_s", "time at its end"),
+    of(
+        "steps.csv",
+        "length_m",
+        "length of the step: x of the body at the end of the period minus x at its start",
+    ),
+    of("steps.csv", "x_m", "x at the start of the period"),
+    of("steps.csv", "least_m", "smallest x within the period, both ends included"),
+    of("steps.csv", "largest_m", "largest x within it"),
 ];

@@ -23,9 +23,21 @@ pub(super) const KEYS: &[Definition] = &[
     of("counts.rejected", "steps whose error estimate missed the tolerance, taken again"),
     of("counts.evaluations", "evaluations of all forces"),
     of("counts.events", "located events"),
+    of(
+        "counts.events_written",
+        "events in events.csv, where output.events, a window or thinning left some out",
+    ),
+    of(
+        "counts.events_whole_until_s",
+        "time until which events.csv has all that were asked for; ever fewer of those that follow",
+    ),
     of("counts.detours", "stretches by halved steps where events accumulated"),
     of("counts.missed", "steps of these that missed the tolerance"),
     of("counts.rows", "rows of trace.csv"),
+    of(
+        "states.CODE",
+        "what the number of a state of trace.csv and events.csv means, with output.states as numbers",
+    ),
     of("contacts.CONTACT.count", "number of identical contacts"),
     of(
         "contacts.CONTACT.gross_slip_displacement_m",
@@ -102,7 +114,10 @@ pub(super) const KEYS: &[Definition] = &[
     of("steps.waveform", "the waveform whose periods make the steps"),
     of("steps.body", "the body that steps"),
     of("steps.period_s", "period T of the waveform"),
-    of("steps.lengths_m", "x at the end of every period minus x at its start"),
+    of("steps.periods", "number of steps, one for each whole period; steps.csv has every one of them"),
+    of("steps.last_m", "length of the last: x at the end of its period minus x at the start"),
+    of("steps.longest_m", "largest magnitude of the length of a step"),
+    of("steps.lengths_m", "lengths of all steps, in results of programs that wrote no steps.csv"),
     of(
         "steps.settling.state",
         "`settled`, `not_settled`, `irregular`, `drifts` or `beats`: what the lengths do",

@@ -89,7 +89,7 @@ pub(crate) struct FlatForm {
 /// A flat punch.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(transform = radius_or_diameter)]
+#[schemars(rename = "FlatForm", transform = radius_or_diameter)]
 struct FlatKeys {
     /// Radius of the flat face, m, above 0; typical 10 um to 5 mm. Give this or `diameter`.
     #[schemars(example = &"50 um", transform = above_zero)]
@@ -108,7 +108,7 @@ pub(crate) struct BallForm {
 /// A ball.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(transform = radius_or_diameter)]
+#[schemars(rename = "BallForm", transform = radius_or_diameter)]
 struct BallKeys {
     /// Radius of curvature R, m, above 0; typical 0.1 mm to 50 mm. Give this or `diameter`.
     #[schemars(example = &"0.5 mm", transform = above_zero)]

@@ -53,12 +53,8 @@ impl Builder<'_> {
             let materials = &self.form.materials;
             let index = materials.find(&names[i]).ok_or_else(|| {
                 let fault = names::unknown(&at.index(i), ("material", "materials"), &names[i], materials);
-                let own = suggest::nearest(&names[i], materials.names());
-                let known = suggest::nearest(&names[i], MATERIALS.iter().map(|material| material.name));
-                match (own, known) {
-                    (None, Some(known)) => fault.help(format!("did you mean \"{known}\"?")),
-                    _ => fault,
-                }
+                let known = materials.names().chain(MATERIALS.iter().map(|material| material.name));
+                fault.maybe_help(suggest::help(&names[i], known))
             })?;
             self.material(index)
         };

@@ -1,12 +1,10 @@
 //! Which of the rows and events are written, and how.
 
-use super::{Builder, Figures, range};
-use crate::document::shown;
+use super::{Builder, Figures, names, range, run};
 use crate::fault::Fault;
 use crate::form::{EventsOutputForm, KindForm, MOST_EVENTS, StatesForm};
 use crate::guide::Help;
 use crate::path::At;
-use crate::suggest;
 use stickslip_drive::{Plan, Waveform};
 
 /// Digits that a number can be rounded to: with 17 it has its bits.
@@ -87,10 +85,7 @@ impl Builder<'_> {
     /// The place of a contact by name.
     fn written_contact(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
         let contacts = &self.form.contacts;
-        contacts.find(name).ok_or_else(|| {
-            let fault = at.fault(format!("there is no contact \"{}\"", shown(name)));
-            fault.maybe_help(suggest::help(name, contacts.names()))
-        })
+        contacts.find(name).ok_or_else(|| names::unknown(at, ("contact", "contacts"), name, contacts))
     }
 
     /// From when until when rows and events are written, s.
@@ -100,7 +95,7 @@ impl Builder<'_> {
             let at = at.key("last");
             if form.window.is_some() {
                 let fault = at.fault("the window is given already").on_key();
-                return Err(fault.help("keep one of them"));
+                return Err(fault.against(["output.window"]).help("keep one of them"));
             }
             return self.last_periods(&at, periods, plan, figures);
         }
@@ -111,13 +106,13 @@ impl Builder<'_> {
         let from = window.from.map_or(Ok(0.0), |from| range::at_least_zero(&at.key("from"), from))?;
         let to = window.to.map_or(Ok(f64::INFINITY), |to| range::at_least_zero(&at.key("to"), to))?;
         if to < from {
-            return Err(at.key("to").expected(format_args!("a time from {} s on", range::short(from))));
+            let fault = at.key("to").expected(format_args!("a time from {} s on", range::short(from)));
+            return Err(fault.against_path(at.key("from").path()));
         }
         if from > plan.duration {
             let end = range::short(plan.duration);
-            return Err(at
-                .key("from")
-                .expected(format_args!("a time within the run, which ends at {end} s")));
+            let wanted = format_args!("a time within the run, which ends at {end} s");
+            return Err(at.key("from").expected(wanted).against(run::duration(self.form).iter().copied()));
         }
         Ok([from, to])
     }
@@ -134,10 +129,12 @@ impl Builder<'_> {
         let waveform = figures.waveform.and_then(|place| self.scene.waveforms.get(place));
         let Some(period) = waveform.and_then(|waveform| Waveform::period(&waveform.part)) else {
             let fault = at.fault("there is no waveform, or more than one, to count the periods of").on_key();
+            let fault = fault.against(["figures", "waveforms"]);
             return Err(fault.help("name one with a period in figures.waveform, or give output.window"));
         };
         if plan.until_steady.is_some() {
             let fault = at.fault("a run that may end early has no last periods beforehand").on_key();
+            let fault = fault.against(["run.until_steady"]);
             return Err(fault.help("give output.window, or leave out run.until_steady"));
         }
         Ok([(plan.duration - periods * period).max(0.0), f64::INFINITY])
