@@ -113,7 +113,7 @@ fn a_picture_of_an_interrupted_run_is_reproduced_to_the_same_step() {
     command.args(["--set", "run.stepper={\"verlet\":{\"step\":\"1 ns\"}}", "--set", SHORT]);
     let child = command.stdout(std::process::Stdio::null()).spawn().unwrap();
     let folder = out.path().join("quickstart");
-    while !(folder.exists() && listing(&folder).len() == 2) {
+    while !(folder.exists() && listing(&folder).len() >= 2) {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     std::thread::sleep(std::time::Duration::from_millis(200));
