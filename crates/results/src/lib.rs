@@ -10,7 +10,7 @@
 //! * [`Job`], within its `limits`; `plausibility` (what is odd about it); [`info`], what it means and will take; [`Columns`];
 //!   [`program`], which computes;
 //! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
-//! * what it leaves: [`Kept`] with [`Series`], the moments of its `marks` and [`Tracks`] in memory, `books` (energies); `table`,
+//! * what it leaves: [`Kept`] with [`Series`], the moments of its `marks`, the `account` of its last period and [`Tracks`] in memory, `books` (energies); `table`,
 //!   `insides` and `sheet` with its `digest` on disk, under the names of [`files`], in a [`folder`] on a `disk`, each table with its [`Seal`]; its [`fingerprint`];
 //! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`cycles`] and their
 //!   table, [`summary`] with
@@ -23,6 +23,7 @@
 //! * for those who tell of results: [`quantity()`] (numbers with units), [`provenance`] (where they come from), [`markdown`]
 //!   (pages), [`complaint`] (the words of the operating system).
 
+mod account;
 mod books;
 pub mod checkpoint;
 mod columns;

@@ -1,5 +1,6 @@
 //! The moments at which a run is asked for its figures: ends of periods, and parts of them.
 
+use crate::account::Phases;
 use crate::contact_path::is_walked;
 use crate::cycles::table_of;
 use crate::job::Job;
@@ -18,6 +19,8 @@ const SAME: f64 = 1e-9;
 /// Moments to come.
 pub(crate) struct Marks {
     grids: Vec<Grid>,
+    /// How many of them, the first, are not for the account of a period alone.
+    common: usize,
     /// Body whose way in each period is wanted.
     pub(crate) body: Option<usize>,
     /// Periods of the figures.
@@ -62,7 +65,14 @@ impl Marks {
                 }
             }
         }
-        Self { grids, body: body.filter(|_| figures.is_some()), figures, end }
+        let common = grids.len();
+        grids.extend(figures.iter().flat_map(|periods| turns(job, periods)));
+        Self { grids, common, body: body.filter(|_| figures.is_some()), figures, end }
+    }
+
+    /// Whether a moment is one for all figures, and not for the account of a period alone.
+    pub(crate) fn is_common(&self, t: f64) -> bool {
+        self.common == self.grids.len() || self.grids.iter().take(self.common).any(|grid| grid.has(t))
     }
 
     /// The next moment, s.
@@ -95,6 +105,15 @@ impl Marks {
     }
 }
 
+/// Where the waveform of the figures turns without a corner, which would be an event.
+fn turns(job: &Job, periods: &Periods) -> Vec<Grid> {
+    let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
+    let curved = waveform.map(|it| &it.part).filter(|waveform| !waveform.is_straight());
+    let Some(phases) = curved.and_then(Phases::of) else { return Vec::new() };
+    let grid = |turn: f64| Grid { start: periods.start + turn, ..Grid::of(periods, 1.0) };
+    phases.turns().map(grid).collect()
+}
+
 /// Whether a contact is one of a body.
 fn touches(job: &Job, c: usize, body: usize) -> bool {
     let contact = job.scenario.scene.contacts.get(c);
@@ -120,6 +139,15 @@ impl Grid {
     fn due(&self) -> Option<f64> {
         let way = if self.next > 0.0 { self.next * self.interval } else { 0.0 };
         (self.next <= self.last).then_some(self.start + way)
+    }
+
+    /// Whether a moment is one of its multiples.
+    fn has(&self, t: f64) -> bool {
+        if self.interval == f64::INFINITY {
+            return t == self.start;
+        }
+        let place = (t - self.start) / self.interval;
+        (place - place.round()).abs() <= SAME.max(4.0 * f64::EPSILON * place.abs())
     }
 
     fn is_same(&self, other: &Self) -> bool {

@@ -8,8 +8,9 @@ pub fn quantity(value: Real, unit: &str) -> String {
     let prefix = Prefix::of_magnitude(value.0);
     let shown = prefix.apply(value.0);
     let digits = match shown.abs() {
-        x if x >= 100.0 => 1,
-        x if x >= 10.0 => 2,
+        // 9.9996 is shown as 10.00 and not as 10.000.
+        x if x >= 99.995 => 1,
+        x if x >= 9.9995 => 2,
         _ => 3,
     };
     if shown == 0.0 { format!("0 {unit}") } else { format!("{shown:.digits$} {}{unit}", prefix.symbol) }
@@ -24,6 +25,9 @@ mod tests {
         assert_eq!(quantity(Real(161.847e-9), "m"), "161.8 nm");
         assert_eq!(quantity(Real(-1.5e-5), "m/s"), "-15.00 µm/s");
         assert_eq!(quantity(Real(0.0), "J"), "0 J");
+        assert_eq!(quantity(Real(9.999999999996e-6), "s"), "10.00 µs");
+        assert_eq!(quantity(Real(0.0999999999), "s"), "100.0 ms");
+        assert_eq!(quantity(Real(9.999e-6), "s"), "9.999 µs");
         assert_eq!(quantity(Real(2.0), "s"), "2.000 s");
     }
 }

@@ -186,6 +186,7 @@ impl<'a> Recorder<'a> {
     pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) {
         self.recorded.books.read_event(values);
         self.recorded.tally.row(values);
+        self.recorded.tally.account(Some((source, kind)), values);
         self.moment(values);
         if !self.selection.takes(source, kind, values.first().copied().unwrap_or(0.0)) {
             return;
@@ -368,8 +369,12 @@ impl Record for Recorder<'_> {
             self.recorded.tally.row(values);
             self.recorded.books.read(values);
         }
-        self.moment(values);
-        match self.marks.period_ended(values.first().copied().unwrap_or(0.0)) {
+        self.recorded.tally.account(None, values);
+        let t = values.first().copied().unwrap_or(0.0);
+        if self.marks.is_common(t) {
+            self.moment(values);
+        }
+        match self.marks.period_ended(t) {
             Some(0) => self.recorded.tally.begin_range(),
             Some(number) => self.end_period(number),
             None => {}

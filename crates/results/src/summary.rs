@@ -2,7 +2,9 @@
 
 mod contacts;
 mod fretting;
+mod period;
 mod steps;
+mod why;
 
 use crate::books::Balance;
 use crate::complaint::words;
@@ -26,6 +28,7 @@ use stickslip_drive::RunError;
 pub use crate::cycles::JudgedCycle;
 pub use contacts::ContactSummary;
 pub use fretting::Fretting;
+pub use period::{ContactPeriod, LastPeriod, PeriodWork, Way};
 pub use steps::{DriveSummary, SettlingSummary, Steady};
 
 /// Most numbers that are not finite of which a note gives the names.

@@ -1,11 +1,13 @@
 //! What figures are taken from while a run goes on: no more of it than figures need, however long the run.
 
+use crate::account::Accounts;
 use crate::cycles::{CycleFigures, Loops};
 use crate::job::Job;
 use crate::periods::{Periods, Tracker};
 use crate::strides::StrideList;
 use std::collections::HashMap;
 use stickslip_analysis::Stride;
+use stickslip_drive::Source;
 use stickslip_drive::scene::Freedom;
 
 /// No place yet.
@@ -15,6 +17,7 @@ const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 pub(crate) struct Tally {
     contacts: Vec<ContactTally>,
     walker: Option<Walker>,
+    accounts: Option<Accounts>,
     /// Least and largest x of the body of the figures in the period under way, m.
     range: [f64; 2],
 }
@@ -56,7 +59,8 @@ impl Tally {
             channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
         let names = job.model.contacts().map(|(name, _)| name).enumerate();
         let contacts = names.map(|(c, name)| ContactTally::new((job, c), name, &places)).collect();
-        Self { contacts, walker: Walker::of(job, &places), range: NOWHERE }
+        let (walker, accounts) = (Walker::of(job, &places), Accounts::of(job, &places));
+        Self { contacts, walker, accounts, range: NOWHERE }
     }
 
     /// Keeps what there is too much of in a file without a name.
@@ -86,6 +90,18 @@ impl Tally {
         if let Some(walker) = &mut self.walker {
             walker.moment(values);
         }
+    }
+
+    /// Takes a moment of the account of a period: an event, or a mark.
+    pub(crate) fn account(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
+        if let Some(accounts) = &mut self.accounts {
+            accounts.moment(event, values);
+        }
+    }
+
+    /// What happened in the last whole period, where that is told.
+    pub(crate) fn accounts(&self) -> Option<&Accounts> {
+        self.accounts.as_ref()
     }
 
     /// Takes where the body of the figures has been, m.

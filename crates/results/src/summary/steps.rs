@@ -1,5 +1,7 @@
 //! The quantities of a drive.
 
+use super::period::LastPeriod;
+use super::{period, why};
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::periods::Periods;
@@ -39,9 +41,21 @@ pub struct DriveSummary {
     pub mean_speed: Real,
     #[serde(rename = "net_travel_m")]
     net_travel: Real,
+    /// What happened in the last whole period.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub last_period: Option<LastPeriod>,
+    /// Why the last step is as long as it is, in sentences.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub why: Vec<String>,
 }
 
 impl DriveSummary {
+    /// The sentences of [`Self::why`] where the last period made no step, or one against its slower way; none otherwise.
+    pub fn oddity(&self) -> &[String] {
+        let is_odd = self.last_period.as_ref().is_some_and(why::is_odd);
+        if is_odd { &self.why } else { &[] }
+    }
+
     /// Length of the last step, m.
     pub fn last(&self) -> Real {
         self.last
@@ -144,7 +158,10 @@ pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Optio
     };
     let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds(job));
     let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
-    Some(summary(&steps, ends, (&body.name, &waveform.name, period)))
+    let mut summary = summary(&steps, ends, (&body.name, &waveform.name, period));
+    summary.last_period = period::of(job, outcome, stroke(job).is_some());
+    summary.why = summary.last_period.as_ref().map(|last| why::of(job, last)).unwrap_or_default();
+    Some(summary)
 }
 
 /// What is known of a step before any is made.
@@ -194,6 +211,8 @@ fn summary(
         }),
         mean_speed: Real(steps.mean_speed),
         net_travel: Real(steps.net_travel),
+        last_period: None,
+        why: Vec::new(),
     }
 }
 

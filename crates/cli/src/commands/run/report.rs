@@ -180,6 +180,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
         vec![format!("{}: {simulated} simulated in {wall}{}", job.name, steady.unwrap_or_default())];
     if let Some(steps) = &summary.steps {
         lines.push(format!("  {}, mean speed {}", settling(steps), quantity(steps.mean_speed, "m/s")));
+        lines.extend(steps.oddity().iter().map(|line| format!("    {line}")));
     }
     for (name, contact) in &summary.contacts.0 {
         if let Some(fretting) = &contact.fretting {

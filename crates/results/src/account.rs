@@ -1,0 +1,216 @@
+//! The account of a period of the drive: where the body went while the waveform went forth and back, how the contacts slipped and
+//! rang meanwhile, what became of the work. Of a run of any length that of the last whole period is kept, and of the one under way.
+//!
+//! What it is taken from are ends of periods and turns of the waveform, which are marks or corners, and events.
+
+mod phases;
+
+pub(crate) use phases::{Phases, Sense};
+
+use crate::job::Job;
+use crate::periods::{Periods, Tracker};
+use std::collections::HashMap;
+use stickslip_drive::scene::{Freedom, Side};
+use stickslip_drive::{EventKind, Source};
+
+/// A swing of the force below this share of the limit of friction is no ringing any more.
+pub(crate) const RINGING: f64 = 0.05;
+/// Code of gross slip in a row.
+const SLIP: f64 = 3.0;
+
+/// Keeps the accounts of a run.
+#[derive(Debug)]
+pub(crate) struct Accounts {
+    phases: Phases,
+    tracker: Tracker,
+    /// Place of the body's x, and of the first of the energies, among all channels.
+    places: [usize; 2],
+    contacts: Vec<Watched>,
+    /// The last moment: time, s, x, m, and which way the waveform went after it.
+    last: Option<(f64, f64, Sense)>,
+    /// When the waveform last took the way that it goes, s.
+    turned: f64,
+    now: Option<Account>,
+    whole: Option<Account>,
+}
+
+/// A contact of the body.
+#[derive(Debug)]
+struct Watched {
+    /// Its place in the scene, and those of its force, normal force and state among all channels.
+    c: usize,
+    places: [usize; 3],
+    friction: f64,
+    slips: bool,
+    /// Force at its last reversal, N.
+    extreme: Option<f64>,
+}
+
+/// What happened in a period. Of two values the first is of the rising waveform, the second of the falling one.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Account {
+    /// From when until when, s.
+    pub(crate) span: [f64; 2],
+    /// How long, s.
+    pub(crate) time: [f64; 2],
+    /// The way of the body, m; that while the waveform rests last.
+    pub(crate) travel: [f64; 3],
+    /// Input, kinetic, elastic, friction, damping: at its start, and by how much they have grown in it, J.
+    pub(crate) energies: [f64; 5],
+    pub(crate) contacts: Vec<ContactAccount>,
+}
+
+/// What a contact of the body did in a period; of two values the first is of the rising waveform.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ContactAccount {
+    /// Its place in the scene.
+    pub(crate) c: usize,
+    /// Time in gross slip, s.
+    pub(crate) slip: [f64; 2],
+    /// Reversals.
+    pub(crate) reversals: [u32; 2],
+    /// From when the waveform turned, until the last swing of the force beyond [`RINGING`], s; none without such a swing.
+    pub(crate) rings: [Option<f64>; 2],
+    /// The last swing, half of peak to peak, as a share of the limit of friction.
+    pub(crate) swing: [f64; 2],
+}
+
+/// Which of two values a way has.
+fn side(sense: Sense) -> Option<usize> {
+    match sense {
+        Sense::Rising => Some(0),
+        Sense::Falling => Some(1),
+        Sense::Resting => None,
+    }
+}
+
+impl Accounts {
+    /// Those of the body and the waveform of a job's figures; none where no free body is driven by a periodic waveform.
+    pub(crate) fn of(job: &Job, places: &HashMap<&str, usize>) -> Option<Self> {
+        let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
+        let b = figures.body?;
+        let body = scene.bodies.get(b).filter(|body| body.part.x.freedom == Freedom::Free)?;
+        let waveform = &scene.waveforms.get(figures.waveform?)?.part;
+        let place = |name: String| places.get(name.as_str()).copied();
+        let touching = scene.contacts.iter().zip(job.model.contacts()).enumerate();
+        let touching = touching.filter(|(_, (it, _))| it.part.between.contains(&Side::Body(b)));
+        let contacts = touching.filter_map(|(c, (_, (name, law)))| {
+            let [force, normal, state] =
+                ["fx_N", "fn_N", "state"].map(|column| place(format!("{name}.{column}")));
+            let places = [force?, normal?, state?];
+            Some(Watched { c, places, friction: law.friction(), slips: false, extreme: None })
+        });
+        Some(Self {
+            phases: Phases::of(waveform)?,
+            tracker: Tracker::new(Periods::until(waveform, f64::INFINITY)?),
+            places: [place(format!("{}.x_m", body.name))?, place("energy.input_J".to_owned())?],
+            contacts: contacts.collect(),
+            last: None,
+            turned: 0.0,
+            now: None,
+            whole: None,
+        })
+    }
+
+    /// Takes a moment: an event, or a mark.
+    pub(crate) fn moment(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
+        let [place, energies] = self.places;
+        let (Some(&t), Some(&x), Some(books)) =
+            (values.first(), values.get(place), values.get(energies..).and_then(<[f64]>::first_chunk::<5>))
+        else {
+            return;
+        };
+        let sense = self.phases.sense_after(t);
+        match self.last {
+            Some((before, x_before, way)) => {
+                self.pass(t - before, x - x_before, way);
+                if way != sense {
+                    self.turned = t;
+                }
+            }
+            None => self.turned = t,
+        }
+        self.last = Some((t, x, sense));
+        match self.tracker.pass(t) {
+            Some(0) => self.begin(t, books),
+            Some(_) => self.end(t, books),
+            None => {}
+        }
+        if let Some((Source::Contact(c), kind)) = event {
+            self.event((c, kind), (t, sense), values);
+        }
+    }
+
+    /// Goes on in time, s, and place, m.
+    fn pass(&mut self, time: f64, way: f64, sense: Sense) {
+        let Some(now) = &mut self.now else { return };
+        let side = side(sense);
+        now.travel[side.unwrap_or(2)] += way;
+        let Some(side) = side else { return };
+        now.time[side] += time;
+        for (account, contact) in now.contacts.iter_mut().zip(&self.contacts) {
+            account.slip[side] += if contact.slips { time } else { 0.0 };
+        }
+    }
+
+    fn begin(&mut self, t: f64, books: &[f64; 5]) {
+        let contacts = self.contacts.iter().map(|it| ContactAccount { c: it.c, ..Default::default() });
+        self.now = Some(Account {
+            span: [t; 2],
+            time: [0.0; 2],
+            travel: [0.0; 3],
+            energies: *books,
+            contacts: contacts.collect(),
+        });
+    }
+
+    fn end(&mut self, t: f64, books: &[f64; 5]) {
+        if let Some(mut account) = self.now.take() {
+            account.span[1] = t;
+            for (energy, now) in account.energies.iter_mut().zip(books) {
+                *energy = now - *energy;
+            }
+            self.whole = Some(account);
+        }
+        self.begin(t, books);
+    }
+
+    fn event(&mut self, (c, kind): (usize, &str), (t, sense): (f64, Sense), values: &[f64]) {
+        let Some(k) = self.contacts.iter().position(|it| it.c == c) else { return };
+        let contact = &mut self.contacts[k];
+        let [force, normal, state] = contact.places.map(|place| values.get(place).copied().unwrap_or(0.0));
+        let [begins, ends, opens, turns] =
+            [EventKind::GrossSlip, EventKind::GrossSlipEnds, EventKind::LiftOff, EventKind::Reversal]
+                .map(|other| kind == other.name());
+        // Where gross slip begins or ends the row is of either side.
+        contact.slips = begins || !ends && !opens && state == SLIP;
+        if !(begins || ends || opens || turns) {
+            return;
+        }
+        // The force turns where slip begins or ends, too.
+        let before = contact.extreme.replace(force);
+        let limit = contact.friction * normal;
+        let (Some(account), Some(side)) =
+            (self.now.as_mut().and_then(|it| it.contacts.get_mut(k)), side(sense))
+        else {
+            return;
+        };
+        if turns {
+            account.reversals[side] += 1;
+            let swing = before.map_or(0.0, |before| 0.5 * (force - before).abs());
+            account.swing[side] = if limit > 0.0 { swing / limit } else { 0.0 };
+            if account.swing[side] > RINGING {
+                account.rings[side] = Some(t - self.turned);
+            }
+        }
+    }
+
+    /// That of the last whole period.
+    pub(crate) fn last(&self) -> Option<&Account> {
+        self.whole.as_ref()
+    }
+
+    pub(crate) fn phases(&self) -> &Phases {
+        &self.phases
+    }
+}

@@ -1,0 +1,176 @@
+//! Forth and back: the stretches of a period in which its waveform rises, falls or rests.
+
+use stickslip_drive::{Piece, Waveform};
+
+/// Parts of a smooth stretch in which a turn is looked for.
+const PARTS: usize = 64;
+/// The same of one that is all of a period.
+const PARTS_OF_ALL: usize = 2048;
+/// Most pieces of a period, and most turns in it, for which the stretches are worth telling.
+const MOST_PIECES: usize = 4096;
+const MOST_TURNS: usize = 16;
+/// Halvings of an interval in which the rate changes sign: to the last place.
+const HALVINGS: u32 = 64;
+
+/// Which way a waveform goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sense {
+    Rising,
+    Falling,
+    Resting,
+}
+
+/// The stretches of a period, from its start.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Phases {
+    /// Start of the first period, and length of all, s.
+    start: f64,
+    length: f64,
+    /// Where each begins after the start of the period, s, ascending from 0, and which way it goes.
+    stretches: Vec<(f64, Sense)>,
+    /// By how much the waveform rises and falls within a period, in its own unit.
+    ways: [f64; 2],
+}
+
+impl Sense {
+    fn of(rate: f64) -> Self {
+        if rate > 0.0 {
+            Self::Rising
+        } else if rate < 0.0 {
+            Self::Falling
+        } else {
+            Self::Resting
+        }
+    }
+}
+
+impl Phases {
+    /// Those of a waveform's first period; none without a period, or with too many turns in it.
+    pub(crate) fn of(waveform: &Waveform) -> Option<Self> {
+        let (length, start) = (waveform.period()?, waveform.timing().delay);
+        let mut phases = Self { start, length, stretches: Vec::new(), ways: [0.0; 2] };
+        let end = start + length;
+        let mut piece = waveform.piece_at(start);
+        for _ in 0..MOST_PIECES {
+            let until = piece.end.min(end);
+            phases.take(waveform, &piece, [piece.start.max(start), until]);
+            // Ends are rounded apart.
+            if until >= end - 1e-9 * length {
+                let enough = phases.stretches.len() <= MOST_TURNS;
+                return enough.then_some(phases);
+            }
+            phases.leap(waveform.jump_after(&piece));
+            piece = waveform.after(&piece);
+        }
+        None
+    }
+
+    /// Takes the part of a piece from one moment to another, s.
+    fn take(&mut self, waveform: &Waveform, piece: &Piece, [from, to]: [f64; 2]) {
+        let is_all = to - from > 0.5 * self.length;
+        let parts = if is_all { PARTS_OF_ALL } else { PARTS };
+        let at = |t: f64| waveform.sample(piece, t);
+        let (mut before, mut told) = (from, from);
+        for i in 1..=parts {
+            let t = if i == parts { to } else { from + (to - from) * (i as f64 / parts as f64) };
+            // By the middle: the ends of a part may be turns.
+            let sense = Sense::of(at(0.5 * (before + t)).rate);
+            if self.stretches.last().is_none_or(|(_, last)| *last != sense) {
+                let turn = self.turn(|t| at(t).rate, [before, t], [from, to], sense);
+                self.stretches.push((turn - self.start, sense));
+                self.leap(at(turn).value - at(told).value);
+                told = turn;
+            }
+            before = t;
+        }
+        self.leap(at(to).value - at(told).value);
+    }
+
+    /// Where the rate takes a sense that it has in the middle of a part and had not in the middle of the one before.
+    fn turn(&self, rate: impl Fn(f64) -> f64, part: [f64; 2], whole: [f64; 2], sense: Sense) -> f64 {
+        let width = part[1] - part[0];
+        let (mut low, mut high) = (part[0] - 0.5 * width, part[0] + 0.5 * width);
+        if self.stretches.is_empty() || low < whole[0] {
+            return part[0];
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let side = if Sense::of(rate(middle)) == sense { &mut high } else { &mut low };
+            *side = middle;
+        }
+        high
+    }
+
+    /// Books a way.
+    fn leap(&mut self, way: f64) {
+        let [rise, fall] = &mut self.ways;
+        if way > 0.0 { *rise += way } else { *fall -= way }
+    }
+
+    /// Which way it goes just after a moment, s.
+    pub(crate) fn sense_after(&self, t: f64) -> Sense {
+        let within = (t - self.start).rem_euclid(self.length);
+        // What is as good as the end is the beginning.
+        let within = if self.length - within <= 1e-9 * self.length { 0.0 } else { within };
+        let same = 1e-9 * self.length;
+        let after = self.stretches.partition_point(|(begin, _)| *begin <= within + same);
+        after.checked_sub(1).and_then(|k| self.stretches.get(k)).map_or(Sense::Resting, |(_, sense)| *sense)
+    }
+
+    /// Where in a period the waveform turns, s after its start, but for the start.
+    pub(crate) fn turns(&self) -> impl Iterator<Item = f64> {
+        self.stretches.iter().skip(1).map(|(begin, _)| *begin)
+    }
+
+    /// By how much it rises and falls within a period, in its own unit.
+    pub(crate) fn ways(&self) -> [f64; 2] {
+        self.ways
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use stickslip_drive::{Harmonic, Shape, Timing};
+
+    fn phases(shape: Shape, timing: Timing) -> Phases {
+        Phases::of(&Waveform::new(shape, timing).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_sawtooth_rises_and_flies_back() {
+        let shape = Shape::Sawtooth { stroke: 2e-7, flyback: 1e-5 };
+        let phases = phases(shape, Timing { delay: 0.5, ..Timing::every(1e-2) });
+        assert_eq!(
+            phases.stretches.iter().map(|it| it.1).collect::<Vec<_>>(),
+            [Sense::Rising, Sense::Falling]
+        );
+        assert_relative_eq!(phases.turns().next().unwrap(), 9.99e-3, max_relative = 1e-12);
+        assert_relative_eq!(phases.ways()[0], 2e-7, max_relative = 1e-12);
+        assert_relative_eq!(phases.ways()[1], 2e-7, max_relative = 1e-12);
+        // In the seventh period; at its end the next begins.
+        let at = |within: f64| phases.sense_after(0.5 + 7.0 * 1e-2 + within);
+        assert_eq!(
+            [at(0.0), at(9.9e-3), at(9.995e-3), at(1e-2)],
+            [Sense::Rising, Sense::Rising, Sense::Falling, Sense::Rising]
+        );
+    }
+
+    #[test]
+    fn sines_turn_where_their_rate_vanishes() {
+        // x = sin ωt + ¼ sin 2ωt: the rate ω(cos φ + ½ cos 2φ) vanishes where 2c² + 2c - 1 = 0... with c = cos φ = (√3 - 1)/2.
+        let term = |amplitude, order| Harmonic { amplitude, order, phase: 0.0 };
+        let shape = Shape::Harmonics { terms: vec![term(1.0, 1.0), term(0.25, 2.0)] };
+        let phases = phases(shape, Timing::every(2.0));
+        let turn = ((3.0_f64.sqrt() - 1.0) / 2.0).acos() / std::f64::consts::PI;
+        let turns: Vec<f64> = phases.turns().collect();
+        assert_eq!(turns.len(), 2);
+        assert_relative_eq!(turns[0], turn, max_relative = 1e-12);
+        assert_relative_eq!(turns[1], 2.0 - turn, max_relative = 1e-12);
+        let peak = |phi: f64| phi.sin() + 0.25 * (2.0 * phi).sin();
+        let way = 2.0 * peak(turn * std::f64::consts::PI);
+        assert_relative_eq!(phases.ways()[0], way, max_relative = 1e-9);
+        assert_relative_eq!(phases.ways()[1], way, max_relative = 1e-9);
+    }
+}

@@ -1,0 +1,120 @@
+//! Why a step is as long as it is, in sentences with numbers.
+
+use super::period::{ContactPeriod, LastPeriod, PeriodWork};
+use crate::job::Job;
+use crate::quantity::quantity;
+use crate::real::Real;
+use stickslip_drive::facts::zero_step_stroke;
+
+/// A step below this share of the stroke is none.
+const NOTHING: f64 = 0.01;
+
+/// Whether a period made no step, or one against its slower way.
+pub(super) fn is_odd(last: &LastPeriod) -> bool {
+    last.forth.stroke.is_some_and(|stroke| last.step.0 * stroke.0.signum() <= NOTHING * stroke.0.abs())
+}
+
+/// The sentences of a period.
+pub(super) fn of(job: &Job, last: &LastPeriod) -> Vec<String> {
+    let mut lines = Vec::new();
+    lines.extend(way(last));
+    lines.extend(last.contacts.0.iter().map(|(name, contact)| contact_line(name, contact)));
+    lines.extend(short(job, last));
+    lines.extend(work(&last.work));
+    lines
+}
+
+fn length(value: f64) -> String {
+    quantity(Real(value), "m")
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// What became of the stroke.
+fn way(last: &LastPeriod) -> Option<String> {
+    let stroke = last.forth.stroke?.0;
+    let along = |value: f64| value * stroke.signum();
+    let [forth, back] = [along(last.forth.travel.0), along(last.back.travel.0)];
+    let (step, stroke) = (forth + back, stroke.abs());
+    let result = if step.abs() <= NOTHING * stroke {
+        "no step".to_owned()
+    } else if step < 0.0 {
+        format!("a step of {} the other way", length(-step))
+    } else {
+        format!("a step of {}, {} of the stroke", length(step), percent(step / stroke))
+    };
+    let short = match stroke - forth {
+        short if short >= 0.0 => format!("{} short of it", length(short)),
+        ahead => format!("{} ahead of it", length(-ahead)),
+    };
+    let returned = if back < 0.0 { "lost" } else { "won" };
+    Some(format!(
+        "the drive went forth by {} in {} and back in {}: {result}; on the way forth the body came {}, {short}, on the way back it {returned} {}",
+        length(stroke),
+        quantity(last.forth.time, "s"),
+        quantity(last.back.time, "s"),
+        length(forth),
+        length(back.abs()),
+    ))
+}
+
+/// What a contact did.
+fn contact_line(name: &str, contact: &ContactPeriod) -> String {
+    let share = |share: Option<Real>| share.map_or("0.0 %".to_owned(), |share| percent(share.0));
+    let slip = format!(
+        "{name} slipped {} of the way back and {} of the way forth",
+        share(contact.slip_share_back),
+        share(contact.slip_share_forth)
+    );
+    let times = match contact.reversals_forth {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        times => format!("{times} times"),
+    };
+    let ringing = match contact.settling {
+        _ if contact.reversals_forth == 0 => "did not ring".to_owned(),
+        None => format!(
+            "turned {times} on the way forth and still swings by {} of the limit of friction when the drive turns: the step hangs on the period",
+            percent(contact.ringing_left.0)
+        ),
+        Some(settling) => format!(
+            "turned {times} on the way forth and swung by more than 5 % of the limit of friction for {}",
+            quantity(settling, "s")
+        ),
+    };
+    format!("{slip}; it {ringing}")
+}
+
+/// Whether the stroke is too short to step at all.
+fn short(job: &Job, last: &LastPeriod) -> Option<String> {
+    let stroke = last.forth.stroke?.0.abs();
+    let laws = job.model.contacts().enumerate();
+    let of_body = laws.filter(|(_, (name, _))| last.contacts.0.iter().any(|(own, _)| own == name));
+    let idle = of_body.filter_map(|(c, (_, law))| {
+        let natural = job.model.contact_natural(c)?;
+        zero_step_stroke(law, natural.displacement / law.stick_slope(), 0.0)
+    });
+    let idle = idle.fold(f64::INFINITY, f64::min);
+    (idle.is_finite() && stroke < idle).then(|| {
+        format!(
+            "the stroke of {} is below the zero-step stroke of {}, which the contact alone takes up when nothing rings",
+            length(stroke),
+            length(idle)
+        )
+    })
+}
+
+/// Where the work went.
+fn work(work: &PeriodWork) -> Option<String> {
+    let (drive, load) = (work.drive.filter(|drive| drive.0 > 0.0)?, work.load?);
+    let share = |part: Real| percent(part.0 / drive.0);
+    let load = if load.0 > 0.0 { format!(", the load {}", share(load)) } else { String::new() };
+    let friction = share(work.friction);
+    Some(format!(
+        "of {} that the drive put in friction took {friction}, dampers {}{load}",
+        quantity(drive, "J"),
+        share(work.damping)
+    ))
+}

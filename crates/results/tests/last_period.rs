@@ -1,0 +1,181 @@
+//! The account of the last period of a drive against rows a hundred to a thousand times as dense as its events.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use serde_json::Value;
+use std::path::Path;
+use stickslip_drive::{Trace, Waveform};
+use stickslip_results::{Job, Summary};
+
+/// Rows of a run, by the names of their columns.
+struct Rows {
+    names: Vec<String>,
+    trace: Trace,
+    waveform: Waveform,
+}
+
+impl Rows {
+    fn column(&self, name: &str) -> Vec<f64> {
+        let place = self.names.iter().position(|it| it == name).unwrap_or_else(|| panic!("no {name}"));
+        self.trace.column(place).collect()
+    }
+
+    /// Those of the last period, and the first after it.
+    fn last_period(&self, steps: &Value) -> std::ops::Range<usize> {
+        let [from, to] = ["/last_period/from_s", "/last_period/to_s"].map(|key| number(steps, key));
+        let (hair, t) = (1e-9 * (to - from), self.column("time_s"));
+        let at = |end: f64| t.partition_point(|t| *t < end - hair);
+        at(from)..at(to)
+    }
+}
+
+/// An example with its account, and its rows.
+fn account(name: &str, set: &[(&str, &str)]) -> (Value, Rows) {
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name).with_extension("json");
+    let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let job = Job::prepare(&file, &set, Path::new("")).unwrap();
+    let outcome = job.run(&());
+    assert!(outcome.error.is_none());
+    let summary = serde_json::to_value(Summary::new(&job, &outcome)).unwrap();
+    let mut trace = Trace::new(&job.model);
+    let mut state = job.start.clone();
+    stickslip_drive::run(&job.model, &job.scenario.plan, &mut state, &mut trace).unwrap();
+    let names = job.model.channels().into_iter().map(|channel| channel.name).collect();
+    let waveform = &job.scenario.scene.waveforms[job.scenario.figures.waveform.unwrap()].part;
+    (summary["steps"].clone(), Rows { names, trace, waveform: waveform.clone() })
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("no {pointer} in {value}"))
+}
+
+fn near(got: f64, want: f64, within: f64, what: &str) {
+    assert!((got - want).abs() <= within, "{what}: {got:e}, not {want:e}");
+}
+
+/// Holds an account against rows: ways of body and foot, energies, and time in the state of gross slip.
+fn check(name: &str, body: &str, contact: &str, set: &[(&str, &str)]) -> Value {
+    let (steps, series) = account(name, set);
+    let rows = series.last_period(&steps);
+    let (t, x) = (series.column("time_s"), series.column(&format!("{body}.x_m")));
+    let rate = |t: f64| series.waveform.sample(&series.waveform.piece_at(t), t).rate;
+    let (mut travel, mut time, mut slip) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    let states = series.column(&format!("{contact}.state"));
+    for i in rows.clone() {
+        // The way of the drive in the middle between two rows.
+        let side = usize::from(rate(0.5 * (t[i] + t[i + 1])) < 0.0);
+        travel[side] += x[i + 1] - x[i];
+        time[side] += t[i + 1] - t[i];
+        slip[side] += if states[i] == 3.0 && states[i + 1] == 3.0 { t[i + 1] - t[i] } else { 0.0 };
+    }
+    let stretches = rows.clone().filter(|i| states[*i] != 3.0 && states[i + 1] == 3.0).count() as f64;
+    let forth = usize::from(time[1] > time[0]);
+    let row = t[rows.start + 1] - t[rows.start];
+    let fastest = series.column(&format!("{body}.vx_m_s"))[rows.clone()]
+        .iter()
+        .fold(0.0, |most: f64, v| most.max(v.abs()));
+    for (way, side) in [("forth", forth), ("back", 1 - forth)] {
+        let of = |key: &str| number(&steps, &format!("/last_period/{way}/{key}"));
+        // A turn lies somewhere between two rows, at which the body is no faster than at its fastest.
+        near(of("time_s"), time[side], 2.0 * row, "time");
+        near(of("travel_m"), travel[side], 2.0 * row * fastest, "travel");
+        let share = number(&steps, &format!("/last_period/contacts/{contact}/slip_share_{way}"));
+        // Of each stretch of slip both ends lie between two rows.
+        near(share, slip[side] / time[side], 2.0 * row * (1.0 + stretches) / time[side], "slip");
+    }
+    let grown = |name: &str| {
+        let energy = series.column(&format!("energy.{name}"));
+        energy[rows.end] - energy[rows.start]
+    };
+    let work = |key: &str| number(&steps, &format!("/last_period/work/{key}"));
+    let through = work("friction_J") + work("damping_J");
+    near(work("friction_J"), grown("friction_J"), 1e-9 * through, "friction");
+    near(work("damping_J"), grown("damping_J"), 1e-9 * through, "damping");
+    near(work("stored_J"), grown("kinetic_J") + grown("elastic_J"), 1e-9 * through, "stored");
+    let closed = work("load_J") + work("friction_J") + work("damping_J") + work("stored_J");
+    near(work("drive_J"), closed, 1e-7 * through, "books");
+    near(work("drive_J") - work("load_J"), grown("input_J"), 1e-9 * through, "input");
+    near(number(&steps, "/last_period/step_m"), x[rows.end] - x[rows.start], 1e-15, "step");
+    steps
+}
+
+#[test]
+fn a_sawtooth_on_three_balls() {
+    let steps = check(
+        "quickstart",
+        "slider",
+        "ball",
+        &[("run.duration", "\"50 ms\""), ("output.every", "\"0.1 us\""), ("plots", "[]")],
+    );
+    // A load of 0.02 N is lifted by the step.
+    let step = number(&steps, "/last_period/step_m");
+    near(number(&steps, "/last_period/work/load_J"), 0.02 * step, 1e-12 * step, "load");
+    // 812 reversals in ten periods, nearly all of them of the ringing: 4.15 kHz turns twice a period, for 9.99 ms.
+    near(
+        number(&steps, "/last_period/contacts/ball/reversals_forth"),
+        2.0 * 4.15e3 * 9.99e-3,
+        4.0,
+        "reversals",
+    );
+    assert_eq!(steps["why"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn bodies_that_swing_and_slip_under_a_moving_normal() {
+    let dense = [("output.every", "\"0.1 us\""), ("plots", "[]")];
+    check("three_ball_stage", "stage", "rear", &dense);
+    check("impact_drive", "carrier", "rear", &dense);
+}
+
+/// The turns of harmonics are no corners: the account asks for rows of its own there.
+#[test]
+fn a_drive_that_turns_on_a_curve() {
+    let terms = r#"{"harmonics": {"period": "1 ms", "terms": [
+        {"amplitude": "200 nm", "order": 1}, {"amplitude": "50 nm", "order": 2, "phase": "90 deg"}]}}"#;
+    let set = [
+        ("waveforms.drive", terms),
+        ("run.duration", "\"10 ms\""),
+        ("output.every", "\"0.02 us\""),
+        ("plots", "[]"),
+    ];
+    check("quickstart", "slider", "ball", &set);
+}
+
+/// With a damper to ground ringing falls below 5 % of the limit of friction long before the flyback.
+#[test]
+fn ringing_settles_when_the_extremes_of_the_rows_say_so() {
+    let set = [
+        ("springs.brake", r#"{"between": ["ground", "slider"], "damping": "20 N s/m"}"#),
+        ("output.every", "\"0.1 us\""),
+        ("plots", "[]"),
+    ];
+    let (steps, series) = account("quickstart", &set);
+    let rows = series.last_period(&steps);
+    let (t, force) = (series.column("time_s"), series.column("ball.fx_N"));
+    let flyback = number(&steps, "/last_period/from_s") + number(&steps, "/last_period/forth/time_s");
+    // Extremes of the force on the way forth, the limit with which it begins among them; μF_N = 0.18 N.
+    let mut extreme = force[rows.start];
+    let mut last = None;
+    for i in rows.start + 1..rows.end {
+        let turns = (force[i] - force[i - 1]) * (force[i + 1] - force[i]) < 0.0;
+        if turns && t[i] < flyback {
+            if 0.5 * (force[i] - extreme).abs() > 0.05 * 0.18 {
+                last = Some(t[i] - t[rows.start]);
+            }
+            extreme = force[i];
+        }
+    }
+    near(number(&steps, "/last_period/contacts/ball/settling_s"), last.unwrap(), 2e-7, "settling");
+    assert!(number(&steps, "/last_period/contacts/ball/ringing_left") < 0.05);
+}
+
+/// A stroke that the contacts take up makes no step, and the summary says so.
+#[test]
+fn a_stroke_below_the_zero_step_stroke_is_called_that() {
+    let set = [("waveforms.drive.sawtooth.stroke", "\"20 nm\""), ("plots", "[]"), ("loads", "[]")];
+    let (steps, _) = account("quickstart", &set);
+    let why = steps["why"].to_string();
+    // S₀ = 2u_c[1 - (1/2)^{2/3}] = 0.74008 u_c = 29.377 nm.
+    assert!(why.contains("no step") && why.contains("below the zero-step stroke of 29.38 nm"), "{why}");
+}
