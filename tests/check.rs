@@ -112,6 +112,60 @@ fn machines_get_a_line_of_json_per_file() {
     assert!(line["error"]["override"].as_str().unwrap().contains("contacts.ball.friction=-1"), "{line}");
 }
 
+/// What follows from the scene, rows and lines are judged by themselves: one does not hide the other.
+#[test]
+fn limits_are_told_together_with_what_else_is_wrong() {
+    let folder = tempdir().unwrap();
+    broken(
+        folder.path(),
+        "-0.02 N\" } ],\n  \"run\":    {",
+        "-0.2 N\" } ],\n  \"run\":    { \"start\": \"equilibrium\",",
+    );
+    let limits =
+        ["--set", "output.every=1 ns", "--set", "output.fields={\"radii\": 10000, \"every\": \"1 ns\"}"];
+    let output = check(folder.path(), &[&["--json", "mine.json"], &limits[..]].concat());
+    let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let errors = line["errors"].as_array().unwrap();
+    let told =
+        |text: &str| errors.iter().filter(|error| error["message"].as_str().unwrap().contains(text)).count();
+    assert_eq!(
+        (errors.len(), told("rows of 20 channels"), told("lines, expected at most")),
+        (3, 1, 1),
+        "{line}"
+    );
+    assert_eq!(line["error"], errors[0]);
+    let said = stderr(&check(folder.path(), &[&["mine.json"], &limits[..]].concat()));
+    assert_eq!(said.matches("\n\n").count(), 2, "{said}");
+}
+
+#[test]
+fn machines_are_told_what_was_not_judged() {
+    let folder = tempdir().unwrap();
+    let unjudged = |arguments: &[&str]| {
+        let output = check(folder.path(), &[&["--json"], arguments].concat());
+        let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        line.get("unjudged").cloned()
+    };
+    broken(folder.path(), "0.2,", "-0.2,");
+    let all = serde_json::json!(["form", "meaning", "equilibrium", "limits"]);
+    assert_eq!(unjudged(&["mine.json"]), Some(serde_json::json!(["limits"])));
+    assert_eq!(unjudged(&["nowhere.json"]), Some(all.clone()));
+    assert_eq!(unjudged(&["mine.json", "--set", "stickslip=2"]), Some(all.clone()));
+    // Memory is estimated when nothing else is wrong.
+    let good = ["mine.json", "--set", "contacts.ball.friction=0.2"];
+    assert_eq!(unjudged(&good), None);
+    assert_eq!(
+        unjudged(&[&good[..], &["--set", "output.every=1 ns"]].concat()),
+        Some(serde_json::json!(["limits"]))
+    );
+    assert_eq!(
+        unjudged(&["mine.json", "--set", "run.start=equilibrium"]),
+        Some(serde_json::json!(["equilibrium", "limits"]))
+    );
+    std::fs::write(folder.path().join("mine.json"), "{ \"stickslip\": 1, ").unwrap();
+    assert_eq!(unjudged(&["mine.json"]), Some(all));
+}
+
 #[test]
 fn what_is_odd_is_good_and_said() {
     let folder = tempdir().unwrap();

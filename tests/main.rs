@@ -11,6 +11,7 @@ mod checkpoint_refusals;
 mod compare;
 mod contact;
 mod damaged_results;
+mod definitions;
 mod endings;
 mod gallery;
 mod golden;

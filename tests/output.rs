@@ -82,6 +82,15 @@ fn events_without_end_are_thinned_and_it_is_said() {
     for key in ["steps", "contacts", "energy"] {
         assert_eq!(found[key], summary(&whole)[key], "{key}");
     }
+    // Pictures of them say until when they go.
+    let plots = ["plot", "--plots", "loop,events", "--format", "svg"];
+    for (folder, is_cut) in [(&folder, true), (&whole, false)] {
+        assert_eq!(code(&stickslip().args(plots).arg(folder).output().unwrap()), 0);
+        for name in ["loop.svg", "events.svg"] {
+            let picture = std::fs::read_to_string(folder.join(name)).unwrap();
+            assert_eq!(picture.contains("(events are thinned)"), is_cut, "{name}");
+        }
+    }
 }
 
 #[test]

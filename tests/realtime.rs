@@ -148,7 +148,7 @@ fn what_cannot_be_is_refused_and_says_why() {
     let folder = foreign.path().display().to_string();
     let (log, foreign) = (format!("{folder}/log.csv"), format!("replay:{folder}/a.rec"));
     let (once, twice) = (format!("--outputs=file:{log}"), format!("--outputs=file:{folder}/./log.csv"));
-    let cases: [(&[&str], &str); 14] = [
+    let cases: [(&[&str], &str); 15] = [
         (&["--log", &folder], "is a directory"),
         (&[&once, &twice], "asked for twice"),
         (&[&once, "--log", &log], "asked for twice"),
@@ -161,6 +161,7 @@ fn what_cannot_be_is_refused_and_says_why() {
         (&["--outputs", "udp"], "nobody speaks who could be answered"),
         (&["--inputs", "shm:one", "--outputs", "shm:two"], "both lie in one"),
         (&["--stepper", "euler"], "expected frames"),
+        (&["--stepper", "rk4:0"], "--stepper rk4:0: expected "),
         (&["--for", "10 us"], "expected 1 to"),
         (&["--period", "1 ns"], "used multiple times"),
     ];
@@ -242,6 +243,31 @@ fn a_favour_that_is_not_granted_is_told_and_done_without() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(stdout(&output).contains("staying on processor 4000 (--cpu)"), "{}", stdout(&output));
     assert_eq!(report(&out.path().join("p1"))["denied"].as_array().unwrap().len(), 1);
+    // Nor does silence hide it.
+    let quiet = ["--for", "10 ms", "--cpu", "4000", "-q"];
+    let output = realtime(&scenario("p1"), out.path()).args(quiet).output().unwrap();
+    assert_eq!((code(&output), stdout(&output)), (0, String::new()));
+    assert!(stderr(&output).contains("staying on processor 4000 (--cpu)"), "{}", stderr(&output));
+}
+
+/// Frames of a contact that an input presses have no bound, also where they are the command's and not the scenario's.
+#[test]
+fn frames_under_a_normal_from_outside_are_warned_of() {
+    let folder = tempdir().unwrap();
+    let text = fs::read_to_string(scenario("quickstart")).unwrap();
+    let text = text.replace(
+        "\"waveforms\": {",
+        "\"waveforms\": { \"press\": { \"input\": { \"initial\": \"0.3 N\", \"range\": [\"0.2 N\", \"0.4 N\"] } },",
+    );
+    let text = text.replace("{ \"force\": \"0.3 N\" }", "{ \"force\": { \"follows\": \"press\" } }");
+    let file = folder.path().join("pressed.json");
+    fs::write(&file, text).unwrap();
+    let check = |set: &[&str]| stderr(&stickslip().arg("check").arg(&file).args(set).output().unwrap());
+    let said = check(&["--set", "run.stepper.frames.length=20 us"]);
+    assert!(said.contains("contacts.ball.normal.force: an input presses this contact"), "{said}");
+    assert!(!check(&[]).contains("an input presses"), "{}", check(&[]));
+    let output = realtime(&file, folder.path()).args(["--for", "10 ms", "--unpaced"]).output().unwrap();
+    assert_eq!(stderr(&output).matches("an input presses this contact").count(), 1, "{}", stderr(&output));
 }
 
 #[cfg(unix)]

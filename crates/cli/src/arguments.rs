@@ -95,7 +95,7 @@ pub(crate) enum Command {
     /// input.
     #[command(after_long_help = NEW_EXAMPLES)]
     New(NewArguments),
-    /// Explain a key of a scenario, a column of a table or a figure of summary.json
+    /// Explain a key of a scenario, a column of a table, a figure that is printed or a symbol
     ///
     /// Names may be whole or only their end: slider.x_m and x_m, contacts.ball.friction and friction. Exit codes: 0 done, 2 nothing has
     /// that name.

@@ -24,6 +24,7 @@ use stickslip_results::SealedTable;
 use stickslip_results::files::InsideTables;
 use stickslip_results::frame::FrameError;
 use stickslip_results::provenance::provenance;
+use stickslip_results::{Real, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
@@ -159,6 +160,17 @@ fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<P
 /// The place of a table that the run may have left out.
 fn written<'a>(table: &'a SealedTable, file: &'static str) -> Result<&'a SealedTable, Undrawn> {
     if table.path.exists() { Ok(table) } else { Err(Undrawn::Absent(file)) }
+}
+
+/// The title of what is drawn from events while they are whole: until when that is, where it is not all the way.
+fn whole_title(job: &Job, kept: &Kept) -> String {
+    let time = |t: f64| quantity(Real(t), "s");
+    let (title, until, end) = (job.title(), kept.whole_until(), kept.end());
+    if until < end {
+        format!("{title}, until {} of {} (events are thinned)", time(until), time(end))
+    } else {
+        title.to_owned()
+    }
 }
 
 /// Columns of these quantities of all contacts.

@@ -56,7 +56,9 @@ fn lane(track: &EventTrack<'_>, (from, to): (f64, f64), ink: Ink) -> Lane {
     let width = (to - from) / BINS as f64;
     let is_sparse = counts(&times, from, width).iter().all(|count| *count <= MOST_MARKS);
     if is_sparse || width <= 0.0 {
-        let note = grouped(times.len());
+        // A number would say that nothing of the kind happens.
+        let is_later = times.is_empty() && track.times.iter().any(|t| *t > to);
+        let note = if is_later { "later".to_owned() } else { grouped(times.len()) };
         times.dedup();
         let marks = times.iter().map(|&t| Mark { from: t, to: t, height: 1.0 }).collect();
         return Lane { label, note, marks, ink };
@@ -104,6 +106,15 @@ fn grouped(number: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_happens_after_the_span_only_is_not_told_as_nothing() {
+        let note = |times: &[f64]| {
+            let track = EventTrack { source: "ball", kind: "gross slip", times: times.to_vec() };
+            lane(&track, (0.0, 1.0), Ink::Palette(0)).note
+        };
+        assert_eq!([note(&[1.5, 2.0]), note(&[0.5, 2.0]), note(&[])], ["later", "1", "0"]);
+    }
 
     #[test]
     fn a_regular_train_has_no_bursts() {

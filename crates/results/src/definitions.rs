@@ -1,7 +1,10 @@
-//! What every column of every table and every key of `summary.json` is: one table, for `stickslip explain` and for the page
-//! `docs/definitions.md`, which is made from it.
+//! What every column of every table, every key of `summary.json` and every figure that a command prints is: one table, for
+//! `stickslip explain` and for the page `docs/definitions.md`, which is made from it.
 
+mod check;
 mod columns;
+mod contact;
+mod info;
 mod keys;
 
 use std::fmt::Write;
@@ -11,30 +14,43 @@ use std::fmt::Write;
 pub struct Definition {
     /// The file, such as `trace.csv`.
     pub file: &'static str,
-    /// Its name there: `BODY`, `CODE`, `CONTACT`, `FILE` and `SCALE` stand for names that the scenario or the run gives.
+    /// Its name there: words in capitals such as `BODY` stand for names that the scenario or the run gives.
     pub name: &'static str,
     /// What it is, with its formula; the name ends with the unit.
     pub text: &'static str,
 }
 
 /// Names that are not the same in every run.
-const PLACEHOLDERS: [&str; 5] = ["BODY", "CODE", "CONTACT", "FILE", "SCALE"];
+const PLACEHOLDERS: [&str; 9] =
+    ["AXIS", "BODY", "CODE", "CONTACT", "COORDINATE", "FILE", "LOAD", "SCALE", "WAVEFORM"];
 
 /// Everything that is defined, file by file.
 pub fn definitions() -> impl Iterator<Item = &'static Definition> {
-    columns::COLUMNS.iter().chain(keys::KEYS)
+    columns::COLUMNS.iter().chain(keys::KEYS).chain(info::INFO).chain(contact::CONTACT).chain(check::CHECK)
 }
 
 impl Definition {
     /// Whether it is what a name means: `slider.x_m` is `BODY.x_m`, `x_m` and `steady.step_m` are ends of names.
     pub fn is(&self, asked: &str) -> bool {
-        let known: Vec<&str> = self.name.split('.').collect();
+        let mut known: Vec<&str> = self.name.split('.').collect();
+        // What is the same for all names at its end is asked for without one.
+        while known.last().is_some_and(|last| PLACEHOLDERS.contains(last)) {
+            known.pop();
+        }
         let asked: Vec<&str> = asked.split('.').collect();
         let fits =
             |known: &str, asked: &str| known == asked || (PLACEHOLDERS.contains(&known) && !asked.is_empty());
         asked.len() <= known.len()
             && known.iter().rev().zip(asked.iter().rev()).all(|(known, asked)| fits(known, asked))
-            && !PLACEHOLDERS.contains(known.last().unwrap_or(&""))
+    }
+
+    /// Whether its text begins with a symbol and what that is: `u_c = κd …` or `a, contact radius …`; digits may stand for those
+    /// below the line.
+    pub fn has_symbol(&self, asked: &str) -> bool {
+        let Some((symbol, _)) = self.text.split_once([' ', ',']) else { return false };
+        let rest = &self.text[symbol.len()..];
+        let plain: String = symbol.chars().map(|c| lowered(c).unwrap_or(c)).collect();
+        (rest.starts_with(',') || rest.starts_with(" = ")) && (symbol == asked || plain == asked)
     }
 
     /// Whether it is the definition of this column or key of its file, written out.
@@ -46,14 +62,21 @@ impl Definition {
     }
 }
 
+/// The digit that stands below the line.
+fn lowered(below: char) -> Option<char> {
+    char::from_digit(u32::from(below).checked_sub(u32::from('₀'))?, 10)
+}
+
 /// The page, in Markdown.
 pub fn definitions_page() -> String {
     let mut page = String::from(
-        "# Definitions\n\nEvery column of every table and every key of `summary.json`, as `stickslip explain NAME` tells them; \
-         this page is made\nfrom the same table, and a test finds whatever lacks an entry. Names end with their unit. BODY and \
-         CONTACT stand for names\nof the scenario. How the figures of steps and loops are found, and how exact they are, is told \
-         on [their page](figures.md);\nwhat the contacts obey, on [the page of the physics](physics.md). Keys of scenarios are \
-         told by `stickslip explain`, too.\n",
+        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `check` and `validate` \
+         print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
+         entry. Names end\nwith their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is `start`, \
+         or `least` and\n`most` of a load that varies. How the figures of steps and loops are found, and how exact they are, is told on \
+         [their\npage](figures.md); what the contacts obey, on [the page of the physics](physics.md). Numbers in brackets such as (4.26) are \
+         equations\nof the *Handbook of Contact Mechanics* (Popov, Heß, Willert 2019). `info` and `contact` print the same as tables for \
+         people, with\nthe symbols that stand first here. Keys of scenarios are told by `stickslip explain`, too.\n",
     );
     let mut file = "";
     for definition in definitions() {
@@ -82,6 +105,20 @@ mod tests {
         assert_eq!(found("stick_m"), [("trace.csv", "CONTACT.stick_m")]);
         assert_eq!(found("steady.step_m"), [("summary.json", "steps.steady.step_m")]);
         assert_eq!(found("contacts.ball.peak_fx_N"), [("summary.json", "contacts.CONTACT.peak_fx_N")]);
+        assert_eq!(found("states"), [("summary.json", "states.CODE")]);
         assert!(found("nothing").is_empty() && found("BODY").is_empty() && found("").is_empty());
+    }
+
+    #[test]
+    fn symbols_are_found_where_a_text_begins_with_them() {
+        let found = |asked: &str| definitions().filter(|definition| definition.has_symbol(asked)).count();
+        for symbol in ["E*", "G*", "κ", "u_c", "S₀", "S0", "F_N", "μF_N", "a", "β", "c/a", "A", "δ₀", "δ0"]
+        {
+            assert!(found(symbol) > 0, "{symbol}");
+        }
+        // Words of sentences are none.
+        for word in ["time", "displacement", "the", "₀", ""] {
+            assert_eq!(found(word), 0, "{word}");
+        }
     }
 }

@@ -11,8 +11,8 @@ use std::sync::Arc;
 use stickslip_contact::Springs;
 use stickslip_drive::facts::{Setup, has_constant_load};
 use stickslip_drive::scene::Normal;
-use stickslip_drive::{Accuracy, Model, SceneError, State};
-use stickslip_scenario::{Scenario, ScenarioError, Warning};
+use stickslip_drive::{Accuracy, Model, SceneError, State, Stepper};
+use stickslip_scenario::{Scenario, ScenarioError, Stage, Warning};
 use thiserror::Error;
 
 /// A checked scenario: no input can be wrong any more.
@@ -96,16 +96,28 @@ impl Job {
     pub fn new(scenario: Scenario, name: String, folder: PathBuf) -> Result<Self, ScenarioError> {
         let locate = |error: SceneError| scenario.refusal(&error);
         let model = Model::new(&scenario.scene).map_err(locate)?;
-        let start = model.start(&scenario.plan).map_err(locate)?;
         let channels = model.channels();
-        let columns = match scenario.columns(&channels)? {
+        let started = model.start(&scenario.plan).map_err(locate).and_then(|start| {
+            let grids = limits::grids(&scenario, &model, &start)?;
+            Ok((start, grids))
+        });
+        let columns = scenario.columns(&channels).map(|chosen| match chosen {
             Some(places) => Columns::chosen(&channels, &places),
             None => Columns::all(&channels),
-        };
-        limits::check_rows(&scenario, channels.len())?;
-        limits::check_curves(&scenario)?;
-        limits::check_fields(&scenario)?;
-        let grids = limits::grids(&scenario, &model, &start)?;
+        });
+        let estimates = [
+            limits::check_rows(&scenario, channels.len()),
+            limits::check_curves(&scenario),
+            limits::check_fields(&scenario),
+        ];
+        // None of them depends on another.
+        let wrong = started.as_ref().err().into_iter().chain(columns.as_ref().err()).cloned();
+        let wrong = wrong.chain(estimates.into_iter().filter_map(Result::err));
+        if let Some(error) = ScenarioError::joined(wrong) {
+            // Memory is estimated of a whole job.
+            return Err(error.without(&[Stage::Limits]));
+        }
+        let ((start, grids), columns) = (started?, columns?);
         let resolved = scenario.resolved();
         let hash = hash(&resolved);
         let program = this_program();
@@ -166,6 +178,11 @@ impl Job {
         let mut warnings = self.scenario.warnings.clone();
         warnings.extend(plausibility::of(self));
         warnings
+    }
+
+    /// What is odd about the scenario if this stepper takes it in frames.
+    pub fn warnings_of_frames(&self, stepper: Stepper) -> Vec<Warning> {
+        plausibility::of_frames(self, stepper)
     }
 
     /// Natural scale of work, J: μF_N u_c of the smallest contact; 0 where none has friction.

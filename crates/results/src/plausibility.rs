@@ -11,6 +11,7 @@ mod motion;
 use crate::job::Job;
 use crate::quantity::quantity;
 use crate::real::Real;
+use stickslip_drive::Stepper;
 use stickslip_drive::scene::{Freedom, Side};
 use stickslip_scenario::Warning;
 
@@ -30,12 +31,20 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
     odd.strokes();
     odd.resonances();
     odd.tolerance();
+    odd.frames(job.model.effective(job.scenario.plan.stepper));
     let Implausible { mut found, left_out, .. } = odd;
     if let (Some(last), 1..) = (found.last_mut(), left_out) {
         let (more, help) = (format!("{left_out} more warnings are not shown"), &mut last.report.help);
         *help = Some(help.take().map_or(more.clone(), |help| format!("{help}; {more}")));
     }
     found
+}
+
+/// What is not bounded where a stepper takes a job in frames, whatever stepper its scenario names.
+pub(crate) fn of_frames(job: &Job, stepper: Stepper) -> Vec<Warning> {
+    let mut odd = Implausible { job, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
+    odd.frames(stepper);
+    odd.found
 }
 
 struct Implausible<'a> {

@@ -23,7 +23,7 @@ pub use state::{LoadedSpring, contact_word};
 pub use subject::{Subject, TheoryError};
 pub use walk::{Frame, FrictionCourse, FrictionStep, Moment, Stop, Walk};
 pub(crate) use write::LINE_WIDTH;
-pub use write::{Beside, CONTACT, TABLES, json, write};
+pub use write::{Beside, CONTACT, TABLES, heads, json, write};
 
 /// How far fields, springs and profiles are shown where nothing else is asked for, of the largest contact radius: the surface is
 /// displaced beyond the contact, too.

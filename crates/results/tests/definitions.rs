@@ -60,6 +60,20 @@ fn every_column_of_the_other_tables_is_defined() {
     }
 }
 
+/// The tables of a contact by itself share names with those of a run.
+#[test]
+fn every_column_of_a_contact_by_itself_is_defined() {
+    for (file, head) in stickslip_results::theory::heads() {
+        let file = format!("contact: {file}");
+        for name in head {
+            assert!(defined(&file, name), "{file}: {name}");
+        }
+        for Definition { name, .. } in definitions().filter(|definition| definition.file == file) {
+            assert!(head.contains(name), "{file} has no {name}");
+        }
+    }
+}
+
 /// Keys that hold values, as paths; names of parts stay what they are.
 fn keys(value: &Value, here: &str, found: &mut BTreeSet<String>) {
     match value {

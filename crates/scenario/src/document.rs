@@ -70,7 +70,7 @@ impl Document {
                 document.root = read.place;
                 Ok((document, read.faults))
             }
-            Err(fault) => Err(document.report(fault).into()),
+            Err(fault) => Err(ScenarioError::from(document.report(fault)).unread()),
         }
     }
 

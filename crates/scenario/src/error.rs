@@ -17,12 +17,42 @@ struct Reports {
 }
 
 /// What is beyond the reports.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Beyond {
     /// More is known to be wrong.
     pub(crate) more: bool,
     /// Not everything was judged: more may be wrong.
     pub(crate) unjudged: bool,
+    /// Stages that were left out, or not gone through to their ends.
+    pub(crate) left_out: Vec<Stage>,
+}
+
+/// What a scenario is judged by, one after the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// Keys, units and ranges of each value by itself.
+    Form,
+    /// What parts are to each other, and the tables in files.
+    Meaning,
+    /// Whether there is an equilibrium to start from, where one is asked for.
+    Equilibrium,
+    /// Rows, lines and memory of a run.
+    Limits,
+}
+
+impl Stage {
+    /// All of them, in their order.
+    pub const ALL: [Self; 4] = [Self::Form, Self::Meaning, Self::Equilibrium, Self::Limits];
+
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Form => "form",
+            Self::Meaning => "meaning",
+            Self::Equilibrium => "equilibrium",
+            Self::Limits => "limits",
+        }
+    }
 }
 
 /// What there is to say about a place of a scenario: the parts of a [`ScenarioError`], or a warning.
@@ -85,6 +115,46 @@ impl ScenarioError {
     /// Everything that is told, in the order of the file; at least one.
     pub fn reports(&self) -> impl Iterator<Item = &Report> {
         std::iter::once(&self.0.first).chain(&self.0.rest)
+    }
+
+    /// Nobody could read what it is about: nothing else was judged.
+    pub(crate) fn unread(self) -> Self {
+        self.without(&Stage::ALL)
+    }
+
+    /// The same, told that these stages were left out, too.
+    #[must_use]
+    pub fn without(mut self, stages: &[Stage]) -> Self {
+        let left_out = &mut self.0.beyond.left_out;
+        left_out.extend_from_slice(stages);
+        left_out.sort_unstable();
+        left_out.dedup();
+        self
+    }
+
+    /// Several that have nothing to do with each other as one, in the order of the file; none of none. What one of them left out
+    /// was left out.
+    pub fn joined(errors: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let (mut reports, mut beyond) = (Vec::new(), Beyond::default());
+        for Self(one) in errors {
+            for report in std::iter::once(one.first).chain(one.rest) {
+                if !reports.contains(&report) {
+                    reports.push(report);
+                }
+            }
+            beyond.more |= one.beyond.more;
+            beyond.unjudged |= one.beyond.unjudged;
+            beyond.left_out.extend(one.beyond.left_out);
+        }
+        let place = |report: &Report| report.excerpt.as_ref().map(|excerpt| (excerpt.line, excerpt.column));
+        reports.sort_by_key(|report| (report.is_override, place(report)));
+        let mut reports = reports.into_iter();
+        reports.next().map(|first| Self::several(first, reports.collect(), beyond).without(&[]))
+    }
+
+    /// What was not judged, or not all of it, because of what is wrong: in the order of judging.
+    pub fn left_out(&self) -> &[Stage] {
+        &self.0.beyond.left_out
     }
 
     /// Whether there is more wrong than is told.

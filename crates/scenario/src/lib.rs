@@ -48,7 +48,7 @@ mod tables;
 mod text;
 mod units;
 
-pub use error::{Report, ScenarioError, Warning};
+pub use error::{Report, ScenarioError, Stage, Warning};
 pub use excerpt::Excerpt;
 pub use guide::explained;
 pub use meaning::{FieldsOutput, Figures, MemoryOutput, SpringsOutput, Written, WrittenEvents};

@@ -6,14 +6,15 @@
 //! know what to do with half a scenario.
 
 use crate::document::Document;
-use crate::error::{Beyond, Report, ScenarioError};
+use crate::error::{Beyond, Report, ScenarioError, Stage};
 use crate::fault::{Fault, Mend};
 use crate::guide::Guide;
 use crate::meaning;
 use crate::path::{KeyPath, Step};
-use crate::scenario::interpret;
+use crate::scenario::{formed, meant};
 use serde_json::Value;
 use std::collections::{HashMap, VecDeque};
+use stickslip_drive::scene::Start;
 
 /// Most that are told of.
 const TOLD: usize = 20;
@@ -34,11 +35,15 @@ pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
     let mut mistakes = Mistakes::default();
     let mut known = VecDeque::from(first);
     let mut unjudged = false;
+    let mut is_judged = false;
     while mistakes.found.len() < SOUGHT {
         let fault = match known.pop_front() {
             Some(fault) => fault,
             None => match mistakes.judge(&mut document) {
-                Some(Ok(())) => break,
+                Some(Ok(())) => {
+                    is_judged = true;
+                    break;
+                }
                 Some(Err(fault)) => fault,
                 None => {
                     unjudged = true;
@@ -53,13 +58,15 @@ pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
             break;
         }
     }
+    if is_judged {
+        mistakes.reached = Stage::Equilibrium;
+    }
     mistakes.told(unjudged)
 }
 
 /// Where a report stands: its source, or the one that names it, the place there and the place in a table.
 pub(crate) type Order = (usize, usize, usize);
 
-#[derive(Default)]
 struct Mistakes {
     found: Vec<(Order, Report)>,
     /// What was mended.
@@ -74,6 +81,26 @@ struct Mistakes {
     misnamed: Vec<Step>,
     /// Bytes that were read again.
     work: usize,
+    /// The stage that judging got to, and was not through with.
+    reached: Stage,
+    /// Whether an equilibrium is asked for, as far as is known.
+    balances: bool,
+}
+
+impl Default for Mistakes {
+    fn default() -> Self {
+        Self {
+            found: Vec::new(),
+            spoilt: Vec::new(),
+            tried: HashMap::new(),
+            strays: Vec::new(),
+            lacking: Vec::new(),
+            misnamed: Vec::new(),
+            work: 0,
+            reached: Stage::Form,
+            balances: true,
+        }
+    }
 }
 
 impl Mistakes {
@@ -86,8 +113,11 @@ impl Mistakes {
         let bytes = document.sources.iter().map(|source| source.text.len()).sum();
         self.work += LEAST_WORK.max(bytes);
         document.forget_tables();
-        let interpreted = interpret(document);
-        Some(interpreted.and_then(|interpreted| meaning::start(&interpreted.meaning)))
+        let form = formed(document);
+        self.reached = if form.is_ok() { Stage::Meaning } else { Stage::Form };
+        let meaning = form.and_then(|form| meant(document, form)).map(|interpreted| interpreted.meaning);
+        self.balances = meaning.as_ref().map_or(true, |meaning| meaning.scene.start != Start::Given);
+        Some(meaning.and_then(|meaning| meaning::start(&meaning)))
     }
 
     /// Notes a fault, if it is one by itself, and mends it; false where nothing can.
@@ -219,12 +249,15 @@ impl Mistakes {
     fn told(mut self, unjudged: bool) -> ScenarioError {
         self.found.sort_by_key(|(order, _)| *order);
         let more = self.found.len() > TOLD;
+        let is_asked = |stage: &Stage| *stage != Stage::Equilibrium || self.balances;
+        let left_out =
+            Stage::ALL.into_iter().filter(|stage| *stage >= self.reached).filter(is_asked).collect();
         let mut reports = self.found.into_iter().map(|(_, report)| report).take(TOLD);
         let first = reports.next();
         ScenarioError::several(
             first.unwrap_or_default(),
             reports.collect(),
-            Beyond { more, unjudged: unjudged && !more },
+            Beyond { more, unjudged: unjudged && !more, left_out },
         )
     }
 }

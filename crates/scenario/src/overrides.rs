@@ -97,6 +97,13 @@ fn alternatives(root: &Value, target: &KeyPath) -> Vec<KeyPath> {
         }
         let kinds = Guide::get().choices(&parent);
         if !kinds.contains(key) {
+            // A word such as "off", where an object could stand that has this key.
+            if matches!(here, Some(Value::String(_)))
+                && Guide::get().at(&KeyPath(target.0[..depth].to_vec())).is_some()
+            {
+                others.push(parent);
+                continue;
+            }
             let group = ALTERNATIVES.iter().filter(|group| group.contains(&key.as_str())).copied().flatten();
             let beside =
                 group.filter(|other| *other != key && here.is_some_and(|here| here.get(other).is_some()));

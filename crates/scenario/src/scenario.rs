@@ -1,7 +1,7 @@
 //! A scenario: the only door from a file to a scene and a plan.
 
 use crate::document::Document;
-use crate::error::{Report, ScenarioError, Warning};
+use crate::error::{Report, ScenarioError, Stage, Warning};
 use crate::fault::{Fault, Mend};
 use crate::form::Form;
 use crate::meaning::warnings::Oddity;
@@ -157,7 +157,7 @@ impl Scenario {
             root.fault(message)
                 .help("keep fewer parts and points; long tables fit into a CSV file of their own")
         };
-        Err(self.document.report(fault).into())
+        Err(ScenarioError::from(self.document.report(fault)).without(&[Stage::Equilibrium, Stage::Limits]))
     }
 
     /// The scenario as canonical JSON: SI numbers, overrides applied, defaults written out, tables inlined. Read back, it
@@ -171,6 +171,11 @@ impl Scenario {
     pub fn refusal(&self, error: &SceneError) -> ScenarioError {
         let fault = meaning::refused::fault(&self.scene, self.plan, error);
         mistakes::all(self.document.clone(), vec![fault])
+    }
+
+    /// What is wrong with another plan than the scenario's own, such as a stepper from a command line; it has no place in the file.
+    pub fn refusal_of(&self, plan: Plan, error: &SceneError) -> Report {
+        self.document.report(meaning::refused::fault(&self.scene, plan, error))
     }
 
     /// The places of the columns that are asked for among all channels; none where all are.
@@ -206,10 +211,20 @@ pub(crate) struct Interpreted {
 
 /// Gives a document its meaning, or the first thing that is wrong with it.
 pub(crate) fn interpret(document: &mut Document) -> Result<Interpreted, Fault> {
+    formed(document).and_then(|form| meant(document, form))
+}
+
+/// Every value by itself, or the first that is wrong.
+pub(crate) fn formed(document: &Document) -> Result<Form, Fault> {
     check_version(document)?;
     let mut form: Form = serde_path_to_error::deserialize(Reader(&document.value))
         .map_err(|error| refusal::fault(document, &error))?;
     named::fill(&mut form);
+    Ok(form)
+}
+
+/// What values are to each other, or the first that does not fit.
+pub(crate) fn meant(document: &mut Document, mut form: Form) -> Result<Interpreted, Fault> {
     let inlined = tables::inline(&mut form, document)?;
     let meaning = meaning::of(&form)?;
     Ok(Interpreted { form, inlined, meaning })
@@ -239,6 +254,7 @@ fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
             message,
             help: help.map(str::to_owned),
         })
+        .unread()
     };
     let limit = syntax::MAX_BYTES;
     let bytes = text::read(path, limit).map_err(|error| {
@@ -252,7 +268,7 @@ fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
     text::decode(bytes).map_err(|garbled| {
         let span = Span { source: 0, start: garbled.range.start, end: garbled.range.end };
         let fault = Fault::new(KeyPath::default(), garbled.message).at_span(span).help(garbled.help);
-        Document::new(name, &garbled.text).report(fault).into()
+        ScenarioError::from(Document::new(name, &garbled.text).report(fault)).unread()
     })
 }
 

@@ -61,6 +61,13 @@ fn overrides_switch_between_alternatives() {
     let coupled =
         with(&[("contacts.ball.normal", "coupled"), ("contacts.ball.normal.force", "1 N")]).unwrap();
     assert_eq!(coupled["contacts"]["ball"]["normal"], serde_json::json!({ "force": 1.0 }));
+    for word in ["off", "all"] {
+        let root = with(&[("output.events", word), ("output.events.most", "1000")]).unwrap();
+        assert_eq!(root["output"]["events"], serde_json::json!({ "most": 1000 }), "{word}");
+    }
+    // A word in whose place nothing with keys can stand stays.
+    let told = refused(&[("title.short", "a drive")]);
+    assert!(told.contains("this value has no keys"), "{told}");
     let sine = r#"{"amplitude": "100 nm", "period": "10 ms"}"#;
     let sine = with(&[("waveforms.drive.sine", sine)]).unwrap();
     assert_eq!(sine["waveforms"]["drive"].as_object().unwrap().keys().collect::<Vec<_>>(), ["sine"]);

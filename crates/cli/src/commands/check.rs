@@ -23,6 +23,9 @@ struct Finding<'a> {
     /// Whether there is more wrong than is told.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     more: bool,
+    /// Stages that were left out because of what is wrong, or not gone through to their ends: more may be wrong there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unjudged: Vec<&'static str>,
     /// What is allowed and probably not meant.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<Fault>,
@@ -76,6 +79,10 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
             error: job.as_ref().err().and_then(|refusal| Fault::all(refusal, file).into_iter().next()),
             errors: job.as_ref().err().map_or_else(Vec::new, |refusal| Fault::all(refusal, file)),
             more: matches!(job, Err(Refusal::Scenario(error)) if error.has_more()),
+            unjudged: match job {
+                Err(Refusal::Scenario(error)) => error.left_out().iter().map(|stage| stage.word()).collect(),
+                _ => Vec::new(),
+            },
             warnings: odd.iter().map(|odd| Fault { kind: Some(odd.kind), ..Fault::at(odd, file) }).collect(),
         };
         // A path that is not Unicode is the only thing that JSON has no words for.

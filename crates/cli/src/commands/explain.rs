@@ -1,4 +1,4 @@
-//! `stickslip explain NAME`: keys of scenarios from the schema, columns and figures from the table of definitions.
+//! `stickslip explain NAME`: keys of scenarios from the schema, columns, figures and their symbols from the table of definitions.
 
 use crate::console::answer::{complain, say};
 use crate::console::verdict::Verdict;
@@ -18,7 +18,13 @@ pub(crate) fn explain(names: &[String]) -> Verdict {
             found = true;
             say(format_args!("scenario  {path}\n    {text}"));
         }
-        if !found {
+        // A symbol such as u_c or E* is none's name; what it is stands first.
+        let symbols = definitions().filter(|definition| !found && definition.has_symbol(name));
+        let symbols: Vec<_> = symbols.collect();
+        for definition in &symbols {
+            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
+        }
+        if !found && symbols.is_empty() {
             let known = definitions().filter_map(|definition| definition.name.rsplit('.').next());
             let help = suggestion(name, known).filter(|help| help.starts_with("did you mean"));
             let help = help.unwrap_or_else(|| {

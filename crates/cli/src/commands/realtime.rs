@@ -39,6 +39,7 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     let stage = Stage::new(arguments, &job)?;
     if !arguments.quiet {
         warn(&job);
+        stage.warnings().iter().for_each(|odd| complain(format_args!("warning: {odd}")));
         if cfg!(debug_assertions) {
             complain(format_args!("this program was built without --release: its times tell little"));
         }
@@ -85,6 +86,10 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
 
 /// Prints the report.
 fn tell(arguments: &RealtimeArguments, report: &Report, ended: &Ended, written: &str) -> Result<(), Failure> {
+    // Whoever asked for a favour learns that there was none, also where no report is printed.
+    if arguments.quiet || arguments.json {
+        ended.denied.iter().for_each(|denied| complain(format_args!("{denied}")));
+    }
     if arguments.json {
         say_json(&report.line()?);
     } else if !arguments.quiet {

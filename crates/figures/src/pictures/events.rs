@@ -1,17 +1,13 @@
 //! Events over time.
 
-use super::{Kind, Sources, Undrawn};
+use super::{Kind, Sources, Undrawn, whole_title};
 use crate::look::{Pen, Picture};
 use std::collections::HashMap;
 use stickslip_plot::{EventTrack, events_figure};
-use stickslip_results::{Real, Track, quantity};
+use stickslip_results::Track;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind { shows: "what happened when", needs: |_| Vec::new(), draw };
-
-fn time(t: f64) -> String {
-    quantity(Real(t), "s")
-}
 
 /// One line for each kind of event of each contact and waveform, contacts first.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
@@ -29,11 +25,6 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let tracks: Vec<EventTrack<'_>> = tracks.collect();
     let start = kept.series.time().first().copied().unwrap_or(0.0);
     // Beyond, events are missing, and what is left of them would look like a calm.
-    let end = kept.whole_until();
-    let title = if end < kept.end() {
-        format!("{}, until {} of {} (events are thinned)", job.title(), time(end), time(kept.end()))
-    } else {
-        job.title().to_owned()
-    };
-    Ok(pen.draw(PlotName::Events, events_figure(&title, (start, end), &tracks))?)
+    let title = whole_title(job, kept);
+    Ok(pen.draw(PlotName::Events, events_figure(&title, (start, kept.whole_until()), &tracks))?)
 }

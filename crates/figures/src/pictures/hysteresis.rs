@@ -1,6 +1,6 @@
 //! Hysteresis loops of the contacts.
 
-use super::{Kind, Sources, Undrawn, alike, of_contacts};
+use super::{Kind, Sources, Undrawn, alike, of_contacts, whole_title};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{HysteresisLoop, Ink, loop_figure};
 use stickslip_results::Job;
@@ -56,7 +56,8 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
             limit: curve.limit,
         })
         .collect();
-    let mut figure = loop_figure(job.title(), &loops);
+    let title = whole_title(job, kept);
+    let mut figure = loop_figure(&title, &loops);
     for (place, series) in figure.panels.iter_mut().flat_map(|panel| panel.series.iter_mut().enumerate()) {
         // The panel of normalised loops leaves out those without limits; its series say whose they are.
         let place = if let Some(Ink::Palette(curve)) = series.style.ink { curve } else { place };

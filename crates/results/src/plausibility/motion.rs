@@ -3,8 +3,8 @@
 use super::{ASKED, Implausible, told};
 use std::f64::consts::TAU;
 use stickslip_drive::facts::zero_step_stroke;
-use stickslip_drive::scene::{Freedom, Side, Varying};
-use stickslip_drive::{Accuracy, Waveform};
+use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
+use stickslip_drive::{Accuracy, Shape, Stepper, Waveform};
 
 /// Strokes of piezo drives, m: below the first the noise of any amplifier is larger, and above the second there is no flexure.
 const STROKES: (f64, f64) = (1e-12, 1e-3);
@@ -147,6 +147,36 @@ impl Implausible<'_> {
                 );
                 let path = format!("run.stepper.{}.tolerance", stepper.name());
                 return self.find("tolerance", &path, message, "take a smaller one");
+            }
+        }
+    }
+
+    /// Frames under a normal that comes from outside: there a contact goes by the whole law of its memory, one chord a step, and
+    /// no step is cut where its course turns.
+    pub(super) fn frames(&mut self, stepper: Stepper) {
+        let job = self.job;
+        let Stepper::Frames { accuracy, .. } = stepper else { return };
+        let waveforms = &job.scenario.scene.waveforms;
+        let is_fed = |varying: Varying| match varying {
+            Varying::Follows(w) => {
+                waveforms.get(w).is_some_and(|w| matches!(w.part.shape(), Shape::Input { .. }))
+            }
+            Varying::Constant(_) => false,
+        };
+        for contact in &job.scenario.scene.contacts {
+            let (key, varying) = match contact.part.normal {
+                Normal::Force(varying) => ("force", varying),
+                Normal::Indentation(varying) => ("indentation", varying),
+                Normal::Radius(varying) => ("radius", varying),
+                Normal::Coupled => continue,
+            };
+            if is_fed(varying) {
+                let path = format!("contacts.{}.normal.{key}", contact.name);
+                let message = format!(
+                    "an input presses this contact, and frames keep no accuracy there: more than {accuracy:e} may be lost of a stroke"
+                );
+                let help = "compare with shorter frames, or take the stepper event in frames";
+                self.find("frames_under_input", &path, message, help);
             }
         }
     }

@@ -42,6 +42,12 @@ const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
 const UNIVERSAL_HEAD: &[&str] =
     &["c_a", "u_uc", "fx_mufn", "c_m", "u_m", "fx_N", "fx_by_integral_N", "friction_J"];
 
+/// The tables and their columns.
+pub fn heads() -> [(&'static str, &'static [&'static str]); 6] {
+    let heads = [HISTORY_HEAD, FIELDS_HEAD, LINE_HEAD, FRICTION_HEAD, NORMAL_HEAD, UNIVERSAL_HEAD];
+    std::array::from_fn(|k| (TABLES[k], heads[k]))
+}
+
 /// What goes beside the tables.
 #[derive(Debug, Default)]
 pub struct Beside<'a> {
@@ -130,16 +136,16 @@ pub fn write(
     walk: &Walk,
     beside: Beside<'_>,
 ) -> io::Result<Vec<String>> {
-    let tables: [(&'static str, &[&str], Fill<'_>); 6] = [
-        (TABLES[0], HISTORY_HEAD, &|sheet| history(sheet, walk)),
-        (TABLES[1], FIELDS_HEAD, &|sheet| fields(sheet, walk)),
-        (TABLES[2], LINE_HEAD, &|sheet| line(sheet, constants, walk)),
-        (TABLES[3], FRICTION_HEAD, &|sheet| friction(sheet, walk)),
-        (TABLES[4], NORMAL_HEAD, &|sheet| normal(sheet, constants)),
-        (TABLES[5], UNIVERSAL_HEAD, &|sheet| universal(sheet, constants)),
+    let fills: [Fill<'_>; 6] = [
+        &|sheet| history(sheet, walk),
+        &|sheet| fields(sheet, walk),
+        &|sheet| line(sheet, constants, walk),
+        &|sheet| friction(sheet, walk),
+        &|sheet| normal(sheet, constants),
+        &|sheet| universal(sheet, constants),
     ];
     let mut reports = Vec::new();
-    for (name, head, fill) in tables {
+    for ((name, head), fill) in heads().into_iter().zip(fills) {
         let mut sheet = Sheet::new(folder.draft(name)?, head.iter().copied());
         fill(&mut sheet);
         let written = sheet.finish()?;

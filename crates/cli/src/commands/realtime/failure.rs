@@ -11,7 +11,6 @@ use stickslip_realtime::plant::ChannelError;
 use stickslip_realtime::source::RecordingError;
 use stickslip_results::Refusal;
 use stickslip_results::complaint::words;
-use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
 /// Why there is no loop, or no report.
@@ -20,9 +19,14 @@ pub(crate) enum Failure {
     /// The file.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// The scenario with another stepper.
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
+    /// The scenario, which was good, with this stepper.
+    #[error("--stepper {stepper}: {message}")]
+    Unfit {
+        /// As it was asked for.
+        stepper: String,
+        /// What does not fit.
+        message: String,
+    },
     /// The stepper's name.
     #[error(
         "--stepper {0}: expected frames, frames:ACCURACY, event, event:TOLERANCE, verlet, verlet:STEP, rk4 or rk4:STEP, such as verlet:\"1 us\""

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::stepper::chosen;
 use crate::arguments::RealtimeArguments;
 use crate::console::answer::complain;
-use stickslip_drive::{Accuracy, Plan, State};
+use stickslip_drive::{Accuracy, Plan, State, Stepper};
 use stickslip_realtime::plant::{ChannelError, Input, Output, inputs, outputs};
 use stickslip_realtime::probe::{Probe, RowsProbe, probe, rows};
 use stickslip_realtime::session::Order;
@@ -12,6 +12,7 @@ use stickslip_realtime::wire::MOST_VALUES;
 use stickslip_realtime::{Drive, Pace};
 use stickslip_results::checkpoint::model_key;
 use stickslip_results::{Job, Real, quantity};
+use stickslip_scenario::Warning;
 
 /// Frames that are computed before the start, without waiting.
 const PROBED: u64 = 500;
@@ -37,7 +38,10 @@ impl<'a> Stage<'a> {
         let own = job.scenario.plan;
         let asked = arguments.stepper.as_deref();
         let plan = Plan { stepper: chosen(asked, own.stepper, &job.model, arguments.period)?, ..own };
-        let start = job.model.start(&plan).map_err(|error| job.scenario.refusal(&error))?;
+        let start = job.model.start(&plan).map_err(|error| Failure::Unfit {
+            stepper: asked.unwrap_or(plan.stepper.name()).to_owned(),
+            message: job.scenario.refusal_of(plan, &error).message.clone(),
+        })?;
         let mut number = [0; 8];
         number.copy_from_slice(&model_key(&job.scenario)[..8]);
         let mut inputs = inputs(&job.scenario.scene)?;
@@ -65,6 +69,12 @@ impl<'a> Stage<'a> {
             "{name}: scenario number {number:016x}\n  inputs: {inputs}\n  outputs: {}",
             outputs.join(", ")
         )
+    }
+
+    /// What is odd about the scene under the stepper taken, where its own is another.
+    pub(super) fn warnings(&self) -> Vec<Warning> {
+        let is_own = matches!(self.job.scenario.plan.stepper, Stepper::Frames { .. });
+        if is_own { Vec::new() } else { self.job.warnings_of_frames(self.plan.stepper) }
     }
 
     /// The stepper in words.

@@ -1,0 +1,221 @@
+//! Whatever the program prints has its definition: `info`, `contact`, `check`, `validate` and a run with every output option.
+
+use crate::program::{Table, code, listing, run, scenario, stderr, stdout, stickslip, summary};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::path::Path;
+use stickslip_results::definitions;
+use tempfile::tempdir;
+
+fn defined(file: &str, name: &str) -> bool {
+    definitions().any(|definition| definition.defines(file, name))
+}
+
+/// Keys that hold values, as paths; names of parts stay what they are.
+fn keys(value: &Value, here: &str, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(entries) => {
+            for (key, inner) in entries {
+                // The dot of a file's or a coordinate's name is none of a path.
+                let key = key.replace('.', " ");
+                keys(inner, &if here.is_empty() { key } else { format!("{here}.{key}") }, found);
+            }
+        }
+        Value::Array(entries) if entries.iter().any(Value::is_object) => {
+            entries.iter().for_each(|inner| keys(inner, here, found));
+        }
+        // A list of nothing may be one of anything.
+        Value::Array(entries) if entries.is_empty() => {}
+        _ => drop(found.insert(here.to_owned())),
+    }
+}
+
+/// What the answers of a command have and nobody defines.
+fn lacking(file: &str, answers: &[Value]) -> Vec<String> {
+    let mut found = BTreeSet::new();
+    answers.iter().for_each(|answer| keys(answer, "", &mut found));
+    assert!(found.len() > 5, "{found:?}");
+    found.into_iter().filter(|name| !defined(file, name)).collect()
+}
+
+fn answers(arguments: &[&str]) -> Vec<Value> {
+    let output = stickslip().args(arguments).output().unwrap();
+    assert!(code(&output) != 3, "{}", stderr(&output));
+    stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn examples() -> Vec<String> {
+    let folder = scenario("p1").parent().unwrap().to_owned();
+    let names = listing(&folder).into_iter().filter(|name| name.ends_with(".json"));
+    names.map(|name| folder.join(name).to_str().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn every_figure_of_info_is_defined() {
+    let mut all: Vec<Value> = examples().iter().flat_map(|file| answers(&["info", "--json", file])).collect();
+    assert!(all.len() > 15);
+    // What the examples do not ask for: other steppers, every output, an early end, something odd.
+    let sets: [&[&str]; 4] = [
+        &[
+            "run.stepper.verlet.step=10 us",
+            "bodies.wall={}",
+            "output.springs={}",
+            "output.memory={}",
+            "output.fields={}",
+        ],
+        &["run.stepper.frames.length=20 us"],
+        &["run.until_steady=1e-6"],
+        &["waveforms.drive.sawtooth.cycles=3", "gravity={}"],
+    ];
+    let file = scenario("quickstart");
+    for set in sets {
+        let set = set.iter().flat_map(|one| ["--set", one]);
+        let arguments: Vec<&str> =
+            ["info", "--json", file.to_str().unwrap()].into_iter().chain(set).collect();
+        all.extend(answers(&arguments));
+    }
+    assert_eq!(all.len(), examples().len() + sets.len());
+    assert_eq!(lacking("info --json", &all), Vec::<String>::new());
+}
+
+#[test]
+fn every_figure_of_a_contact_by_itself_is_defined() {
+    let (file, root) = (scenario("quickstart"), tempdir().unwrap());
+    let (file, out) = (file.to_str().unwrap(), root.path().join("out"));
+    let mut all = answers(&["contact", "--json", file]);
+    all.extend(answers(&["contact", "--json", file, "--force", "1 N", "--tangential", "50 mN"]));
+    let history = ["contact", "--json", file, "--history", "20 nm, -20 nm", "--out", out.to_str().unwrap()];
+    all.extend(answers(&history));
+    all.push(serde_json::from_slice(&std::fs::read(out.join("contact.json")).unwrap()).unwrap());
+    assert_eq!(all.len(), 4);
+    assert_eq!(lacking("contact.json", &all), Vec::<String>::new());
+    let tables: Vec<String> = listing(&out).into_iter().filter(|name| name.ends_with(".csv")).collect();
+    assert_eq!(tables.len(), 6);
+    for name in tables {
+        let head = Table::read(&out.join(&name)).head;
+        let lacking: Vec<_> =
+            head.iter().filter(|column| !defined(&format!("contact: {name}"), column)).collect();
+        assert!(lacking.is_empty(), "{name}: {lacking:?}");
+    }
+}
+
+#[test]
+fn everything_that_check_says_is_defined() {
+    let root = tempdir().unwrap();
+    let file = root.path().join("mine.json");
+    let text = std::fs::read_to_string(scenario("quickstart")).unwrap();
+    std::fs::write(&file, text.replace("\"friction\": 0.2", "\"friction\": -0.2")).unwrap();
+    let file = file.to_str().unwrap();
+    let mut all = answers(&["check", "--json", file, "nowhere.json"]);
+    all.extend(answers(&["check", "--json", file, "--set", "contacts.ball.friction=-1"]));
+    all.extend(answers(&[
+        "check",
+        "--json",
+        file,
+        "--set",
+        "contacts.ball.friction=0.2",
+        "--set",
+        "bodies.wall={}",
+    ]));
+    assert!(all.len() == 4 && all[3]["ok"] == true && all[3]["warnings"][0]["line"].is_u64(), "{all:?}");
+    // The first error and warnings have the keys of the errors.
+    for answer in &mut all {
+        let first = answer["error"].take();
+        answer["error"] = json!(true);
+        answer
+            .get_mut("errors")
+            .and_then(Value::as_array_mut)
+            .into_iter()
+            .for_each(|errors| errors.push(first.clone()));
+        let warnings = answer.get_mut("warnings").and_then(Value::as_array_mut).into_iter().flatten();
+        for warning in warnings {
+            let kind = warning["kind"].take();
+            assert!(!kind.is_null());
+            let mut rest = warning.clone();
+            rest.as_object_mut().unwrap().remove("kind");
+            assert!(lacking("check --json", &[json!({ "errors": [rest] })]).is_empty());
+            *warning = json!({ "kind": kind });
+        }
+    }
+    assert_eq!(lacking("check --json", &all), Vec::<String>::new());
+}
+
+/// Heads of the tables of what was asked and found.
+#[test]
+fn every_head_of_what_validate_asks_is_defined() {
+    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/validation");
+    let mut heads = BTreeSet::new();
+    for name in listing(&pages).iter().filter(|name| name.ends_with(".md")) {
+        let page = std::fs::read_to_string(pages.join(name)).unwrap();
+        let head = page.lines().find(|line| line.contains("asked: at most |")).unwrap();
+        heads.extend(head.split('|').map(|cell| cell.trim().to_owned()).filter(|cell| !cell.is_empty()));
+    }
+    assert!(heads.len() > 3, "{heads:?}");
+    let lacking: Vec<_> = heads.iter().filter(|head| !defined("validate", head)).collect();
+    assert!(lacking.is_empty(), "{lacking:?}");
+}
+
+/// Every option of `output` at once, also those that shut each other out in turn.
+#[test]
+fn everything_that_a_run_with_every_output_writes_is_defined() {
+    let root = tempdir().unwrap();
+    let every = [
+        "output.events={\"kinds\": [\"reversal\", \"gross slip\"], \"contacts\": [\"ball\"], \"most\": 100}",
+        "output.states=numbers",
+        "output.float=9",
+        "output.springs={\"count\": 11}",
+        "output.fields={\"radii\": 5}",
+        "output.memory={}",
+    ];
+    let cases: [(&str, &[&str]); 3] = [
+        ("quickstart", &["output.last=2", "bodies.wall={}"]),
+        ("fretting_sphere", &["output.window.from=1 ms"]),
+        ("rocking_slider", &["output.window.from=1 ms"]),
+    ];
+    let mut files = BTreeSet::new();
+    for (name, more) in cases {
+        let set: Vec<&str> = every
+            .iter()
+            .chain(more)
+            .filter(|one| name == "quickstart" || !one.contains("contacts"))
+            .copied()
+            .collect();
+        let output = run(&scenario(name), root.path(), &set);
+        assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+        let folder = root.path().join(name);
+        for file in listing(&folder).into_iter().filter(|file| file.ends_with(".csv")) {
+            let head = Table::read(&folder.join(&file)).head;
+            // Of events what follows source and kind is a row.
+            let is_row = |column: &str| file == "events.csv" && defined("trace.csv", column);
+            let lacking: Vec<_> =
+                head.iter().filter(|column| !defined(&file, column) && !is_row(column)).collect();
+            assert!(lacking.is_empty(), "{name}/{file}: {lacking:?}");
+            files.insert(file);
+        }
+        let summary = summary(&folder);
+        assert_eq!(lacking("summary.json", &[summary]), Vec::<String>::new(), "{name}");
+    }
+    let all = [
+        "cycles.csv",
+        "events.csv",
+        "fields.csv",
+        "friction.csv",
+        "memory.csv",
+        "springs.csv",
+        "steps.csv",
+        "trace.csv",
+    ];
+    assert_eq!(files.iter().collect::<Vec<_>>(), all);
+}
+
+/// A symbol that stands in the tables of `info` is explained as what it is.
+#[test]
+fn symbols_are_explained() {
+    for (symbol, name) in
+        [("S0", "zero_step_stroke_m"), ("u_c", "gross_slip_displacement_m"), ("E*", "normal_modulus_Pa")]
+    {
+        let output = stickslip().args(["explain", symbol]).output().unwrap();
+        assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+        assert!(stdout(&output).contains(name), "{symbol}: {}", stdout(&output));
+    }
+}
