@@ -87,7 +87,7 @@ const HEADING_LINES: usize = 2;
 
 impl Sizes {
     fn of(figure: &Figure<'_>) -> Self {
-        let scale = f64::from(figure.size.0) / f64::from(Figure::DEFAULT_SIZE.0);
+        let scale = figure.scale();
         let theme = &figure.theme;
         Self {
             scale,

@@ -1,13 +1,15 @@
 //! Events over time.
 
+use super::period::LastPeriod;
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
 use std::collections::HashMap;
-use stickslip_plot::{EventTrack, events_figure};
+use stickslip_plot::{EventTrack, enlarged_below, events_figure};
 use stickslip_results::{Real, Track, quantity};
 use stickslip_scenario::PlotName;
 
-pub(super) const KIND: Kind = Kind { shows: "what happened when", needs: |_| Vec::new(), draw };
+pub(super) const KIND: Kind =
+    Kind { shows: "what happened when; of many periods the last one below", needs: |_| Vec::new(), draw };
 
 fn time(t: f64) -> String {
     quantity(Real(t), "s")
@@ -35,5 +37,11 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     } else {
         job.title().to_owned()
     };
-    Ok(pen.draw(PlotName::Events, events_figure(&title, (start, end), &tracks))?)
+    let figure = events_figure(&title, (start, end), &tracks);
+    let Some(LastPeriod { number, span }) = LastPeriod::of_many(job, kept) else {
+        return Ok(pen.draw(PlotName::Events, figure)?);
+    };
+    let words = format!("period {number} (shaded above)");
+    let figure = enlarged_below(figure, events_figure("", span, &tracks), span, &words);
+    Ok(pen.draw(PlotName::Events, figure)?)
 }
