@@ -33,7 +33,8 @@ const AROUND: u32 = 260;
 const EACH: u32 = 560;
 
 /// Error over time (left) and over evaluations (right), all axes logarithmic, a pair of panels for each group with at most five
-/// curves; names and slopes (powers of the work with which the error falls, above its floor) stand at the ends of the curves. `error` says
+/// curves; names and slopes (powers of the work with which the error falls, above its floor) stand at the ends of the curves, as far as there is room; the
+/// legend has all names. `error` says
 /// in parts of what the error is measured; below `floor` the reference itself is no longer sure.
 pub fn work_precision_figure<'a>(
     title: &str,
@@ -92,7 +93,7 @@ type Work<'a> = fn(&WorkCurve<'a>) -> &'a [f64];
 
 fn series<'a>(curve: &WorkCurve<'a>, work: &'a [f64]) -> Series<'a> {
     let style = Style { ink: Some(Ink::Palette(curve.place)), dash: Some(Dash::Solid), width: 0.8 };
-    Series { style, marked: true, ..Series::new("", work, curve.error) }
+    Series { style, marked: true, ..Series::new(curve.name, work, curve.error) }
 }
 
 /// Points of a curve that can be drawn: work and error.
