@@ -82,6 +82,108 @@ fn pictures_come_in_the_forms_asked_for_beside_the_others() {
     assert_eq!(pictures(&folder), ["trajectory.png"]);
 }
 
+/// Of twelve periods the last one stands enlarged beside the motion and below the events, of ten that ring little it does not.
+#[test]
+fn the_last_period_of_a_long_run_is_enlarged() {
+    for (cycles, periods) in [(10, 0), (12, 1)] {
+        let out = tempdir().unwrap();
+        let set = [format!("run.cycles={cycles}"), r#"plots=["trajectory", "events", "energy"]"#.to_owned()];
+        let set = set.iter().map(String::as_str).collect::<Vec<_>>();
+        assert_eq!(code(&run(&scenario("p1"), out.path(), &set)), 0);
+        let folder = out.path().join("p1");
+        assert_eq!(code(&plot(&folder, &["--format", "svg"])), 0);
+        for name in ["trajectory", "events", "energy"] {
+            let drawing = std::fs::read_to_string(folder.join(format!("{name}.svg"))).unwrap();
+            assert_eq!(drawing.matches("\nperiod 12 (shaded").count(), periods, "{name} of {cycles}");
+            // Both or none of the axes are of the period.
+            assert_eq!(drawing.matches("time t (ms)").count(), 1 + periods, "{name} of {cycles}");
+        }
+    }
+}
+
+/// Channels over a channel are drawn by `run` and again by `plot`, in the order of the list; units are the axes', and what lies
+/// before the span is not in it.
+#[test]
+fn channels_over_a_channel_are_drawn_as_asked() {
+    let out = tempdir().unwrap();
+    let own = r#"plots=["layout", {"x": "ball.u_m", "y": "ball.fx_N", "from": "2 ms"},
+        {"x": "time_s", "y": ["ball.fx_N", "ball.fn_N", "slider.vx_m_s"], "from": "1 ms", "to": "2 ms"}]"#;
+    let ran = run(&scenario("p1"), out.path(), &[own, "run.cycles=3"]);
+    assert_eq!(code(&ran), 0, "{}", stderr(&ran));
+    let folder = out.path().join("p1");
+    assert_eq!(pictures(&folder), ["layout.png", "xy-1.png", "xy-2.png"]);
+    let drawn = std::fs::read(folder.join("xy-1.png")).unwrap();
+    assert_eq!(code(&plot(&folder, &["--format", "svg,png"])), 0);
+    assert_eq!(std::fs::read(folder.join("xy-1.png")).unwrap(), drawn);
+    let svg = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let has = |name: &str, words: &str| svg(name).contains(&format!(">\n{words}\n</text>"));
+    assert!(has("xy-1.svg", "ball u (µm)") && has("xy-1.svg", "ball fx (mN)"));
+    // Three channels of two units: two panels over one axis of time, from 1 to 2 ms.
+    assert!(has("xy-2.svg", "time (ms)") && has("xy-2.svg", "slider vx (mm/s)"));
+    assert!(has("xy-2.svg", "ball fx") && has("xy-2.svg", "ball fn"));
+    assert!(has("xy-2.svg", "1.0") && has("xy-2.svg", "2.0") && !has("xy-2.svg", "3.0"));
+    // By their name all of them, and of a scenario without any a word of advice.
+    assert_eq!(code(&plot(&folder, &["--plots", "xy", "--theme", "dark"])), 0);
+    assert!(pictures(&folder).contains(&"xy-2-dark.png".to_owned()));
+    assert_eq!(code(&run(&scenario("p1"), out.path(), &["run.cycles=1"])), 0);
+    let none = plot(&folder, &["--plots", "xy"]);
+    assert_eq!(code(&none), 2);
+    assert!(stderr(&none).contains("names no channels to draw"), "{}", stderr(&none));
+}
+
+/// Pictures for a column of a paper: their size is in the file, and letters keep theirs.
+#[test]
+fn pictures_are_as_wide_as_asked_for_in_print() {
+    let out = tempdir().unwrap();
+    assert_eq!(code(&run(&scenario("p1"), out.path(), &["run.cycles=3", r#"plots=["loop"]"#])), 0);
+    let folder = out.path().join("p1");
+    assert_eq!(code(&plot(&folder, &["--format", "svg,png", "--width", "8.5 cm"])), 0);
+    let svg = std::fs::read_to_string(folder.join("loop-85mm.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg[..200].contains("width=\"85mm\""), "{}", &svg[..200]);
+    // The title's letters, theme.title of 36 px where 1600 px are 160 mm: 10.2 pt, here 2008 px for 85 mm.
+    let wide: f64 = svg.split_once("viewBox=\"0 0 ").unwrap().1.split_once(' ').unwrap().0.parse().unwrap();
+    let size: f64 = svg.split_once("font-size=\"").unwrap().1.split_once('"').unwrap().0.parse().unwrap();
+    let points = size / wide * 85.0 / 25.4 * 72.0;
+    assert!((points - 36.0 / 1600.0 * 160.0 / 25.4 * 72.0).abs() < 0.1, "{points} pt");
+    let png = std::fs::read(folder.join("loop-85mm.png")).unwrap();
+    let chunk = png.windows(4).position(|name| name == b"pHYs").unwrap() + 4;
+    let per_metre = u32::from_be_bytes(png[chunk..chunk + 4].try_into().unwrap());
+    let across = u32::from_be_bytes(png[16..20].try_into().unwrap());
+    assert_eq!((across, per_metre), (2008, 23624));
+    for (width, word) in [("85", "from 40mm to 300mm"), ("1 m", "from 40mm to 300mm"), ("2 s", "length")] {
+        let refused = plot(&folder, &["--width", width]);
+        assert!(code(&refused) == 2 && stderr(&refused).contains(word), "{width}: {}", stderr(&refused));
+    }
+}
+
+/// Two runs in one panel, each named at the end of its curve; what is no curve is refused, and so is one run.
+#[test]
+fn several_results_are_drawn_over_each_other() {
+    let (out, over) = (tempdir().unwrap(), tempdir().unwrap());
+    for (name, stroke) in [("weak", "0.3 um"), ("strong", "0.6 um")] {
+        let stroke = format!("waveforms.drive.sawtooth.stroke={stroke}");
+        let set = [stroke.as_str(), "run.cycles=3", r#"plots=["loop", "layout", "trajectory"]"#];
+        assert_eq!(code(&run(&scenario("p1"), &out.path().join(name), &set)), 0);
+    }
+    let folders = ["weak", "strong"].map(|name| out.path().join(name).join("p1"));
+    let drawn = |options: &[&str]| {
+        let to = ["--over", "--out"];
+        stickslip().arg("plot").args(&folders).args(to).arg(over.path()).args(options).output().unwrap()
+    };
+    let ran = drawn(&["--format", "svg"]);
+    assert_eq!(code(&ran), 0, "{}", stderr(&ran));
+    assert_eq!(pictures(over.path()), ["over-loop.svg", "over-trajectory.svg"]);
+    let drawing = std::fs::read_to_string(over.path().join("over-loop.svg")).unwrap();
+    let count = |words: &str| drawing.matches(&format!(">\n{words}\n</text>")).count();
+    // The last periods alone, in two colours; the first periods behind them are left out.
+    assert_eq!((count("weak/p1"), count("strong/p1"), count("first period")), (1, 1, 0));
+    assert!(drawing.contains("#0072B2") && drawing.contains("#D55E00"));
+    let refused = drawn(&["--plots", "layout"]);
+    assert!(code(&refused) == 2 && stderr(&refused).contains("cannot be drawn over another"));
+    let one = stickslip().arg("plot").arg(&folders[0]).args(["--over", "--out"]).arg(over.path()).output();
+    assert!(stderr(&one.unwrap()).contains("expected several folders of results, got one"));
+}
+
 #[test]
 fn a_picture_carries_the_scenario_it_shows() {
     let out = tempdir().unwrap();

@@ -154,6 +154,14 @@ fn overrides_are_checked_like_the_file() {
         ("contacts.ball.friction=-1", "--set contacts.ball.friction=-1  contacts.ball.friction: expected"),
         ("contacts.bell.friction=1", "did you mean \"ball\"?"),
         ("output.channels=[\"ball.x_m\"]", "output.channels[0]: there is no channel \"ball.x_m\""),
+        (
+            "plots=[\"loop\", {\"x\": \"ball.u_m\", \"y\": [\"ball.fn_N\", \"ball.fx_M\"]}]",
+            "plots[1].y[1]: there is no channel \"ball.fx_M\" with numbers",
+        ),
+        (
+            "plots=[{\"x\": \"time_s\", \"y\": \"ball.state\"}]",
+            "plots[0].y: there is no channel \"ball.state\" with numbers",
+        ),
     ] {
         check(&run(&scenario("quickstart"), &results, &[set]), &[message]);
         assert!(!results.exists(), "{set}");

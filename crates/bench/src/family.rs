@@ -91,16 +91,6 @@ impl Method {
             Self::Outside => false,
         }
     }
-
-    /// For people.
-    pub(crate) fn title(self) -> String {
-        match self {
-            Self::Own { stepping, springs: None } => stepping.name().to_owned(),
-            Self::Own { stepping, springs: Some(n) } => format!("{}, {n} springs", stepping.name()),
-            Self::Loop { springs } => format!("loop over {springs} springs"),
-            Self::Outside => "ode_solvers with events".to_owned(),
-        }
-    }
 }
 
 impl<'p> Family<'p> {

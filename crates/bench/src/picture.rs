@@ -1,11 +1,9 @@
 //! The work-precision diagram of a scenario.
 
 use crate::contestant::Stepping;
-use crate::family::{Family, LOOPS, Method};
+use crate::family::{Family, Method};
 use crate::problem::Problem;
-use stickslip_plot::{
-    Dash, Figure, Ink, PlotError, Theme, WorkCurve, draw_png, draw_svg, work_precision_figure,
-};
+use stickslip_plot::{Figure, PlotError, Theme, WorkCurve, draw_png, draw_svg, work_precision_figure};
 use stickslip_results::Job;
 use stickslip_results::provenance;
 
@@ -15,6 +13,7 @@ pub const NAME: &str = "work-precision";
 /// Series of one family.
 struct Points {
     name: String,
+    group: String,
     method: Method,
     error: Vec<f64>,
     seconds: Vec<f64>,
@@ -49,10 +48,8 @@ pub(crate) fn draw(
 impl Points {
     fn new(family: &Family<'_>, duration: f64) -> Self {
         let mut points = Self {
-            name: match family.method {
-                Method::Own { springs: Some(n), .. } => format!("pale: on {n} springs"),
-                method => method.title(),
-            },
+            name: family.method.name().to_owned(),
+            group: group(family.method),
             method: family.method,
             error: Vec::new(),
             seconds: Vec::new(),
@@ -67,26 +64,27 @@ impl Points {
     }
 
     fn curve(&self) -> WorkCurve<'_> {
-        let dash = |n: usize| match LOOPS.iter().position(|row| *row == n) {
-            Some(0) => Dash::Dotted,
-            Some(1) => Dash::DashDot,
-            Some(2) => Dash::LongDash,
-            _ => Dash::Solid,
-        };
-        let (ink, dash) = match self.method {
-            Method::Own { stepping, springs: None } => (Ink::Palette(colour(stepping)), Dash::Solid),
-            Method::Loop { springs } => (Ink::Palette(4), dash(springs)),
-            Method::Outside => (Ink::Palette(5), Dash::Solid),
-            Method::Own { stepping, springs: Some(n) } => (Ink::Pale(colour(stepping)), dash(n)),
-        };
         WorkCurve {
             name: &self.name,
+            group: &self.group,
             error: &self.error,
             seconds: &self.seconds,
             evaluations: &self.evaluations,
-            ink,
-            dash,
+            // The same in all panels.
+            place: match self.method {
+                Method::Own { stepping, .. } => colour(stepping),
+                Method::Loop { .. } => 4,
+                Method::Outside => 5,
+            },
         }
+    }
+}
+
+/// What is compared beside each other: methods on the same contact.
+fn group(method: Method) -> String {
+    match method.springs() {
+        None => "the exact contact".to_owned(),
+        Some(springs) => format!("rows of {springs} springs"),
     }
 }
 

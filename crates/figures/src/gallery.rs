@@ -78,8 +78,9 @@ pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryErr
     }
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file)).map_err(failed)?;
     let sources = Sources { job, kept: &outcome.kept, insides: InsideTables::drafted(&folder) };
-    let light = Look { formats: vec![Format::Png, Format::Svg], themes: vec![Colours::Light], scale: 1 };
-    let dark = Look { formats: vec![Format::Png], themes: vec![Colours::Dark], scale: 1 };
+    let light =
+        Look { formats: vec![Format::Png, Format::Svg], themes: vec![Colours::Light], scale: 1, width: None };
+    let dark = Look { formats: vec![Format::Png], themes: vec![Colours::Dark], scale: 1, width: None };
     let mut pictures = Vec::new();
     let undrawn = |source| GalleryError::Figure { name: job.name.clone(), source: Box::new(source) };
     for drawn in [light, dark].iter().flat_map(|look| pictures::draw(&sources, look)) {

@@ -10,6 +10,7 @@ pub mod comparison;
 pub mod gallery;
 pub mod look;
 mod origin;
+pub mod overlay;
 mod pictures;
 pub mod realtime;
 pub mod theory;

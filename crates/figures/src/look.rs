@@ -1,5 +1,6 @@
 //! How pictures are drawn: as what files, in what colours and size.
 
+use std::sync::{Mutex, PoisonError};
 use stickslip_plot::{Figure, PlotError, Theme, draw_animation, draw_png, draw_svg};
 use stickslip_scenario::PlotName;
 
@@ -12,6 +13,8 @@ pub struct Look {
     pub themes: Vec<Colours>,
     /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (`NAME@2x.png`).
     pub scale: u32,
+    /// Width in print, tenths of a millimetre, with letters and lines in points (`NAME-85mm.png`); none: as wide as the page.
+    pub width: Option<u32>,
 }
 
 /// A kind of picture file.
@@ -39,6 +42,8 @@ pub type Picture = (String, Vec<u8>);
 pub(crate) struct Pen<'a> {
     pub(crate) look: &'a Look,
     pub(crate) provenance: Vec<(String, String)>,
+    /// Where figures are kept under their names instead of being drawn.
+    pub(crate) kept: Option<Mutex<Vec<(String, Figure<'static>)>>>,
 }
 
 impl Format {
@@ -63,12 +68,19 @@ impl Look {
             Colours::Dark => "-dark",
         };
         let scale = if self.scale == 1 { String::new() } else { format!("@{}x", self.scale) };
-        format!("{plot}{theme}{scale}.{}", format.ending())
+        let width = self.width_in_mm().map_or(String::new(), |mm| format!("-{mm}mm"));
+        format!("{plot}{theme}{width}{scale}.{}", format.ending())
     }
 
-    /// Names of all files that any look gives to the pictures of a scenario.
+    fn width_in_mm(&self) -> Option<f64> {
+        self.width.map(|tenths| f64::from(tenths) / 10.0)
+    }
+
+    /// Names of all files that any look without a width gives to the pictures of a scenario.
     pub fn all_files() -> Vec<String> {
-        Self::all_files_of(&PlotName::ALL.map(PlotName::name))
+        let own: Vec<String> = (1..=PlotName::MOST_OWN).map(own_name).collect();
+        let names = PlotName::ALL.map(PlotName::name).into_iter().chain(own.iter().map(String::as_str));
+        Self::all_files_of(&names.collect::<Vec<_>>())
     }
 
     /// The same of pictures by their names.
@@ -76,7 +88,7 @@ impl Look {
         let mut names = Vec::new();
         for theme in [Colours::Light, Colours::Dark] {
             for scale in [1, 2] {
-                let look = Self { formats: Vec::new(), themes: Vec::new(), scale };
+                let look = Self { formats: Vec::new(), themes: Vec::new(), scale, width: None };
                 for format in [Format::Png, Format::Svg] {
                     names.extend(plots.iter().map(|plot| look.file_of(plot, theme, format)));
                 }
@@ -84,6 +96,11 @@ impl Look {
         }
         names
     }
+}
+
+/// Name of the picture of channels over a channel at a place among them, counted from 1.
+pub(crate) fn own_name(number: usize) -> String {
+    format!("{}-{number}", PlotName::Xy.name())
 }
 
 impl Pen<'_> {
@@ -114,10 +131,18 @@ impl Pen<'_> {
         self.look.themes.iter().map(film).collect()
     }
 
+    /// The figures that it kept.
+    pub(crate) fn into_kept(self) -> Vec<(String, Figure<'static>)> {
+        self.kept.map_or(Vec::new(), |kept| kept.into_inner().unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// A figure in the look, in one of its colours.
     fn looking<'f>(&self, mut figure: Figure<'f>, theme: Colours) -> Figure<'f> {
         let (width, height) = figure.size;
-        figure.size = (width * self.look.scale, height * self.look.scale);
+        figure = match self.look.width_in_mm() {
+            Some(mm) => figure.printed(mm),
+            None => Figure { size: (width * self.look.scale, height * self.look.scale), ..figure },
+        };
         figure.theme = match theme {
             Colours::Light => Theme::light(),
             Colours::Dark => Theme::dark(),
@@ -127,11 +152,12 @@ impl Pen<'_> {
     }
 
     /// The same under a name of its own.
-    #[allow(
-        clippy::needless_pass_by_value,
-        reason = "a figure is drawn once, in all its themes, and handed over by its builder"
-    )]
     pub(crate) fn draw_as(&self, plot: &str, figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
+        if let Some(kept) = &self.kept {
+            let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+            kept.push((plot.to_owned(), figure.into_owned()));
+            return Ok(Vec::new());
+        }
         let mut pictures = Vec::new();
         for &theme in &self.look.themes {
             let figure = self.looking(figure.clone(), theme);

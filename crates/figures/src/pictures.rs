@@ -9,6 +9,8 @@ mod friction;
 mod hysteresis;
 mod layout;
 mod memory;
+mod own;
+mod period;
 mod phase;
 mod state;
 mod substitute;
@@ -49,6 +51,20 @@ pub enum FigureError {
         /// What it lacks.
         columns: Vec<String>,
     },
+    /// A picture of channels that the scenario does not name.
+    #[error(
+        "{plot} was not drawn: the scenario names no channels to draw\n   help: name some in its plots, such as {{\"x\": \"ball.u_m\", \"y\": \"ball.fx_N\"}}"
+    )]
+    Unnamed {
+        /// Which picture.
+        plot: &'static str,
+    },
+    /// Panels of other kinds.
+    #[error("{plot} was not drawn: these results do not have the same panels")]
+    Unlike {
+        /// Which picture.
+        plot: &'static str,
+    },
     /// A table that the run did not write.
     #[error("{plot} was not drawn: it needs {file}, which the run did not write")]
     Absent {
@@ -81,7 +97,7 @@ pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, Figu
     let mut plots = sources.job.scenario.plots.clone();
     plots.sort_by_key(|plot| *plot as u8);
     plots.dedup();
-    let pen = Pen { look, provenance: provenance(sources.job, sources.kept) };
+    let pen = Pen { look, provenance: provenance(sources.job, sources.kept), kept: None };
     let (sources, pen) = (&sources, &pen);
     let one = |plot| move || picture(sources, plot, pen);
     // Each on a thread of its own; in what order they end is nobody's business.
@@ -121,11 +137,13 @@ fn kind(plot: PlotName) -> &'static Kind {
         PlotName::Fields => &fields::KIND,
         PlotName::Substitute => &substitute::KIND,
         PlotName::Friction => &friction::KIND,
+        PlotName::Xy => &own::KIND,
     }
 }
 
 /// Why a kind of picture is not drawn, before it is said which.
 enum Undrawn {
+    Unnamed,
     Absent(&'static str),
     Table(FrameError),
     Plot(PlotError),
@@ -143,7 +161,11 @@ impl From<PlotError> for Undrawn {
     }
 }
 
-fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<Picture>, FigureError> {
+pub(crate) fn picture(
+    sources: &Sources<'_>,
+    plot: PlotName,
+    pen: &Pen<'_>,
+) -> Result<Vec<Picture>, FigureError> {
     let (kind, series, plot) = (kind(plot), &sources.kept.series, plot.name());
     let columns: Vec<String> =
         (kind.needs)(sources.job).into_iter().filter(|name| !series.has(name)).collect();
@@ -151,6 +173,7 @@ fn picture(sources: &Sources<'_>, plot: PlotName, pen: &Pen<'_>) -> Result<Vec<P
         return Err(FigureError::Missing { plot, columns });
     }
     (kind.draw)(sources, pen).map_err(|why| match why {
+        Undrawn::Unnamed => FigureError::Unnamed { plot },
         Undrawn::Absent(file) => FigureError::Absent { plot, file },
         Undrawn::Table(source) => FigureError::Table { plot, source },
         Undrawn::Plot(source) => FigureError::Plot { plot, source },

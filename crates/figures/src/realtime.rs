@@ -45,7 +45,7 @@ pub fn draw(job: &Job, report: &Report, ended: &Ended, look: &Look) -> Result<Ve
         (SCENARIO, job.resolved.clone()),
     ];
     let provenance = entries.map(|(key, text)| (key.to_owned(), text)).to_vec();
-    let pen = Pen { look, provenance };
+    let pen = Pen { look, provenance, kept: None };
     let drawn = |plot: &'static str, figure: Figure<'_>| {
         pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
     };

@@ -38,7 +38,7 @@ pub fn draw(
     walk: &Walk,
     (look, is_animated): (&Look, bool),
 ) -> Vec<Result<Vec<Picture>, FigureError>> {
-    let pen = Pen { look, provenance: provenance(subject) };
+    let pen = Pen { look, provenance: provenance(subject), kept: None };
     let title = format!("{}, contact {}", subject.job.title(), subject.name);
     let shown = Shown::of(subject.law, walk);
     let drawn = |plot: &'static str, figure: Figure<'_>| {

@@ -29,6 +29,9 @@ impl<B: DrawingBackend> Painter<'_, B> {
                 if panel.absence.is_empty() { Label::plain("no data") } else { panel.absence.clone() };
             return self.canvas.text(&words, self.sizes.label, at, Anchor::Centre);
         }
+        if let Some(stretch) = panel.enlarged {
+            self.enlarged(place, stretch)?;
+        }
         panel.bands.iter().try_for_each(|band| self.band(place, band))?;
         for shape in &panel.shapes {
             let corners: Vec<Point> = shape.drawable().map(|corner| place.pixel(corner)).collect();
@@ -45,7 +48,12 @@ impl<B: DrawingBackend> Painter<'_, B> {
             let stroke = Stroke { colour: self.theme.muted, dash: Dash::Solid, width: 1.5 };
             self.canvas.line(pointer, stroke)?;
         }
-        note.lines.iter().try_for_each(|(line, at)| self.canvas.text(line, note.em, *at, Anchor::Centre))
+        let usual = self.canvas.ink;
+        self.canvas.ink = note.ink.map_or(usual, |ink| self.theme.lettering(ink));
+        let drawn =
+            note.lines.iter().try_for_each(|(line, at)| self.canvas.text(line, note.em, *at, Anchor::Centre));
+        self.canvas.ink = usual;
+        drawn
     }
 
     fn band(&mut self, place: &Placed<'_, '_>, band: &Band<'_>) -> Result<(), PlotError> {

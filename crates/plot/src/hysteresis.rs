@@ -74,6 +74,7 @@ pub fn marked_loop_figure<'a>(
             lines: vec![Label::plain(name)],
             about: [(*u, *force); 2],
             on: None,
+            ink: None,
         };
         panel.notes = marks.iter().map(note).collect();
     }

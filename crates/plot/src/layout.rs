@@ -84,10 +84,12 @@ const LEGEND_ROWS: usize = 4;
 /// Lines of a title and of a panel's heading before they are cut.
 const TITLE_LINES: usize = 3;
 const HEADING_LINES: usize = 2;
+/// What numbers and label of an axis take beside a frame in print, em of the numbers.
+const NUMBERS: f64 = 5.5;
 
 impl Sizes {
     fn of(figure: &Figure<'_>) -> Self {
-        let scale = f64::from(figure.size.0) / f64::from(Figure::DEFAULT_SIZE.0);
+        let scale = figure.scale();
         let theme = &figure.theme;
         Self {
             scale,
@@ -162,7 +164,10 @@ fn legends(figure: &Figure<'_>, sizes: Sizes, most: usize) -> Result<(Legend, Ve
 /// Width for heading and legend of a panel, px: its share of the figure, less the numbers of its axis.
 fn width_above(figure: &Figure<'_>, sizes: Sizes, panel: usize) -> f64 {
     let (wide, _) = figure.shares();
-    0.75 * (f64::from(figure.size.0) - 2.0 * sizes.margin) * wide[panel % wide.len()]
+    let cell = (f64::from(figure.size.0) - 2.0 * sizes.margin) * wide[panel % wide.len()];
+    // In a narrow column the numbers take more of it.
+    let beside = if figure.print_width.is_some() { NUMBERS * sizes.tick } else { 0.0 };
+    (cell - beside).min(0.75 * cell)
 }
 
 /// The longest list, where it names everything that the other panels name: one legend then serves all, and the

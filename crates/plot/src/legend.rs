@@ -1,6 +1,6 @@
 //! Legends: beside the data, never over it.
 
-use crate::panel::{Panel, Reference};
+use crate::panel::{Panel, Reference, Series, is_drawable};
 use crate::theme::{Colour, Stroke};
 use crate::{Label, PlotError, Theme};
 
@@ -63,6 +63,15 @@ pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
         }
     }
     entries
+}
+
+impl Series<'_> {
+    /// Whether it is points that no line joins: one, or several with a gap between any two.
+    pub(crate) fn is_scattered(&self) -> bool {
+        let drawn = |(x, y): (&f64, &f64)| is_drawable(*x) && is_drawable(*y);
+        let drawn: Vec<bool> = self.xs.iter().zip(self.ys.iter()).map(drawn).collect();
+        drawn.contains(&true) && drawn.windows(2).all(|pair| pair != [true, true])
+    }
 }
 
 impl Sample {

@@ -12,7 +12,7 @@
 //!   over displacement), [`energy`] (the energy book), [`events`] (what happened when), [`state`] (springs over time),
 //!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
 //!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
-//!   difference), [`work_precision`] (what an error costs), [`growth`] (what more of something costs);
+//!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
@@ -47,6 +47,7 @@ mod legend;
 pub mod memory;
 mod mosaic;
 mod notes;
+pub mod over;
 mod paint;
 mod palette;
 pub mod panel;
@@ -67,6 +68,7 @@ pub mod theme;
 mod thin;
 pub mod trajectory;
 pub mod work_precision;
+pub mod zoom;
 
 pub use anchors::{AnchorMoment, anchors_figure};
 pub use carried::read_text;
@@ -81,6 +83,7 @@ pub use growth::{GrowthCurve, growth_figure};
 pub use hysteresis::{HysteresisLoop, loop_figure, marked_loop_figure};
 pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
+pub use over::overlaid;
 pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Rescaled, Series, Shape};
 pub use phase::{PhasePath, phase_figure};
 pub use png::{draw_animation, draw_png};
@@ -98,3 +101,4 @@ pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};
 pub use trajectory::{Coordinate, Motion, Track, Trajectory, trajectory_figure};
 pub use work_precision::{WorkCurve, work_precision_figure};
+pub use zoom::{enlarged_below, enlarged_beside};

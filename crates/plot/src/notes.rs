@@ -4,6 +4,7 @@ use crate::PlotError;
 use crate::label::Label;
 use crate::layout::{Area, Placed, Sizes};
 use crate::panel::Note;
+use crate::theme::Ink;
 use crate::thin::Point;
 
 /// A note with its place.
@@ -15,6 +16,8 @@ pub(crate) struct PlacedNote {
     pub(crate) lines: Vec<(Label, Point)>,
     /// A line from the text to what it names, where that is far.
     pub(crate) pointer: Option<[Point; 2]>,
+    /// Ink of what it names, where the text has it.
+    pub(crate) ink: Option<Ink>,
 }
 
 /// Cells of the board per em: places are tried one cell apart.
@@ -53,7 +56,8 @@ pub(crate) fn place(panel: &Placed<'_, '_>, sizes: Sizes) -> Result<Vec<PlacedNo
     if left_out > 0 {
         let corner = (panel.x.end(), panel.y.end());
         let words = Label::plain(&format!("and {left_out} more"));
-        placed.extend(board.set(panel, &Note { lines: vec![words], about: [corner; 2], on: None })?);
+        placed
+            .extend(board.set(panel, &Note { lines: vec![words], about: [corner; 2], on: None, ink: None })?);
     }
     Ok(placed)
 }
@@ -118,7 +122,8 @@ impl Board {
         let width = width.into_iter().fold(0.0, f64::max);
         let cells = |ems: f64| (ems * FINENESS).ceil() as usize;
         let height = cells(LINE * lines.len() as f64 + 2.0 * CLEAR);
-        let [a, b] = note.about.map(|corner| panel.pixel(corner));
+        let measured = |(x, y): Point| (panel.panel.x.measure(x), panel.panel.y.measure(y));
+        let [a, b] = note.about.map(|corner| panel.pixel(measured(corner)));
         let (left, top) = (a.0.min(b.0), a.1.min(b.1));
         let about = Area { left, top, width: (a.0 - b.0).abs(), height: (a.1 - b.1).abs() };
         let text = Text { width: cells(width / em + 2.0 * CLEAR), height, about };
@@ -136,7 +141,7 @@ impl Board {
         let middle = area.left + area.width / 2.0;
         let baseline = |i: usize| area.top + ((i as f64 + 0.5) * LINE + CLEAR + 0.36) * em;
         let lines = lines.into_iter().enumerate().map(|(i, line)| (line, (middle, baseline(i))));
-        Ok(Some(PlacedNote { em, lines: lines.collect(), pointer }))
+        Ok(Some(PlacedNote { em, lines: lines.collect(), pointer, ink: note.ink }))
     }
 
     /// The cheapest place at which nothing is covered: column and row of the top left cell.

@@ -35,6 +35,8 @@ pub struct Panel<'a> {
     pub top: Option<Rescaled>,
     /// The vertical axis in other units, right of the frame.
     pub right: Option<Rescaled>,
+    /// A stretch of the horizontal axis that another panel shows enlarged: shaded.
+    pub enlarged: Option<(f64, f64)>,
     /// Width over height of the frame; fills its place by default.
     pub aspect: Option<f64>,
     /// Share of the figure, relative to the other panels' shares; 1 where not above 0.
@@ -122,6 +124,8 @@ pub struct Note {
     pub about: [(f64, f64); 2],
     /// Place in the panel's list of a shape that it may well lie on.
     pub on: Option<usize>,
+    /// Ink of what it names, which the text has, a little nearer to that of other texts; theirs by default.
+    pub ink: Option<Ink>,
 }
 
 /// Cells of few classes, such as the states of springs over time. A cell reaches half way to its neighbours; the
@@ -287,12 +291,5 @@ impl<'a> Series<'a> {
             marked: false,
             directed: false,
         }
-    }
-
-    /// Whether it is points that no line joins: one, or several with a gap between any two.
-    pub(crate) fn is_scattered(&self) -> bool {
-        let drawn = |(x, y): (&f64, &f64)| is_drawable(*x) && is_drawable(*y);
-        let drawn: Vec<bool> = self.xs.iter().zip(self.ys.iter()).map(drawn).collect();
-        drawn.contains(&true) && drawn.windows(2).all(|pair| pair != [true, true])
     }
 }

@@ -62,15 +62,23 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
         Arrangement::Row => (false, false),
         Arrangement::Column { share_x } => (share_x, false),
         Arrangement::Grid { share, .. } => (share, share),
+        Arrangement::Columns { .. } => (true, false),
     };
     let columns = arrangement.columns(requests.len());
+    // Panels that have an x axis in common: of every so manieth place.
+    let group = if matches!(arrangement, Arrangement::Columns { .. }) { columns } else { 1 };
     let last_row = requests.len().saturating_sub(columns);
     let extents: Vec<(Extent, Extent)> = requests.iter().map(|request| extents(request.panel)).collect();
     let none = (Extent::default(), Extent::default());
-    let all = extents.iter().fold(none, |all, (x, y)| (all.0.union(*x), all.1.union(*y)));
+    let of = |place: usize| {
+        let group = extents.iter().skip(place % group).step_by(group);
+        group.fold(none, |all, (x, y)| (all.0.union(*x), all.1.union(*y)))
+    };
+    let all: Vec<(Extent, Extent)> = (0..group).map(of).collect();
     let margin = |tight: bool| if tight { 0.0 } else { MARGIN };
     let place = |(i, (request, (x, y))): (usize, (Request<'f, 'a>, (Extent, Extent)))| {
-        let (panel, x, y) = (request.panel, if share_x { all.0 } else { x }, if share_y { all.1 } else { y });
+        let (panel, all) = (request.panel, all[i % group]);
+        let (x, y) = (if share_x { all.0 } else { x }, if share_y { all.1 } else { y });
         let x = Scale::new(&panel.x, x.range(margin(panel.x.tight)));
         let y = Scale::new(&panel.y, y.range(margin(panel.y.tight)));
         Placed {
@@ -89,7 +97,7 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
             empty: panel.is_empty(),
         }
     };
-    requests.into_iter().zip(extents).enumerate().map(place).collect()
+    requests.into_iter().zip(extents.clone()).enumerate().map(place).collect()
 }
 
 /// The panels on their way to their places.

@@ -13,8 +13,6 @@ use std::io::{Cursor, Write};
 /// Level of compression, 1 to 9. Of a picture of quickstart (1.6 million pixels), level 2 makes 41 kB in 12 million
 /// instructions, level 4 39 kB in 22 million, level 6 36 kB in 44 million, level 9 32 kB in 220 million.
 const LEVEL: i32 = 4;
-/// Centimetres in print for the width of a figure, whatever its pixels.
-const PRINT_WIDTH_CM: f64 = 16.0;
 
 /// Draws a figure and encodes it. The title (unless the provenance has one) and the provenance become text chunks:
 /// `tEXt` where Latin-1 suffices, else `iTXt`; beyond a kilobyte both are compressed (`zTXt`, `iTXt`). The same figure gives the same bytes.
@@ -27,7 +25,7 @@ pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
     let indexed = Indexed::new(width as usize * height as usize, raster.colours());
     let mut bytes = Vec::new();
     let mut encoder = encoder(&mut bytes, (width, height), indexed.as_ref());
-    print_size(&mut encoder, width);
+    print_size(&mut encoder, figure);
     let mut writer = encoder.write_header()?;
     write_texts(&mut writer, figure)?;
     match indexed {
@@ -56,7 +54,7 @@ pub fn draw_animation(figures: &[Figure<'_>], delay: u16) -> Result<Vec<u8>, Plo
     let indexed = Indexed::new(count, frames.iter().flat_map(Raster::colours));
     let mut bytes = Vec::new();
     let mut encoder = encoder(&mut bytes, first.size, indexed.as_ref());
-    print_size(&mut encoder, width);
+    print_size(&mut encoder, first);
     encoder.set_animated(u32::try_from(frames.len()).unwrap_or(u32::MAX), 0)?;
     encoder.set_frame_delay(delay, 1000)?;
     let mut writer = encoder.write_header()?;
@@ -144,8 +142,10 @@ fn encoder<'b>(
     encoder
 }
 
-fn print_size<W: Write>(encoder: &mut png::Encoder<'_, W>, width: u32) {
-    let per_metre = (f64::from(width) / (PRINT_WIDTH_CM / 100.0)).round() as u32;
+/// Says how large the picture is in print: 16 cm wide if not asked for, whatever its pixels.
+fn print_size<W: Write>(encoder: &mut png::Encoder<'_, W>, figure: &Figure<'_>) {
+    let metres = figure.print_width.unwrap_or(Figure::PRINT_WIDTH) / 1000.0;
+    let per_metre = (f64::from(figure.size.0) / metres).round() as u32;
     let unit = png::Unit::Meter;
     encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit }));
 }

@@ -152,6 +152,14 @@ pub struct SceneGravity {
     pub incline: f64,
 }
 
+impl SceneGravity {
+    /// Whether the x axis goes up by more than 45 degrees: such a slide is drawn upright, its height normal to it to the right.
+    pub fn is_upright(&self) -> bool {
+        // Of 45 degrees themselves rounding says nothing.
+        self.acceleration > 0.0 && self.incline.sin() > std::f64::consts::FRAC_1_SQRT_2 + 1e-9
+    }
+}
+
 /// More bodies, contacts, links and loads than this make no picture that could be read.
 const MOST_PARTS: usize = 200;
 
@@ -159,7 +167,8 @@ const MOST_PARTS: usize = 200;
 /// seen, the profiles of the contacts; bodies have no shape of their own: their outlines go around their points, and a
 /// body whose points all lie in its reference point stands where its contacts are. Symbols, arrows and outlines keep
 /// their size on paper. Axes count from the reference point of the first group of bodies that hang together, and from
-/// the ground; both have one scale, unless the scene would be a sliver.
+/// the ground; both have one scale, unless the scene would be a sliver. Where the slide goes up by more than 45 degrees x is drawn
+/// upwards.
 pub fn layout_figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
     let parts = scene.bodies.len() + scene.contacts.len() + scene.links.len() + scene.loads.len();
     if scene.bodies.is_empty() {

@@ -227,7 +227,12 @@ impl Sketch<'_, '_> {
             let ends = [-half, half].map(|x| vec![(x, y - 4.0), (x, -SPRING - 10.0)]);
             series.extend(drawn(ends.to_vec(), Ink::Muted, 0.35));
             let words = format!("{symbol} = {}", quantity(2.0 * radius, "m", DIGITS));
-            notes.push(Note { lines: vec![Label::plain(&words)], about: [(-half, y), (half, y)], on: None });
+            notes.push(Note {
+                lines: vec![Label::plain(&words)],
+                about: [(-half, y), (half, y)],
+                on: None,
+                ink: None,
+            });
         }
     }
 
@@ -237,7 +242,7 @@ impl Sketch<'_, '_> {
         let mut push = |from: Point, to: Point, symbol: &str, force: f64| {
             series.extend(drawn(arrow(from, to, false, 0.8), Ink::Palette(3), 1.1));
             let words = Label::markup(symbol).followed_by(&format!(" = {}", quantity(force, "N", DIGITS)));
-            notes.push(Note { lines: vec![words], about: [from, to], on: None });
+            notes.push(Note { lines: vec![words], about: [from, to], on: None, ink: None });
         };
         if normal > 0.0 {
             push((self.shift, TOP + 44.0), (self.shift, TOP + 3.0), "F_N", normal);

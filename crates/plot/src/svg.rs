@@ -45,8 +45,13 @@ pub fn draw_svg(figure: &Figure<'_>) -> Result<String, PlotError> {
     let short = texts.iter().filter(|(_, text)| text.len() <= LONG_TEXT);
     let description: String = short.map(|(key, text)| escaped(&format!("{key}: {text}\n"))).collect();
     let metadata: String = texts.iter().map(entry).collect();
+    // As wide as asked for in print; else pixels, which viewers fit to their page.
+    let (across, down) = match figure.print_width {
+        Some(mm) => (format!("{mm}mm"), format!("{:.3}mm", mm * f64::from(height) / f64::from(width))),
+        None => (width.to_string(), height.to_string()),
+    };
     Ok(format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {wide} {high}\" \
          stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n<desc>{description}</desc>\n\
          <metadata>\n{metadata}</metadata>\n{ground}{body}",
         escaped(&figure.title.text()),

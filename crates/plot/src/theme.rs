@@ -185,6 +185,16 @@ impl Theme {
         Stroke { colour: self.colour(ink), dash: style.dash.unwrap_or(dash), width: self.line * width }
     }
 
+    /// Of letters that name what has an ink: some of that is too light for letters.
+    pub(crate) fn lettering(&self, ink: Ink) -> Colour {
+        self.colour(ink).towards(self.foreground, 0.3)
+    }
+
+    /// Behind a stretch that is shown enlarged elsewhere.
+    pub(crate) fn shaded(&self) -> Colour {
+        self.background.towards(self.muted, 0.22)
+    }
+
     /// The stroke of reference lines.
     pub(crate) fn reference(&self) -> Stroke {
         Stroke { colour: self.muted, dash: Dash::Dashed, width: 0.6 * self.line }

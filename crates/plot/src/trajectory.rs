@@ -53,6 +53,8 @@ pub struct Trajectory<'a> {
     /// Displacement `u_c` at which gross slip starts, m, marked with both signs in the lower panel; for contacts that
     /// oscillate about u = 0. In a drive u runs away with every step.
     pub gross_slip: Option<f64>,
+    /// Whether the slide goes up by more than 45 degrees, which the axis of positions then says.
+    pub is_upright: bool,
 }
 
 /// Position over time: sliders over feet above, the other coordinates and relative displacements below, on one time
@@ -84,7 +86,8 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
     };
     let mut panels = Vec::new();
     if !trajectory.feet.is_empty() || !trajectory.sliders.is_empty() || trajectory.beside.is_empty() {
-        panels.push(panel(("position x", "m"), &trajectory.feet, &trajectory.sliders, 1.6));
+        let position = if trajectory.is_upright { "position x, up" } else { "position x" };
+        panels.push(panel((position, "m"), &trajectory.feet, &trajectory.sliders, 1.6));
     }
     for motion in &trajectory.beside {
         let axis = match motion.coordinate {

@@ -5,7 +5,7 @@
 mod drawn;
 
 use drawn::{draw_everywhere, hex, polylines, texts};
-use stickslip_plot::{Dash, Figure, Ink, Theme, WorkCurve, draw_svg, work_precision_figure};
+use stickslip_plot::{Figure, Theme, WorkCurve, draw_svg, work_precision_figure};
 
 /// Errors work^-order down to a floor, for work 1, 10, 100 …
 struct Method {
@@ -21,8 +21,8 @@ fn method(order: i32, points: i32, floor: f64) -> Method {
 }
 
 impl Method {
-    fn curve<'a>(&'a self, name: &'a str, ink: Ink, dash: Dash) -> WorkCurve<'a> {
-        WorkCurve { name, error: &self.error, seconds: &self.seconds, evaluations: &self.work, ink, dash }
+    fn curve<'a>(&'a self, group: &'a str, name: &'a str, place: usize) -> WorkCurve<'a> {
+        WorkCurve { name, group, error: &self.error, seconds: &self.seconds, evaluations: &self.work, place }
     }
 }
 
@@ -39,10 +39,7 @@ fn ticks(figure: &Figure<'_>) -> Vec<(String, f64)> {
 #[test]
 fn points_stand_at_their_powers_of_ten() {
     let (second, fourth) = (method(2, 5, 0.0), method(4, 4, 0.0));
-    let curves = [
-        second.curve("order 2", Ink::Palette(0), Dash::Solid),
-        fourth.curve("order 4", Ink::Palette(1), Dash::Solid),
-    ];
+    let curves = [second.curve("", "second", 0), fourth.curve("", "fourth", 1)];
     let figure = work_precision_figure("Two methods", "error", &curves, None);
     draw_everywhere("work-precision", &figure);
     let ticks = ticks(&figure);
@@ -64,6 +61,17 @@ fn points_stand_at_their_powers_of_ten() {
         }
     }
     assert!(ticks.iter().any(|(text, _)| text == "10⁻⁸"), "{ticks:?}");
+    // Names and slopes stand right at the curves, in both panels, and the names in one legend.
+    let said = said(&figure);
+    let count = |name: &str| said.matches(name).count();
+    // Both axes are per simulated second as well.
+    assert_eq!((count("second, −2.0"), count("fourth, −4.0"), count("second")), (2, 2, 5), "{said}");
+}
+
+/// All texts in the order in which they are drawn; a name that is broken into lines is whole again.
+fn said(figure: &Figure<'_>) -> String {
+    let texts = texts(&draw_svg(figure).unwrap());
+    texts.iter().map(|text| text.text.as_str()).collect::<Vec<_>>().join(" ")
 }
 
 fn superscript(exponent: i32) -> String {
@@ -72,30 +80,33 @@ fn superscript(exponent: i32) -> String {
 }
 
 #[test]
-fn pale_curves_share_an_entry_and_the_floor_is_named() {
-    let (good, row) = (method(3, 5, 0.0), method(2, 5, 1e-5));
+fn five_curves_at_most_are_in_a_panel() {
+    let (good, row) = (method(3, 5, 0.0), method(2, 8, 1e-5));
     let zero = Method { error: vec![0.0; 5], ..method(1, 5, 0.0) };
-    let curves = [
-        row.curve("64 springs", Ink::Pale(0), Dash::Dotted),
-        row.curve("64 springs", Ink::Pale(1), Dash::Dotted),
-        good.curve("exact", Ink::Palette(0), Dash::Solid),
-        zero.curve("without error", Ink::Palette(1), Dash::Solid),
-    ];
+    let names = ["event", "dopri5", "rk4", "verlet", "loop", "ode\u{5f}solvers"];
+    let curves: Vec<WorkCurve<'_>> = std::iter::once(good.curve("exact", "event", 0))
+        .chain((0..6).map(|place| row.curve("rows of 64 springs", names[place], place)))
+        .chain([zero.curve("exact", "without error", 1)])
+        .collect();
     let figure = work_precision_figure("Rows", "error", &curves, Some(1e-13));
+    let counts: Vec<usize> = figure.panels.iter().map(|panel| panel.series.len()).collect();
+    assert_eq!(counts, [1, 1, 5, 5, 1, 1]);
     draw_everywhere("work-precision-rows", &figure);
-    let texts = texts(&draw_svg(&figure).unwrap());
-    let count = |name: &str| texts.iter().filter(|text| text.text == name).count();
-    assert_eq!((count("64 springs"), count("exact"), count("without error")), (1, 1, 0));
-    assert_eq!(count("doubt of the reference"), 1);
-    assert!(texts.iter().any(|text| text.text == "10⁻¹²"));
-    let nothing = work_precision_figure("Nothing", "error", &curves[3..], None);
+    let said = said(&figure);
+    let count = |name: &str| said.matches(name).count();
+    assert_eq!((count("rows of 64 springs"), count("event, −3.0")), (2, 2), "{said}");
+    // What lies on the floor has no part in the slope: 1, 0.01 and 1e-4, then 1e-5 all along.
+    assert_eq!((count("rk4, −2.0"), count("without error")), (2, 0), "{said}");
+    // No legend names all that the others do: each panel has its own.
+    assert_eq!(count("doubt of the reference"), 6);
+    let nothing = work_precision_figure("Nothing", "error", &curves[7..], None);
     assert_eq!(nothing.panels.len(), 1);
 }
 
 #[test]
 fn every_run_is_marked() {
     let method = method(2, 5, 0.0);
-    let curves = [method.curve("order 2", Ink::Palette(2), Dash::Solid)];
+    let curves = [method.curve("", "order 2", 2)];
     let drawing = draw_svg(&work_precision_figure("", "error", &curves, None)).unwrap();
     let colour = hex(Theme::light().palette[2]);
     let discs = drawing.split("<circle ").skip(1).filter(|tag| drawn::value(tag, "fill") == colour);

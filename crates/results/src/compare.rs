@@ -26,5 +26,6 @@ pub use coverage::Coverage;
 pub use error::CompareError;
 pub use events::{EventDifferences, Lone, Moved};
 pub use figures::{FigureDifference, FigureDifferences};
+pub use names::unit;
 pub use results::{Results, ResultsError};
 pub use terms::Terms;

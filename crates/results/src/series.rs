@@ -8,6 +8,9 @@ use stickslip_scenario::PlotName;
 const KEPT: [&str; 11] =
     ["time_s", "x_m", "vx_m_s", "z_m", "vz_m_s", "pitch_rad", "vpitch_rad_s", "u_m", "d_m", "fx_N", "fn_N"];
 
+/// A row this near to the end of a part, in its lengths, is the end.
+const SAME: f64 = 1e-9;
+
 /// Part that the energies of the whole belong to.
 pub const ENERGY: &str = "energy";
 
@@ -29,11 +32,12 @@ struct Column {
 impl Series {
     /// An empty series of a model's channels; what only pictures need is kept for those in `plots`.
     pub fn new(channels: &[Channel], plots: &[PlotName]) -> Self {
-        let with_energies = plots.contains(&PlotName::Energy);
-        let is_kept = |name: &str| match name.rsplit_once('.') {
+        let (with_energies, with_all) = (plots.contains(&PlotName::Energy), plots.contains(&PlotName::Xy));
+        let is_kept = |channel: &Channel| match channel.name.rsplit_once('.') {
+            _ if with_all => !channel.is_state,
             Some((ENERGY, _)) if with_energies => true,
             Some((_, quantity)) => KEPT.contains(&quantity),
-            None => KEPT.contains(&name),
+            None => KEPT.contains(&channel.name.as_str()),
         };
         Self::kept(channels, is_kept)
     }
@@ -43,8 +47,8 @@ impl Series {
         Self { columns: Vec::new(), places: HashMap::new() }
     }
 
-    fn kept(channels: &[Channel], is_kept: impl Fn(&str) -> bool) -> Self {
-        let kept = channels.iter().enumerate().filter(|(_, channel)| is_kept(&channel.name));
+    fn kept(channels: &[Channel], is_kept: impl Fn(&Channel) -> bool) -> Self {
+        let kept = channels.iter().enumerate().filter(|(_, channel)| is_kept(channel));
         let (mut columns, mut places) = (Vec::new(), HashMap::new());
         for (place, channel) in kept {
             places.insert(channel.name.clone(), columns.len());
@@ -75,15 +79,58 @@ impl Series {
         self.columns.first().map_or(&[], |column| &column.values)
     }
 
+    /// The rows from one time to another, s; an end that falls between two rows is on the straight lines between them.
+    #[must_use]
+    pub fn part(&self, (from, to): (f64, f64)) -> Self {
+        let time = self.time();
+        let hair = SAME * (to - from);
+        let (start, end) =
+            (time.partition_point(|t| *t < from - hair), time.partition_point(|t| *t <= to + hair));
+        let between = |t: f64, after: usize| {
+            let before = after.checked_sub(1)?;
+            let (a, b) = (*time.get(before)?, *time.get(after)?);
+            (t > a + hair && t < b - hair).then(|| (before, (t - a) / (b - a)))
+        };
+        let ends = (between(from, start), between(to, end));
+        let cut = |column: &Column| {
+            let at = |(before, share): (usize, f64)| {
+                let (a, b) = (column.values[before], column.values[before + 1]);
+                a + share * (b - a)
+            };
+            let inside = column.values.get(start..end).unwrap_or_default();
+            let values = ends.0.map(at).into_iter().chain(inside.iter().copied()).chain(ends.1.map(at));
+            Column { place: column.place, values: values.collect() }
+        };
+        Self { columns: self.columns.iter().map(cut).collect(), places: self.places.clone() }
+    }
+
+    /// The same with these quantities of all parts less what they are in the first row.
+    #[must_use]
+    pub fn counted_from_start(mut self, quantities: &[&str]) -> Self {
+        let is_counted = |name: &str| name.rsplit_once('.').is_some_and(|(_, it)| quantities.contains(&it));
+        let counted = self.places.iter().filter(|(name, _)| is_counted(name)).map(|(_, place)| *place);
+        for place in counted.collect::<Vec<_>>() {
+            let Some(column) = self.columns.get_mut(place) else { continue };
+            let start = column.values.first().copied().unwrap_or(0.0);
+            column.values.iter_mut().for_each(|value| *value -= start);
+        }
+        self
+    }
+
     /// Whether a column is kept.
     pub fn has(&self, name: &str) -> bool {
         self.places.contains_key(name)
     }
 
+    /// A column by its name; empty where there is none.
+    pub fn named(&self, name: &str) -> &[f64] {
+        let place = self.places.get(name);
+        place.and_then(|place| self.columns.get(*place)).map_or(&[], |column| &column.values)
+    }
+
     /// A column by part and quantity; empty where there is none.
     pub fn column(&self, part: &str, quantity: &str) -> &[f64] {
-        let place = self.places.get(&format!("{part}.{quantity}"));
-        place.and_then(|place| self.columns.get(*place)).map_or(&[], |column| &column.values)
+        self.named(&format!("{part}.{quantity}"))
     }
 }
 
@@ -100,5 +147,24 @@ mod tests {
         assert_eq!((series.time(), series.column("ball", "u_m")), (&[0.0][..], &[2.0][..]));
         assert_eq!((series.column("ball 2", "u_m"), series.column("ball", "state")), (&[3.0][..], &[][..]));
         assert_eq!(series.size(), 3);
+    }
+
+    #[test]
+    fn a_part_ends_where_it_is_asked_to() {
+        let channels = ["time_s", "ball.u_m"].map(|name| Channel { name: name.to_owned(), is_state: false });
+        let mut series = Series::new(&channels, &[]);
+        for (t, u) in [(0.0, 0.0), (1.0, 2.0), (2.0, 0.0), (2.0, 1.0), (3.0, 5.0)] {
+            series.push(&[t, u]);
+        }
+        let part = |span| {
+            let part = series.part(span);
+            (part.time().to_vec(), part.column("ball", "u_m").to_vec())
+        };
+        assert_eq!(part((0.5, 2.5)), (vec![0.5, 1.0, 2.0, 2.0, 2.5], vec![1.0, 2.0, 0.0, 1.0, 3.0]));
+        // Rounded ends are the rows' own, and beyond the last row there is nothing.
+        assert_eq!(part((1.0 + 1e-10, 2.0 - 1e-10)), (vec![1.0, 2.0, 2.0], vec![2.0, 0.0, 1.0]));
+        assert_eq!(part((2.5, 9.0)), (vec![2.5, 3.0], vec![3.0, 5.0]));
+        assert_eq!(part((4.0, 9.0)), (vec![], vec![]));
+        assert_eq!(part((1.25, 1.5)), (vec![1.25, 1.5], vec![1.5, 1.0]));
     }
 }

@@ -164,7 +164,9 @@ impl Guide {
     fn add_kinds(&self, schema: &Value, kinds: &mut Vec<String>) {
         let words = schema.get("enum").and_then(Value::as_array).into_iter().flatten();
         kinds.extend(words.filter_map(Value::as_str).map(str::to_owned));
-        if schema.get("oneOf").is_none() {
+        // Of keys that must all be there none says which kind it is.
+        let has_several = schema.get("required").and_then(Value::as_array).is_some_and(|keys| keys.len() > 1);
+        if schema.get("oneOf").is_none() && !has_several {
             kinds.extend(self.keys_of(schema));
         }
         for part in self.parts(schema) {

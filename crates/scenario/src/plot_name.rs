@@ -30,10 +30,13 @@ pub enum PlotName {
     Substitute,
     /// Friction work over radius and time; from `friction.csv`.
     Friction,
+    /// Channels over a channel, as the scenario asks for them.
+    #[serde(skip)]
+    Xy,
 }
 
 impl PlotName {
-    /// All of them.
+    /// All that have a name in the file.
     pub const ALL: [Self; 11] = [
         Self::Layout,
         Self::Loop,
@@ -47,6 +50,9 @@ impl PlotName {
         Self::Substitute,
         Self::Friction,
     ];
+
+    /// Most pictures of channels over a channel.
+    pub const MOST_OWN: usize = crate::meaning::plots::MOST_OWN;
 
     /// The name in the file.
     pub fn name(self) -> &'static str {
@@ -62,6 +68,7 @@ impl PlotName {
             Self::Fields => "fields",
             Self::Substitute => "substitute",
             Self::Friction => "friction",
+            Self::Xy => "xy",
         }
     }
 }

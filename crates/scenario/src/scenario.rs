@@ -5,7 +5,7 @@ use crate::error::{Report, ScenarioError, Stage, Warning};
 use crate::fault::{Fault, Mend};
 use crate::form::Form;
 use crate::meaning::warnings::Oddity;
-use crate::meaning::{self, FieldsOutput, Figures, Meaning, MemoryOutput, SpringsOutput, Written};
+use crate::meaning::{self, FieldsOutput, Figures, Meaning, MemoryOutput, OwnPlot, SpringsOutput, Written};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
 use crate::plot_name::PlotName;
@@ -45,6 +45,8 @@ pub struct Scenario {
     pub memory_limit: Option<f64>,
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
+    /// Those of channels over a channel among them.
+    pub own_plots: Vec<OwnPlot>,
     /// What is allowed and probably not meant, with its place.
     pub warnings: Vec<Warning>,
     pub(crate) form: Form,
@@ -135,6 +137,7 @@ impl Scenario {
             written: meaning.written,
             memory_limit: meaning.memory_limit,
             plots: meaning.plots,
+            own_plots: meaning.own_plots,
             warnings: warnings(&document, odd),
             form,
             document,
@@ -178,14 +181,16 @@ impl Scenario {
         self.document.report(meaning::refused::fault(&self.scene, plan, error))
     }
 
-    /// The places of the columns that are asked for among all channels; none where all are.
+    /// The places of the columns that are asked for among all channels; none where all are. Those that pictures are drawn over are
+    /// known, too.
     ///
     /// # Errors
     /// Names that none of them has, or one twice.
     pub fn columns(&self, channels: &[Channel]) -> Result<Option<Vec<usize>>, ScenarioError> {
-        let Some(names) = &self.channels else { return Ok(None) };
-        let places = meaning::channels::places(names, channels);
-        places.map(Some).map_err(|fault| mistakes::all(self.document.clone(), vec![fault]))
+        let asked = self.channels.as_ref().map(|names| meaning::channels::places(names, channels));
+        let drawn = meaning::plots::check(&self.own_plots, channels);
+        let places = asked.transpose().and_then(|places| drawn.map(|()| places));
+        places.map_err(|fault| mistakes::all(self.document.clone(), vec![fault]))
     }
 
     /// Something odd that a later check finds, pointed into the file; `path` as in the file, such as `contacts.ball.normal`.

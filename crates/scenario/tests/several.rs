@@ -58,7 +58,7 @@ const JUDGED_BY: &[(&[&str], &[&str])] = &[
     (&["too_steep", "flyback_too_long"], &["waveforms"]),
     // How long the run is.
     (
-        &["fields_at", "memory_at", "springs_every", "step_longer", "frame_longer"],
+        &["fields_at", "memory_at", "springs_every", "step_longer", "frame_longer", "own_plot_after"],
         &["run.duration", "run.cycles"],
     ),
 ];

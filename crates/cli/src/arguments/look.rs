@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use stickslip_figures::{Colours, Format, Look};
+use stickslip_scenario::quantity;
 
 /// The look of pictures; names of their files say what is not the default.
 #[derive(Debug, Clone, Args)]
@@ -16,6 +17,20 @@ pub(crate) struct LookArguments {
     /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (NAME@2x.png)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
     scale: u32,
+    /// Width in print, such as 85mm, 40mm to 300mm: letters and lines keep their size in points, PNG have 600 pixels to the inch
+    /// (NAME-85mm.png)
+    #[arg(long, value_name = "LENGTH", value_parser = width, conflicts_with = "scale")]
+    width: Option<u32>,
+}
+
+/// Reads a width in print, in tenths of a millimetre.
+fn width(text: &str) -> Result<u32, String> {
+    let tenths = (quantity(text, "m")? * 1e4).round();
+    if (400.0..=3000.0).contains(&tenths) {
+        Ok(tenths as u32)
+    } else {
+        Err("expected a width from 40mm to 300mm".to_owned())
+    }
 }
 
 /// Reads a size.
@@ -57,6 +72,11 @@ impl LookArguments {
                 themes.push(theme);
             }
         }
-        Look { formats: self.formats.iter().map(format).collect(), themes, scale: self.scale }
+        Look {
+            formats: self.formats.iter().map(format).collect(),
+            themes,
+            scale: self.scale,
+            width: self.width,
+        }
     }
 }

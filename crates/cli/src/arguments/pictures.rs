@@ -10,6 +10,7 @@ pub(super) const PLOT_EXAMPLES: &str = "\
 Examples:
   stickslip plot results/p1                                  the pictures of its scenario
   stickslip plot results/* --plots trajectory --format svg   one picture of every run, as SVG
+  stickslip plot a/p1 b/p1 --over --plots loop --out .       both loops in one: over-loop.png
   stickslip plot results/p1 --scale 2 --out pictures         into pictures/p1/, twice as many pixels";
 
 pub(super) const REPRO_EXAMPLES: &str = "\
@@ -27,12 +28,15 @@ pub(crate) struct PlotArguments {
     /// Folders of results
     #[arg(required = true, value_name = "DIR")]
     pub(crate) folders: Vec<PathBuf>,
-    /// Pictures to draw, instead of those that the scenario names
+    /// Pictures to draw, instead of those that the scenario names; xy: its channels over a channel
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = plot_names())]
     pub(crate) plots: Vec<PlotName>,
     /// Folder of the pictures: those of a folder NAME go to OUT/NAME/; by default they go beside the results
     #[arg(long, value_name = "OUT")]
     pub(crate) out: Option<PathBuf>,
+    /// All results over each other, each kind of picture in one: OUT/over-NAME.png; of loop, trajectory, phase and xy
+    #[arg(long, requires = "out")]
+    pub(crate) over: bool,
     /// Errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -70,7 +74,7 @@ pub(crate) struct GalleryArguments {
 
 /// Reads the name of a picture.
 fn plot_names() -> impl TypedValueParser<Value = PlotName> {
-    let names = PossibleValuesParser::new(PlotName::ALL.map(PlotName::name));
-    names
-        .try_map(|given| PlotName::ALL.into_iter().find(|plot| plot.name() == given).ok_or("no such picture"))
+    let all = || PlotName::ALL.into_iter().chain([PlotName::Xy]);
+    let names = PossibleValuesParser::new(all().map(PlotName::name));
+    names.try_map(move |given| all().find(|plot| plot.name() == given).ok_or("no such picture"))
 }

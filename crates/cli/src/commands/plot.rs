@@ -1,5 +1,7 @@
 //! Pictures drawn again from results on disk.
 
+mod over;
+
 use crate::arguments::PlotArguments;
 use crate::console::answer::{complain, say};
 use crate::console::verdict::Verdict;
@@ -21,6 +23,9 @@ enum PlotFailure {
     /// A scenario without pictures.
     #[error("{}: its scenario names no pictures\n   help: name some with --plots, such as --plots {}", .0.display(), PlotName::ALL.map(PlotName::name).join(","))]
     NoPlots(PathBuf),
+    /// Results that are not several, or pictures that are no curves.
+    #[error("--over  {0}")]
+    Over(String),
     /// One picture; the others are drawn.
     #[error("{}: {source}{}", .folder.display(), advice(.source))]
     Figure { folder: PathBuf, source: FigureError },
@@ -31,6 +36,9 @@ enum PlotFailure {
 
 /// Draws the pictures of all folders; what is wrong with one does not keep the others from being drawn.
 pub(crate) fn plot(arguments: &PlotArguments) -> Verdict {
+    if arguments.over {
+        return over::plot(arguments);
+    }
     let mut worst = Verdict::Done;
     for folder in &arguments.folders {
         for failure in plot_folder(folder, arguments) {
@@ -80,7 +88,8 @@ fn write(out: &Path, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> 
     }
     let mut folder = Folder::make(out)?;
     // A command that was killed has left its drafts.
-    sweep_left(out, &Look::all_files());
+    let written: Vec<String> = pictures.iter().map(|(name, _)| name.clone()).collect();
+    sweep_left(out, &[Look::all_files(), written].concat());
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let names = folder.names();
     folder.publish()?;
@@ -91,7 +100,7 @@ impl PlotFailure {
     fn verdict(&self) -> Verdict {
         match self {
             Self::Figure { source: FigureError::Plot { .. }, .. } | Self::Write { .. } => Verdict::Stopped,
-            Self::Results(_) | Self::NoPlots(_) | Self::Figure { .. } => Verdict::BadInput,
+            Self::Results(_) | Self::NoPlots(_) | Self::Over(_) | Self::Figure { .. } => Verdict::BadInput,
         }
     }
 }
@@ -103,6 +112,9 @@ fn advice(error: &FigureError) -> &'static str {
             "\n   help: run the scenario with these channels, or without output.channels, which writes all"
         }
         FigureError::Absent { .. } => "\n   help: run the scenario with this picture among its plots",
-        FigureError::Table { .. } | FigureError::Plot { .. } => "",
+        FigureError::Unnamed { .. }
+        | FigureError::Unlike { .. }
+        | FigureError::Table { .. }
+        | FigureError::Plot { .. } => "",
     }
 }

@@ -85,5 +85,5 @@ fn picture(page: &mut String, exhibit: &Exhibit, plot: PlotName) {
 }
 
 fn look() -> Look {
-    Look { formats: Vec::new(), themes: Vec::new(), scale: 1 }
+    Look { formats: Vec::new(), themes: Vec::new(), scale: 1, width: None }
 }

@@ -1,13 +1,14 @@
 //! The energy book of the whole.
 
+use super::period::LastPeriod;
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
-use stickslip_plot::{EnergyBook, energy_figure};
-use stickslip_results::ENERGY;
+use stickslip_plot::{EnergyBook, energy_figure, enlarged_beside};
+use stickslip_results::{ENERGY, Series};
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "the work that went in and what became of it, what is stored, what the book misses",
+    shows: "the work that went in and what became of it, what is stored, what the book misses; of a long run the last period beside it",
     needs: |_| COLUMNS.map(|quantity| format!("{ENERGY}.{quantity}")).to_vec(),
     draw,
 };
@@ -15,11 +16,29 @@ pub(super) const KIND: Kind = Kind {
 /// Quantities of the book.
 const COLUMNS: [&str; 6] = ["input_J", "kinetic_J", "elastic_J", "friction_J", "damping_J", "error_J"];
 
-/// Where the work that went in has gone.
+/// Where the work that went in has gone; of a long run the last period stands beside it, counted from its start.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
+    let figure = energy_figure(job.title(), &book(&kept.series));
+    let Some((period, rows)) = LastPeriod::with_rows(job, kept) else {
+        return Ok(pen.draw(PlotName::Energy, figure)?);
+    };
+    let whole = book(&rows);
+    let [input, friction, damping, error] =
+        [whole.input, whole.friction, whole.damping, whole.error].map(since_start);
+    let part = EnergyBook { input: &input, friction: &friction, damping: &damping, error: &error, ..whole };
+    let words = format!("period {} (shaded), work from 0", period.number);
+    let figure = enlarged_beside(figure, energy_figure("", &part), period.span, &words);
+    Ok(pen.draw(PlotName::Energy, figure)?)
+}
+
+fn book(series: &Series) -> EnergyBook<'_> {
     let [input, kinetic, elastic, friction, damping, error] =
-        COLUMNS.map(|quantity| kept.series.column(ENERGY, quantity));
-    let book = EnergyBook { time: kept.series.time(), input, kinetic, elastic, friction, damping, error };
-    Ok(pen.draw(PlotName::Energy, energy_figure(job.title(), &book))?)
+        COLUMNS.map(|quantity| series.column(ENERGY, quantity));
+    EnergyBook { time: series.time(), input, kinetic, elastic, friction, damping, error }
+}
+
+fn since_start(values: &[f64]) -> Vec<f64> {
+    let start = values.first().copied().unwrap_or(0.0);
+    values.iter().map(|value| value - start).collect()
 }

@@ -1,13 +1,15 @@
 //! Events over time.
 
+use super::period::LastPeriod;
 use super::{Kind, Sources, Undrawn, whole_title};
 use crate::look::{Pen, Picture};
 use std::collections::HashMap;
-use stickslip_plot::{EventTrack, events_figure};
+use stickslip_plot::{EventTrack, enlarged_below, events_figure};
 use stickslip_results::Track;
 use stickslip_scenario::PlotName;
 
-pub(super) const KIND: Kind = Kind { shows: "what happened when", needs: |_| Vec::new(), draw };
+pub(super) const KIND: Kind =
+    Kind { shows: "what happened when; of many periods the last one below", needs: |_| Vec::new(), draw };
 
 /// One line for each kind of event of each contact and waveform, contacts first.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
@@ -25,6 +27,12 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let tracks: Vec<EventTrack<'_>> = tracks.collect();
     let start = kept.series.time().first().copied().unwrap_or(0.0);
     // Beyond, events are missing, and what is left of them would look like a calm.
-    let title = whole_title(job, kept);
-    Ok(pen.draw(PlotName::Events, events_figure(&title, (start, kept.whole_until()), &tracks))?)
+    let (title, end) = (whole_title(job, kept), kept.whole_until());
+    let figure = events_figure(&title, (start, end), &tracks);
+    let Some(LastPeriod { number, span }) = LastPeriod::of_many(job, kept) else {
+        return Ok(pen.draw(PlotName::Events, figure)?);
+    };
+    let words = format!("period {number} (shaded above)");
+    let figure = enlarged_below(figure, events_figure("", span, &tracks), span, &words);
+    Ok(pen.draw(PlotName::Events, figure)?)
 }

@@ -4,7 +4,8 @@ use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{
-    Actuator, Body, Contact, Direction, Freedom, Load, Named, Normal, Point, Scene, Side, Spring, Varying,
+    Actuator, Body, Contact, Direction, Freedom, Gravity, Load, Named, Normal, Point, Scene, Side, Spring,
+    Varying,
 };
 use stickslip_plot as plot;
 use stickslip_plot::{
@@ -14,7 +15,7 @@ use stickslip_plot::{
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "what there is, to scale: bodies, contacts, springs and forces; blue is free, orange follows a waveform",
+    shows: "what there is, to scale: bodies, contacts, springs and forces; blue is free, orange follows a waveform; what climbs is drawn upright",
     needs: |_| Vec::new(),
     draw,
 };
@@ -25,6 +26,12 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Layout, layout_figure(job.title(), &Sketch(&job.scenario.scene).scene()))?)
 }
 
+/// The gravity of a scene, if there is any.
+pub(super) fn gravity(scene: &Scene) -> Option<SceneGravity> {
+    let Gravity { acceleration, incline } = scene.gravity;
+    (acceleration != 0.0).then_some(SceneGravity { acceleration, incline })
+}
+
 /// A scene on its way to the paper.
 struct Sketch<'a>(&'a Scene);
 
@@ -33,14 +40,12 @@ impl<'a> Sketch<'a> {
         let Self(scene) = self;
         let springs = scene.springs.iter().map(|spring| self.spring(spring));
         let actuators = scene.actuators.iter().map(|actuator| self.actuator(actuator));
-        let gravity = scene.gravity;
         plot::Scene {
             bodies: scene.bodies.iter().map(|body| self.body(body)).collect(),
             contacts: scene.contacts.iter().map(|contact| self.contact(contact)).collect(),
             links: springs.chain(actuators).collect(),
             loads: scene.loads.iter().map(|load| self.load(load)).collect(),
-            gravity: (gravity.acceleration != 0.0)
-                .then_some(SceneGravity { acceleration: gravity.acceleration, incline: gravity.incline }),
+            gravity: gravity(scene),
         }
     }
 

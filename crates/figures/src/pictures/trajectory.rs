@@ -1,46 +1,67 @@
 //! The motion of the bodies over time.
 
+use super::layout::gravity;
+use super::period::LastPeriod;
 use super::{Kind, Sources, Undrawn, alike, of_contacts};
 use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Axis, Body, Freedom, Named, Side};
-use stickslip_plot::{Coordinate, Motion, Track, Trajectory, trajectory_figure};
+use stickslip_plot::{Coordinate, Motion, Track, Trajectory, enlarged_beside, trajectory_figure};
 use stickslip_results::Job;
 use stickslip_results::Kept;
 use stickslip_results::Series;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "positions over time, displacements of the contacts below",
+    shows: "positions over time, displacements of the contacts below; of a long run the last period beside it",
     needs: |job| [needs(job), of_contacts(job, &["u_m"])].concat(),
     draw,
 };
 
-/// Positions over time, heights and angles where there are any, displacements of the contacts below.
+/// Positions over time, heights and angles where there are any, displacements of the contacts below. Of a long run the last period
+/// stands beside it.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let series = &kept.series;
+    let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
+    let columns: Vec<Vec<&[f64]>> = contacts.iter().map(|name| vec![series.column(name, "u_m")]).collect();
+    // Those that are alike all the way: in the period beside they have the same colours.
+    let groups = alike::groups(&columns);
+    let named = |group: &Vec<usize>| alike::name(&group.iter().map(|&c| contacts[c]).collect::<Vec<_>>());
+    let names: Vec<String> = groups.iter().map(named).collect();
+    let relative: Vec<(&str, &str)> =
+        groups.iter().zip(&names).map(|(group, name)| (contacts[group[0]], name.as_str())).collect();
+    let whole = motion(job, series, &relative);
+    let whole = Trajectory { gross_slip: gross_slip(job, kept), ..whole };
+    let figure = trajectory_figure(job.title(), &whole);
+    let Some((period, rows)) = LastPeriod::with_rows(job, kept) else {
+        return Ok(pen.draw(PlotName::Trajectory, figure)?);
+    };
+    // What has travelled far from what drives it would press both flat.
+    let rows = rows.counted_from_start(&["x_m", "u_m"]);
+    let part = trajectory_figure("", &motion(job, &rows, &relative));
+    let words = format!("period {} (shaded), x and u from 0", period.number);
+    Ok(pen.draw(PlotName::Trajectory, enlarged_beside(figure, part, period.span, &words))?)
+}
+
+/// What moves in a series; contacts with the names that their curves have.
+fn motion<'a>(job: &'a Job, series: &'a Series, contacts: &[(&'a str, &'a str)]) -> Trajectory<'a> {
     let (feet, sliders) = tracks(job, series, Axis::X);
     let beside =
         [(Axis::Z, Coordinate::Height), (Axis::Pitch, Coordinate::Pitch)].map(|(axis, coordinate)| {
             let (feet, sliders) = tracks(job, series, axis);
             Motion { coordinate, feet, sliders }
         });
-    let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
-    let columns: Vec<Vec<&[f64]>> = contacts.iter().map(|name| vec![series.column(name, "u_m")]).collect();
-    let groups = alike::groups(&columns);
-    let named = |group: &Vec<usize>| alike::name(&group.iter().map(|&c| contacts[c]).collect::<Vec<_>>());
-    let names: Vec<String> = groups.iter().map(named).collect();
     let relative =
-        groups.iter().zip(&names).map(|(group, name)| Track { name, values: columns[group[0]][0] });
-    let trajectory = Trajectory {
+        contacts.iter().map(|(contact, name)| Track { name, values: series.column(contact, "u_m") });
+    Trajectory {
         time: series.time(),
         feet,
         sliders,
         beside: beside.into_iter().filter(|motion| !motion.sliders.is_empty()).collect(),
         relative: relative.collect(),
-        gross_slip: gross_slip(job, kept),
-    };
-    Ok(pen.draw(PlotName::Trajectory, trajectory_figure(job.title(), &trajectory))?)
+        gross_slip: None,
+        is_upright: gravity(&job.scenario.scene).is_some_and(|gravity| gravity.is_upright()),
+    }
 }
 
 /// Columns that it is drawn from.

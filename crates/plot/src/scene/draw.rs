@@ -188,7 +188,12 @@ fn gravity(draft: &Draft<'_, '_>, sheet: &mut Sheet) {
     let (Some(gravity), Some(bounds)) = (draft.scene.gravity, sheet.bounds()) else { return };
     let (half, aside) = (GRAVITY * draft.unit / 2.0, ASIDE * draft.unit);
     let (sin, cos) = gravity.incline.sin_cos();
-    let middle = (bounds.left - aside - half, bounds.top - half);
+    // Where the drawing has room: beside it, also of one that is turned upright.
+    let middle = if gravity.is_upright() {
+        (bounds.right - half, bounds.top + aside + half)
+    } else {
+        (bounds.left - aside - half, bounds.top - half)
+    };
     let from = (middle.0 + half * sin, middle.1 + half * cos);
     let to = (middle.0 - half * sin, middle.1 - half * cos);
     let lines = arrow(from, to, false, draft.unit);

@@ -15,6 +15,8 @@ const WIDTH: f64 = 1400.0;
 const LEAST_HEIGHT: f64 = 360.0;
 /// Most of width and height that is drawn on; the rest is for names.
 const DRAWN: Point = (1100.0, 740.0);
+/// The same of a slide that is drawn upright, along x and z.
+const DRAWN_UPRIGHT: Point = (860.0, 1100.0);
 const NAMES: f64 = 75.0;
 /// Title, legend and axis above and below the frame.
 const AROUND: f64 = 255.0;
@@ -44,6 +46,8 @@ pub(super) fn figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
         return Figure::without_data(title, "points too far apart to be drawn");
     }
     let stretch = stretch(reach);
+    let is_upright = scene.gravity.is_some_and(|gravity| gravity.is_upright());
+    let room = if is_upright { DRAWN_UPRIGHT } else { DRAWN };
     let most = most(scene, reach, stretch);
     let scaled = |scale: f64, unit: f64| {
         let draft = Draft { scene, scale: (scale * stretch.0, scale * stretch.1), unit };
@@ -51,7 +55,7 @@ pub(super) fn figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
     };
     let fits = |scale: f64, unit: f64| {
         let bounds = bounds(&scaled(scale, unit).1);
-        bounds.right - bounds.left <= DRAWN.0 && bounds.top - bounds.bottom <= DRAWN.1
+        bounds.right - bounds.left <= room.0 && bounds.top - bounds.bottom <= room.1
     };
     let largest = most.unwrap_or(1.0);
     let has_points = reach.0 > 0.0 || reach.1 > 0.0;
@@ -70,7 +74,11 @@ pub(super) fn figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
         if fits(middle, unit) { low = middle } else { high = middle }
     }
     let (scale, sheet) = scaled(low, unit);
-    framed(title, sheet, scale, (stretch, most.is_some()))
+    let names =
+        if is_upright { ["z off the slide", "x up the slide"] } else { ["x along the slide", "height z"] };
+    let turned = |(x, z): Point| if is_upright { (z, x) } else { (x, z) };
+    let sheet = if is_upright { sheet.upright() } else { sheet };
+    framed((title, names), sheet, turned(scale), (turned(stretch), most.is_some()))
 }
 
 fn drawn(draft: &Draft<'_, '_>) -> Sheet {
@@ -113,7 +121,12 @@ fn most(scene: &Scene<'_>, reach: Point, stretch: Point) -> Option<f64> {
 }
 
 /// The drawing in its frame.
-fn framed(title: &str, sheet: Sheet, scale: Point, (stretch, is_to_scale): (Point, bool)) -> Figure<'static> {
+fn framed(
+    (title, names): (&str, [&str; 2]),
+    sheet: Sheet,
+    scale: Point,
+    (stretch, is_to_scale): (Point, bool),
+) -> Figure<'static> {
     let bounds = bounds(&sheet);
     let (middle, centre) = bounds.centre();
     // More than the width holds what no symbols are small enough for.
@@ -135,8 +148,8 @@ fn framed(title: &str, sheet: Sheet, scale: Point, (stretch, is_to_scale): (Poin
         }
     };
     let (x, y) = (
-        axis("x along the slide", stretch.0, (middle, width, scale.0)),
-        axis("height z", stretch.1, (centre, height, scale.1)),
+        axis(names[0], stretch.0, (middle, width, scale.0)),
+        axis(names[1], stretch.1, (centre, height, scale.1)),
     );
     let (shapes, series, notes) = sheet.unrolled(scale);
     let aspect = Some(width / height);

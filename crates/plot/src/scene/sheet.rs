@@ -54,6 +54,19 @@ impl Sheet {
         points.map(|&point| Rect::of(point)).reduce(Rect::union)
     }
 
+    /// The same with both directions exchanged: what went to the right goes up, what went up to the right.
+    pub(super) fn upright(mut self) -> Self {
+        let turned = |(x, y): Point| (y, x);
+        let shapes = self.shapes.iter_mut().flat_map(|(_, corners, _)| corners);
+        let lines = self.lines.iter_mut().flat_map(|(line, _)| line);
+        shapes.chain(lines).for_each(|point| *point = turned(*point));
+        for (_, about, _) in &mut self.notes {
+            let Rect { left, right, bottom, top } = *about;
+            *about = Rect { left: bottom, right: top, bottom: left, top: right };
+        }
+        self
+    }
+
     /// Shapes, lines and notes in metres, `scale` px each.
     pub(super) fn unrolled(self, scale: Point) -> (Vec<Shape>, Vec<Series<'static>>, Vec<Note>) {
         let metres = move |(x, y): Point| (x / scale.0, y / scale.1);
@@ -70,6 +83,7 @@ impl Sheet {
             lines,
             about: [metres((about.left, about.bottom)), metres((about.right, about.top))],
             on,
+            ink: None,
         };
         (
             self.shapes.into_iter().map(shape).collect(),

@@ -15,7 +15,7 @@ const UNITS: [(&str, &str); 10] = [
 ];
 
 /// SI unit of a channel or figure; empty where it has none.
-pub(super) fn unit(name: &str) -> &'static str {
+pub fn unit(name: &str) -> &'static str {
     let name = name.split('[').next().unwrap_or(name);
     UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| unit)
 }

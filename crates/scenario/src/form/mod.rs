@@ -11,6 +11,7 @@ mod material;
 mod measured;
 mod output;
 mod plain;
+mod plot;
 mod point;
 mod profile;
 mod run;
@@ -31,6 +32,7 @@ pub(crate) use material::MaterialForm;
 pub(crate) use measured::{GapPoint, GapTableForm, LawPoint, NormalLawForm, RoughForm, SelfAffineForm};
 pub(crate) use output::{FieldsOutputForm, MemoryOutputForm, OutputForm};
 pub(crate) use plain::{Count, Reserved, Two};
+pub(crate) use plot::{OwnPlotForm, PlotForm};
 pub(crate) use point::{PointForm, Points};
 pub(crate) use profile::{FoundationForm, ProfileForm};
 pub(crate) use run::{FiguresForm, LimitsForm, RunForm, RunStartForm, StepperForm};
@@ -38,7 +40,6 @@ pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::{HarmonicsForm, Periodic, Point, TableForm, WaveformForm};
 pub(crate) use written::{EventsOutputForm, KindForm, MOST_EVENTS, StatesForm, WindowForm};
 
-use crate::PlotName;
 use crate::schema::{no_ground, no_trace_column};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -112,8 +113,8 @@ pub(crate) struct Form {
     #[serde(default, skip_serializing_if = "OutputForm::is_empty")]
     #[schemars(example = json!({ "every": "10 us" }))]
     pub(crate) output: OutputForm,
-    /// Pictures to draw; none by default.
+    /// Pictures to draw, by name or as channels over a channel; none by default.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(example = json!(["loop", "trajectory"]))]
-    pub(crate) plots: Vec<PlotName>,
+    #[schemars(example = json!(["loop", "trajectory"]), example = json!([{ "x": "ball.u_m", "y": "ball.fx_N", "from": "90 ms" }]))]
+    pub(crate) plots: Vec<PlotForm>,
 }

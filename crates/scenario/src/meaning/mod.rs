@@ -10,6 +10,7 @@ mod measured;
 mod motion;
 mod names;
 mod output;
+pub(crate) mod plots;
 mod point;
 mod profile;
 mod range;
@@ -20,11 +21,12 @@ mod waveform;
 mod written;
 
 pub use output::{FieldsOutput, MemoryOutput, SpringsOutput};
+pub use plots::OwnPlot;
 pub use written::{Written, WrittenEvents};
 
 use crate::PlotName;
 use crate::fault::Fault;
-use crate::form::Form;
+use crate::form::{Form, PlotForm};
 use crate::units::Kind;
 use stickslip_drive::scene::Start;
 use stickslip_drive::{Model, Plan, Scene, SceneError};
@@ -52,6 +54,7 @@ pub(crate) struct Meaning {
     /// Most memory, B.
     pub(crate) memory_limit: Option<f64>,
     pub(crate) plots: Vec<PlotName>,
+    pub(crate) own_plots: Vec<OwnPlot>,
 }
 
 /// A scene under construction.
@@ -84,7 +87,9 @@ pub(crate) fn start(meaning: &Meaning) -> Result<(), Fault> {
         model.start(plan).map_err(refused)?;
     }
     let names = meaning.channels.as_deref().unwrap_or_default();
-    channels::places(names, &model.channels()).map(|_| ())
+    let channels = model.channels();
+    channels::places(names, &channels)?;
+    plots::check(&meaning.own_plots, &channels)
 }
 
 /// Gives a form its meaning; the files of its tables are already points.
@@ -116,7 +121,8 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
         fields,
         written,
         memory_limit,
-        plots: form.plots.clone(),
+        plots: form.plots.iter().map(PlotForm::name).collect(),
+        own_plots: builder.own_plots(plan)?,
         scene: builder.scene,
     })
 }

@@ -1,7 +1,6 @@
 //! What moves what: parts that could do nothing, and figures of what does nothing.
 
 use super::Builder;
-use crate::PlotName;
 use crate::fault::Fault;
 use crate::path::At;
 use stickslip_drive::Scene;
@@ -35,23 +34,6 @@ impl Builder<'_> {
                 let fault = fault.against_path(at.key(&spring.name).path());
                 return Err(fault.help("give it a \"stiffness\", a \"damping\" or a \"preload\""));
             }
-        }
-        Ok(())
-    }
-
-    /// There is something to draw.
-    pub(super) fn plots(&self) -> Result<(), Fault> {
-        let root = At::ROOT;
-        let at = root.key("plots");
-        for (i, plot) in self.form.plots.iter().enumerate() {
-            let (lacks, section) = match plot {
-                PlotName::Loop if self.scene.contacts.is_empty() => ("contact", "contacts"),
-                PlotName::Layout | PlotName::Trajectory if self.scene.bodies.is_empty() => ("body", "bodies"),
-                _ => continue,
-            };
-            let fault = at.index(i).fault(format!("there is no {lacks} to draw"));
-            let fault = fault.against([section]);
-            return Err(fault.help("leave this picture out"));
         }
         Ok(())
     }

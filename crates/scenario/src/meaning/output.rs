@@ -160,7 +160,7 @@ impl Builder<'_> {
         plots: &'a At<'a>,
         wanted_by: &[PlotName],
     ) -> Result<Option<At<'a>>, Fault> {
-        let place = self.form.plots.iter().position(|name| wanted_by.contains(name));
+        let place = self.form.plots.iter().position(|plot| wanted_by.contains(&plot.name()));
         let asked = key.or(place.map(|place| plots.index(place)));
         match asked {
             Some(at) if self.scene.contacts.is_empty() => {

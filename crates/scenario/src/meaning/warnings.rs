@@ -1,9 +1,10 @@
 //! What is allowed and probably not meant.
 
 use super::{Meaning, motion};
+use crate::PlotName;
 use crate::Warning;
 use crate::fault::Fault;
-use crate::form::{Form, FreedomForm, Parts, RunStartForm};
+use crate::form::{Form, FreedomForm, Parts, PlotForm, RunStartForm};
 use crate::path::{At, KeyPath};
 use std::collections::HashSet;
 use std::f64::consts::TAU;
@@ -193,7 +194,9 @@ impl Oddities<'_> {
             self.find("output", fault.help("only the first and the last row are written"));
         }
         let plots = &self.form.plots;
-        if let Some(i) = (0..plots.len()).find(|&i| plots[..i].contains(&plots[i])) {
+        let names: Vec<_> = plots.iter().map(PlotForm::name).collect();
+        let is_again = |i: &usize| names[*i] != PlotName::Xy && names[..*i].contains(&names[*i]);
+        if let Some(i) = (0..plots.len()).find(is_again) {
             self.find("output", root.key("plots").index(i).fault("this picture is in the list already"));
         }
     }

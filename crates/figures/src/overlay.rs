@@ -1,0 +1,68 @@
+//! Pictures of several results over each other.
+
+use crate::look::{Look, Pen, Picture};
+use crate::pictures::{self, FigureError, Sources};
+use std::sync::Mutex;
+use stickslip_plot::{Figure, overlaid};
+use stickslip_results::program::this_program;
+use stickslip_results::provenance::{HASH, PROGRAM, TITLE};
+use stickslip_scenario::PlotName;
+
+/// Pictures that can be drawn over each other: curves alone.
+pub const OVERLAID: [PlotName; 4] = [PlotName::Loop, PlotName::Trajectory, PlotName::Phase, PlotName::Xy];
+
+/// The name of a picture's file.
+pub fn name(plot: &str) -> String {
+    format!("over-{plot}")
+}
+
+/// Draws a kind of picture of several results, each under its name, into one: `over-loop.png`.
+///
+/// # Errors
+/// A result that cannot be drawn so, or whose picture has other panels than that of the first.
+pub fn draw(
+    results: &[(String, Sources<'_>)],
+    plot: PlotName,
+    look: &Look,
+) -> Result<Vec<Picture>, FigureError> {
+    let mut kinds: Vec<(String, Vec<(String, Figure<'static>)>)> = Vec::new();
+    for (place, (result, sources)) in results.iter().enumerate() {
+        let pen = Pen { look, provenance: Vec::new(), kept: Some(Mutex::default()) };
+        pictures::picture(sources, plot, &pen)?;
+        for (name, figure) in pen.into_kept() {
+            match kinds.iter_mut().find(|(kind, _)| *kind == name) {
+                Some((_, figures)) => figures.push((result.clone(), figure)),
+                // What the first has not has nothing to be drawn over.
+                None if place == 0 => kinds.push((name, vec![(result.clone(), figure)])),
+                None => {}
+            }
+        }
+    }
+    let pen = Pen { look, provenance: provenance(results), kept: None };
+    let mut drawn = Vec::new();
+    for (kind, figures) in kinds {
+        let unlike = FigureError::Unlike { plot: plot.name() };
+        let figure = overlaid(&title(results), &figures).ok_or(unlike)?;
+        let failed = |source| FigureError::Plot { plot: plot.name(), source };
+        drawn.extend(pen.draw_as(&name(&kind), figure).map_err(failed)?);
+    }
+    Ok(drawn)
+}
+
+/// The title that all have, or else their names.
+fn title(results: &[(String, Sources<'_>)]) -> String {
+    let mut titles = results.iter().map(|(_, sources)| sources.job.title());
+    match titles.next() {
+        Some(first) if titles.all(|title| title == first) => first.to_owned(),
+        _ => results.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// What the picture comes from: no scenario, for it has several.
+fn provenance(results: &[(String, Sources<'_>)]) -> Vec<(String, String)> {
+    let mut texts = vec![(TITLE.to_owned(), title(results)), (PROGRAM.to_owned(), this_program())];
+    for (number, (_, sources)) in (1..).zip(results) {
+        texts.push((format!("{HASH} of {number}"), sources.job.hash.clone()));
+    }
+    texts
+}

@@ -1,0 +1,86 @@
+//! A part enlarged beside or below the whole: where ringing of many periods is a solid band, one period shows what it is.
+
+use crate::figure::{Arrangement, Figure};
+use crate::layout::{Area, Placed};
+use crate::paint::Painter;
+use crate::panel::Reference;
+use crate::theme::{Dash, Stroke};
+use crate::{Label, PlotError};
+use plotters_backend::DrawingBackend;
+
+/// Least width of the shade over a stretch, px of a figure 1600 px wide: a thousandth of a run is seen as well.
+const LEAST: f64 = 5.0;
+
+/// The panels of a column along one axis, each with the same panel of a second figure beside it, which shows the stretch `of`
+/// that axis alone: it is shaded in the first. `heading` stands above the second. As it is where the figures are not columns of
+/// equally many panels.
+pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), heading: &str) -> Figure<'a> {
+    let is_column = |figure: &Figure<'_>| figure.arrangement == Arrangement::Column { share_x: true };
+    if whole.panels.len() != part.panels.len() || !is_column(&whole) || !is_column(&part) {
+        return whole;
+    }
+    let mut panels = Vec::new();
+    for (row, (mut left, mut right)) in whole.panels.into_iter().zip(part.panels).enumerate() {
+        left.enlarged = Some(of);
+        right.x.covers = Some(of);
+        if row == 0 {
+            right.heading = Label::plain(heading);
+        }
+        // What is beside it is named there.
+        right.series.iter_mut().for_each(|series| series.label = Label::default());
+        right.bands.iter_mut().for_each(|band| band.label = Label::default());
+        right.references.iter_mut().for_each(|reference| *label_of(reference) = Label::default());
+        panels.extend([left, right]);
+    }
+    Figure { panels, arrangement: Arrangement::Columns { columns: 2 }, ..whole }.with_room_for_legends()
+}
+
+/// The one panel of a figure along one axis, with that of a second figure below it, which shows the stretch `of` that axis alone;
+/// `heading` stands above the second. As it is where either has more panels or none.
+pub fn enlarged_below<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), heading: &str) -> Figure<'a> {
+    let (width, height) = whole.size;
+    let mut panels = whole.panels;
+    let mut others = part.panels;
+    if let ([upper], [lower]) = (&mut panels[..], &mut others[..]) {
+        upper.enlarged = Some(of);
+        lower.x.covers = Some(of);
+        lower.heading = Label::plain(heading);
+        panels.append(&mut others);
+        let arrangement = Arrangement::Column { share_x: false };
+        return Figure { panels, arrangement, size: (width, height + part.size.1), ..whole };
+    }
+    Figure { panels, ..whole }
+}
+
+fn label_of(reference: &mut Reference) -> &mut Label {
+    match reference {
+        Reference::Horizontal { label, .. } | Reference::Vertical { label, .. } => label,
+    }
+}
+
+impl<B: DrawingBackend> Painter<'_, B> {
+    /// Shades a stretch of the x axis from the top of the frame to its bottom.
+    pub(crate) fn enlarged(
+        &mut self,
+        place: &Placed<'_, '_>,
+        (from, to): (f64, f64),
+    ) -> Result<(), PlotError> {
+        let frame = place.frame;
+        let pixel =
+            |x: f64| frame.left + frame.width * place.x.place(place.panel.x.measure(x)).clamp(0.0, 1.0);
+        let (mut left, mut right) = (pixel(from), pixel(to));
+        if !(left.is_finite() && right.is_finite()) {
+            return Ok(());
+        }
+        let least = LEAST * self.sizes.scale;
+        if right - left < least {
+            right = (left + right + least).min(2.0 * (frame.left + frame.width)) / 2.0;
+            left = right - least;
+        }
+        let (top, bottom) = (frame.top, frame.top + frame.height);
+        self.canvas
+            .fill(Area { left, top, width: right - left, height: frame.height }, self.theme.shaded())?;
+        let edge = Stroke { colour: self.theme.muted, dash: Dash::Solid, width: 1.5 };
+        [left, right].into_iter().try_for_each(|x| self.canvas.line(&[(x, top), (x, bottom)], edge))
+    }
+}
