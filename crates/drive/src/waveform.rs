@@ -124,17 +124,12 @@ impl Waveform {
     /// The laws that are not straight, kept out of the way of those that are.
     #[inline(never)]
     fn curved(&self, piece: &Piece, t: f64) -> Sample {
-        match (&piece.law, &self.course.chain) {
-            (Law::Leg(placed), Chain::Corners(corners)) => corners.on(placed, t),
-            (law, _) => law.at(t).unwrap_or_else(|| self.sines_at(t)),
-        }
-    }
-
-    /// Its sines at `t`, whatever piece it is on; zeros where it has none.
-    pub(crate) fn sines_at(&self, t: f64) -> Sample {
-        match &self.course.chain {
-            Chain::Sines(sines) => sines.at(&self.timing, t),
-            _ => Sample { value: 0.0, rate: 0.0, acceleration: 0.0 },
+        match &piece.law {
+            Law::Sines => self.sines_at(t),
+            Law::Leg(placed) => {
+                self.corners().map_or_else(|| self.sines_at(t), |corners| corners.on(placed, t))
+            }
+            law => law.at(t).unwrap_or_else(|| self.sines_at(t)),
         }
     }
 

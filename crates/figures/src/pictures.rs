@@ -13,6 +13,7 @@ mod phase;
 mod state;
 mod substitute;
 mod trajectory;
+mod waveform;
 
 use crate::look::{Look, Pen, Picture};
 use std::panic::resume_unwind;
@@ -120,6 +121,7 @@ fn kind(plot: PlotName) -> &'static Kind {
         PlotName::Fields => &fields::KIND,
         PlotName::Substitute => &substitute::KIND,
         PlotName::Friction => &friction::KIND,
+        PlotName::Waveform => &waveform::KIND,
     }
 }
 

@@ -30,11 +30,13 @@ pub enum PlotName {
     Substitute,
     /// Friction work over radius and time; from `friction.csv`.
     Friction,
+    /// The waveforms and their rates over two periods.
+    Waveform,
 }
 
 impl PlotName {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Layout,
         Self::Loop,
         Self::Trajectory,
@@ -46,6 +48,7 @@ impl PlotName {
         Self::Fields,
         Self::Substitute,
         Self::Friction,
+        Self::Waveform,
     ];
 
     /// The name in the file.
@@ -62,6 +65,7 @@ impl PlotName {
             Self::Fields => "fields",
             Self::Substitute => "substitute",
             Self::Friction => "friction",
+            Self::Waveform => "waveform",
         }
     }
 }

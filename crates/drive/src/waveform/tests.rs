@@ -173,41 +173,40 @@ fn of_cycle(shape: &Shape, period: f64, x: f64) -> Option<f64> {
             let t = x * period;
             stroke * (t / rise).min(((rise + hold + fall) - t) / fall).clamp(0.0, 1.0)
         }
-        Shape::SCurve { stroke, flyback, rounding } => {
-            let way = |time: f64| {
-                let tau = rounding / time;
-                // Speed 1 in the middle; each end integrated twice from its jerk 1/τ².
-                let jerk = 1.0 / (tau * tau);
-                let begin = move |s: f64| {
-                    let cube = |s: f64| s.max(0.0).powi(3) / 6.0;
-                    if s > 2.0 * tau { s - tau } else { jerk * (cube(s) - 2.0 * cube(s - tau)) }
-                };
-                let length = 1.0 - 2.0 * tau;
-                move |s: f64| if s <= 0.5 { begin(s) / length } else { 1.0 - begin(1.0 - s) / length }
-            };
-            let top = 1.0 - flyback / period;
-            if x <= top {
-                stroke * way(period - flyback)(x / top)
-            } else {
-                stroke * (1.0 - way(*flyback)((x - top) / (1.0 - top)))
-            }
-        }
-        Shape::Pattern { carrier, parts } => {
-            // Of all parts in cycles of the shape.
-            let Some(Section::Rest { duration }) = parts.get(1) else { panic!("{parts:?}") };
-            let own = (period - duration) / 5.0;
-            let time = x * period;
-            let part = if time <= 3.0 * own {
-                (time / own).fract()
-            } else if time <= 3.0 * own + duration {
-                0.0
-            } else {
-                1.0 - ((time - 3.0 * own - duration) / own).fract()
-            };
-            of_cycle(carrier, own, part)?
-        }
+        Shape::SCurve { stroke, flyback, rounding } => stroke * s_curve([period, *flyback, *rounding], x),
+        Shape::Pattern { carrier, parts } => return of_pattern(carrier, parts, x * period, period),
         _ => return None,
     })
+}
+
+/// An S-curve of the stroke 1 after a part `x` of its period.
+fn s_curve([period, flyback, rounding]: [f64; 3], x: f64) -> f64 {
+    let way = |time: f64| {
+        let tau = rounding / time;
+        // Speed 1 in the middle; each end integrated twice from its jerk 1/τ².
+        let begin = move |s: f64| {
+            let cube = |s: f64| s.max(0.0).powi(3) / 6.0;
+            if s > 2.0 * tau { s - tau } else { (cube(s) - 2.0 * cube(s - tau)) / (tau * tau) }
+        };
+        let length = 1.0 - 2.0 * tau;
+        move |s: f64| if s <= 0.5 { begin(s) / length } else { 1.0 - begin(1.0 - s) / length }
+    };
+    let top = 1.0 - flyback / period;
+    if x <= top { way(period - flyback)(x / top) } else { 1.0 - way(flyback)((x - top) / (1.0 - top)) }
+}
+
+/// A pattern of three cycles, a rest and two reversed cycles at a time of its period.
+fn of_pattern(carrier: &Shape, parts: &[Section], time: f64, period: f64) -> Option<f64> {
+    let Some(Section::Rest { duration }) = parts.get(1) else { panic!("{parts:?}") };
+    let own = (period - duration) / 5.0;
+    let part = if time <= 3.0 * own {
+        (time / own).fract()
+    } else if time <= 3.0 * own + duration {
+        0.0
+    } else {
+        1.0 - ((time - 3.0 * own - duration) / own).fract()
+    };
+    of_cycle(carrier, own, part)
 }
 
 #[test]

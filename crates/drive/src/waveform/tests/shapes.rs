@@ -381,3 +381,12 @@ fn what_leaves_no_time_is_refused_by_name() {
     assert_eq!(refuse(repeat(&[(1.0, 1.0), (0.5, 1.0)])), "points");
     assert_eq!(refuse(Shape::Step { height: f64::NAN, at: 0.0 }), "height");
 }
+
+/// What a state keeps of a straight piece has not grown by what others need.
+#[test]
+fn a_piece_is_as_small_as_its_straight_way() {
+    use crate::waveform::shape::Law;
+    use crate::waveform::straight::Straight;
+    assert_eq!(size_of::<Law>(), size_of::<Straight>() + size_of::<u64>());
+    assert_eq!(size_of::<Piece>(), size_of::<Law>() + 3 * size_of::<u64>());
+}
