@@ -1,6 +1,6 @@
 //! `stickslip new`: what it writes runs at once.
 
-use crate::program::{code, listing, run, stderr, stdout, stickslip};
+use crate::program::{code, listing, number, run, stderr, stdout, stickslip, summary};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Output;
@@ -10,13 +10,29 @@ fn new(folder: &Path, arguments: &[&str]) -> Output {
     stickslip().arg("new").args(arguments).current_dir(folder).output().unwrap()
 }
 
+const NAMES: [&str; 13] = [
+    "drive",
+    "piezo",
+    "fretting",
+    "oblique",
+    "vibration",
+    "linear",
+    "six_balls",
+    "smooth_impact",
+    "walking",
+    "vertical",
+    "assisted",
+    "rotary",
+    "hobby",
+];
+
 #[test]
 fn every_template_runs_at_once_and_satisfies_the_schema_it_names() {
     let folder = tempdir().unwrap();
     let listed = stdout(&new(folder.path(), &["--list"]));
     assert!(listing(folder.path()).is_empty());
     let names: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["drive", "piezo", "fretting", "oblique", "vibration"]);
+    assert_eq!(names, NAMES);
     for name in names {
         let output = new(folder.path(), &[name, "--template", name]);
         assert_eq!((code(&output), stderr(&output)), (0, String::new()));
@@ -30,6 +46,63 @@ fn every_template_runs_at_once_and_satisfies_the_schema_it_names() {
         assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&scenario), "{name}");
         let output = run(&file, &folder.path().join("results"), &[]);
         assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+    }
+}
+
+/// What a drive's description says of it.
+struct Preset {
+    name: &'static str,
+    /// Peak to peak of the foot, or of a foot's way along the slide, m.
+    stroke: f64,
+    /// Share of the stroke that a mean step is at least and at most, its sign the direction.
+    step: [f64; 2],
+}
+
+/// The rigid slider of a stick-slip drive steps by the stroke; what the springs of its contacts take back and what the load takes
+/// is at most twice their u_c, 30 to 60 nm here.
+const PRESETS: [Preset; 8] = [
+    Preset { name: "linear", stroke: 300e-9, step: [0.6, 1.0] },
+    Preset { name: "six_balls", stroke: 300e-9, step: [0.7, 1.0] },
+    // One that always slips goes at 2bAω at most: 2πbA in a period, A a 2.2nd of the stroke.
+    Preset { name: "smooth_impact", stroke: 440e-9, step: [0.35, 0.72] },
+    // Two pairs carry it, each at most by its stroke.
+    Preset { name: "walking", stroke: 480e-9, step: [1.2, 2.0] },
+    Preset { name: "vertical", stroke: 400e-9, step: [0.6, 1.0] },
+    // It goes as fast as its load lets it, below the rail's own speed.
+    Preset { name: "assisted", stroke: 800e-9, step: [0.1, 3.0] },
+    Preset { name: "rotary", stroke: 400e-9, step: [0.7, 1.0] },
+    Preset { name: "hobby", stroke: 766e-9, step: [0.9, 1.0] },
+];
+
+/// Drives move the way that their page says, in steps below the stroke and by nearly all of it, in the range of published
+/// stages; nothing is to be said against them, and none takes two seconds.
+#[test]
+fn drives_of_the_templates_move_as_their_page_says() {
+    let folder = tempdir().unwrap();
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../templates/README.md")).unwrap();
+    for Preset { name, stroke, step } in PRESETS {
+        assert_eq!(code(&new(folder.path(), &[name, "--template", name])), 0);
+        let file = folder.path().join(format!("{name}.json"));
+        let checked = stickslip().arg("check").arg(&file).output().unwrap();
+        assert_eq!((code(&checked), stderr(&checked)), (0, String::new()), "{}", stdout(&checked));
+        assert!(!stdout(&checked).contains("warning"), "{}", stdout(&checked));
+        let out = folder.path().join("results");
+        let start = std::time::Instant::now();
+        assert_eq!(code(&run(&file, &out, &[])), 0);
+        let took = start.elapsed();
+        let told = summary(&out.join(name));
+        let speed = number(&told, "/steps/mean_speed_m_s");
+        let mean = number(&told, "/steps/net_travel_m") / number(&told, "/steps/periods");
+        let share = mean / stroke;
+        println!("{name}: {mean:e} m a step, {share:.3} of the stroke, {speed:e} m/s, {took:?}");
+        assert!(share >= step[0] && share <= step[1], "{name}: {share}");
+        assert!((10e-9..=1e-6).contains(&mean), "{name}: {mean:e}");
+        assert!((1e-5..=2e-2).contains(&speed), "{name}: {speed:e}");
+        assert!(took.as_secs_f64() < 2.0, "{name}: {took:?}");
+        let row = page.lines().find(|line| line.starts_with(&format!("| `{name}`"))).unwrap_or_default();
+        let said = format!("{:.0} nm", mean * 1e9);
+        assert!(row.contains(&said), "{name}: {said} is not in {row}");
     }
 }
 

@@ -45,6 +45,6 @@ pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
 pub use state::{BytesError, CommandError, Counts, Generated, InputError, State};
 pub use waveform::{
-    Command, Cycle, Generator, Harmonic, Heading, Interpolation, Piece, Sample, Shape, Steps, Timing,
-    Waveform, WaveformError,
+    Command, Cycle, Generator, Harmonic, Heading, Interpolation, Piece, Sample, Section, Shape, Steps, Sweep,
+    Timing, Waveform, WaveformError,
 };

@@ -18,7 +18,7 @@ mod timing;
 
 pub use error::WaveformError;
 pub use piece::Piece;
-pub use shape::{Command, Cycle, Generator, Harmonic, Heading, Interpolation, Shape, Steps};
+pub use shape::{Command, Cycle, Generator, Harmonic, Heading, Interpolation, Section, Shape, Steps, Sweep};
 pub use timing::Timing;
 
 use corners::Corners;
@@ -101,8 +101,8 @@ impl Waveform {
     #[must_use]
     pub fn after(&self, piece: &Piece) -> Piece {
         let mut next = *piece;
-        // Pieces shorter than the spacing of doubles are skipped: at most the flyback, never both ways.
-        for _ in 0..3 {
+        // Pieces shorter than the spacing of doubles are skipped, never all ways of a period.
+        for _ in 0..self.corners().map_or(1, Corners::count).saturating_add(2) {
             next = self.following(&next);
             if next.start < next.end {
                 break;
@@ -124,14 +124,12 @@ impl Waveform {
     /// The laws that are not straight, kept out of the way of those that are.
     #[inline(never)]
     fn curved(&self, piece: &Piece, t: f64) -> Sample {
-        piece.law.at(t).unwrap_or_else(|| self.sines_at(t))
-    }
-
-    /// Its sines at `t`, whatever piece it is on; zeros where it has none.
-    pub(crate) fn sines_at(&self, t: f64) -> Sample {
-        match &self.course.chain {
-            Chain::Sines(sines) => sines.at(&self.timing, t),
-            _ => Sample { value: 0.0, rate: 0.0, acceleration: 0.0 },
+        match &piece.law {
+            Law::Sines => self.sines_at(t),
+            Law::Leg(placed) => {
+                self.corners().map_or_else(|| self.sines_at(t), |corners| corners.on(placed, t))
+            }
+            law => law.at(t).unwrap_or_else(|| self.sines_at(t)),
         }
     }
 
@@ -190,7 +188,7 @@ impl Waveform {
         self.course.range
     }
 
-    /// Period, s; none for a table or an input, or a generator that rests until it is commanded.
+    /// Period, s; none for what comes once, an input, or a generator that rests until it is commanded.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.course.period

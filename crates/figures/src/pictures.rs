@@ -15,6 +15,7 @@ mod phase;
 mod state;
 mod substitute;
 mod trajectory;
+mod waveform;
 
 use crate::look::{Look, Pen, Picture};
 use std::panic::resume_unwind;
@@ -138,6 +139,7 @@ fn kind(plot: PlotName) -> &'static Kind {
         PlotName::Substitute => &substitute::KIND,
         PlotName::Friction => &friction::KIND,
         PlotName::Xy => &own::KIND,
+        PlotName::Waveform => &waveform::KIND,
     }
 }
 

@@ -67,6 +67,7 @@ pub mod svg;
 pub mod theme;
 mod thin;
 pub mod trajectory;
+pub mod waveform;
 pub mod work_precision;
 pub mod zoom;
 
@@ -100,5 +101,6 @@ pub use substitute::{SubstituteMoment, substitute_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};
 pub use trajectory::{Coordinate, Motion, Track, Trajectory, trajectory_figure};
+pub use waveform::{WaveformCourse, waveform_figure};
 pub use work_precision::{WorkCurve, work_precision_figure};
 pub use zoom::{enlarged_below, enlarged_beside};

@@ -33,11 +33,13 @@ pub enum PlotName {
     /// Channels over a channel, as the scenario asks for them.
     #[serde(skip)]
     Xy,
+    /// The waveforms and their rates over two periods.
+    Waveform,
 }
 
 impl PlotName {
     /// All that have a name in the file.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Layout,
         Self::Loop,
         Self::Trajectory,
@@ -49,6 +51,7 @@ impl PlotName {
         Self::Fields,
         Self::Substitute,
         Self::Friction,
+        Self::Waveform,
     ];
 
     /// Most pictures of channels over a channel.
@@ -69,6 +72,7 @@ impl PlotName {
             Self::Substitute => "substitute",
             Self::Friction => "friction",
             Self::Xy => "xy",
+            Self::Waveform => "waveform",
         }
     }
 }

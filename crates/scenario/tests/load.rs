@@ -10,8 +10,8 @@ use stickslip_drive::scene::{
     ContactStart, Coordinate, Direction, EngineChoice, Freedom, Normal, Point, Side, Start, Varying,
 };
 use stickslip_drive::{
-    Command, Cycle, Generator, Heading, Interpolation, Model, Moments, Shape, Stepper, Steps, Timing,
-    Waveform,
+    Command, Cycle, Generator, Harmonic, Heading, Interpolation, Model, Moments, Section, Shape, Stepper,
+    Steps, Sweep, Timing, Waveform,
 };
 use stickslip_scenario::{PlotName, Scenario};
 
@@ -29,6 +29,82 @@ fn full() -> Scenario {
 
 fn planar() -> Scenario {
     Scenario::from_str(PLANAR, "planar.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn waveforms() -> Scenario {
+    let text = include_str!("good/waveforms.json");
+    Scenario::from_str(text, "waveforms.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A waveform of that file by its name.
+fn wave(name: &str) -> Waveform {
+    let scenario = waveforms();
+    let found = scenario.scene.waveforms.into_iter().find(|waveform| waveform.name == name);
+    found.unwrap_or_else(|| panic!("there is no {name}")).part
+}
+
+fn is(name: &str, shape: Shape, timing: Timing) {
+    assert_eq!(wave(name), Waveform::new(shape, timing).unwrap(), "{name}");
+}
+
+/// Every kind of waveform beside those of `full.json`, with all keys that it may have, in SI.
+#[test]
+fn every_waveform_means_what_its_keys_say() {
+    let every = Timing::every;
+    let turned = Timing { phase: std::f64::consts::FRAC_PI_2, ..every(1e-3) };
+    is("par", Shape::Parabola { stroke: 2e-7, turn: 2e-5 }, turned);
+    is("tra", Shape::Trapezoid { stroke: 2e-7, rise: 1e-3, hold: 3e-3, fall: 1e-3 }, every(1e-2));
+    let thrice = Timing { cycles: Some(3.0), ..every(1e-2) };
+    is("scu", Shape::SCurve { stroke: 2e-7, flyback: 1e-3, rounding: 1e-4 }, thrice);
+    let term = |amplitude, order| Harmonic { amplitude, order, phase: 0.0 };
+    let late = Timing { delay: 1e-3, ..every(1e-3) };
+    is("two", Shape::Harmonics { terms: vec![term(1e-7, 1.0), term(-0.2 * 1e-7, 2.0)] }, late);
+    let phase = std::f64::consts::FRAC_PI_2;
+    let sweep = Sweep { amplitude: 1e-6, offset: 2e-6, phase, from: 100.0, to: 2000.0, duration: 0.05 };
+    is("chi", Shape::Chirp(sweep), Timing { delay: 1e-3, ..every(1.0) });
+    is("ste", Shape::Step { height: 1e-3, at: 0.0 }, Timing { delay: 5e-3, ..every(1.0) });
+    is("lim", Shape::Limited { stroke: 2e-7, flyback: 1e-5, rate: 5e-4 }, every(1e-2));
+    is("tun", Shape::Sawtooth { stroke: 2e-7, flyback: 2.5e-4 }, every(1e-2));
+    is("jump", Shape::Limited { stroke: 2e-7, flyback: 0.0, rate: 5e-4 }, every(1e-2));
+}
+
+#[test]
+fn bursts_and_sequences_are_patterns() {
+    let every = Timing::every;
+    let turned = Timing { phase: std::f64::consts::FRAC_PI_2, ..every(1e-3) };
+    let pattern = |carrier: Shape, parts: &[Section]| Shape::Pattern {
+        carrier: Box::new(carrier),
+        parts: parts.to_vec(),
+    };
+    let run = |cycles| Section::Run { cycles, reversed: false };
+    let triangle = Shape::Triangle { stroke: 2e-7 };
+    is("bur", pattern(triangle.clone(), &[run(5), Section::Rest { duration: 0.02 - 0.005 }]), every(1e-3));
+    is("full", pattern(triangle, &[run(5)]), every(1e-3));
+    let sine = Shape::Sine { amplitude: 2e-7, phase: 0.0, offset: 0.0 };
+    is("dwe", pattern(sine, &[run(5), Section::Rest { duration: 0.015 }]), turned);
+    let parts = [run(10), Section::Rest { duration: 5e-3 }, Section::Run { cycles: 4, reversed: true }];
+    is("seq", pattern(Shape::Cycloid { stroke: 2e-7, flyback: 5e-4 }, &parts), every(1e-3));
+    assert_eq!(wave("seq").period(), Some(10.0 * 1e-3 + 5e-3 + 4.0 * 1e-3));
+}
+
+#[test]
+fn tables_are_scaled_joined_and_repeated() {
+    let every = Timing::every;
+    let scenario = waveforms();
+    let points = vec![(1e-3, 0.0), (2e-3, 5e-9), (4e-3, 0.0)];
+    is("rep", Shape::Curve { points, smooth: false, repeated: true }, every(1.0));
+    let plain = full().scene.waveforms[5].part.clone();
+    let (Shape::Table { points }, Shape::Curve { points: scaled, smooth: true, repeated: false }) =
+        (plain.shape(), wave("csv").shape().clone())
+    else {
+        panic!("{:?}", wave("csv"))
+    };
+    let expected: Vec<(f64, f64)> = points.iter().map(|(t, v)| (*t, -2.0 * v + 1e-6)).collect();
+    assert_eq!(scaled, expected);
+    assert_eq!(scenario.plots, [PlotName::Waveform]);
+    // What it resolves to is the same again.
+    let again = Scenario::from_str(&scenario.resolved(), "resolved.json", "").unwrap();
+    assert_eq!(again.scene.waveforms, scenario.scene.waveforms);
 }
 
 fn refused(overrides: &[(&str, &str)]) -> String {

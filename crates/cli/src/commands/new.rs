@@ -10,13 +10,21 @@ use stickslip_results::folder;
 use stickslip_scenario::{Scenario, schema};
 use thiserror::Error;
 
-/// Templates by name: examples as they are.
-const TEMPLATES: [(&str, &str); 5] = [
+/// Templates by name: examples as they are, and drives of their own.
+const TEMPLATES: [(&str, &str); 13] = [
     ("drive", include_str!("../../../../scenarios/quickstart.json")),
     ("piezo", include_str!("../../../../scenarios/piezo_stack.json")),
     ("fretting", include_str!("../../../../scenarios/fretting_sphere.json")),
     ("oblique", include_str!("../../../../scenarios/oblique_loading.json")),
     ("vibration", include_str!("../../../../scenarios/vibrated_slider.json")),
+    ("linear", include_str!("../../../../scenarios/three_ball_stage.json")),
+    ("six_balls", include_str!("../../../../templates/six_balls.json")),
+    ("smooth_impact", include_str!("../../../../templates/smooth_impact.json")),
+    ("walking", include_str!("../../../../templates/walking.json")),
+    ("vertical", include_str!("../../../../scenarios/vertical_climber.json")),
+    ("assisted", include_str!("../../../../templates/assisted.json")),
+    ("rotary", include_str!("../../../../templates/rotary.json")),
+    ("hobby", include_str!("../../../../templates/hobby.json")),
 ];
 /// Where the examples look for their schema.
 const SCHEMA_OF_EXAMPLES: &str = "../schema/scenario-1.json";
@@ -47,7 +55,7 @@ pub(crate) fn templates() -> [&'static str; TEMPLATES.len()] {
 pub(crate) fn new(arguments: &NewArguments) -> Verdict {
     if arguments.list {
         for (name, text) in TEMPLATES {
-            say(format_args!("{name:10} {}", title(text)));
+            say(format_args!("{name:13} {}", title(text)));
         }
         return Verdict::Done;
     }

@@ -1,7 +1,7 @@
 //! Where a waveform turns: times of its corners and the values there.
 
-use super::shape::Way;
-use super::{Piece, Timing};
+use super::shape::{Carrier, Law, Placed, Way};
+use super::{Piece, Sample, Timing};
 use std::f64::consts::TAU;
 
 /// Segments between corners, numbered from 0 at the start of the period that the delay falls into.
@@ -15,9 +15,12 @@ pub(super) struct Corners {
     per_period: u64,
     /// Times of the corners of the first period, s.
     origins: Vec<f64>,
-    /// Values at the start and at the end of each segment.
-    values: Vec<(f64, f64)>,
-    way: Way,
+    /// Values at the start and at the end of each segment, and how it goes between them.
+    ways: Vec<((f64, f64), Way)>,
+    /// Sines that segments run through, each from their start on.
+    carrier: Option<Carrier>,
+    /// Value at the very start, where the first segment comes from elsewhere than its corner.
+    lead: Option<f64>,
     /// First and last segment that run, and when the first starts and the last stops.
     first: u64,
     last: u64,
@@ -32,23 +35,34 @@ pub(super) struct Leg {
     pub(super) start: f64,
     /// Values at its start and end.
     pub(super) values: (f64, f64),
+    /// How it goes from one to the other.
+    pub(super) way: Way,
+}
+
+impl Leg {
+    /// A straight one.
+    pub(super) fn straight(start: f64, values: (f64, f64)) -> Self {
+        Self { start, values, way: Way::Straight }
+    }
 }
 
 impl Corners {
     /// Corners of a period that these ways fill from its start to its end.
     ///
-    /// A way that starts at the very end of the period is a jump: none is there.
-    pub(super) fn periodic(legs: &[Leg], way: Way, timing: &Timing) -> Self {
+    /// A way that ends where it starts is a jump: none is there.
+    pub(super) fn periodic(legs: &[Leg], timing: &Timing) -> Self {
         let period = timing.period;
-        let legs = || legs.iter().filter(|leg| leg.start < period);
+        let ends = legs.iter().skip(1).map(|leg| leg.start).chain([period]);
+        let legs = || legs.iter().zip(ends.clone()).filter(|(leg, end)| leg.start < *end).map(|(leg, _)| leg);
         let knots: Vec<f64> = legs().map(|leg| leg.start).collect();
         let shift = shift(&knots, timing);
         let mut corners = Self {
             period,
             per_period: knots.len() as u64,
             origins: knots.iter().map(|knot| timing.delay + (knot - shift)).collect(),
-            values: legs().map(|leg| leg.values).collect(),
-            way,
+            ways: legs().map(|leg| (leg.values, leg.way)).collect(),
+            carrier: None,
+            lead: None,
             first: 0,
             last: u64::MAX,
             start: timing.delay,
@@ -62,15 +76,16 @@ impl Corners {
     }
 
     /// Corners that come once, after a delay (s), the last way ending at `end` (s); none without a way.
-    pub(super) fn once(legs: &[Leg], end: f64, way: Way, delay: f64) -> Option<Self> {
+    pub(super) fn once(legs: &[Leg], end: f64, delay: f64) -> Option<Self> {
         let (first, last) = (legs.first()?, (legs.len() as u64).checked_sub(1)?);
         let end = delay + end;
         Some(Self {
             period: 0.0,
             per_period: u64::MAX,
             origins: legs.iter().map(|leg| delay + leg.start).chain([end]).collect(),
-            values: legs.iter().map(|leg| leg.values).collect(),
-            way,
+            ways: legs.iter().map(|leg| (leg.values, leg.way)).collect(),
+            carrier: None,
+            lead: None,
             first: 0,
             last,
             start: delay + first.start,
@@ -78,9 +93,37 @@ impl Corners {
         })
     }
 
+    /// The same, segments by sines running through these.
+    pub(super) fn carried_by(self, carrier: Option<Carrier>) -> Self {
+        Self { carrier, ..self }
+    }
+
+    /// The same, starting with this value on the second segment, whose line goes back to it beyond its own corner.
+    pub(super) fn led_by(self, value: f64) -> Self {
+        Self { lead: Some(value), first: self.first.saturating_add(1), ..self }
+    }
+
     /// Whether the value moves in straight lines from corner to corner.
     pub(super) fn are_straight(&self) -> bool {
-        self.way == Way::Straight
+        self.ways.iter().all(|(_, way)| *way == Way::Straight)
+    }
+
+    /// The ways of one period, as they were given.
+    pub(super) fn legs(&self) -> impl Iterator<Item = Leg> {
+        let ways = self.origins.iter().zip(&self.ways);
+        ways.map(|(start, (values, way))| Leg { start: *start, values: *values, way: *way })
+    }
+
+    /// Number of segments of a period, or of all where there is none.
+    pub(super) fn count(&self) -> usize {
+        self.ways.len()
+    }
+
+    /// Value and derivatives on a segment whose law is kept here.
+    pub(super) fn on(&self, placed: &Placed, t: f64) -> Sample {
+        let (values, way) = self.ways.get(placed.place()).copied().unwrap_or(((0.0, 0.0), Way::Straight));
+        let (from, to) = ((placed.from, values.0), (placed.to, values.1));
+        way.at(from, to, self.carrier.as_ref(), t)
     }
 
     /// When the first segment starts and the last stops, s.
@@ -103,9 +146,14 @@ impl Corners {
     pub(super) fn piece(&self, index: u64) -> Piece {
         let n = self.first.saturating_add(index.saturating_sub(1)).min(self.last);
         let (from, to) = (self.corner(n), self.corner(n.saturating_add(1)));
-        let values = self.values.get(self.place(n)).copied().unwrap_or_default();
-        let (from, to) = ((from, values.0), (to, values.1));
-        let law = self.way.between(from, to);
+        let place = self.place(n);
+        let (values, way) = self.ways.get(place).copied().unwrap_or(((0.0, 0.0), Way::Straight));
+        let from = match self.lead {
+            Some(value) if n == self.first => (self.start, value),
+            _ => (from, values.0),
+        };
+        let to = (to, values.1);
+        let law = Law::between(way, from, to, place);
         let start = if n == self.first { self.start } else { from.0 };
         Piece { start, end: to.0.min(self.stop), index, law }
     }
@@ -114,7 +162,7 @@ impl Corners {
     pub(super) fn beyond(&self) -> Option<f64> {
         let next = self.last.checked_add(1)?;
         let corner = self.period > 0.0 && self.corner(next) == self.stop;
-        corner.then(|| self.values.get(self.place(next)).map(|value| value.0))?
+        corner.then(|| self.ways.get(self.place(next)).map(|(values, _)| values.0))?
     }
 
     /// Time of corner `n`, the start of segment `n`.

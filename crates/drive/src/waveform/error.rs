@@ -21,6 +21,54 @@ pub enum WaveformError {
         /// What came, s.
         got: f64,
     },
+    /// A turn that is negative or leaves no time for the ways beside it.
+    #[error("turn: expected a time of at least 0 and below the period of {period} s, got {got}")]
+    Turn {
+        /// Period, s.
+        period: f64,
+        /// What came, s.
+        got: f64,
+    },
+    /// Rise, hold and fall that take no time or more than there is.
+    #[error(
+        "rise: expected rise, hold and fall above 0 and within the period of {period} s, got {got} s together"
+    )]
+    Busy {
+        /// Period, s.
+        period: f64,
+        /// All three, s.
+        got: f64,
+    },
+    /// Phases of constant jerk for which there is no time.
+    #[error(
+        "rounding: expected a time above 0 and at most a quarter of the shorter way, {most} s, got {got}"
+    )]
+    Rounding {
+        /// Quarter of the shorter way, s.
+        most: f64,
+        /// What came, s.
+        got: f64,
+    },
+    /// A limit of the rate below the slow way's own.
+    #[error("rate: expected at least {least} per s, at which the slow way goes, got {got}")]
+    Rate {
+        /// Rate of the slow way, per s.
+        least: f64,
+        /// What came, per s.
+        got: f64,
+    },
+    /// Points to be repeated that span no time.
+    #[error("points: expected points of different times to repeat, got {got} s from first to last")]
+    Span {
+        /// Time from the first to the last, s.
+        got: f64,
+    },
+    /// A shape that jumps, to be run through backwards.
+    #[error("reversed: expected a shape without a jump")]
+    Reversed,
+    /// A shape whose cycles do not begin anew.
+    #[error("sequence: expected a shape whose every cycle is the same")]
+    Carrier,
     /// No points or no terms.
     #[error("{key}: expected at least one, got none")]
     Empty {
@@ -107,7 +155,13 @@ impl WaveformError {
             Self::Number { key, .. } | Self::Empty { key } => key,
             Self::Bounds { key, .. } | Self::Outside { key, .. } => key,
             Self::Flyback { .. } | Self::Room { .. } => "flyback",
-            Self::Times { .. } | Self::Crowd { .. } => "points",
+            Self::Turn { .. } => "turn",
+            Self::Busy { .. } => "rise",
+            Self::Rounding { .. } => "rounding",
+            Self::Rate { .. } => "rate",
+            Self::Reversed => "reversed",
+            Self::Carrier => "sequence",
+            Self::Times { .. } | Self::Crowd { .. } | Self::Span { .. } => "points",
             Self::Range { .. } => "range",
             Self::Initial { .. } => "initial",
         }

@@ -3,7 +3,7 @@
 use super::course::Chain;
 use super::shape::Law;
 use super::straight::{Line, Straight};
-use super::{Corners, Waveform};
+use super::{Corners, Sample, Waveform};
 
 /// A smooth piece of a waveform, on [start, end). A state keeps one for each waveform: where a step ends at a corner, both
 /// pieces hold there, and only who comes from where knows which velocity counts.
@@ -68,6 +68,14 @@ impl Waveform {
             Chain::Corners(_) | Chain::Sines(_) | Chain::Step(_) => piece.end,
         };
         self.sample(next, next.start).value - self.sample(piece, end).value
+    }
+
+    /// Its sines at `t`, whatever piece it is on; zeros where it has none.
+    pub(crate) fn sines_at(&self, t: f64) -> Sample {
+        match &self.course.chain {
+            Chain::Sines(sines) => sines.at(&self.timing, t),
+            _ => Sample { value: 0.0, rate: 0.0, acceleration: 0.0 },
+        }
     }
 
     /// The piece with this index, the same to the bit however it was reached; none where the chain has no such piece, and

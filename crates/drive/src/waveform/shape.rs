@@ -1,26 +1,37 @@
 //! What a waveform looks like, as its user gives it: the table of its kinds, each in a file of its own.
 
+mod chirp;
+mod cubic;
+mod curve;
 mod cycloid;
 mod flyback;
 mod generator;
 mod harmonics;
 mod input;
+mod law;
+mod limited;
+mod parabola;
+mod pattern;
+mod s_curve;
 mod sawtooth;
 mod sine;
+mod step;
 mod table;
+mod trapezoid;
 mod triangle;
 mod turn;
 
+pub use chirp::Sweep;
 pub use generator::{Command, Cycle, Generator, Heading, Steps};
 pub use harmonics::Harmonic;
 pub use input::Interpolation;
+pub use pattern::Section;
+
+pub(super) use law::{Carrier, Law, Placed, Sines, Way};
 
 use super::course::Course;
-use super::straight::Straight;
-use super::{Sample, Timing, WaveformError};
-use cycloid::Cycloid;
+use super::{Timing, WaveformError};
 use sine::Sine;
-use turn::Turn;
 
 /// Form of one period, or of the whole where there is none. SI units of whatever the waveform drives; angles in rad.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +70,67 @@ pub enum Shape {
         /// Time of the way back, s, 0 (a jump) or more, below the period.
         flyback: f64,
     },
+    /// By constant accelerations: from rest at 0 along a parabola, over a turn at the stroke, back along its mirror image.
+    Parabola {
+        /// Peak to peak, any sign.
+        stroke: f64,
+        /// Time of the turn, s, 0 (a cusp) or more, below the period.
+        turn: f64,
+    },
+    /// From 0 straight to the stroke, held, straight back, at rest until the period ends.
+    Trapezoid {
+        /// Peak to peak, any sign.
+        stroke: f64,
+        /// Time of the way to the stroke, s, 0 (a jump) or more.
+        rise: f64,
+        /// Time at the stroke, s, 0 or more.
+        hold: f64,
+        /// Time of the way back, s, 0 (a jump) or more. All three are together above 0 and at most the period.
+        fall: f64,
+    },
+    /// Like the sawtooth, each way at rest at both ends, with a jerk that is constant in four phases and 0 between them.
+    SCurve {
+        /// Peak to peak, any sign.
+        stroke: f64,
+        /// Time of the way back, s, above 0 and below the period.
+        flyback: f64,
+        /// Time of each phase of constant jerk, s, above 0 and at most a quarter of the shorter way.
+        rounding: f64,
+    },
+    /// A sawtooth through a limit of the rate, for which it is late after each flyback.
+    Limited {
+        /// Peak to peak, any sign, of what is asked for.
+        stroke: f64,
+        /// Time of the way back that is asked for, s, 0 (a jump) or more, below the period.
+        flyback: f64,
+        /// Largest rate, per s, above 0 and at least that of the way up.
+        rate: f64,
+    },
+    /// offset + amplitude sin(phase + 2π(from s + (to - from) s²/(2 duration))), s from 0 to the duration; held before and after.
+    Chirp(Sweep),
+    /// 0 until a time, s, a value from then on.
+    Step {
+        /// Value after the step.
+        height: f64,
+        /// When, s after the delay.
+        at: f64,
+    },
+    /// Points like those of a table, one after the other by cubics that keep their shape, or again and again.
+    Curve {
+        /// Times rise; exactly two points at one time are a jump.
+        points: Vec<(f64, f64)>,
+        /// By cubics (Fritsch and Butland 1984), or straight.
+        smooth: bool,
+        /// Again and again, the last point at the time of the first, or once.
+        repeated: bool,
+    },
+    /// Runs of a periodic shape and rests between them, again and again.
+    Pattern {
+        /// The shape, whose period the timing says.
+        carrier: Box<Shape>,
+        /// Runs and rests, one after the other.
+        parts: Vec<Section>,
+    },
     /// Straight between points (time after the delay in s, value), held before the first and after the last.
     Table {
         /// Times rise; exactly two points at one time are a jump.
@@ -82,6 +154,8 @@ impl Shape {
     pub(super) fn timing(&self, given: Timing) -> Timing {
         match self {
             Self::Generator(generator) => generator.timing(),
+            Self::Pattern { parts, .. } => pattern::timing(parts, &given),
+            Self::Curve { points, repeated: true, .. } => curve::timing(points, &given),
             _ => given,
         }
     }
@@ -95,70 +169,21 @@ impl Shape {
             Self::Sine { amplitude, phase, offset } => Sine { amplitude, phase, offset }.course(timing),
             Self::Harmonics { ref terms } => harmonics::course(terms, timing),
             Self::Cycloid { stroke, flyback } => cycloid::course(stroke, flyback, timing),
+            Self::Parabola { stroke, turn } => parabola::course(stroke, turn, timing),
+            Self::Trapezoid { stroke, rise, hold, fall } => {
+                trapezoid::course(stroke, [rise, hold, fall], timing)
+            }
+            Self::SCurve { stroke, flyback, rounding } => s_curve::course(stroke, flyback, rounding, timing),
+            Self::Limited { stroke, flyback, rate } => limited::course(stroke, flyback, rate, timing),
+            Self::Chirp(sweep) => sweep.course(timing),
+            Self::Step { height, at } => step::course(height, at, timing),
+            Self::Curve { ref points, smooth, repeated } => curve::course(points, smooth, repeated, timing),
+            Self::Pattern { ref carrier, ref parts } => pattern::course(carrier, parts, timing),
             Self::Table { ref points } => table::course(points, timing),
             Self::Input { initial, range, interpolation } => {
                 input::course(initial, range, interpolation, timing)
             }
             Self::Generator(ref generator) => generator.course(timing),
-        }
-    }
-}
-
-/// Law of one piece.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Law {
-    /// Straight, or held.
-    Straight(Straight),
-    /// Cycloidal.
-    Cycloid(Cycloid),
-    /// By the sines of the waveform itself.
-    Sines,
-}
-
-impl Law {
-    /// Value and derivatives at `t`, s; none where they are up to the waveform.
-    #[inline]
-    pub(super) fn at(&self, t: f64) -> Option<Sample> {
-        match self {
-            Self::Straight(straight) => Some(straight.at(t)),
-            Self::Cycloid(cycloid) => Some(cycloid.at(t)),
-            Self::Sines => None,
-        }
-    }
-}
-
-/// Kind of the ways between corners.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Way {
-    Straight,
-    Cycloid,
-}
-
-impl Way {
-    /// The law from one (time, value) to the other.
-    pub(super) fn between(self, from: (f64, f64), to: (f64, f64)) -> Law {
-        match self {
-            Self::Straight => Law::Straight(Straight::between(from, to)),
-            Self::Cycloid => Law::Cycloid(Cycloid::between(from, to)),
-        }
-    }
-}
-
-/// Sines of a waveform without corners.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Sines {
-    One(Sine),
-    Sum(Vec<Harmonic>),
-}
-
-impl Sines {
-    /// Value and derivatives at `t`, s.
-    #[inline]
-    pub(super) fn at(&self, timing: &Timing, t: f64) -> Sample {
-        let turn = Turn::at(timing, t);
-        match self {
-            Self::One(sine) => sine.at(turn),
-            Self::Sum(terms) => harmonics::at(terms, turn),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Waveforms against direct formulas, and the properties a stepper relies on.
 
 mod pieces;
+mod shapes;
 
 use super::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -29,7 +30,38 @@ impl Random {
     fn shape(&mut self, period: f64) -> Shape {
         let stroke = self.between(-1e-5, 1e-5);
         let flyback = if self.between(0.0, 1.0) < 0.3 { 0.0 } else { self.between(0.001, 0.999) * period };
-        match self.between(0.0, 6.0) as u32 {
+        match self.between(0.0, 11.0) as u32 {
+            6 => Shape::Parabola { stroke, turn: flyback },
+            7 => {
+                let times = [0; 4].map(|_| self.between(0.0, 1.0));
+                let [rise, hold, fall, rest] = times;
+                let unit = period / (rise + hold + fall + rest);
+                Shape::Trapezoid { stroke, rise: rise * unit, hold: hold * unit, fall: fall * unit }
+            }
+            8 => {
+                let flyback = self.between(0.01, 0.99) * period;
+                let rounding = self.between(0.01, 0.25) * flyback.min(period - flyback);
+                Shape::SCurve { stroke, flyback, rounding }
+            }
+            9 => {
+                let least = stroke.abs() / (period - flyback);
+                Shape::Limited { stroke, flyback, rate: least * self.between(1.0, 20.0) }
+            }
+            10 => {
+                let flyback = self.between(0.01, 0.99) * period;
+                let carriers = [
+                    Shape::Cycloid { stroke, flyback },
+                    Shape::Sine { amplitude: stroke, phase: 0.3, offset: 1e-6 },
+                    Shape::Parabola { stroke, turn: 0.0 },
+                ];
+                let parts = vec![
+                    Section::Run { cycles: 3, reversed: false },
+                    Section::Rest { duration: self.between(0.1, 2.0) * period },
+                    Section::Run { cycles: 2, reversed: true },
+                ];
+                let carrier = carriers[self.between(0.0, 3.0) as usize].clone();
+                Shape::Pattern { carrier: Box::new(carrier), parts }
+            }
             0 => Shape::Sawtooth { stroke, flyback },
             1 => Shape::Triangle { stroke },
             2 => Shape::Sine {
@@ -76,18 +108,10 @@ fn direct(wave: &Waveform, t: f64) -> f64 {
     let clamped = t.clamp(delay, cycles.map_or(f64::INFINITY, |n| delay + n * period));
     let turns = (clamped - delay) / period + phase / TAU;
     let x = turns.rem_euclid(1.0);
-    let cycloid = |x: f64| x - (TAU * x).sin() / TAU;
-    let two_way = |stroke: f64, top: f64, law: &dyn Fn(f64) -> f64| {
-        if x <= top { stroke * law(x / top) } else { stroke * (1.0 - law((x - top) / (1.0 - top))) }
-    };
-    match wave.shape() {
-        Shape::Sawtooth { stroke, flyback } => two_way(*stroke, 1.0 - flyback / period, &|x| x),
-        Shape::Triangle { stroke } => two_way(*stroke, 0.5, &|x| x),
-        Shape::Cycloid { stroke, flyback } => two_way(*stroke, 1.0 - flyback / period, &cycloid),
-        Shape::Sine { amplitude, phase, offset } => offset + amplitude * (TAU * turns + phase).sin(),
-        Shape::Harmonics { terms } => {
-            terms.iter().map(|h| h.amplitude * (h.order * TAU * turns + h.phase).sin()).sum()
-        }
+    if let Shape::Limited { stroke, flyback, rate } = wave.shape() {
+        return limited(*stroke, (*flyback, period, *rate), (turns, phase == 0.0));
+    }
+    of_cycle(wave.shape(), period, x).unwrap_or_else(|| match wave.shape() {
         Shape::Table { points } => {
             let t = t - delay;
             let after = points.partition_point(|point| point.0 <= t);
@@ -97,9 +121,92 @@ fn direct(wave: &Waveform, t: f64) -> f64 {
                 (None, _) => points[0].1,
             }
         }
+        other => panic!("{other:?} has tests of its own"),
+    })
+}
+
+/// A sawtooth through a limit of its rate, step by step in closed form: it falls at the limit until what is asked for meets it.
+fn limited(stroke: f64, (flyback, period, rate): (f64, f64, f64), (turns, leads): (f64, bool)) -> f64 {
+    let (size, rise) = (stroke.abs(), period - flyback);
+    let up = size / rise;
+    let asked = |time: f64| if time <= rise { up * time } else { size * (period - time) / flyback };
+    let time = turns.rem_euclid(1.0) * period;
+    let fresh = leads && turns < 1.0;
+    let late = |since_top: f64| size - rate * since_top;
+    let value = if time > rise {
+        asked(time).max(late(time - rise))
+    } else if fresh {
+        asked(time)
+    } else {
+        asked(time).max(late(time + flyback))
+    };
+    value * stroke.signum()
+}
+
+/// Value after a part `x` of one period, by the definition.
+fn of_cycle(shape: &Shape, period: f64, x: f64) -> Option<f64> {
+    let cycloid = |x: f64| x - (TAU * x).sin() / TAU;
+    let two_way = |stroke: f64, top: f64, law: &dyn Fn(f64) -> f64| {
+        if x <= top { stroke * law(x / top) } else { stroke * (1.0 - law((x - top) / (1.0 - top))) }
+    };
+    Some(match shape {
+        Shape::Sawtooth { stroke, flyback } => two_way(*stroke, 1.0 - flyback / period, &|x| x),
+        Shape::Triangle { stroke } => two_way(*stroke, 0.5, &|x| x),
+        Shape::Cycloid { stroke, flyback } => two_way(*stroke, 1.0 - flyback / period, &cycloid),
+        Shape::Sine { amplitude, phase, offset } => offset + amplitude * (TAU * x + phase).sin(),
+        Shape::Harmonics { terms } => {
+            terms.iter().map(|h| h.amplitude * (h.order * TAU * x + h.phase).sin()).sum()
+        }
         Shape::Input { initial, .. } => *initial,
         Shape::Generator(it) => two_way(it.initial.stroke, it.cycle.top(&it.initial) / period, &|x| x),
-    }
+        Shape::Parabola { stroke, turn } => {
+            // About the bottom, and about the top, in parts of a period.
+            let (from_bottom, from_top) = (x.min(1.0 - x), (x - 0.5).abs());
+            let turn = turn / period;
+            if from_top >= 0.5 * turn {
+                stroke * 4.0 * from_bottom * from_bottom / (1.0 - turn)
+            } else {
+                stroke * (1.0 - 4.0 * from_top * from_top / turn)
+            }
+        }
+        Shape::Trapezoid { stroke, rise, hold, fall } => {
+            let t = x * period;
+            stroke * (t / rise).min(((rise + hold + fall) - t) / fall).clamp(0.0, 1.0)
+        }
+        Shape::SCurve { stroke, flyback, rounding } => stroke * s_curve([period, *flyback, *rounding], x),
+        Shape::Pattern { carrier, parts } => return of_pattern(carrier, parts, x * period, period),
+        _ => return None,
+    })
+}
+
+/// An S-curve of the stroke 1 after a part `x` of its period.
+fn s_curve([period, flyback, rounding]: [f64; 3], x: f64) -> f64 {
+    let way = |time: f64| {
+        let tau = rounding / time;
+        // Speed 1 in the middle; each end integrated twice from its jerk 1/τ².
+        let begin = move |s: f64| {
+            let cube = |s: f64| s.max(0.0).powi(3) / 6.0;
+            if s > 2.0 * tau { s - tau } else { (cube(s) - 2.0 * cube(s - tau)) / (tau * tau) }
+        };
+        let length = 1.0 - 2.0 * tau;
+        move |s: f64| if s <= 0.5 { begin(s) / length } else { 1.0 - begin(1.0 - s) / length }
+    };
+    let top = 1.0 - flyback / period;
+    if x <= top { way(period - flyback)(x / top) } else { 1.0 - way(flyback)((x - top) / (1.0 - top)) }
+}
+
+/// A pattern of three cycles, a rest and two reversed cycles at a time of its period.
+fn of_pattern(carrier: &Shape, parts: &[Section], time: f64, period: f64) -> Option<f64> {
+    let Some(Section::Rest { duration }) = parts.get(1) else { panic!("{parts:?}") };
+    let own = (period - duration) / 5.0;
+    let part = if time <= 3.0 * own {
+        (time / own).fract()
+    } else if time <= 3.0 * own + duration {
+        0.0
+    } else {
+        1.0 - ((time - 3.0 * own - duration) / own).fract()
+    };
+    of_cycle(carrier, own, part)
 }
 
 #[test]

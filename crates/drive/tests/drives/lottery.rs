@@ -211,6 +211,8 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Table { .. } => "table",
         Shape::Input { .. } => "input",
         Shape::Generator(_) => "generator",
+        // Not drawn: they have runs of their own, in shapes.rs.
+        _ => "other",
     }
 }
 

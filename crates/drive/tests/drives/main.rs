@@ -36,6 +36,7 @@ mod plane_rows;
 mod random_drives;
 mod random_stacks;
 mod ruby;
+mod shapes;
 mod small_oscillations;
 mod soak;
 mod stages;

@@ -10,11 +10,14 @@ mod lengths;
 mod material;
 mod measured;
 mod output;
+mod periodic;
 mod plain;
 mod plot;
 mod point;
 mod profile;
 mod run;
+mod shapes;
+mod table;
 mod value;
 mod waveform;
 mod written;
@@ -31,13 +34,19 @@ pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
 pub(crate) use measured::{GapPoint, GapTableForm, LawPoint, NormalLawForm, RoughForm, SelfAffineForm};
 pub(crate) use output::{FieldsOutputForm, MemoryOutputForm, OutputForm};
+pub(crate) use periodic::{BurstForm, Periodic, SectionForm};
 pub(crate) use plain::{Count, Reserved, Two};
 pub(crate) use plot::{OwnPlotForm, PlotForm};
 pub(crate) use point::{PointForm, Points};
 pub(crate) use profile::{FoundationForm, ProfileForm};
 pub(crate) use run::{FiguresForm, LimitsForm, RunForm, RunStartForm, StepperForm};
+pub(crate) use shapes::{
+    ChirpForm, HarmonicsForm, ParabolaForm, SCurveForm, SawtoothForm, StepForm, TrapezoidForm,
+    TwoHarmonicsForm,
+};
+pub(crate) use table::{JoinForm, Point, TableForm};
 pub(crate) use value::{Moving, Parts, WaveformRef};
-pub(crate) use waveform::{HarmonicsForm, Periodic, Point, TableForm, WaveformForm};
+pub(crate) use waveform::WaveformForm;
 pub(crate) use written::{EventsOutputForm, KindForm, MOST_EVENTS, StatesForm, WindowForm};
 
 use crate::schema::{no_ground, no_trace_column};

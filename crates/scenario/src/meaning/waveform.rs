@@ -1,11 +1,11 @@
 //! Waveforms: shapes, timing and the dimension of their values.
 
-use super::{Builder, Course, generator, input, names, range};
+use super::{Builder, Course, generator, input, names, pattern, range, shapes, table};
 use crate::fault::Fault;
-use crate::form::{HarmonicsForm, Moving, Periodic, Point, TableForm, WaveformForm, WaveformRef};
+use crate::form::{HarmonicsForm, Moving, Periodic, WaveformForm, WaveformRef};
 use crate::guide::Help;
-use crate::path::At;
-use crate::quantity::{AnyQuantity, Dimension, Time};
+use crate::path::{At, KeyPath};
+use crate::quantity::{AnyQuantity, Dimension};
 use crate::units::Kind;
 use stickslip_drive::scene::{Named, Varying};
 use stickslip_drive::{Harmonic, Shape, Timing, Waveform, WaveformError};
@@ -23,6 +23,11 @@ pub(super) struct Values<'a> {
 }
 
 impl Values<'_> {
+    /// Path of the waveform.
+    pub(super) fn path(&self) -> KeyPath {
+        self.at.path()
+    }
+
     pub(super) fn take(&mut self, at: &At<'_>, value: AnyQuantity) -> Result<f64, Fault> {
         match (self.kind, value.kind) {
             (Some(known), Some(new)) if known != new => {
@@ -102,59 +107,70 @@ impl Builder<'_> {
 
 fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values<'_>) -> Result<(Waveform, f64), Fault> {
     let named = |name| at.key(name);
-    let (key, shape, timing) = match form {
-        WaveformForm::Sawtooth(form) => {
-            let at = named("sawtooth");
-            let timing = timing(&at, form.periodic(), "sawtooth")?;
-            let flyback = flyback(&at, form.flyback, timing.period)?;
-            let stroke = values.take(&at.key("stroke"), form.stroke)?;
-            ("sawtooth", Shape::Sawtooth { stroke, flyback }, timing)
-        }
-        WaveformForm::Triangle(form) => {
-            let at = named("triangle");
-            let stroke = values.take(&at.key("stroke"), form.stroke)?;
-            ("triangle", Shape::Triangle { stroke }, timing(&at, form.periodic(), "triangle")?)
-        }
-        WaveformForm::Sine(form) => {
-            let at = named("sine");
-            let amplitude = values.take(&at.key("amplitude"), form.amplitude)?;
-            let offset = values.take(&at.key("offset"), form.offset)?;
-            let timing = Timing { phase: 0.0, ..timing(&at, form.periodic(), "sine")? };
-            ("sine", Shape::Sine { amplitude, phase: form.phase.si, offset }, timing)
-        }
-        WaveformForm::Harmonics(form) => {
-            let at = named("harmonics");
-            ("harmonics", harmonics(&at, form, values)?, timing(&at, form.periodic(), "harmonics")?)
-        }
-        WaveformForm::Cycloid(form) => {
-            let at = named("cycloid");
-            let timing = timing(&at, form.periodic(), "cycloid")?;
-            let flyback = form.flyback.unwrap_or(Time::new(timing.period / 2.0));
-            range::above_zero(&at.key("flyback"), flyback)?;
-            let flyback = self::flyback(&at, flyback, timing.period)?;
-            let stroke = values.take(&at.key("stroke"), form.stroke)?;
-            ("cycloid", Shape::Cycloid { stroke, flyback }, timing)
-        }
-        WaveformForm::Table(form) => table(&named("table"), form, values)?,
+    let (key, (shape, timing)) = match form {
+        WaveformForm::Table(form) => ("table", table::shape(&named("table"), form, values)?),
         WaveformForm::Input(form) => {
-            let shape = input::shape(&named("input"), form, values)?;
-            ("input", shape, Timing::every(1.0))
+            ("input", (input::shape(&named("input"), form, values)?, Timing::every(1.0)))
         }
         WaveformForm::Generator(form) => {
-            let shape = generator::shape(&named("generator"), form, values)?;
-            ("generator", shape, Timing::every(1.0))
+            ("generator", (generator::shape(&named("generator"), form, values)?, Timing::every(1.0)))
         }
-        WaveformForm::Parabola(_) => return Err(named("parabola").not_yet()),
-        WaveformForm::Trapezoid(_) => return Err(named("trapezoid").not_yet()),
-        WaveformForm::Chirp(_) => return Err(named("chirp").not_yet()),
-        WaveformForm::Step(_) => return Err(named("step").not_yet()),
+        WaveformForm::Chirp(form) => ("chirp", shapes::chirp(&named("chirp"), form, values)?),
+        WaveformForm::Step(form) => ("step", shapes::step(&named("step"), form, values)?),
+        _ => periodic(at, form, values)?,
     };
-    let delay = timing.delay;
     let waveform = Waveform::new(shape, timing).map_err(|error| {
         let at = at.key(key);
         refused(&at, &error).against_path(at.path())
     })?;
+    // Its own: points that are repeated start at the first of them.
+    let delay = waveform.timing().delay;
     Ok((waveform, delay))
+}
+
+/// A waveform with a period, by itself or in bursts.
+fn periodic(
+    at: &At<'_>,
+    form: &WaveformForm,
+    values: &mut Values<'_>,
+) -> Result<(&'static str, (Shape, Timing)), Fault> {
+    let Some((key, given)) = form.periodic() else { return Err(at.not_yet()) };
+    let at = at.key(key);
+    // In the order of the file's usual keys: what is told first is what stands first.
+    let timing = timing(&at, &given, key)?;
+    let shape = match form {
+        WaveformForm::Sawtooth(form) => shapes::sawtooth(&at, form, timing.period, values)?,
+        WaveformForm::Triangle(form) => {
+            Shape::Triangle { stroke: values.take(&at.key("stroke"), form.stroke)? }
+        }
+        WaveformForm::Sine(form) => {
+            let amplitude = values.take(&at.key("amplitude"), form.amplitude)?;
+            let offset = values.take(&at.key("offset"), form.offset)?;
+            Shape::Sine { amplitude, phase: 0.0, offset }
+        }
+        WaveformForm::Harmonics(form) => harmonics(&at, form, values)?,
+        WaveformForm::Cycloid(form) => {
+            let flyback = shapes::half_flyback(&at, form.flyback, timing.period)?;
+            Shape::Cycloid { stroke: values.take(&at.key("stroke"), form.stroke)?, flyback }
+        }
+        WaveformForm::TwoHarmonics(form) => shapes::two_harmonics(&at, form, values)?,
+        WaveformForm::Parabola(form) => shapes::parabola(&at, form, timing.period, values)?,
+        WaveformForm::Trapezoid(form) => shapes::trapezoid(&at, form, timing.period, values)?,
+        WaveformForm::SCurve(form) => shapes::s_curve(&at, form, timing.period, values)?,
+        _ => return Err(at.not_yet()),
+    };
+    let parts = pattern::sections(&at, &given, timing.period)?;
+    Ok((
+        key,
+        match (shape, parts) {
+            (shape, Some(parts)) => (pattern::of(&at, shape, parts)?, timing),
+            // A single sine has its phase for itself.
+            (Shape::Sine { amplitude, offset, .. }, None) => {
+                (Shape::Sine { amplitude, phase: timing.phase, offset }, Timing { phase: 0.0, ..timing })
+            }
+            (shape, None) => (shape, timing),
+        },
+    ))
 }
 
 /// What the waveform itself refuses beyond the checks here, at the key it names.
@@ -191,54 +207,7 @@ fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values<'_>) -> Resu
     Ok(Shape::Harmonics { terms })
 }
 
-fn flyback(at: &At<'_>, flyback: Time, period: f64) -> Result<f64, Fault> {
-    let timing = ["period", "frequency"].map(|key| at.key(key).path());
-    let at = at.key("flyback");
-    let value = range::at_least_zero(&at, flyback)?;
-    if value < period {
-        return Ok(value);
-    }
-    let period = range::short(period);
-    let fault = at.expected(format_args!("a time below the period of {period} s"));
-    Err(timing.into_iter().fold(fault, Fault::against_path))
-}
-
-fn table(
-    at: &At<'_>,
-    form: &TableForm,
-    values: &mut Values<'_>,
-) -> Result<(&'static str, Shape, Timing), Fault> {
-    let Some(points) = &form.points else {
-        return Err(at
-            .missing("points")
-            .against_path(at.path())
-            .help("or \"file\" with the names of its columns \"time\" and \"value\""));
-    };
-    let delay = range::at_least_zero(&at.key("delay"), form.delay)?;
-    let at = at.key("points");
-    if points.len() < 2 {
-        let fault = at.fault(format!("expected at least two points, got {}", points.len()));
-        return Err(fault.ask(Help::Shape));
-    }
-    let list = at.path();
-    let mut pairs: Vec<(f64, f64)> = Vec::with_capacity(points.len());
-    for (i, &Point(time, value)) in points.iter().enumerate() {
-        let at = at.index(i);
-        if pairs.last().is_some_and(|last| time.si < last.0) {
-            let fault =
-                at.index(0).expected("a time not before the point before it").against_path(list.clone());
-            return Err(fault.help("times rise; two points at one time are a jump"));
-        }
-        if pairs.len() > 1 && pairs[i - 2].0 == time.si {
-            let fault = at.index(0).fault("three points have the same time").against_path(list.clone());
-            return Err(fault.help("two points at one time are a jump; a third says nothing"));
-        }
-        pairs.push((time.si, values.take(&at.index(1), value)?));
-    }
-    Ok(("table", Shape::Table { points: pairs }, Timing { period: 1.0, delay, phase: 0.0, cycles: None }))
-}
-
-fn timing(at: &At<'_>, form: Periodic, name: &str) -> Result<Timing, Fault> {
+fn timing(at: &At<'_>, form: &Periodic, name: &str) -> Result<Timing, Fault> {
     let period = match (form.period, form.frequency) {
         (Some(period), None) => range::above_zero(&at.key("period"), period)?,
         (None, Some(frequency)) => 1.0 / range::above_zero(&at.key("frequency"), frequency)?,

@@ -52,9 +52,30 @@ fn not_named(schema: &mut Schema, taken: &[&str]) {
     }
 }
 
-/// A periodic waveform has one of the two.
+/// A periodic waveform has one of the two, and runs in bursts or in a sequence.
 pub(crate) fn period_or_frequency(schema: &mut Schema) {
     either(schema, "period", "frequency");
+    schema.insert("not".to_owned(), json!({ "required": ["burst", "sequence"] }));
+}
+
+/// A burst has one of the two.
+pub(crate) fn period_or_dwell(schema: &mut Schema) {
+    either(schema, "period", "dwell");
+}
+
+/// Part of a sequence is a run or a rest.
+pub(crate) fn cycles_or_dwell(schema: &mut Schema) {
+    let run = json!({ "required": ["cycles"], "properties": { "dwell": false } });
+    let rest =
+        json!({ "required": ["dwell"], "properties": { "cycles": false, "reversed": { "const": false } } });
+    schema.insert("oneOf".to_owned(), json!([run, rest]));
+}
+
+/// A sawtooth's flyback is given, tuned or limited.
+pub(crate) fn flyback_or_resonance(schema: &mut Schema) {
+    let keys = ["flyback", "resonance", "rate"].map(|key| json!({ "required": [key] }));
+    schema.insert("anyOf".to_owned(), json!(keys));
+    schema.insert("allOf".to_owned(), json!([{ "not": { "required": ["flyback", "resonance"] } }]));
 }
 
 /// A run has one of the two.

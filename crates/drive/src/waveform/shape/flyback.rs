@@ -9,9 +9,9 @@ use crate::waveform::{Timing, WaveformError};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flyback {
     /// Peak to peak, any sign.
-    stroke: f64,
+    pub(super) stroke: f64,
     /// Time of the way up, s.
-    rise: f64,
+    pub(super) rise: f64,
     /// Duration of the shorter way, s.
     pub(super) shortest: f64,
 }
@@ -31,9 +31,10 @@ impl Flyback {
     /// Its course with ways of this kind, the shortest wave lasting `wave` (s).
     pub(super) fn course(&self, way: Way, wave: f64, timing: &Timing) -> Course {
         let Self { stroke, rise, .. } = *self;
-        let legs = [Leg { start: 0.0, values: (0.0, stroke) }, Leg { start: rise, values: (stroke, 0.0) }];
+        let legs =
+            [Leg { start: 0.0, values: (0.0, stroke), way }, Leg { start: rise, values: (stroke, 0.0), way }];
         Course {
-            chain: Chain::Corners(Corners::periodic(&legs, way, timing)),
+            chain: Chain::Corners(Corners::periodic(&legs, timing)),
             ends: None,
             period: Some(timing.period),
             range: (stroke.min(0.0), stroke.max(0.0)),

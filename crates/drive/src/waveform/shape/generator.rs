@@ -4,7 +4,6 @@
 //! makes its cycles itself, corners exact, and only their parameters come from outside. Each cycle takes those that are in
 //! force when it begins and keeps them to its end.
 
-use super::Way;
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, within};
@@ -135,15 +134,10 @@ impl Generator {
         self.check()?;
         let Command { stroke, .. } = self.initial;
         let rest = self.initial.is_idle();
-        let legs = [
-            Leg { start: 0.0, values: (0.0, stroke) },
-            Leg { start: self.cycle.top(&self.initial), values: (stroke, 0.0) },
-        ];
-        let chain = if rest {
-            Chain::Step(0.0)
-        } else {
-            Chain::Corners(Corners::periodic(&legs, Way::Straight, &self.timing()))
-        };
+        let legs =
+            [Leg::straight(0.0, (0.0, stroke)), Leg::straight(self.cycle.top(&self.initial), (stroke, 0.0))];
+        let chain =
+            if rest { Chain::Step(0.0) } else { Chain::Corners(Corners::periodic(&legs, &self.timing())) };
         Ok(Course {
             chain,
             ends: rest.then_some((0.0, 0.0)),

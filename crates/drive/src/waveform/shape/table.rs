@@ -1,6 +1,5 @@
 //! Table: straight between points, held before the first and after the last.
 
-use super::Way;
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, smooth};
@@ -11,9 +10,8 @@ pub(super) fn course(points: &[(f64, f64)], timing: &Timing) -> Result<Course, W
     check(points, timing)?;
     let ends = [points.first(), points.last()].map(|end| end.copied().unwrap_or_default());
     let rising = points.windows(2).filter(|pair| pair[0].0 < pair[1].0);
-    let legs: Vec<Leg> =
-        rising.map(|pair| Leg { start: pair[0].0, values: (pair[0].1, pair[1].1) }).collect();
-    let chain = match Corners::once(&legs, ends[1].0, Way::Straight, timing.delay) {
+    let legs: Vec<Leg> = rising.map(|pair| Leg::straight(pair[0].0, (pair[0].1, pair[1].1))).collect();
+    let chain = match Corners::once(&legs, ends[1].0, timing.delay) {
         Some(corners) => Chain::Corners(corners),
         None => Chain::Step(timing.delay + ends[0].0),
     };
@@ -29,7 +27,7 @@ pub(super) fn course(points: &[(f64, f64)], timing: &Timing) -> Result<Course, W
     })
 }
 
-fn check(points: &[(f64, f64)], timing: &Timing) -> Result<(), WaveformError> {
+pub(super) fn check(points: &[(f64, f64)], timing: &Timing) -> Result<(), WaveformError> {
     timing.check_single()?;
     if points.is_empty() {
         return Err(WaveformError::Empty { key: "points" });

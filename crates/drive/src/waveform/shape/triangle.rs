@@ -1,6 +1,5 @@
 //! Triangle: straight to the stroke in half a period, straight back.
 
-use super::Way;
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::smooth;
@@ -11,9 +10,9 @@ pub(super) fn course(stroke: f64, timing: &Timing) -> Result<Course, WaveformErr
     timing.check_period()?;
     smooth("stroke", stroke, 2.0 * stroke / timing.period)?;
     let top = 0.5 * timing.period;
-    let legs = [Leg { start: 0.0, values: (0.0, stroke) }, Leg { start: top, values: (stroke, 0.0) }];
+    let legs = [Leg::straight(0.0, (0.0, stroke)), Leg::straight(top, (stroke, 0.0))];
     Ok(Course {
-        chain: Chain::Corners(Corners::periodic(&legs, Way::Straight, timing)),
+        chain: Chain::Corners(Corners::periodic(&legs, timing)),
         ends: None,
         period: Some(timing.period),
         range: (stroke.min(0.0), stroke.max(0.0)),

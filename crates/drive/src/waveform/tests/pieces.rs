@@ -37,7 +37,7 @@ fn walk(wave: &Waveform, t: f64) -> usize {
 #[test]
 fn every_piece_is_given_back_by_its_index() {
     let mut random = Random(11);
-    let mut walked = [0_usize; 6];
+    let mut walked = [0_usize; 11];
     for _ in 0..600 {
         let wave = random.wave();
         let kind = match wave.shape() {
@@ -46,14 +46,19 @@ fn every_piece_is_given_back_by_its_index() {
             Shape::Sine { .. } => 2,
             Shape::Harmonics { .. } => 3,
             Shape::Cycloid { .. } => 4,
-            Shape::Table { .. } | Shape::Input { .. } | Shape::Generator(_) => 5,
+            Shape::Parabola { .. } => 6,
+            Shape::Trapezoid { .. } => 7,
+            Shape::SCurve { .. } => 8,
+            Shape::Limited { .. } => 9,
+            Shape::Pattern { .. } => 10,
+            _ => 5,
         };
         // The chain that a run walks, and that before a delay or a table's first point.
         walked[kind] = walked[kind].max(walk(&wave, 0.0));
         walked[kind] = walked[kind].max(walk(&wave, -1e9));
     }
     // Endless chains of corners go on; sines are held, run and held; a table of nine points has at most eight ways.
-    assert!([0, 1, 4].iter().all(|kind| walked[*kind] == 400), "{walked:?}");
+    assert!([0, 1, 4, 6, 7, 8, 9, 10].iter().all(|kind| walked[*kind] == 400), "{walked:?}");
     assert_eq!((walked[2], walked[3]), (3, 3));
     assert!((4..=10).contains(&walked[5]), "{walked:?}");
 }

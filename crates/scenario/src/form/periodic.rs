@@ -1,0 +1,132 @@
+//! What all periodic waveforms share: when they run, and in which bursts.
+
+use super::Count;
+use crate::quantity::{Angle, AnyQuantity, Frequency, Time};
+use crate::schema::{above_zero, cycles_or_dwell, period_or_dwell};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Cycles and a rest, again and again.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = period_or_dwell)]
+pub(crate) struct BurstForm {
+    /// How many cycles, a whole number from 1 to 10 000.
+    #[schemars(range(min = 1, max = 10_000), example = 5)]
+    pub(crate) cycles: Count,
+    /// From the start of a burst to that of the next, s, at least as long as its cycles; this or `dwell`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"20 ms", transform = above_zero)]
+    pub(crate) period: Option<Time>,
+    /// Rest between two bursts, s, above 0; this or `period`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"15 ms", transform = above_zero)]
+    pub(crate) dwell: Option<Time>,
+}
+
+/// A run or a rest of a sequence.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = cycles_or_dwell)]
+pub(crate) struct SectionForm {
+    /// How many cycles, a whole number of at least 1, at most 10 000 in all; this or `dwell`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 10_000), example = 10)]
+    pub(crate) cycles: Option<Count>,
+    /// Each cycle the other way round in time, so that a drive steps the other way; its values stay what they are.
+    #[serde(default, skip_serializing_if = "is_false")]
+    #[schemars(example = true)]
+    pub(crate) reversed: bool,
+    /// Rest, s, above 0, at the value with which a cycle begins; this or `cycles`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"5 ms", transform = above_zero)]
+    pub(crate) dwell: Option<Time>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+pub(super) fn is_false(value: &bool) -> bool {
+    !value
+}
+
+/// What all periodic waveforms share.
+#[derive(Debug, Clone)]
+pub(crate) struct Periodic {
+    pub(crate) period: Option<Time>,
+    pub(crate) frequency: Option<Frequency>,
+    pub(crate) phase: Angle,
+    pub(crate) delay: Time,
+    pub(crate) cycles: Option<f64>,
+    pub(crate) burst: Option<BurstForm>,
+    pub(crate) sequence: Option<Vec<SectionForm>>,
+}
+
+// Written out in every waveform: serde's `flatten` would lose the places of errors.
+macro_rules! periodic {
+    ($(#[$meta:meta])* $name:ident { $($(#[$field_meta:meta])* $field:ident: $type:ty,)* }) => {
+        #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+        $(#[$meta])*
+        #[serde(deny_unknown_fields)]
+        #[schemars(transform = period_or_frequency)]
+        pub(crate) struct $name {
+            $($(#[$field_meta])* pub(crate) $field: $type,)*
+            /// Period, s, above 0; this or `frequency`; typical 1 us to 1 s.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(example = &"10 ms", transform = above_zero)]
+            pub(crate) period: Option<Time>,
+            /// Frequency, Hz, above 0; this or `period`; typical 1 Hz to 1 MHz.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(example = &"100 Hz", transform = above_zero)]
+            pub(crate) frequency: Option<Frequency>,
+            /// Phase, rad: advances the waveform by phase/2π of its period, also where that is one of a burst or a sequence.
+            #[serde(default = "crate::form::periodic::no_angle")]
+            #[schemars(example = &"90 deg")]
+            pub(crate) phase: Angle,
+            /// Delay, s, at least 0: until then the first value is held.
+            #[serde(default = "crate::form::periodic::no_time")]
+            #[schemars(example = &"1 ms", transform = at_least_zero)]
+            pub(crate) delay: Time,
+            /// Number of cycles, above 0, after which the last value is held; without end by default. Of a burst or a sequence it
+            /// counts the whole of it.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
+            pub(crate) cycles: Option<f64>,
+            /// Some cycles, then a rest at the value with which they begin, again and again; this or `sequence`.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(example = json!({ "cycles": 5, "period": "20 ms" }))]
+            pub(crate) burst: Option<BurstForm>,
+            /// Runs of cycles, forward or reversed, and rests, one after the other and again and again, at most 1000; this or
+            /// `burst`.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(length(min = 1, max = 1000), example = json!([{ "cycles": 10 }, { "dwell": "5 ms" }, { "cycles": 10, "reversed": true }]))]
+            pub(crate) sequence: Option<Vec<SectionForm>>,
+        }
+
+        impl $name {
+            pub(crate) fn periodic(&self) -> Periodic {
+                Periodic {
+                    period: self.period,
+                    frequency: self.frequency,
+                    phase: self.phase,
+                    delay: self.delay,
+                    cycles: self.cycles,
+                    burst: self.burst,
+                    sequence: self.sequence.clone(),
+                }
+            }
+        }
+    };
+}
+
+pub(super) use periodic;
+
+pub(super) fn no_angle() -> Angle {
+    Angle::new(0.0)
+}
+
+pub(super) fn no_time() -> Time {
+    Time::new(0.0)
+}
+
+pub(super) fn no_value() -> AnyQuantity {
+    AnyQuantity { si: 0.0, kind: None }
+}

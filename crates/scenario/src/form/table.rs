@@ -1,0 +1,125 @@
+//! Tables: waveforms by points, written out or in a file.
+
+use super::periodic::{is_false, no_time, no_value};
+use crate::quantity::{AnyQuantity, Time};
+use crate::schema::{at_least_zero, points_or_file};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::json;
+use std::borrow::Cow;
+use std::fmt;
+
+/// How a table goes from point to point.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum JoinForm {
+    /// In straight lines.
+    #[default]
+    Straight,
+    /// By cubics that keep the shape of the points (Fritsch and Butland 1984): only the second derivative jumps at a point.
+    Cubic,
+}
+
+/// Table: `points`, or `file` with the names of its columns.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = points_or_file)]
+pub(crate) struct TableForm {
+    /// Pairs of time and value, at least two, times rising; two equal times are a jump; this or `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2), example = json!([[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]]))]
+    pub(crate) points: Option<Vec<Point>>,
+    /// CSV file with a header, at or below the scenario's own folder; numbers in SI, or in the unit that the head of their
+    /// column names, as in `disp (µm)`, `t [ms]`, `disp_um` and `time/ms`; this or `points`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"measured.csv")]
+    pub(crate) file: Option<String>,
+    /// Name of the column of times, s or the unit in its head, which the name may leave out; needed with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"time_s")]
+    pub(crate) time: Option<String>,
+    /// Name of the column of values, SI or the unit in its head, which the name may leave out; needed with `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"stroke_m")]
+    pub(crate) value: Option<String>,
+    /// How it goes from point to point: "straight", or "cubic": smooth, and between the two values beside it everywhere.
+    #[serde(default, skip_serializing_if = "is_straight")]
+    #[schemars(example = &"cubic")]
+    pub(crate) interpolation: JoinForm,
+    /// Factor of all values, any sign; 1 by default.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    #[schemars(example = 0.5, extend("not" = json!({ "const": 0 })))]
+    pub(crate) gain: f64,
+    /// Added to all values after the gain, in the unit of what follows; 0 by default.
+    #[serde(default = "no_value")]
+    #[schemars(example = &"100 nm")]
+    pub(crate) offset: AnyQuantity,
+    /// Again and again, the last point at the time of the first of the next round, which makes the period; once by default.
+    #[serde(default, skip_serializing_if = "is_false")]
+    #[schemars(example = true)]
+    pub(crate) repeat: bool,
+    /// Delay, s, at least 0: added to all times.
+    #[serde(default = "no_time")]
+    #[schemars(example = &"1 ms", transform = at_least_zero)]
+    pub(crate) delay: Time,
+}
+
+/// A point of a table.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Point(pub(crate) Time, pub(crate) AnyQuantity);
+
+impl<'de> Deserialize<'de> for Point {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PointVisitor;
+        impl<'de> Visitor<'de> for PointVisitor {
+            type Value = Point;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a pair [time, value]")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Point, A::Error> {
+                let short = |length| de::Error::invalid_length(length, &self);
+                let time = seq.next_element()?.ok_or_else(|| short(0))?;
+                let value = seq.next_element()?.ok_or_else(|| short(1))?;
+                if seq.next_element::<de::IgnoredAny>()?.is_some() {
+                    return Err(short(3));
+                }
+                Ok(Point(time, value))
+            }
+        }
+        deserializer.deserialize_tuple(2, PointVisitor)
+    }
+}
+
+impl JsonSchema for Point {
+    fn schema_name() -> Cow<'static, str> {
+        "Point".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Time and value.",
+            "examples": [["1 ms", "200 nm"]],
+            "type": "array",
+            "prefixItems": [generator.subschema_for::<Time>(), generator.subschema_for::<AnyQuantity>()],
+            "minItems": 2,
+            "maxItems": 2
+        })
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_straight(join: &JoinForm) -> bool {
+    *join == JoinForm::Straight
+}
