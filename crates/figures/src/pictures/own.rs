@@ -30,7 +30,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
 
 /// Columns that they are drawn from.
 fn needs(job: &Job) -> Vec<String> {
-    let of = |plot: &OwnPlot| [&[plot.x.clone()], &plot.y[..]].concat();
+    let of = |plot: &OwnPlot| [std::slice::from_ref(&plot.x), &plot.y[..]].concat();
     job.scenario.own_plots.iter().flat_map(of).collect()
 }
 
