@@ -33,7 +33,8 @@ pub(crate) struct SectionForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 10_000), example = 10)]
     pub(crate) cycles: Option<Count>,
-    /// Each cycle the other way round in time, so that a drive steps the other way; its values stay what they are.
+    /// Each cycle the other way round in time, so that a drive steps the other way; its values stay what they are. Not by
+    /// default.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(example = true)]
     pub(crate) reversed: bool,
