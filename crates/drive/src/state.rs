@@ -214,6 +214,15 @@ impl State {
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
     }
 
+    /// Lets every block choose its law afresh, by the pieces on which the waveforms are. No event: it had none before.
+    pub(crate) fn choose_block_laws(&mut self, model: &Model, layout: Layout) {
+        for k in 0..model.blocks.len() {
+            if let Some((_, law)) = Equations::on(model, self, layout, false).block_turn(k, self) {
+                self.blocks[k].law = law;
+            }
+        }
+    }
+
     /// When the first piece of a waveform ends, s.
     pub(crate) fn next_corner(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min)

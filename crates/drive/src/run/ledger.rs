@@ -137,21 +137,50 @@ impl Ledger {
         (model, layout): (&Model, Layout),
         state: &mut State,
     ) -> Result<(), RunError> {
-        let t = state.t;
-        for (k, (wired, passage)) in model.blocks.iter().zip(&mut self.passages).enumerate() {
-            // Made here and not kept: the inputs may depend on blocks committed before.
-            let at = Components { t, y: |i: usize| state.y[i] };
-            let equations = Equations::on(model, state, layout, true);
-            passage.inputs.clear();
-            passage.inputs.extend(equations.block_inputs(wired, &at));
-            passage.states.clear();
-            passage.states.extend(equations.block_states(k, &at));
-            (passage.duration, passage.law) = (t - self.booked.blocks, state.blocks[k].law);
-            let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
-            let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;
-            state.lost += lost;
+        for k in 0..model.blocks.len() {
+            self.commit_block((model, layout, true), k, state)?;
         }
-        self.booked.blocks = t;
+        self.booked.blocks = state.t;
+        Ok(())
+    }
+
+    /// All blocks follow a jump of what they read: states, memory and law of each, before the next one asks for its signal.
+    pub(super) fn jump_blocks(
+        &mut self,
+        (model, layout): (&Model, Layout),
+        state: &mut State,
+    ) -> Result<(), RunError> {
+        for (k, wired) in model.blocks.iter().enumerate() {
+            let states = Equations::on(model, state, layout, false).block_jump(k, state);
+            let from = layout.block(wired.first);
+            state.y[from..from + wired.count()].copy_from_slice(&states);
+            self.commit_block((model, layout, false), k, state)?;
+            if let Some((_, law)) = Equations::on(model, state, layout, false).block_turn(k, state) {
+                state.blocks[k].law = law;
+            }
+        }
+        Ok(())
+    }
+
+    /// One of them. `crossing` says whether a piece that ends before now gives way to the one that holds.
+    fn commit_block(
+        &mut self,
+        (model, layout, crossing): (&Model, Layout, bool),
+        k: usize,
+        state: &mut State,
+    ) -> Result<(), RunError> {
+        let (t, wired, passage) = (state.t, &model.blocks[k], &mut self.passages[k]);
+        // Made here and not kept: the inputs may depend on blocks committed before.
+        let at = Components { t, y: |i: usize| state.y[i] };
+        let equations = Equations::on(model, state, layout, crossing);
+        passage.inputs.clear();
+        passage.inputs.extend(equations.block_inputs(wired, &at));
+        passage.states.clear();
+        passage.states.extend(equations.block_states(k, &at));
+        (passage.duration, passage.law) = (t - self.booked.blocks, state.blocks[k].law);
+        let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
+        let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;
+        state.lost += lost;
         Ok(())
     }
 }
