@@ -4,3 +4,9 @@
 //! ```text
 //! command e(t), V ──► driver ──► voltage V ──► hysteresis ──► creep ──► free stroke s, m
 //! ```
+
+pub mod creep;
+pub mod hysteresis;
+mod reading;
+
+pub use reading::Reading;

@@ -1,7 +1,7 @@
 //! The Prandtl–Ishlinskii law as a block.
 
-use super::plays::Plays;
 use super::heading::{TURNED, heading};
+use super::plays::Plays;
 use crate::Reading;
 use stickslip_drive::component::{
     Block, Component, Input, Moment, Passage, Powers, Refused, Standing, States,

@@ -43,6 +43,8 @@ pub enum BoucWenError {
 
 /// Longest step of a jump, in units of z_m/A: with it the fourth order leaves about 1e-12 of z_m.
 const STRIDE: f64 = 1.0 / 256.0;
+/// Steps to where z comes through 0; each about squares what is missed, at first less than a stride.
+const NEWTON: u32 = 4;
 /// Beyond so many units nothing of an old z is left.
 const FORGOTTEN: f64 = 64.0;
 
@@ -114,8 +116,11 @@ impl BoucWen {
             let (mut h, s) = (left.min(STRIDE), side(x));
             let mut next = runge_kutta(x, h, |x| rate(x, s));
             if s < 0.0 && next > 0.0 {
-                // To zero first: there the branch changes, and dx/dv is 1 but for the power.
-                h *= x / (x - next);
+                // To zero first: there the branch changes. Newton's steps, of a slope near 1.
+                for _ in 0..NEWTON {
+                    h -= next / rate(next, s);
+                    next = runge_kutta(x, h, |x| rate(x, s));
+                }
                 next = 0.0;
             }
             (x, left) = (next, left - h);

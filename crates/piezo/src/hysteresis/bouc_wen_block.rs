@@ -23,6 +23,8 @@ pub struct BoucWenBlock {
 /// The guards: the input's rate, and z.
 const TURNS: usize = 0;
 const CROSSES: usize = 1;
+/// Part of z_m that counts as 0 where laws are chosen afresh.
+const AROUND_ZERO: f64 = 1e-9;
 
 impl BoucWenBlock {
     /// The law on a signal.
@@ -139,21 +141,15 @@ impl Block for BoucWenBlock {
         standing: Standing<'_, usize, Vec<f64>>,
         at: &Moment<'_, [Sample]>,
     ) -> Option<(EventKind, usize)> {
-        let (old, side) = split(*standing.law);
-        let z = at.states[0];
+        let (old, z) = (split(*standing.law).0, at.states[0]);
         let sense = heading(&at.inputs[0], self.reading.rate).unwrap_or(old);
-        // At 0 it will have the sign of the way.
-        let side = if z == 0.0 { sense } else if sense == old { side } else { z.signum() };
+        // About 0 it will have the sign of the way: there both branches are one but for a power of z.
+        let side = if z.abs() <= AROUND_ZERO * self.law.limit() { sense } else { z.signum() };
         let law = joined(sense, side);
         (law != *standing.law).then_some((EventKind::Own(TURNED), law))
     }
 
-    fn jump(
-        &self,
-        standing: Standing<'_, usize, Vec<f64>>,
-        at: &Moment<'_, [Sample]>,
-        states: &mut [f64],
-    ) {
+    fn jump(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, states: &mut [f64]) {
         states[0] = self.law.along(at.states[0], at.inputs[0].value - standing.memory[0]);
     }
 

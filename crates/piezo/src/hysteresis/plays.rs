@@ -43,7 +43,9 @@ pub enum PlaysError {
         value: f64,
     },
     /// A slope with some plays taken up is not above 0.
-    #[error("expected weights whose sums, one after the other, stay above 0, got {slope} with the first {taken_up} plays")]
+    #[error(
+        "expected weights whose sums, one after the other, stay above 0, got {slope} with the first {taken_up} plays"
+    )]
     Slope {
         /// How many plays are taken up.
         taken_up: usize,
@@ -54,7 +56,7 @@ pub enum PlaysError {
     #[error("expected a loop wider than 0 and narrower than half of the stroke, got {0} of it")]
     Width(f64),
     /// Operators out of range.
-    #[error("expected 1 to {most} operators, got {got}", most = Plays::MOST)]
+    #[error("expected 1 to {most} operators, got {0}", most = Plays::MOST)]
     Count(usize),
     /// A stroke that is none.
     #[error("expected a stroke above 0, got {0}")]
