@@ -9,6 +9,7 @@
 //! inputs ──► slopes, signal, efforts      evaluation borrows shared and leaves no trace
 //!        ──► guards ──► next law          at an event
 //!        ──► commit                       once per accepted step: the only thing that moves the memory
+//!        ──► turn, jump                   where rates of inputs may jump, and where inputs themselves do
 //! ```
 
 use crate::scene::{Direction, Point, Side};
@@ -133,6 +134,32 @@ pub trait Block:
 
     /// Smallest and largest value of that signal, from those of its inputs.
     fn range(&self, inputs: &[(f64, f64)]) -> (f64, f64);
+
+    /// The law from here on where that is to be decided afresh, with the event's kind: when a run begins, and wherever the rates
+    /// of its inputs may have jumped, at a corner of a waveform or where another block has changed its law.
+    ///
+    /// A guard that has been down all along does not fall: what goes by the sign of a rate says here which one it is. None keeps
+    /// the law, and so does a block that has only one per state.
+    fn turn(
+        &self,
+        standing: Standing<'_, usize, Vec<f64>>,
+        at: &Moment<'_, [Sample]>,
+    ) -> Option<(EventKind, usize)> {
+        let _ = (standing, at);
+        None
+    }
+
+    /// Its states after its inputs have jumped to what they are at this moment: a straight path in no time. Memory follows by a
+    /// [`commit`](Component::commit) of no duration, the law by [`turn`](Self::turn). States stay where they are but for those of
+    /// a block that answers to how far and not how fast its inputs go.
+    fn jump(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, states: &mut [f64]) {
+        let _ = (standing, at, states);
+    }
+
+    /// Whether its signal jumps where an input does.
+    fn passes_jumps(&self) -> bool {
+        false
+    }
 
     /// Natural scale of a guard, in its own unit: its rounding and how near to zero it is as good as there go by it.
     fn guard_scale(&self, guard: usize) -> f64;

@@ -166,6 +166,12 @@ impl State {
         self.t
     }
 
+    /// What the block at this place of the scene remembers; none where there is none.
+    #[must_use]
+    pub fn block_memory(&self, block: usize) -> Option<&[f64]> {
+        self.blocks.get(block).map(|block| block.memory.as_slice())
+    }
+
     /// By how much u of a contact is counted from another place, m.
     pub(crate) fn shift(&self, contact: &Contact) -> f64 {
         contact.u.free.iter().map(|(i, a)| a * self.shifts[*i]).sum()
@@ -212,6 +218,15 @@ impl State {
         self.y.resize(to.total(), 0.0);
         self.y[to.block(0)..to.block(to.own)].copy_from_slice(&own);
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
+    }
+
+    /// Lets every block choose its law afresh, by the pieces on which the waveforms are. No event: it had none before.
+    pub(crate) fn choose_block_laws(&mut self, model: &Model, layout: Layout) {
+        for k in 0..model.blocks.len() {
+            if let Some((_, law)) = Equations::on(model, self, layout, false).block_turn(k, self) {
+                self.blocks[k].law = law;
+            }
+        }
     }
 
     /// When the first piece of a waveform ends, s.

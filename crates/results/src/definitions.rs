@@ -21,8 +21,8 @@ pub struct Definition {
 }
 
 /// Names that are not the same in every run.
-const PLACEHOLDERS: [&str; 9] =
-    ["AXIS", "BODY", "CODE", "CONTACT", "COORDINATE", "FILE", "LOAD", "SCALE", "WAVEFORM"];
+const PLACEHOLDERS: [&str; 10] =
+    ["ACTUATOR", "AXIS", "BODY", "CODE", "CONTACT", "COORDINATE", "FILE", "LOAD", "SCALE", "WAVEFORM"];
 
 /// Everything that is defined, file by file.
 pub fn definitions() -> impl Iterator<Item = &'static Definition> {

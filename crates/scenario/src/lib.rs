@@ -51,7 +51,9 @@ mod units;
 pub use error::{Report, ScenarioError, Stage, Warning};
 pub use excerpt::Excerpt;
 pub use guide::explained;
-pub use meaning::{FieldsOutput, Figures, MemoryOutput, OwnPlot, SpringsOutput, Written, WrittenEvents};
+pub use meaning::{
+    FieldsOutput, Figures, MemoryOutput, OwnPlot, Piezo, SpringsOutput, Written, WrittenEvents,
+};
 pub use named::{MATERIALS, NamedMaterial};
 pub use plot_name::PlotName;
 pub use quantity::quantity;

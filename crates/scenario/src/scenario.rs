@@ -5,7 +5,9 @@ use crate::error::{Report, ScenarioError, Stage, Warning};
 use crate::fault::{Fault, Mend};
 use crate::form::Form;
 use crate::meaning::warnings::Oddity;
-use crate::meaning::{self, FieldsOutput, Figures, Meaning, MemoryOutput, OwnPlot, SpringsOutput, Written};
+use crate::meaning::{
+    self, FieldsOutput, Figures, Meaning, MemoryOutput, OwnPlot, Piezo, SpringsOutput, Written,
+};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
 use crate::plot_name::PlotName;
@@ -47,6 +49,8 @@ pub struct Scenario {
     pub plots: Vec<PlotName>,
     /// Those of channels over a channel among them.
     pub own_plots: Vec<OwnPlot>,
+    /// What is known of each actuator beside what the scene holds.
+    pub stacks: Vec<Piezo>,
     /// What is allowed and probably not meant, with its place.
     pub warnings: Vec<Warning>,
     pub(crate) form: Form,
@@ -138,6 +142,7 @@ impl Scenario {
             memory_limit: meaning.memory_limit,
             plots: meaning.plots,
             own_plots: meaning.own_plots,
+            stacks: meaning.stacks,
             warnings: warnings(&document, odd),
             form,
             document,

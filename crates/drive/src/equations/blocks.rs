@@ -83,6 +83,20 @@ impl Equations<'_> {
         self.ask_block(k, &at, |block, standing, at| block.next(guard, standing, at))
     }
 
+    /// The law of block `k` where it is decided afresh.
+    pub(crate) fn block_turn(&self, k: usize, state: &State) -> Option<(EventKind, usize)> {
+        let at = Components { t: state.t, y: |i: usize| state.y[i] };
+        self.ask_block(k, &at, |block, standing, at| block.turn(standing, at))
+    }
+
+    /// Moves the states of block `k` along a jump of its inputs to what these are now.
+    pub(crate) fn block_jump(&self, k: usize, state: &State) -> ArrayVec<f64, MOST_OF_A_BLOCK> {
+        let at = Components { t: state.t, y: |i: usize| state.y[i] };
+        let mut states = self.block_states(k, &at);
+        self.ask_block(k, &at, |block, standing, at| block.jump(standing, at, &mut states));
+        states
+    }
+
     /// Energy that block `k` stores, J; its columns are added to the row.
     pub(crate) fn block_columns(
         &self,

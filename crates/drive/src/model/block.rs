@@ -104,9 +104,15 @@ impl Signals<'_> {
         block.block().range(&block.wires.iter().map(of).collect::<Vec<_>>())
     }
 
-    /// Whether a signal jumps: what a block makes of a jump does not.
+    /// Whether a signal jumps: a waveform by its shape, a block where it passes on what jumps.
     pub(crate) fn has_jumps(&self, signal: usize) -> bool {
-        self.waveforms.get(signal).is_some_and(Waveform::has_jumps)
+        match self.block(signal) {
+            Some(block) if block.block().passes_jumps() => {
+                block.wires.iter().any(|wire| matches!(wire, Wire::Signal(s) if self.has_jumps(*s)))
+            }
+            Some(_) => false,
+            None => self.waveforms.get(signal).is_some_and(Waveform::has_jumps),
+        }
     }
 
     /// The balanced coordinate that a signal is.

@@ -7,8 +7,8 @@ use crate::{Field, Part, SceneError, SceneFault};
 
 /// Refuses dampers of links and contacts whose length jumps.
 ///
-/// Fails with the first part, springs before actuators before contacts, and the name of the waveform. What a
-/// block makes of a jump does not jump.
+/// Fails with the first part, springs before actuators before contacts, and the name of the waveform
+/// or of the block that passes its jumps on.
 pub(super) fn check(
     scene: &Scene,
     links: &[Link],
@@ -17,9 +17,11 @@ pub(super) fn check(
 ) -> Result<(), SceneError> {
     let jumps = |w: &usize| signals.has_jumps(*w);
     let driven = |length: &Measure| length.driven.iter().map(|(w, _)| *w).find(jumps);
-    let refused = |part: Part, w: usize| {
-        Err(SceneFault::DampedJump(scene.waveforms[w].name.clone()).of(part, Field::Damping))
+    let name = |w: usize| match w.checked_sub(scene.waveforms.len()) {
+        None => scene.waveforms[w].name.clone(),
+        Some(k) => scene.blocks[k].name.clone(),
     };
+    let refused = |part: Part, w: usize| Err(SceneFault::DampedJump(name(w)).of(part, Field::Damping));
     for (i, link) in links.iter().enumerate().filter(|(_, link)| link.damping > 0.0) {
         let stroke = match link.stroke {
             Stroke::Driven(w) => Some(w).filter(jumps),

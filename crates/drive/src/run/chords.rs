@@ -89,6 +89,7 @@ impl<'a> Chords<'a> {
         match &state.underway {
             Some(Underway::Fixed(way)) => self.take_up(way, state),
             _ => {
+                state.choose_block_laws(model, self.layout);
                 self.ledger.set_out(state.t);
                 self.horizon.steps.begin(state);
             }

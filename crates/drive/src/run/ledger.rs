@@ -9,6 +9,7 @@ use crate::RunError;
 use crate::component::{Passage, Refused};
 use crate::contact::Mode;
 use crate::equations::{Components, Equations};
+use crate::event::EventKind;
 use crate::model::{Model, Wired};
 use crate::record::Record;
 use crate::state::{Booked, Books, Layout, State};
@@ -24,6 +25,8 @@ pub(super) struct Ledger {
     pub(super) touched: u64,
     /// The blocks' paths.
     passages: Vec<Passage>,
+    /// Blocks that a jump has led to another law, and what that is called.
+    pub(super) led: Vec<(usize, EventKind)>,
     /// What was committed since the record was told last, where it wants to know.
     told: Option<Vec<(usize, Segment)>>,
 }
@@ -42,6 +45,7 @@ impl Ledger {
             touched: 0,
             booked: Booked { last: vec![0.0; model.contacts.len()], blocks: 0.0, books: Books::Current },
             passages: model.blocks.iter().map(passage).collect(),
+            led: Vec::with_capacity(model.blocks.len()),
             told: None,
         }
     }
@@ -137,21 +141,52 @@ impl Ledger {
         (model, layout): (&Model, Layout),
         state: &mut State,
     ) -> Result<(), RunError> {
-        let t = state.t;
-        for (k, (wired, passage)) in model.blocks.iter().zip(&mut self.passages).enumerate() {
-            // Made here and not kept: the inputs may depend on blocks committed before.
-            let at = Components { t, y: |i: usize| state.y[i] };
-            let equations = Equations::on(model, state, layout, true);
-            passage.inputs.clear();
-            passage.inputs.extend(equations.block_inputs(wired, &at));
-            passage.states.clear();
-            passage.states.extend(equations.block_states(k, &at));
-            (passage.duration, passage.law) = (t - self.booked.blocks, state.blocks[k].law);
-            let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
-            let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;
-            state.lost += lost;
+        for k in 0..model.blocks.len() {
+            self.commit_block((model, layout, true), k, state)?;
         }
-        self.booked.blocks = t;
+        self.booked.blocks = state.t;
+        Ok(())
+    }
+
+    /// All blocks follow a jump of what they read: states, memory and law of each, before the next one asks for its signal.
+    pub(super) fn jump_blocks(
+        &mut self,
+        (model, layout): (&Model, Layout),
+        state: &mut State,
+    ) -> Result<(), RunError> {
+        self.led.clear();
+        for (k, wired) in model.blocks.iter().enumerate() {
+            let states = Equations::on(model, state, layout, false).block_jump(k, state);
+            let from = layout.block(wired.first);
+            state.y[from..from + wired.count()].copy_from_slice(&states);
+            self.commit_block((model, layout, false), k, state)?;
+            if let Some((kind, law)) = Equations::on(model, state, layout, false).block_turn(k, state) {
+                state.blocks[k].law = law;
+                self.led.push((k, kind));
+            }
+        }
+        Ok(())
+    }
+
+    /// One of them. `crossing` says whether a piece that ends before now gives way to the one that holds.
+    fn commit_block(
+        &mut self,
+        (model, layout, crossing): (&Model, Layout, bool),
+        k: usize,
+        state: &mut State,
+    ) -> Result<(), RunError> {
+        let (t, wired, passage) = (state.t, &model.blocks[k], &mut self.passages[k]);
+        // Made here and not kept: the inputs may depend on blocks committed before.
+        let at = Components { t, y: |i: usize| state.y[i] };
+        let equations = Equations::on(model, state, layout, crossing);
+        passage.inputs.clear();
+        passage.inputs.extend(equations.block_inputs(wired, &at));
+        passage.states.clear();
+        passage.states.extend(equations.block_states(k, &at));
+        (passage.duration, passage.law) = (t - self.booked.blocks, state.blocks[k].law);
+        let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
+        let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;
+        state.lost += lost;
         Ok(())
     }
 }

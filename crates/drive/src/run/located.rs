@@ -14,6 +14,7 @@
 mod aim;
 mod allowance;
 mod balanced;
+mod block_laws;
 mod ending;
 mod laws;
 mod leap;
@@ -234,6 +235,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.ledger.set_out(state.t);
         self.horizon.steps.begin(state);
         if laws == Laws::Chosen {
+            state.choose_block_laws(self.setting.model, self.setting.layout);
             (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
         }
         self.turned(state);

@@ -1,17 +1,20 @@
 //! From the form to a scene and a plan, and from what these are refused for back to the form.
 
+mod actuator;
 mod body;
 pub(crate) mod channels;
 mod contact;
 mod coupling;
+mod data_sheet;
+mod driver;
 mod generator;
 mod input;
 mod measured;
 mod motion;
 mod names;
 mod output;
-pub(crate) mod plots;
 mod pattern;
+pub(crate) mod plots;
 mod point;
 mod profile;
 mod range;
@@ -23,6 +26,7 @@ pub(crate) mod warnings;
 mod waveform;
 mod written;
 
+pub use actuator::Piezo;
 pub use output::{FieldsOutput, MemoryOutput, SpringsOutput};
 pub use plots::OwnPlot;
 pub use written::{Written, WrittenEvents};
@@ -58,6 +62,7 @@ pub(crate) struct Meaning {
     pub(crate) memory_limit: Option<f64>,
     pub(crate) plots: Vec<PlotName>,
     pub(crate) own_plots: Vec<OwnPlot>,
+    pub(crate) stacks: Vec<Piezo>,
 }
 
 /// A scene under construction.
@@ -70,6 +75,8 @@ struct Builder<'a> {
     terms: usize,
     /// Springs of all rows so far.
     springs: u64,
+    /// What is known of each actuator.
+    stacks: Vec<Piezo>,
 }
 
 /// What is known of a waveform from its form alone.
@@ -78,6 +85,8 @@ struct Course {
     kind: Option<Kind>,
     /// Delay, s.
     delay: f64,
+    /// Stroke per volt of the stack whose voltage it is, m/V: its values are strokes.
+    gain: Option<f64>,
 }
 
 /// Makes of a meaning what a run starts from, as far as that can be done at once: what is refused there is known before it.
@@ -97,8 +106,16 @@ pub(crate) fn start(meaning: &Meaning) -> Result<(), Fault> {
 
 /// Gives a form its meaning; the files of its tables are already points.
 pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
-    let mut builder = Builder { form, scene: Scene::default(), courses: Vec::new(), terms: 0, springs: 0 };
+    let mut builder = Builder {
+        form,
+        scene: Scene::default(),
+        courses: Vec::new(),
+        terms: 0,
+        springs: 0,
+        stacks: Vec::new(),
+    };
     names::check(form)?;
+    builder.stacks()?;
     builder.waveforms()?;
     builder.materials()?;
     builder.bodies()?;
@@ -106,6 +123,7 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     builder.springs()?;
     builder.actuators()?;
     builder.loads()?;
+    builder.chains()?;
     builder.gravity()?;
     builder.actions()?;
     let figures = builder.figures()?;
@@ -127,5 +145,6 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
         plots: form.plots.iter().map(PlotForm::name).collect(),
         own_plots: builder.own_plots(plan)?,
         scene: builder.scene,
+        stacks: builder.stacks,
     })
 }

@@ -15,6 +15,8 @@ impl Chords<'_> {
     /// that ends at a corner sees one side of it only. Tells whether any changed.
     ///
     /// By the middle, since either end may lie on a corner and round to its other side.
+    ///
+    /// Blocks turn with them. Waveforms that jump are no part of such runs.
     pub(in crate::run) fn enter(&self, state: &mut State, end: f64) -> bool {
         let middle = 0.5 * (state.t + end);
         let mut changed = false;
@@ -32,6 +34,9 @@ impl Chords<'_> {
                 state.pieces[w] = next;
                 changed = true;
             }
+        }
+        if changed {
+            state.choose_block_laws(self.model, self.layout);
         }
         changed
     }
@@ -88,12 +93,14 @@ impl Chords<'_> {
             }
             self.ledger.tell(record);
         }
+        state.choose_block_laws(model, self.layout);
         self.branch_at_corner(state, record)
     }
 
     /// Contacts follow a jump; `before` is what was stored.
     fn jump(&mut self, state: &mut State, before: f64) -> Result<(), RunError> {
         let mut friction = 0.0;
+        self.ledger.jump_blocks((self.model, self.layout), state)?;
         for (c, contact) in self.model.contacts.iter().enumerate() {
             let to = self.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
             let work = state.memories[c].commit(&contact.interface, Segment::Jump(to));

@@ -9,7 +9,7 @@ use crate::state::State;
 use stickslip_contact::{ContactState, Memory};
 
 impl Chords<'_> {
-    /// The laws of blocks whose guards are down after the step.
+    /// The laws of blocks whose guards are down after the step, or that decide for another one.
     ///
     /// One guard of each block in a step, the first that is down; the others have their turn after the next
     /// step.
@@ -19,8 +19,9 @@ impl Chords<'_> {
             let t = state.t;
             let guards = wired.block().guards(&state.blocks[k].law);
             let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
-            let Some(&guard) = guards.iter().find(down) else { continue };
-            let (kind, law) = eq.block_next(k, guard, state);
+            // Memory has moved before laws are asked: what it has taken up is no guard's news any more.
+            let fallen = guards.iter().find(down).map(|guard| eq.block_next(k, *guard, state));
+            let Some((kind, law)) = fallen.or_else(|| eq.block_turn(k, state)) else { continue };
             state.blocks[k].law = law;
             if record.wants_events() {
                 let event = Event { t, source: Source::Block(k), kind };

@@ -1,4 +1,4 @@
-//! What happens at an event: contacts get their next law.
+//! What happens at an event: contacts get their next law. Blocks: [`block_laws`](super::block_laws).
 //!
 //! Laws change here and, for a jump, in [`turning`](super::turning); nowhere else. Of a guard that fell the
 //! law after it follows from the guard and the motion; after a corner, where velocities jump, every contact
@@ -47,6 +47,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // What a block makes turns a corner with its law.
         if turns && !corner {
             self.turning.before.clone_from(&state.modes);
+        }
+        // Before the contacts: their velocities are what blocks make.
+        if turns && !self.setting.model.blocks.is_empty() {
+            self.turn_blocks(state, corner, record)?;
         }
         if turns {
             for c in 0..self.setting.model.contacts.len() {
@@ -129,19 +133,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn stands(&self, contact: &Contact, motion: &Motion) -> bool {
         let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
         motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near
-    }
-
-    /// The law of a block after one of its guards fell.
-    fn handle_block(
-        &mut self,
-        state: &mut State,
-        (k, guard): (usize, usize),
-        record: &mut dyn Record,
-    ) -> Result<(), RunError> {
-        let (kind, law) = self.setting.plain(state).block_next(k, guard, state);
-        state.blocks[k].law = law;
-        self.note(state, Source::Block(k), kind, record);
-        self.bounds.event(self.setting.model, state, (Source::Block(k), kind))
     }
 
     /// Decides afresh what a contact does after a corner, where velocities jump.

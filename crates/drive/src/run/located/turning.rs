@@ -80,6 +80,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         for i in 0..self.turning.turned.len() {
             let (w, kind) = self.turning.turned[i];
             self.note(state, Source::Waveform(w), kind, record);
+            // What a jump has led blocks to comes after it, and once.
+            if kind == EventKind::Jump {
+                for i in 0..self.ledger.led.len() {
+                    let (k, kind) = self.ledger.led[i];
+                    self.note(state, Source::Block(k), kind, record);
+                }
+                self.ledger.led.clear();
+            }
         }
         Ok(())
     }
@@ -103,7 +111,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.pass_event(state, true, record)
     }
 
-    /// Bodies that follow a waveform jump: a straight path of every contact in no time. The work of the jump is what
+    /// Blocks follow first, and bodies that follow a waveform or a block that passes jumps on jump: a straight path of every contact in no time. The work of the jump is what
     /// the elastic energy, `before` until now, gains and friction takes.
     ///
     /// Free coordinates stay where they are: in no time no finite force moves a mass. Links and contacts with
@@ -112,6 +120,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Fails where nothing balances what has jumped, and where it leads a contact out of its row or its table.
     fn jump(&mut self, state: &mut State, (before, laden): (f64, f64)) -> Result<(), RunError> {
         let mut friction = 0.0;
+        self.ledger.jump_blocks((self.setting.model, self.setting.layout), state)?;
         self.balance_jump(state)?;
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();

@@ -1,0 +1,49 @@
+//! What happens to blocks at an event: the next law of one whose guard fell, and of all where rates may jump.
+
+use super::Located;
+use super::watch::Fallen;
+use crate::RunError;
+use crate::equations::Equations;
+use crate::event::Source;
+use crate::record::Record;
+use crate::state::State;
+use stickslip_stepper::Attempt;
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// The law of a block after one of its guards fell.
+    pub(super) fn handle_block(
+        &mut self,
+        state: &mut State,
+        (k, guard): (usize, usize),
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let (kind, law) = self.setting.plain(state).block_next(k, guard, state);
+        state.blocks[k].law = law;
+        self.note(state, Source::Block(k), kind, record);
+        self.bounds.event(self.setting.model, state, (Source::Block(k), kind))
+    }
+
+    /// Blocks decide afresh where rates of what they read may have jumped, in order: each reads only those before it.
+    ///
+    /// One whose guard has just fallen has its law: there a rate is 0 but for rounding. At a corner rates are others than those by
+    /// which it fell.
+    pub(super) fn turn_blocks(
+        &mut self,
+        state: &mut State,
+        corner: bool,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        for k in 0..self.setting.model.blocks.len() {
+            let fell = |fallen: &Fallen| matches!(fallen, Fallen::Block(own, _) if *own == k);
+            if !corner && self.watch.fired.iter().any(fell) {
+                continue;
+            }
+            if let Some((kind, law)) = self.setting.plain(state).block_turn(k, state) {
+                state.blocks[k].law = law;
+                self.note(state, Source::Block(k), kind, record);
+                self.bounds.event(self.setting.model, state, (Source::Block(k), kind))?;
+            }
+        }
+        Ok(())
+    }
+}
