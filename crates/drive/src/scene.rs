@@ -6,7 +6,7 @@ pub use contact::{Contact, ContactStart, EngineChoice, Normal};
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::component::SharedBlock;
+use crate::component::{Input, SharedBlock};
 use crate::{SceneFault, Waveform};
 
 /// Everything a drive consists of.
@@ -30,6 +30,22 @@ pub struct Scene {
     pub gravity: Gravity,
     /// How the free coordinates start.
     pub start: Start,
+}
+
+impl Scene {
+    /// The waveform that a signal is or, where a block makes it, what the first signal that the block reads comes from. None where
+    /// no waveform is behind it.
+    #[must_use]
+    pub fn waveform_of(&self, signal: usize) -> Option<usize> {
+        let Some(block) = signal.checked_sub(self.waveforms.len()) else { return Some(signal) };
+        let inputs = self.blocks.get(block)?.part.0.inputs();
+        let first = inputs.iter().find_map(|input| match input {
+            // A block reads what is before it: that ends.
+            Input::Signal(read) if *read < signal => Some(*read),
+            Input::Signal(_) | Input::Length { .. } => None,
+        });
+        self.waveform_of(first?)
+    }
 }
 
 /// A part of a scene under the name its user gave it.
@@ -119,7 +135,7 @@ pub enum Freedom {
 pub enum Varying {
     /// Constant, SI.
     Constant(f64),
-    /// Follows the waveform at this place of [`Scene::waveforms`].
+    /// Follows the waveform at this place of [`Scene::waveforms`]; a stroke may follow a block, counted on from the last one.
     Follows(usize),
 }
 

@@ -166,6 +166,12 @@ impl State {
         self.t
     }
 
+    /// What the block at this place of the scene remembers; none where there is none.
+    #[must_use]
+    pub fn block_memory(&self, block: usize) -> Option<&[f64]> {
+        self.blocks.get(block).map(|block| block.memory.as_slice())
+    }
+
     /// By how much u of a contact is counted from another place, m.
     pub(crate) fn shift(&self, contact: &Contact) -> f64 {
         contact.u.free.iter().map(|(i, a)| a * self.shifts[*i]).sum()

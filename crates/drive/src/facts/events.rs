@@ -239,7 +239,8 @@ fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
         Varying::Follows(waveform) => Some(waveform),
         Varying::Constant(_) => None,
     });
-    let mut waveforms: Vec<usize> = followed.chain(varying).collect();
+    let signals = followed.chain(varying);
+    let mut waveforms: Vec<usize> = signals.filter_map(|signal| scene.waveform_of(signal)).collect();
     waveforms.sort_unstable();
     waveforms.dedup();
     waveforms

@@ -20,7 +20,9 @@ pub fn followers(scene: &Scene) -> Vec<Follower> {
     let mut add = |waveform, what: String, is_force| followers.push(Follower { waveform, what, is_force });
     for body in &scene.bodies {
         for (axis, coordinate) in body.part.coordinates() {
-            if let Freedom::Follows(w) = coordinate.freedom {
+            if let Freedom::Follows(signal) = coordinate.freedom
+                && let Some(w) = scene.waveform_of(signal)
+            {
                 add(w, format!("{}.{}", body.name, axis.key()), false);
             }
         }
@@ -37,7 +39,9 @@ pub fn followers(scene: &Scene) -> Vec<Follower> {
         }
     }
     for actuator in &scene.actuators {
-        if let Varying::Follows(w) = actuator.part.stroke {
+        if let Varying::Follows(signal) = actuator.part.stroke
+            && let Some(w) = scene.waveform_of(signal)
+        {
             add(w, format!("{}.stroke", actuator.name), false);
         }
     }

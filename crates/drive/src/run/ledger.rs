@@ -9,6 +9,7 @@ use crate::RunError;
 use crate::component::{Passage, Refused};
 use crate::contact::Mode;
 use crate::equations::{Components, Equations};
+use crate::event::EventKind;
 use crate::model::{Model, Wired};
 use crate::record::Record;
 use crate::state::{Booked, Books, Layout, State};
@@ -24,6 +25,8 @@ pub(super) struct Ledger {
     pub(super) touched: u64,
     /// The blocks' paths.
     passages: Vec<Passage>,
+    /// Blocks that a jump has led to another law, and what that is called.
+    pub(super) led: Vec<(usize, EventKind)>,
     /// What was committed since the record was told last, where it wants to know.
     told: Option<Vec<(usize, Segment)>>,
 }
@@ -42,6 +45,7 @@ impl Ledger {
             touched: 0,
             booked: Booked { last: vec![0.0; model.contacts.len()], blocks: 0.0, books: Books::Current },
             passages: model.blocks.iter().map(passage).collect(),
+            led: Vec::with_capacity(model.blocks.len()),
             told: None,
         }
     }
@@ -150,13 +154,15 @@ impl Ledger {
         (model, layout): (&Model, Layout),
         state: &mut State,
     ) -> Result<(), RunError> {
+        self.led.clear();
         for (k, wired) in model.blocks.iter().enumerate() {
             let states = Equations::on(model, state, layout, false).block_jump(k, state);
             let from = layout.block(wired.first);
             state.y[from..from + wired.count()].copy_from_slice(&states);
             self.commit_block((model, layout, false), k, state)?;
-            if let Some((_, law)) = Equations::on(model, state, layout, false).block_turn(k, state) {
+            if let Some((kind, law)) = Equations::on(model, state, layout, false).block_turn(k, state) {
                 state.blocks[k].law = law;
+                self.led.push((k, kind));
             }
         }
         Ok(())

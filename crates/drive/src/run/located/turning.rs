@@ -80,6 +80,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         for i in 0..self.turning.turned.len() {
             let (w, kind) = self.turning.turned[i];
             self.note(state, Source::Waveform(w), kind, record);
+            // What a jump has led blocks to comes after it, and once.
+            if kind == EventKind::Jump {
+                for i in 0..self.ledger.led.len() {
+                    let (k, kind) = self.ledger.led[i];
+                    self.note(state, Source::Block(k), kind, record);
+                }
+                self.ledger.led.clear();
+            }
         }
         Ok(())
     }

@@ -1,0 +1,320 @@
+//! The driver on the contract of blocks.
+//!
+//! States: the voltage, the work of the source, what is lost, and where there is a low-pass its output and that one's rate.
+//! Without a resistance a voltage that follows is its command itself, exactly, and the state beside it goes along at the same
+//! rate; what integration leaves between the two is the memory's offset, with which the state goes on where a limit begins.
+
+use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
+use super::{Course, Driver, Output, Window};
+use crate::figures::Kept;
+use stickslip_drive::component::{
+    Block, Component, Input, Moment, Passage, Powers, Refused, Standing, States,
+};
+use stickslip_drive::{EventKind, Sample};
+
+/// Rounding of a voltage against its range, and of a rate against its limit: below it nothing is decided.
+const ROUNDING: f64 = 1e-12;
+/// A voltage that moves less than this part of its range between two events of the driver chatters.
+const CHATTER: f64 = 1e-6;
+
+type At<'a> = Moment<'a, [Sample]>;
+type Now<'a> = Standing<'a, usize, Vec<f64>>;
+
+/// Places of the states.
+const VOLTAGE: usize = 0;
+const WORK: usize = 1;
+const LOST: usize = 2;
+const LOW: usize = 3;
+const LOW_RATE: usize = 4;
+
+impl Driver {
+    /// What the output stage follows: the command in its window, through the low-pass.
+    fn followed(&self, course: Course, command: Sample, states: &[f64]) -> Sample {
+        let (low, high) = self.spec.reach();
+        let held = |value: f64| Sample { value, rate: 0.0, acceleration: 0.0 };
+        let cut = match course.window {
+            Window::Inside => command,
+            Window::Below => held(low),
+            Window::Above => held(high),
+        };
+        let Some(pass) = &self.spec.low else { return cut };
+        let (omega, value, rate) = (self.spec.omega(), states[LOW], states[LOW_RATE]);
+        let acceleration = omega * (omega * (cut.value - value) - 2.0 * pass.ratio * rate);
+        Sample { value, rate, acceleration }
+    }
+
+    /// Rate that the output stage wishes for without a limit, m/s.
+    fn wish(&self, followed: Sample, states: &[f64]) -> f64 {
+        self.spec.time().map_or(followed.rate, |time| (followed.value - states[VOLTAGE]) / time)
+    }
+
+    /// The voltage as a stroke, m, with its rate, m/s.
+    fn voltage(&self, course: Course, followed: Sample, (states, offset): (&[f64], f64)) -> Sample {
+        let (down, up) = self.spec.slew();
+        let own = states[VOLTAGE] + offset;
+        let limited = |rate: f64| Sample { value: own, rate, acceleration: 0.0 };
+        match (course.output, self.spec.time()) {
+            (Output::Rising, _) => limited(up),
+            (Output::Falling, _) => limited(-down),
+            (Output::Free, None) => followed,
+            (Output::Free, Some(time)) => {
+                let rate = self.wish(followed, states);
+                Sample { value: own, rate, acceleration: (followed.rate - rate) / time }
+            }
+        }
+    }
+
+    fn offset(memory: &[f64]) -> f64 {
+        memory.first().copied().unwrap_or(0.0)
+    }
+
+    /// What is followed, and the voltage.
+    fn now(&self, standing: Now<'_>, at: &At<'_>) -> (Course, Sample, Sample) {
+        let course = Course::of(*standing.law);
+        let followed = self.followed(course, at.inputs[0], at.states);
+        let voltage = self.voltage(course, followed, (at.states, Self::offset(standing.memory)));
+        (course, followed, voltage)
+    }
+
+    /// What the output stage does from here on, by where it stands and what it wishes.
+    fn output(&self, followed: Sample, (states, voltage): (&[f64], f64)) -> Output {
+        let (down, up) = self.spec.slew();
+        if self.spec.current.is_none() {
+            return Output::Free;
+        }
+        let ahead = followed.value - voltage;
+        if self.spec.resistance.is_none() && ahead.abs() > ROUNDING * self.span {
+            return if ahead > 0.0 { Output::Rising } else { Output::Falling };
+        }
+        let wish = self.wish(followed, states);
+        if wish > up * (1.0 + ROUNDING) {
+            Output::Rising
+        } else if wish < -down * (1.0 + ROUNDING) {
+            Output::Falling
+        } else {
+            Output::Free
+        }
+    }
+
+    /// Current of a rate, A.
+    fn current(&self, rate: f64) -> f64 {
+        self.spec.capacitance * rate / self.spec.gain
+    }
+}
+
+impl Component for Driver {
+    type Law = usize;
+    type Memory = Vec<f64>;
+    type Guard = usize;
+    type Inputs = [Sample];
+    type Segment = Passage;
+    type Error = Refused;
+
+    fn states(&self) -> States {
+        let volts = self.span / self.spec.gain;
+        let energy = self.spec.capacitance * volts * volts;
+        let mut scales = vec![self.span, energy, energy];
+        if self.spec.low.is_some() {
+            scales.extend([self.span, self.span * self.spec.omega()]);
+        }
+        States { scales, integrals: 0 }
+    }
+
+    fn guards(&self, law: &usize) -> &[usize] {
+        self.guards.get(*law).map_or(&[], Vec::as_slice)
+    }
+
+    fn guard(&self, guard: usize, standing: Now<'_>, at: &At<'_>) -> f64 {
+        let (low, high) = self.spec.reach();
+        let (down, up) = self.spec.slew();
+        let (course, followed, voltage) = self.now(standing, at);
+        let command = at.inputs[0].value;
+        match (guard, course.window) {
+            (BELOW, _) => return command - low,
+            (ABOVE, _) => return high - command,
+            (INSIDE, Window::Below) => return low - command,
+            (INSIDE, _) => return command - high,
+            _ => {}
+        }
+        let wish = self.wish(followed, at.states);
+        match (guard, course.output, self.spec.resistance) {
+            (RISING, ..) => up - wish,
+            (FALLING, ..) => wish + down,
+            // What it follows comes up with it, or through a resistance wishes for less.
+            (_, Output::Rising, None) => followed.value - voltage.value,
+            (_, _, None) => voltage.value - followed.value,
+            (_, Output::Rising, Some(_)) => wish - up,
+            (_, _, Some(_)) => -wish - down,
+        }
+    }
+
+    fn next(&self, guard: usize, standing: Now<'_>, at: &At<'_>) -> (EventKind, usize) {
+        let (before, _, voltage) = self.now(standing, at);
+        let mut course = before;
+        match guard {
+            INSIDE => course.window = Window::Inside,
+            BELOW => course.window = Window::Below,
+            ABOVE => course.window = Window::Above,
+            RISING => course.output = Output::Rising,
+            FALLING => course.output = Output::Falling,
+            _ => {}
+        }
+        let followed = self.followed(course, at.inputs[0], at.states);
+        let decided = match (guard, self.spec.resistance) {
+            // It has met what it follows, but for rounding: its rate says how it goes on.
+            (FREE, None) => {
+                let met = Sample { value: voltage.value, ..followed };
+                Some(self.output(met, (at.states, voltage.value)))
+            }
+            (FREE, Some(_)) => Some(Output::Free),
+            // At an end of the window the rate of the command jumps.
+            (INSIDE | BELOW | ABOVE, _) if before.output == Output::Free => {
+                let met = if self.spec.resistance.is_none() {
+                    Sample { value: voltage.value, ..followed }
+                } else {
+                    followed
+                };
+                Some(self.output(met, (at.states, voltage.value)))
+            }
+            _ => None,
+        };
+        course.output = decided.unwrap_or(course.output);
+        (EventKind::Own(course.word(before)), course.law())
+    }
+
+    /// Memory follows where the voltage has gone; of a limited voltage whose command has just jumped it stays.
+    fn commit(&self, memory: &mut Vec<f64>, passage: &Passage) -> Result<f64, Refused> {
+        let Some(mut kept) = Kept::read(memory) else {
+            return Err(Refused("its memory is of another kind".to_owned()));
+        };
+        let course = Course::of(passage.law);
+        let Some(&command) = passage.inputs.first() else { return Ok(0.0) };
+        let followed = self.followed(course, command, &passage.states);
+        let voltage = self.voltage(course, followed, (&passage.states, kept.offset));
+        let jumps = passage.duration == 0.0 && self.spec.current.is_some();
+        if jumps && self.spec.resistance.is_none() {
+            return Ok(0.0);
+        }
+        if course.output == Output::Free && self.spec.resistance.is_none() {
+            kept.offset = voltage.value - passage.states[VOLTAGE];
+        }
+        if !jumps {
+            kept.fastest = kept.fastest.max(voltage.rate.abs());
+        }
+        let given = passage.states[WORK] - kept.work;
+        kept.way += (voltage.value - kept.last).abs();
+        kept.drawn += given.max(0.0);
+        (kept.last, kept.work) = (voltage.value, passage.states[WORK]);
+        kept.time += passage.duration;
+        let at = [
+            course.output == Output::Rising,
+            course.output == Output::Falling,
+            course.window == Window::Below,
+            course.window == Window::Above,
+        ];
+        for (time, _) in kept.limited.iter_mut().zip(at).filter(|(_, at)| *at) {
+            *time += passage.duration;
+        }
+        memory.copy_from_slice(&kept.numbers());
+        Ok(0.0)
+    }
+
+    /// Nothing of the mechanical books: its own are columns.
+    fn energy(&self, _: Now<'_>, _: &At<'_>) -> f64 {
+        0.0
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        vec!["voltage_V", "current_A", "source_J", "stored_J", "lost_J"]
+    }
+}
+
+impl Block for Driver {
+    fn inputs(&self) -> &[Input] {
+        &self.inputs
+    }
+
+    /// At rest at its command, which the scenario has seen to be inside the window.
+    fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>) {
+        let value = inputs.first().map_or(0.0, |command| command.value);
+        let mut states = vec![value, 0.0, 0.0];
+        if self.spec.low.is_some() {
+            states.extend([value, 0.0]);
+        }
+        (states, Kept { last: value, ..Kept::default() }.numbers().to_vec())
+    }
+
+    fn slopes(&self, standing: Now<'_>, at: &At<'_>, slopes: &mut [f64], _: &mut [f64]) -> Powers {
+        let (_, followed, voltage) = self.now(standing, at);
+        let current = self.current(voltage.rate);
+        slopes[VOLTAGE] = voltage.rate;
+        slopes[WORK] = followed.value / self.spec.gain * current;
+        slopes[LOST] = (followed.value - voltage.value) / self.spec.gain * current;
+        if self.spec.low.is_some() {
+            (slopes[LOW], slopes[LOW_RATE]) = (followed.rate, followed.acceleration);
+        }
+        Powers::default()
+    }
+
+    fn signal(&self, standing: Now<'_>, at: &At<'_>) -> Sample {
+        self.now(standing, at).2
+    }
+
+    fn range(&self, inputs: &[(f64, f64)]) -> (f64, f64) {
+        let (low, high) = self.spec.reach();
+        let (from, to) = inputs.first().copied().unwrap_or_default();
+        let (from, to) = (from.clamp(low, high), to.clamp(low, high));
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from) * self.spec.overshoot());
+        if self.spec.low.is_some() { (middle - half, middle + half) } else { (from, to) }
+    }
+
+    fn turn(&self, standing: Now<'_>, at: &At<'_>) -> Option<(EventKind, usize)> {
+        let (before, _, voltage) = self.now(standing, at);
+        let mut course = before;
+        let (low, high) = self.spec.reach();
+        let (command, rounding) = (at.inputs[0].value, ROUNDING * self.span);
+        if self.spec.window.is_some() {
+            course.window = match before.window {
+                _ if command < low - rounding => Window::Below,
+                _ if command > high + rounding => Window::Above,
+                Window::Below if command <= low + rounding => Window::Below,
+                Window::Above if command >= high - rounding => Window::Above,
+                _ => Window::Inside,
+            };
+        }
+        let followed = self.followed(course, at.inputs[0], at.states);
+        // Without a resistance a free voltage has jumped with its command; where it was is what the state says.
+        let own = match (self.spec.resistance, self.spec.current) {
+            (None, Some(_)) => at.states[VOLTAGE] + Self::offset(standing.memory),
+            _ => voltage.value,
+        };
+        course.output = self.output(followed, (at.states, own));
+        (course != before).then(|| (EventKind::Own(course.word(before)), course.law()))
+    }
+
+    /// A voltage that nothing slows jumps with its command.
+    fn passes_jumps(&self) -> bool {
+        self.spec.current.is_none() && self.spec.resistance.is_none() && self.spec.low.is_none()
+    }
+
+    fn guard_scale(&self, guard: usize) -> f64 {
+        let (down, up) = self.spec.slew();
+        match (guard, self.spec.resistance) {
+            (INSIDE | BELOW | ABOVE, _) | (FREE, None) => self.span,
+            _ => up.min(down),
+        }
+    }
+
+    fn rate(&self) -> f64 {
+        let (down, up) = self.spec.slew();
+        let slow = self.spec.time().map_or(0.0, f64::recip);
+        (up.max(down) / (CHATTER * self.span)).max(slow).max(self.spec.omega())
+    }
+
+    fn fill(&self, standing: Now<'_>, at: &At<'_>, row: &mut Vec<f64>) {
+        let (_, _, voltage) = self.now(standing, at);
+        let volts = voltage.value / self.spec.gain;
+        let stored = 0.5 * self.spec.capacitance * volts * volts;
+        row.extend([volts, self.current(voltage.rate), at.states[WORK], stored, at.states[LOST]]);
+    }
+}

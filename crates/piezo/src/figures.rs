@@ -1,0 +1,73 @@
+//! What a driver has done: kept in its memory, step by step.
+
+use crate::driver::Spec;
+
+/// Numbers of a driver's memory.
+pub(crate) const COUNT: usize = 11;
+
+/// A driver's memory by its places.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Kept {
+    /// By how much the voltage lies beyond its state, as a stroke, m.
+    pub(crate) offset: f64,
+    /// Voltage at the end of the last step, as a stroke, m.
+    pub(crate) last: f64,
+    /// Work of the source until then, J.
+    pub(crate) work: f64,
+    /// Way of the voltage, as a stroke, m.
+    pub(crate) way: f64,
+    /// Work drawn where any was, J.
+    pub(crate) drawn: f64,
+    /// Largest rate, as a stroke, m/s.
+    pub(crate) fastest: f64,
+    /// Time at the upper and the lower limit of the current, and at the lower and the upper end of the window, s.
+    pub(crate) limited: [f64; 4],
+    /// Time in all, s.
+    pub(crate) time: f64,
+}
+
+impl Kept {
+    /// Read from a memory; none where that is of another kind.
+    pub(crate) fn read(memory: &[f64]) -> Option<Self> {
+        let &[offset, last, work, way, drawn, fastest, up, down, below, above, time] = memory else {
+            return None;
+        };
+        Some(Self { offset, last, work, way, drawn, fastest, limited: [up, down, below, above], time })
+    }
+
+    /// As a memory.
+    pub(crate) fn numbers(&self) -> [f64; COUNT] {
+        let [up, down, below, above] = self.limited;
+        let Self { offset, last, work, way, drawn, fastest, time, .. } = *self;
+        [offset, last, work, way, drawn, fastest, up, down, below, above, time]
+    }
+}
+
+/// What a driver has done since the start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figures {
+    /// Energy that its source gave where it gave any, J; what came back is not taken off.
+    pub drawn: f64,
+    /// Largest current, A, at the ends of steps and after jumps.
+    pub peak_current: f64,
+    /// Mean of |I|, A.
+    pub mean_current: f64,
+    /// Share of the time at the current's upper and lower limit, and at the window's lower and upper end.
+    pub limited: [f64; 4],
+}
+
+impl Figures {
+    /// By the memory of a driver; none where it is another block's.
+    #[must_use]
+    pub fn of(memory: &[f64], spec: &Spec) -> Option<Self> {
+        let kept = Kept::read(memory)?;
+        let farads = spec.capacitance / spec.gain;
+        let over = |value: f64| if kept.time > 0.0 { value / kept.time } else { 0.0 };
+        Some(Self {
+            drawn: kept.drawn,
+            peak_current: farads * kept.fastest,
+            mean_current: farads * over(kept.way),
+            limited: kept.limited.map(over),
+        })
+    }
+}

@@ -1,0 +1,83 @@
+//! The driver's own books, what it counts, and runs that stop where it is saturated.
+
+use crate::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
+use stickslip_drive::scene::Scene;
+use stickslip_drive::{Limits, Model, Plan, Run, RunError, Shape, State, Stepper};
+use stickslip_piezo::driver::Spec;
+
+const KEY: [u8; 32] = [7; 32];
+
+fn saw(spec: Spec) -> Scene {
+    scene(every(Shape::Sawtooth { stroke: GAIN * 100.0, flyback: 20e-6 }), spec)
+}
+
+fn slow() -> Spec {
+    Spec { current: Some((0.2, 0.2)), ..ideal() }
+}
+
+/// source - lost = ½CV² less what it was, whatever limits.
+#[test]
+fn source_store_and_loss_add_up() {
+    let filtered = Spec { current: Some((0.2, 0.3)), resistance: Some(20.0), ..low(2e4, 0.6) };
+    for spec in [slow(), filtered, Spec { resistance: Some(50.0), ..ideal() }, low(1e4, 0.7)] {
+        let ran = ran(&saw(spec), &event(1e-10, 3e-3), 7e-6);
+        let [source, stored, lost] =
+            ["source", "stored", "lost"].map(|name| ran.column(&format!("stack.{name}_J")));
+        let through = lost.iter().chain(&stored).fold(0.0, |most: f64, x| most.max(x.abs()));
+        let open =
+            source.iter().zip(&stored).zip(&lost).map(|((source, stored), lost)| source - stored - lost);
+        let open = open.fold(0.0, |most: f64, x| most.max(x.abs()));
+        assert!(through > 0.5 * FARADS * 90.0_f64.powi(2), "{spec:?}: {through}");
+        assert!(open < 1e-8 * through, "{spec:?}: {open} of {through}");
+        // The mechanical side is books of its own.
+        let [error, input] = ["error", "input"].map(|name| ran.column(&format!("energy.{name}_J")));
+        let through = input.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let open = error.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        assert!(open < 1e-8 * through, "{spec:?}: {open} of {through}");
+    }
+}
+
+/// A step of 100 V through R from an ideal source: it gives C·V², half is stored, half lost.
+#[test]
+fn half_of_what_a_step_takes_is_lost() {
+    let step = table(&[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (99.0, 100.0)]);
+    let spec = Spec { resistance: Some(100.0), ..ideal() };
+    let ran = ran(&scene(step, spec), &event(1e-10, 9e-3), 9e-3);
+    let last = |name: &str| ran.column(name).pop().unwrap();
+    let whole = FARADS * 1e4;
+    assert!((last("stack.source_J") / whole - 1.0).abs() < 1e-9);
+    assert!((last("stack.lost_J") / whole - 0.5).abs() < 1e-9);
+}
+
+/// Taken up after any number of steps, among them some while the voltage falls at its limit: the same bits.
+#[test]
+fn a_run_taken_up_in_saturation_goes_on_to_the_same_bits() {
+    let frames = Stepper::Frames { length: 7e-6, accuracy: 1e-3 };
+    let mut falling = 0;
+    for stepper in [Stepper::Event { tolerance: 1e-9 }, Stepper::Rk4 { step: 1e-6 }, frames] {
+        let scene = saw(slow());
+        let whole = crate::parts::plan(stepper, 3e-3);
+        let model = Model::new(&scene).unwrap();
+        let start = model.start(&whole).unwrap();
+        let mut run = Run::new(&model, &whole, start.clone()).unwrap();
+        run.finish(&mut ()).unwrap();
+        let end = run.into_state();
+        for part in 1..20 {
+            let steps = part * (end.counts().steps + end.counts().rejected) / 20;
+            let short = Plan { limits: Limits { steps, ..whole.limits }, ..whole };
+            let mut first = Run::new(&model, &short, start.clone()).unwrap();
+            assert!(matches!(first.approach(&mut ()), Err(RunError::TooManySteps { .. })));
+            let bytes = first.state().to_bytes(&model, &KEY);
+            let state = State::from_bytes(&model, &KEY, &bytes).unwrap();
+            // From 0.98 ms to 1.22 ms, and a period later.
+            falling += u32::from(
+                (0.98e-3..1.2e-3)
+                    .contains(&(state.time() % 1e-3 + if state.time() % 1e-3 < 0.5e-3 { 1e-3 } else { 0.0 })),
+            );
+            let mut rest = Run::resume(&model, &whole, state).unwrap();
+            rest.finish(&mut ()).unwrap();
+            assert!(rest.into_state() == end, "{stepper:?} after {steps} steps");
+        }
+    }
+    assert!(falling > 5, "{falling}");
+}

@@ -1,0 +1,69 @@
+//! Resistance and bandwidth: step and ramp responses.
+
+use crate::parts::{FARADS, event, ideal, low, ran, scene, table};
+use std::f64::consts::TAU;
+use stickslip_piezo::driver::Spec;
+
+/// 100 V from 1 ms on.
+const STEP: &[(f64, f64)] = &[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (9.0, 100.0)];
+/// 10 V/ms.
+const RAMP: &[(f64, f64)] = &[(0.0, 0.0), (10.0, 100.0)];
+
+fn through(resistance: f64) -> Spec {
+    Spec { resistance: Some(resistance), ..ideal() }
+}
+
+/// V = 100 V (1 - e^{-t/RC}).
+#[test]
+fn a_step_through_a_resistance_is_an_exponential() {
+    let time = 300.0 * FARADS;
+    let ran = ran(&scene(table(STEP), through(300.0)), &event(1e-12, 4e-3), 37e-6);
+    let exact = |t: f64| if t < 1e-3 { 0.0 } else { -100.0 * (-(t - 1e-3) / time).exp_m1() };
+    let worst = ran.worst(exact);
+    assert!(worst < 1e-9 * 100.0, "{worst}");
+    assert!(ran.volts().last().unwrap().1 > 99.9);
+}
+
+/// V = v(t - RC(1 - e^{-t/RC})), I = C V̇.
+#[test]
+fn a_ramp_through_a_resistance_lags_by_its_time_constant() {
+    let time = 300.0 * FARADS;
+    let ran = ran(&scene(table(RAMP), through(300.0)), &event(1e-12, 4e-3), 37e-6);
+    let worst = ran.worst(|t| 1e4 * (t + time * (-t / time).exp_m1()));
+    assert!(worst < 1e-9 * 40.0, "{worst}");
+    let current = ran.column("stack.current_A").pop().unwrap();
+    let exact = -FARADS * 1e4 * (-4e-3 / time).exp_m1();
+    assert!((current - exact).abs() < 1e-9 * exact, "{current} {exact}");
+}
+
+/// V/100 V = 1 - e^{-ζωt}(cos ω_d t + ζ/√(1-ζ²) sin ω_d t), ω_d = ω√(1-ζ²).
+#[test]
+fn a_step_within_a_bandwidth_rings_by_its_damping_ratio() {
+    for ratio in [0.3, 0.5_f64.sqrt()] {
+        let omega = TAU * 1e3;
+        let damped = omega * (1.0 - ratio * ratio).sqrt();
+        let ran = ran(&scene(table(STEP), low(1e3, ratio)), &event(1e-12, 4e-3), 37e-6);
+        let exact = |t: f64| {
+            let t = (t - 1e-3).max(0.0);
+            let swing = (damped * t).cos() + ratio * omega / damped * (damped * t).sin();
+            100.0 * (1.0 - (-ratio * omega * t).exp() * swing)
+        };
+        let worst = ran.worst(exact);
+        assert!(worst < 1e-9 * 100.0, "{ratio}: {worst}");
+    }
+}
+
+/// V = v[t - 2ζ/ω + e^{-ζωt}(2ζ/ω cos ω_d t + (2ζ²-1)/ω_d sin ω_d t)].
+#[test]
+fn a_ramp_within_a_bandwidth_lags_by_two_damping_ratios() {
+    let (ratio, omega) = (0.4, TAU * 1e3);
+    let damped = omega * (1.0 - ratio * ratio as f64).sqrt();
+    let ran = ran(&scene(table(RAMP), low(1e3, ratio)), &event(1e-12, 4e-3), 37e-6);
+    let exact = |t: f64| {
+        let swing = 2.0 * ratio / omega * (damped * t).cos()
+            + (2.0 * ratio * ratio - 1.0) / damped * (damped * t).sin();
+        1e4 * (t - 2.0 * ratio / omega + (-ratio * omega * t).exp() * swing)
+    };
+    let worst = ran.worst(exact);
+    assert!(worst < 1e-9 * 40.0, "{worst}");
+}
