@@ -109,5 +109,7 @@ fn drives(scene: &Scene, waveform: usize) -> bool {
     let lengths = bodies.filter(|(axis, _)| *axis != Axis::Pitch);
     let mut actuators = scene.actuators.iter().map(|actuator| actuator.part.stroke);
     lengths.into_iter().any(|(_, coordinate)| coordinate.freedom == follows)
-        || actuators.any(|stroke| stroke == Varying::Follows(waveform))
+        || actuators.any(
+            |stroke| matches!(stroke, Varying::Follows(signal) if scene.waveform_of(signal) == Some(waveform)),
+        )
 }

@@ -18,6 +18,7 @@
 mod block;
 mod course;
 mod spec;
+mod stage;
 
 pub use spec::{Control, Low, Spec, SpecError};
 

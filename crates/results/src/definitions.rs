@@ -11,14 +11,14 @@ use std::fmt::Write;
 pub struct Definition {
     /// The file, such as `trace.csv`.
     pub file: &'static str,
-    /// Its name there: `BODY`, `CODE`, `CONTACT`, `FILE` and `SCALE` stand for names that the scenario or the run gives.
+    /// Its name there: `ACTUATOR`, `BODY`, `CODE`, `CONTACT`, `FILE` and `SCALE` stand for names that the scenario or the run gives.
     pub name: &'static str,
     /// What it is, with its formula; the name ends with the unit.
     pub text: &'static str,
 }
 
 /// Names that are not the same in every run.
-const PLACEHOLDERS: [&str; 5] = ["BODY", "CODE", "CONTACT", "FILE", "SCALE"];
+const PLACEHOLDERS: [&str; 6] = ["ACTUATOR", "BODY", "CODE", "CONTACT", "FILE", "SCALE"];
 
 /// Everything that is defined, file by file.
 pub fn definitions() -> impl Iterator<Item = &'static Definition> {

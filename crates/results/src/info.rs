@@ -1,15 +1,17 @@
 //! What a scenario means before it runs, as JSON has it: the facts of its model, what its run will take.
 //!
-//! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`]; [`Stepping`]; [`Expectation`]; [`Usage`].
+//! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`], [`piezos`]; [`Stepping`]; [`Expectation`]; [`Usage`].
 
 mod contacts;
 mod expectation;
 mod motion;
+mod piezo;
 mod stepping;
 mod usage;
 
 pub use contacts::{ContactInfo, Loaded, Pressed, contacts, name};
 pub use expectation::{Events, Expectation, PerPeriod};
 pub use motion::{BodyInfo, Freed, ModeInfo, WaveformInfo, bodies, modes, waveforms};
+pub use piezo::{CommandInfo, CornerInfo, PiezoInfo, piezos};
 pub use stepping::Stepping;
 pub use usage::{Item, Usage};

@@ -120,7 +120,7 @@ pub(crate) fn followed(job: &Job, c: usize) -> impl Iterator<Item = usize> + use
 /// springs.
 fn pulls(scene: &Scene, body: usize, (bodies, followed): (&mut Vec<usize>, &mut Vec<usize>)) {
     let varying = |value: Varying| match value {
-        Varying::Follows(waveform) => Some(waveform),
+        Varying::Follows(signal) => scene.waveform_of(signal),
         Varying::Constant(_) => None,
     };
     let loads = scene.loads.iter().filter(|load| load.on == body).filter_map(|load| varying(load.x));

@@ -1,6 +1,7 @@
 //! `summary.json`: what a run came to, in numbers.
 
 mod contacts;
+mod drivers;
 mod fretting;
 mod steps;
 
@@ -25,6 +26,7 @@ use stickslip_drive::RunError;
 
 pub use crate::cycles::JudgedCycle;
 pub use contacts::ContactSummary;
+pub use drivers::DriverSummary;
 pub use fretting::Fretting;
 pub use steps::{DriveSummary, SettlingSummary, Steady};
 
@@ -63,6 +65,9 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<DriveSummary>,
     energy: Balance,
+    /// Driver electronics by the names of their stacks.
+    #[serde(skip_serializing_if = "Parts::is_empty")]
+    drivers: Parts<DriverSummary>,
     /// What the results are not worth, and what is odd about their scenario; empty where there is nothing to say.
     pub warnings: Vec<Warning>,
     /// What is missing, and why.
@@ -217,6 +222,7 @@ impl Summary {
             contacts: contacts::of(job, outcome),
             steps: steps::of(job, outcome, &mut notes),
             energy: outcome.books.balance(),
+            drivers: drivers::of(job, &outcome.state),
             warnings,
             notes,
             files: Vec::new(),

@@ -57,6 +57,7 @@ macro_rules! dimensions {
 
 dimensions! {
     Length Time Frequency Velocity AngularVelocity Acceleration Mass Inertia Force Moment Stiffness Damping Pressure Angle Storage
+    Resistance StrokePerVoltage Voltage Current Capacitance
 }
 
 impl<D> Quantity<D> {

@@ -5,7 +5,7 @@ use crate::error::{Report, ScenarioError, Warning};
 use crate::fault::{Fault, Mend};
 use crate::form::Form;
 use crate::meaning::warnings::Oddity;
-use crate::meaning::{self, FieldsOutput, Figures, Meaning, MemoryOutput, SpringsOutput, Written};
+use crate::meaning::{self, FieldsOutput, Figures, Meaning, MemoryOutput, Piezo, SpringsOutput, Written};
 use crate::path::{At, KeyPath};
 use crate::place::Span;
 use crate::plot_name::PlotName;
@@ -45,6 +45,8 @@ pub struct Scenario {
     pub memory_limit: Option<f64>,
     /// Pictures to draw.
     pub plots: Vec<PlotName>,
+    /// What is known of each actuator beside what the scene holds.
+    pub stacks: Vec<Piezo>,
     /// What is allowed and probably not meant, with its place.
     pub warnings: Vec<Warning>,
     pub(crate) form: Form,
@@ -135,6 +137,7 @@ impl Scenario {
             written: meaning.written,
             memory_limit: meaning.memory_limit,
             plots: meaning.plots,
+            stacks: meaning.stacks,
             warnings: warnings(&document, odd),
             form,
             document,

@@ -5,7 +5,7 @@ mod rule;
 pub(crate) use rule::{
     above_zero, at_least_zero, duration_or_cycles, gaps_or_file, heights_or_file, inertia_where_free,
     law_or_file, names, no_ground, no_trace_column, period_or_frequency, points_or_file, radius_or_diameter,
-    something_on_it, something_to_do, stroke_needed,
+    something_on_it, something_to_do, stroke_or_voltage,
 };
 
 use crate::form::Form;

@@ -96,6 +96,9 @@ pub(crate) fn inline(form: &mut Form, document: &mut Document) -> Result<bool, F
         if let Some(stroke) = &mut actuator.stroke {
             shelf.in_moving(&at.key(name).key("stroke"), stroke)?;
         }
+        if let Some(voltage) = &mut actuator.voltage {
+            shelf.in_moving(&at.key(name).key("voltage"), voltage)?;
+        }
     }
     let at = root.key("loads");
     for (i, load) in form.loads.iter_mut().enumerate() {

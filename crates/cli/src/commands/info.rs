@@ -13,7 +13,7 @@ use stickslip_results::Job;
 use stickslip_results::Parts;
 use stickslip_results::Warning;
 use stickslip_results::info::{
-    self, BodyInfo, ContactInfo, Expectation, ModeInfo, Stepping, Usage, WaveformInfo,
+    self, BodyInfo, ContactInfo, Expectation, ModeInfo, PiezoInfo, Stepping, Usage, WaveformInfo,
 };
 
 /// Derived numbers of a scenario, in SI.
@@ -29,6 +29,8 @@ struct Info {
     contacts: Parts<ContactInfo>,
     /// Normal modes with all contacts stuck, by rising frequency.
     modes: Vec<ModeInfo>,
+    /// Piezo stacks and their drivers.
+    actuators: Parts<PiezoInfo>,
     stepping: Stepping,
     expected: Expectation,
     usage: Usage,
@@ -68,6 +70,7 @@ impl Info {
             contacts: info::contacts(job),
             stepping: Stepping::of(job),
             expected: Expectation::of(job),
+            actuators: info::piezos(job),
             usage: Usage::of(job),
             warnings: Warning::of_scenario(job),
             modes,

@@ -114,7 +114,8 @@ impl<'a> Sketch<'a> {
     }
 
     fn waveform(&self, place: usize) -> &'a str {
-        self.0.waveforms.get(place).map_or("", |waveform| &waveform.name)
+        let waveform = self.0.waveform_of(place).and_then(|place| self.0.waveforms.get(place));
+        waveform.map_or("", |waveform| &waveform.name)
     }
 }
 

@@ -5,102 +5,14 @@
 //! rate; what integration leaves between the two is the memory's offset, with which the state goes on where a limit begins.
 
 use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
+use super::stage::{At, LOST, LOW, LOW_RATE, Now, ROUNDING, VOLTAGE, WORK};
 use super::{Course, Driver, Output, Window};
 use crate::figures::Kept;
-use stickslip_drive::component::{
-    Block, Component, Input, Moment, Passage, Powers, Refused, Standing, States,
-};
+use stickslip_drive::component::{Block, Component, Input, Passage, Powers, Refused, States};
 use stickslip_drive::{EventKind, Sample};
 
-/// Rounding of a voltage against its range, and of a rate against its limit: below it nothing is decided.
-const ROUNDING: f64 = 1e-12;
 /// A voltage that moves less than this part of its range between two events of the driver chatters.
 const CHATTER: f64 = 1e-6;
-
-type At<'a> = Moment<'a, [Sample]>;
-type Now<'a> = Standing<'a, usize, Vec<f64>>;
-
-/// Places of the states.
-const VOLTAGE: usize = 0;
-const WORK: usize = 1;
-const LOST: usize = 2;
-const LOW: usize = 3;
-const LOW_RATE: usize = 4;
-
-impl Driver {
-    /// What the output stage follows: the command in its window, through the low-pass.
-    fn followed(&self, course: Course, command: Sample, states: &[f64]) -> Sample {
-        let (low, high) = self.spec.reach();
-        let held = |value: f64| Sample { value, rate: 0.0, acceleration: 0.0 };
-        let cut = match course.window {
-            Window::Inside => command,
-            Window::Below => held(low),
-            Window::Above => held(high),
-        };
-        let Some(pass) = &self.spec.low else { return cut };
-        let (omega, value, rate) = (self.spec.omega(), states[LOW], states[LOW_RATE]);
-        let acceleration = omega * (omega * (cut.value - value) - 2.0 * pass.ratio * rate);
-        Sample { value, rate, acceleration }
-    }
-
-    /// Rate that the output stage wishes for without a limit, m/s.
-    fn wish(&self, followed: Sample, states: &[f64]) -> f64 {
-        self.spec.time().map_or(followed.rate, |time| (followed.value - states[VOLTAGE]) / time)
-    }
-
-    /// The voltage as a stroke, m, with its rate, m/s.
-    fn voltage(&self, course: Course, followed: Sample, (states, offset): (&[f64], f64)) -> Sample {
-        let (down, up) = self.spec.slew();
-        let own = states[VOLTAGE] + offset;
-        let limited = |rate: f64| Sample { value: own, rate, acceleration: 0.0 };
-        match (course.output, self.spec.time()) {
-            (Output::Rising, _) => limited(up),
-            (Output::Falling, _) => limited(-down),
-            (Output::Free, None) => followed,
-            (Output::Free, Some(time)) => {
-                let rate = self.wish(followed, states);
-                Sample { value: own, rate, acceleration: (followed.rate - rate) / time }
-            }
-        }
-    }
-
-    fn offset(memory: &[f64]) -> f64 {
-        memory.first().copied().unwrap_or(0.0)
-    }
-
-    /// What is followed, and the voltage.
-    fn now(&self, standing: Now<'_>, at: &At<'_>) -> (Course, Sample, Sample) {
-        let course = Course::of(*standing.law);
-        let followed = self.followed(course, at.inputs[0], at.states);
-        let voltage = self.voltage(course, followed, (at.states, Self::offset(standing.memory)));
-        (course, followed, voltage)
-    }
-
-    /// What the output stage does from here on, by where it stands and what it wishes.
-    fn output(&self, followed: Sample, (states, voltage): (&[f64], f64)) -> Output {
-        let (down, up) = self.spec.slew();
-        if self.spec.current.is_none() {
-            return Output::Free;
-        }
-        let ahead = followed.value - voltage;
-        if self.spec.resistance.is_none() && ahead.abs() > ROUNDING * self.span {
-            return if ahead > 0.0 { Output::Rising } else { Output::Falling };
-        }
-        let wish = self.wish(followed, states);
-        if wish > up * (1.0 + ROUNDING) {
-            Output::Rising
-        } else if wish < -down * (1.0 + ROUNDING) {
-            Output::Falling
-        } else {
-            Output::Free
-        }
-    }
-
-    /// Current of a rate, A.
-    fn current(&self, rate: f64) -> f64 {
-        self.spec.capacitance * rate / self.spec.gain
-    }
-}
 
 impl Component for Driver {
     type Law = usize;

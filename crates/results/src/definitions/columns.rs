@@ -51,6 +51,23 @@ pub(super) const COLUMNS: &[Definition] = &[
         "CONTACT.friction_J",
         "work of friction since the start, the force of every slipping spring along its slip; never falls",
     ),
+    of(
+        "trace.csv",
+        "ACTUATOR.voltage_V",
+        "voltage V at a stack that has a driver; charge over C where that controls the charge",
+    ),
+    of("trace.csv", "ACTUATOR.current_A", "current C·dV/dt into the stack"),
+    of(
+        "trace.csv",
+        "ACTUATOR.source_J",
+        "work ∫f·I dt of the driver's source since the start, f what its output stage follows",
+    ),
+    of("trace.csv", "ACTUATOR.stored_J", "energy CV²/2 in the stack's capacitance"),
+    of(
+        "trace.csv",
+        "ACTUATOR.lost_J",
+        "work ∫(f - V)·I dt lost in the driver since the start: source less what the store has gained",
+    ),
     of("trace.csv", "energy.input_J", "work of followers, loads, preloads and gravity since the start"),
     of("trace.csv", "energy.kinetic_J", "Σ(m(vx² + vz²) + I·vpitch²)/2 of the free bodies"),
     of("trace.csv", "energy.elastic_J", "energy stored by contacts (both directions), springs and stacks"),

@@ -37,7 +37,8 @@ impl Implausible<'_> {
             }
         }
         for actuator in &scene.actuators {
-            if let Varying::Follows(w) = actuator.part.stroke
+            if let Varying::Follows(signal) = actuator.part.stroke
+                && let Some(w) = scene.waveform_of(signal)
                 && let Some(sides) = driven.get_mut(w)
             {
                 sides.extend(actuator.part.between);

@@ -165,8 +165,10 @@ fn bounds(job: &Job) -> Bounds {
 /// Stroke of the waveform of the figures, where it is a length: one that a body or an actuator follows.
 fn stroke(job: &Job) -> Option<f64> {
     let (scene, waveform) = (&job.scenario.scene, job.scenario.figures.waveform?);
-    let followed = scene.bodies.iter().any(|body| body.part.x.freedom == Freedom::Follows(waveform));
-    let drives = scene.actuators.iter().any(|part| part.part.stroke == Varying::Follows(waveform));
+    let is_here = |signal: usize| scene.waveform_of(signal) == Some(waveform);
+    let followed =
+        scene.bodies.iter().any(|body| matches!(body.part.x.freedom, Freedom::Follows(w) if is_here(w)));
+    let drives = scene.actuators.iter().any(|it| matches!(it.part.stroke, Varying::Follows(w) if is_here(w)));
     let (low, high) = scene.waveforms.get(waveform)?.part.range();
     (followed || drives).then_some(high - low)
 }

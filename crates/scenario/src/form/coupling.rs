@@ -1,8 +1,8 @@
-//! What else acts on bodies: springs, actuators, loads, gravity.
+//! What else acts on bodies: springs, loads, gravity.
 
-use super::{Moving, PointForm, Points, Reserved, Two};
+use super::{Moving, PointForm, Points, Two};
 use crate::quantity::{Acceleration, Angle, Damping, Force, Stiffness, dimension};
-use crate::schema::{above_zero, at_least_zero, something_on_it, something_to_do, stroke_needed};
+use crate::schema::{at_least_zero, something_on_it, something_to_do};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -51,54 +51,6 @@ pub(crate) struct SpringForm {
     #[serde(default = "no_force")]
     #[schemars(example = &"-1 mN")]
     pub(crate) preload: Force,
-}
-
-/// Piezo stack: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first) at its ends, or
-/// z(second) - z(first), s the free stroke.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(transform = stroke_needed)]
-pub(crate) struct ActuatorForm {
-    /// First and second body; `ground` is one too.
-    #[schemars(extend("uniqueItems" = true), example = json!(["ground", "slider"]))]
-    pub(crate) between: Two,
-    /// Along x or z.
-    #[serde(default)]
-    #[schemars(example = &"z")]
-    pub(crate) direction: DirectionForm,
-    /// Its end on each body by the body's name, relative to the body's reference point, which it is by default.
-    #[serde(default, skip_serializing_if = "Points::is_empty")]
-    #[schemars(example = json!({ "slider": { "x": "5 mm" } }))]
-    pub(crate) at: Points,
-    /// Stiffness k, N/m, above 0; typical 1 N/um to 500 N/um.
-    #[schemars(example = &"20 N/um", transform = above_zero)]
-    pub(crate) stiffness: Stiffness,
-    /// Damping c, N s/m, at least 0; typical 0.1 N s/m to 100 N s/m.
-    #[serde(default = "no_damping")]
-    #[schemars(example = &"0.5 N s/m", transform = at_least_zero)]
-    pub(crate) damping: Damping,
-    /// Free stroke s, m; needed in this version; typical 10 nm to 100 um.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(example = json!({ "follows": "drive" }))]
-    pub(crate) stroke: Option<Moving<dimension::Length>>,
-    /// Voltage. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) voltage: Option<Reserved>,
-    /// Free stroke per voltage. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) stroke_per_volt: Option<Reserved>,
-    /// Capacitance. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) capacitance: Option<Reserved>,
-    /// Driver: current limit, output resistance, voltage window. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) driver: Option<Reserved>,
-    /// Hysteresis. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) hysteresis: Option<Reserved>,
-    /// Creep. Not yet in this version.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) creep: Option<Reserved>,
 }
 
 /// Force and moment on a body; at least one of `x`, `z` and `pitch`.

@@ -1,5 +1,6 @@
 //! The file's form: what may stand where, before anybody asks what it means. The doc comments become the schema.
 
+mod actuator;
 mod body;
 mod bordered;
 mod contact;
@@ -18,12 +19,13 @@ mod value;
 mod waveform;
 mod written;
 
+pub(crate) use actuator::{ActuatorForm, ControlForm, DataSheetForm, DriverForm};
 pub(crate) use body::{BodyForm, BodyStartForm, FreedomForm};
 pub(crate) use bordered::{
     PowersForm, RoundedFlatForm, TippedParaboloidForm, TruncatedConeForm, TruncatedParaboloidForm,
 };
 pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, NormalForm};
-pub(crate) use coupling::{ActuatorForm, DirectionForm, GravityForm, LoadForm, SpringForm};
+pub(crate) use coupling::{DirectionForm, GravityForm, LoadForm, SpringForm};
 pub(crate) use generator::{CycleForm, GeneratorForm, HeadingForm};
 pub(crate) use input::{Bounds, InputForm, InterpolationForm};
 pub(crate) use lengths::Lengths;

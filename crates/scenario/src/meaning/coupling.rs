@@ -1,4 +1,4 @@
-//! Springs, actuators, loads, gravity.
+//! Springs, loads, gravity.
 
 use super::point::point;
 use super::{Builder, range};
@@ -7,7 +7,7 @@ use crate::form::{DirectionForm, LoadForm, Moving};
 use crate::path::At;
 use crate::quantity::Dimension;
 use std::f64::consts::PI;
-use stickslip_drive::scene::{Actuator, Direction, Gravity, Load, Named, Point, Spring, Varying};
+use stickslip_drive::scene::{Direction, Gravity, Load, Named, Point, Spring, Varying};
 
 impl Builder<'_> {
     /// All springs, in the order of the file.
@@ -26,42 +26,6 @@ impl Builder<'_> {
                 preload: spring.preload.si,
             };
             self.scene.springs.push(Named { name: name.to_owned(), part });
-        }
-        Ok(())
-    }
-
-    /// All actuators, in the order of the file.
-    pub(super) fn actuators(&mut self) -> Result<(), Fault> {
-        let form = self.form;
-        let root = At::ROOT;
-        let at = root.key("actuators");
-        for (name, actuator) in form.actuators.iter() {
-            let at = at.key(name);
-            let later = [
-                ("voltage", actuator.voltage),
-                ("stroke_per_volt", actuator.stroke_per_volt),
-                ("capacitance", actuator.capacitance),
-                ("driver", actuator.driver),
-                ("hysteresis", actuator.hysteresis),
-                ("creep", actuator.creep),
-            ];
-            if let Some((key, _)) = later.iter().find(|(_, value)| value.is_some()) {
-                return Err(at.key(key).not_yet().help("give the free \"stroke\" that follows a waveform"));
-            }
-            let Some(stroke) = &actuator.stroke else {
-                let keys = later.iter().map(|(key, _)| at.key(key).path());
-                let fault = keys.fold(at.missing("stroke"), Fault::against_path);
-                return Err(fault.help("such as {\"follows\": \"drive\"}"));
-            };
-            let part = Actuator {
-                between: self.between(&at, &actuator.between)?,
-                at: self.points(&at, &actuator.between, &actuator.at)?,
-                direction: direction(actuator.direction),
-                stiffness: actuator.stiffness.si,
-                damping: actuator.damping.si,
-                stroke: self.varying(&at.key("stroke"), stroke)?,
-            };
-            self.scene.actuators.push(Named { name: name.to_owned(), part });
         }
         Ok(())
     }
@@ -115,7 +79,7 @@ impl Builder<'_> {
     }
 }
 
-fn direction(form: DirectionForm) -> Direction {
+pub(super) fn direction(form: DirectionForm) -> Direction {
     match form {
         DirectionForm::X => Direction::X,
         DirectionForm::Z => Direction::Z,

@@ -1,9 +1,12 @@
 //! From the form to a scene and a plan, and from what these are refused for back to the form.
 
+mod actuator;
 mod body;
 pub(crate) mod channels;
 mod contact;
 mod coupling;
+mod data_sheet;
+mod driver;
 mod generator;
 mod input;
 mod measured;
@@ -19,6 +22,7 @@ pub(crate) mod warnings;
 mod waveform;
 mod written;
 
+pub use actuator::Piezo;
 pub use output::{FieldsOutput, MemoryOutput, SpringsOutput};
 pub use written::{Written, WrittenEvents};
 
@@ -52,6 +56,7 @@ pub(crate) struct Meaning {
     /// Most memory, B.
     pub(crate) memory_limit: Option<f64>,
     pub(crate) plots: Vec<PlotName>,
+    pub(crate) stacks: Vec<Piezo>,
 }
 
 /// A scene under construction.
@@ -64,6 +69,8 @@ struct Builder<'a> {
     terms: usize,
     /// Springs of all rows so far.
     springs: u64,
+    /// What is known of each actuator.
+    stacks: Vec<Piezo>,
 }
 
 /// What is known of a waveform from its form alone.
@@ -72,6 +79,8 @@ struct Course {
     kind: Option<Kind>,
     /// Delay, s.
     delay: f64,
+    /// Stroke per volt of the stack whose voltage it is, m/V: its values are strokes.
+    gain: Option<f64>,
 }
 
 /// Makes of a meaning what a run starts from, as far as that can be done at once: what is refused there is known before it.
@@ -89,8 +98,16 @@ pub(crate) fn start(meaning: &Meaning) -> Result<(), Fault> {
 
 /// Gives a form its meaning; the files of its tables are already points.
 pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
-    let mut builder = Builder { form, scene: Scene::default(), courses: Vec::new(), terms: 0, springs: 0 };
+    let mut builder = Builder {
+        form,
+        scene: Scene::default(),
+        courses: Vec::new(),
+        terms: 0,
+        springs: 0,
+        stacks: Vec::new(),
+    };
     names::check(form)?;
+    builder.stacks()?;
     builder.waveforms()?;
     builder.materials()?;
     builder.bodies()?;
@@ -98,6 +115,7 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     builder.springs()?;
     builder.actuators()?;
     builder.loads()?;
+    builder.chains()?;
     builder.gravity()?;
     builder.actions()?;
     let figures = builder.figures()?;
@@ -118,5 +136,6 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
         memory_limit,
         plots: form.plots.clone(),
         scene: builder.scene,
+        stacks: builder.stacks,
     })
 }

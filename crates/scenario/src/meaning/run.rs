@@ -15,8 +15,16 @@ const FRAME_ACCURACY: (f64, f64) = (1e-9, 1e-1);
 const CHANGE: (f64, f64) = (1e-12, 0.1);
 
 /// What says which waveform and which body make the figures.
-const MOVING: [&str; 7] =
-    ["waveforms", "figures", "bodies.*.x", "bodies.*.z", "actuators.*.stroke", "contacts.*.normal", "loads"];
+const MOVING: [&str; 8] = [
+    "waveforms",
+    "figures",
+    "bodies.*.x",
+    "bodies.*.z",
+    "actuators.*.stroke",
+    "actuators.*.voltage",
+    "contacts.*.normal",
+    "loads",
+];
 /// What says how long a run is.
 pub(super) fn duration(form: &Form) -> &'static [&'static str] {
     let all = &["run.duration", "run.cycles", "waveforms", "figures"];

@@ -35,6 +35,8 @@ pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -
     odd.run();
     odd.waveforms_too_late();
     odd.phases();
+    let cuts = meaning.stacks.iter().filter_map(|piezo| super::driver::cut(piezo, &meaning.scene));
+    cuts.for_each(|fault| odd.find("window", fault));
     odd.found
 }
 
@@ -250,7 +252,9 @@ fn followed(scene: &Scene) -> Vec<bool> {
         }
     }
     for value in varying(scene) {
-        if let Varying::Follows(waveform) = value {
+        if let Varying::Follows(signal) = value
+            && let Some(waveform) = scene.waveform_of(signal)
+        {
             followed[waveform] = true;
         }
     }

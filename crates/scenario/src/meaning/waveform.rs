@@ -18,6 +18,8 @@ const MAX_TERMS: usize = 1000;
 /// Collects the dimension that the values of one waveform agree on.
 pub(super) struct Values<'a> {
     pub(super) kind: Option<Kind>,
+    /// By what they are multiplied: the stroke per volt of the stack that they command, m/V; else 1.
+    gain: f64,
     /// The waveform.
     at: At<'a>,
 }
@@ -32,7 +34,7 @@ impl Values<'_> {
             }
             (known, new) => {
                 self.kind = known.or(new);
-                Ok(value.si)
+                Ok(self.gain * value.si)
             }
         }
     }
@@ -45,12 +47,19 @@ impl Builder<'_> {
         let root = At::ROOT;
         let at = root.key("waveforms");
         for (name, waveform) in form.waveforms.iter() {
-            self.add(&at.key(name), name.to_owned(), waveform)?;
+            let gain = self.gain(name);
+            self.add((&at.key(name), name.to_owned()), waveform, gain)?;
         }
         Ok(())
     }
 
-    fn add(&mut self, at: &At<'_>, name: String, form: &WaveformForm) -> Result<usize, Fault> {
+    /// Adds a waveform and gives its place; `gain` (m/V) is none where it commands no voltage.
+    pub(super) fn add(
+        &mut self,
+        (at, name): (&At<'_>, String),
+        form: &WaveformForm,
+        gain: Option<f64>,
+    ) -> Result<usize, Fault> {
         if let WaveformForm::Harmonics(sum) = form {
             self.terms += sum.terms.len();
             if self.terms > MAX_TERMS {
@@ -59,10 +68,11 @@ impl Builder<'_> {
                 return Err(at.key("harmonics").key("terms").fault(message).against_all());
             }
         }
-        let mut values = Values { kind: None, at: *at };
+        let mut values = Values { kind: None, gain: gain.unwrap_or(1.0), at: *at };
         let (part, delay) = waveform(at, form, &mut values)?;
         self.scene.waveforms.push(Named { name, part });
-        self.courses.push(Course { kind: values.kind, delay });
+        let kind = values.kind.or(gain.map(|_| Kind::Voltage));
+        self.courses.push(Course { kind, delay, gain });
         Ok(self.scene.waveforms.len() - 1)
     }
 
@@ -74,7 +84,7 @@ impl Builder<'_> {
                 WaveformRef::Name(name) => self.form.waveforms.find(name).ok_or_else(|| {
                     names::unknown(&at, ("waveform", "waveforms"), name, &self.form.waveforms)
                 })?,
-                WaveformRef::Inline(form) => self.add(&at, at.path().to_string(), form)?,
+                WaveformRef::Inline(form) => self.add((&at, at.path().to_string()), form, None)?,
             };
         match self.courses.get(index).and_then(|course| course.kind) {
             Some(found) if found != kind => {

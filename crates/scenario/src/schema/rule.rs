@@ -123,19 +123,15 @@ pub(crate) fn something_to_do(schema: &mut Schema) {
     schema.insert("anyOf".to_owned(), json!(keys));
 }
 
-/// In this version an actuator's stroke is given.
-pub(crate) fn stroke_needed(schema: &mut Schema) {
-    needed(schema, "stroke");
+/// A stack follows a stroke or a voltage, and something tells its stiffness.
+pub(crate) fn stroke_or_voltage(schema: &mut Schema) {
+    either(schema, "stroke", "voltage");
+    let keys = ["stiffness", "data_sheet"].map(|key| json!({ "required": [key] }));
+    schema.insert("anyOf".to_owned(), json!(keys));
 }
 
 /// A load acts somehow.
 pub(crate) fn something_on_it(schema: &mut Schema) {
     let keys = ["x", "z", "pitch"].map(|key| json!({ "required": [key] }));
     schema.insert("anyOf".to_owned(), json!(keys));
-}
-
-fn needed(schema: &mut Schema, key: &str) {
-    if let Some(Value::Array(required)) = schema.get_mut("required") {
-        required.push(json!(key));
-    }
 }

@@ -6,7 +6,7 @@ use super::digits::{bytes, digits, mass, two_digits, whole};
 use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
 use stickslip_results::Real;
 use stickslip_results::info::Item;
-use stickslip_results::info::{BodyInfo, Freed, ModeInfo, WaveformInfo};
+use stickslip_results::info::{BodyInfo, Freed, ModeInfo, PiezoInfo, WaveformInfo};
 use stickslip_results::quantity;
 
 /// Widest line.
@@ -33,6 +33,7 @@ impl Info {
             self.waveforms(),
             columns::contacts(&self.contacts.0),
             modes,
+            self.actuators(),
             self.run(),
             self.usage(),
         ];
@@ -86,6 +87,32 @@ impl Info {
             ]
         };
         grid(["MODES, all contacts stuck", "period", "damping ratio", "shape"], self.modes.iter().map(row))
+    }
+
+    fn actuators(&self) -> String {
+        let row = |(name, piezo): &(String, PiezoInfo)| {
+            let mut numbers = vec![
+                format!("k {}", quantity(piezo.stiffness, "N/m")),
+                format!("c {}", quantity(piezo.damping, "N s/m")),
+            ];
+            numbers
+                .extend(piezo.quality.map(|quality| format!("(Q {} of a soft ceramic)", digits(quality.0))));
+            numbers.extend(piezo.mass.map(|mass| format!("own mass {}", quantity(mass, "kg"))));
+            numbers.extend(piezo.stroke_per_volt.map(|gain| quantity(gain, "m/V")));
+            numbers.extend(piezo.capacitance.map(|farads| quantity(farads, "F")));
+            numbers.extend(piezo.resolution.map(|step| format!("{} a count", quantity(step, "m"))));
+            numbers.extend(piezo.coupling.map(|part| format!("kα²/C {}", digits(part.0))));
+            let force = piezo.command.blocking_force;
+            let [low, high] = piezo.command.stroke.map(|end| quantity(end, "m"));
+            let command = format!("{low} … {high}, {} blocked", quantity(force, "N"));
+            vec![name.clone(), command, unbroken(&numbers)]
+        };
+        if self.actuators.0.is_empty() {
+            return String::new();
+        }
+        let table = grid(["ACTUATORS", "command, as a stroke", "stack"], self.actuators.0.iter().map(row));
+        let said = self.actuators.0.iter().flat_map(|(_, piezo)| &piezo.words);
+        std::iter::once(table).chain(said.cloned()).collect::<Vec<_>>().join("\n\n")
     }
 
     fn run(&self) -> String {
