@@ -51,7 +51,9 @@ mod units;
 pub use error::{Report, ScenarioError, Warning};
 pub use excerpt::Excerpt;
 pub use guide::explained;
-pub use meaning::{FieldsOutput, Figures, MemoryOutput, Piezo, SpringsOutput, Written, WrittenEvents};
+pub use meaning::{
+    Ceramic, FieldsOutput, Figures, Hysteresis, MemoryOutput, Piezo, SpringsOutput, Written, WrittenEvents,
+};
 pub use named::{MATERIALS, NamedMaterial};
 pub use plot_name::PlotName;
 pub use quantity::quantity;
