@@ -199,7 +199,7 @@ mod tests {
         assert!((steepest.slew(&spec) / (2.0 / 7.2e-6) - 1.0).abs() < 1e-12);
         assert!((steepest.takes(&spec) - 432e-6).abs() < 1e-9);
         let (fall, rise) = (2.0 / 7.2e-6, 120.0 / 980e-6);
-        let lowest = rise * (120.0 - fall * 20e-6) / (fall + rise);
+        let lowest: f64 = rise * (120.0 - fall * 20e-6) / (fall + rise);
         assert!((forecast.left.0 / spec.gain - lowest).abs() < 0.2, "{forecast:?} {lowest}");
         assert!((forecast.left.1 - 4.6e-6).abs() < 1e-9);
     }
@@ -209,7 +209,7 @@ mod tests {
     fn a_faster_saw_leaves_a_part_of_the_stroke() {
         let (spec, forecast) = of(0.5e-3);
         let (fall, rise) = (2.0 / 7.2e-6, 120.0 / 480e-6);
-        let lowest = rise * (120.0 - fall * 20e-6) / (fall + rise);
+        let lowest: f64 = rise * (120.0 - fall * 20e-6) / (fall + rise);
         assert!(
             (lowest - 54.2).abs() < 0.1 && (forecast.left.0 / spec.gain - lowest).abs() < 0.2,
             "{lowest}"

@@ -56,8 +56,8 @@ fn a_step_within_a_bandwidth_rings_by_its_damping_ratio() {
 /// V = v[t - 2ζ/ω + e^{-ζωt}(2ζ/ω cos ω_d t + (2ζ²-1)/ω_d sin ω_d t)].
 #[test]
 fn a_ramp_within_a_bandwidth_lags_by_two_damping_ratios() {
-    let (ratio, omega) = (0.4, TAU * 1e3);
-    let damped = omega * (1.0 - ratio * ratio as f64).sqrt();
+    let (ratio, omega) = (0.4_f64, TAU * 1e3);
+    let damped = omega * (1.0 - ratio * ratio).sqrt();
     let ran = ran(&scene(table(RAMP), low(1e3, ratio)), &event(1e-12, 4e-3), 37e-6);
     let exact = |t: f64| {
         let swing = 2.0 * ratio / omega * (damped * t).cos()
