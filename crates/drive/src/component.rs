@@ -120,7 +120,8 @@ pub trait Block:
     /// Its states and its memory at t = 0, in law 0, from the inputs there.
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>);
 
-    /// Slopes of its states, to be filled, and the forces and powers that it makes.
+    /// Slopes of its states, to be filled, and the forces and powers that it makes. A block that has no states and reads no length is
+    /// not asked: it makes neither.
     fn slopes(
         &self,
         standing: Standing<'_, usize, Vec<f64>>,

@@ -197,7 +197,7 @@ impl Waveform {
     /// Time after which it has shown all that it does, s: its period, or from its start to its stop; infinite where it never
     /// moves. Of a generator the shortest period: it moves as soon as it is told to.
     #[must_use]
-    pub(crate) fn extent(&self) -> f64 {
+    pub fn extent(&self) -> f64 {
         let (start, stop) = self.window;
         let whole = stop - start;
         self.shortest_period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })

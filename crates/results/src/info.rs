@@ -2,6 +2,7 @@
 //!
 //! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`], [`piezos`]; [`Stepping`]; [`Expectation`]; [`Usage`].
 
+mod ceramic;
 mod contacts;
 mod expectation;
 mod motion;

@@ -52,7 +52,8 @@ pub use error::{Report, ScenarioError, Stage, Warning};
 pub use excerpt::Excerpt;
 pub use guide::explained;
 pub use meaning::{
-    FieldsOutput, Figures, MemoryOutput, OwnPlot, Piezo, SpringsOutput, Written, WrittenEvents,
+    Ceramic, FieldsOutput, Figures, Hysteresis, MemoryOutput, OwnPlot, Piezo, SpringsOutput, Written,
+    WrittenEvents,
 };
 pub use named::{MATERIALS, NamedMaterial};
 pub use plot_name::PlotName;

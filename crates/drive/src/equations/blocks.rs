@@ -117,7 +117,7 @@ impl Equations<'_> {
     /// only.
     #[inline(never)]
     pub(super) fn blocks(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
-        for (k, wired) in self.model.blocks.iter().enumerate() {
+        for (k, wired) in self.model.blocks.iter().enumerate().filter(|(_, wired)| wired.acts()) {
             let from = self.layout.block(wired.first) - 2 * self.layout.free;
             let mut efforts = [0.0; MOST_OF_A_BLOCK];
             let slopes = &mut extra[from..from + wired.count()];

@@ -50,6 +50,11 @@ impl Wired {
         &*self.block.0
     }
 
+    /// Whether it has slopes or efforts; one that has neither is asked for its signal alone.
+    pub(crate) fn acts(&self) -> bool {
+        self.count() > 0 || self.wires.iter().any(|wire| matches!(wire, Wire::Length(_)))
+    }
+
     /// Number of its states.
     pub(crate) fn count(&self) -> usize {
         self.states.scales.len()

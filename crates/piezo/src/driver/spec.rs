@@ -97,6 +97,12 @@ impl Spec {
         self.resistance.map(|resistance| resistance * self.capacitance)
     }
 
+    /// The fastest at which what it makes swings or settles of itself, 1/s; 0 where it follows at once.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        self.omega().max(self.time().map_or(0.0, f64::recip))
+    }
+
     /// ω of the low-pass, 1/s.
     pub(crate) fn omega(&self) -> f64 {
         self.low.map_or(0.0, |low| TAU * low.frequency)

@@ -68,6 +68,18 @@ pub(super) const COLUMNS: &[Definition] = &[
         "ACTUATOR.lost_J",
         "work ∫(f - V)·I dt lost in the driver since the start: source less what the store has gained",
     ),
+    of("trace.csv", "ACTUATOR.hysteresis.stroke_m", "free stroke behind the hysteresis of a stack"),
+    of("trace.csv", "ACTUATOR.creep.stroke_m", "free stroke behind its creep: what the stack follows"),
+    of(
+        "trace.csv",
+        "ACTUATOR.inverse_creep.stroke_m",
+        "stroke to be asked for so that creep makes the command of it",
+    ),
+    of(
+        "trace.csv",
+        "ACTUATOR.inverse_hysteresis.stroke_m",
+        "stroke to be asked for so that hysteresis makes that of it",
+    ),
     of("trace.csv", "energy.input_J", "work of followers, loads, preloads and gravity since the start"),
     of("trace.csv", "energy.kinetic_J", "Σ(m(vx² + vz²) + I·vpitch²)/2 of the free bodies"),
     of("trace.csv", "energy.elastic_J", "energy stored by contacts (both directions), springs and stacks"),
@@ -86,7 +98,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "events.csv",
         "kind",
-        "`reversal` (u turns), `loop closed` (a turning point is forgotten), `gross slip`, `gross slip ends`, `full stick` (grows without slip), `slip begins`, `touch`, `lift-off`, `corner` and `jump` of a waveform",
+        "`reversal` (u turns), `loop closed` (a turning point is forgotten), `gross slip`, `gross slip ends`, `full stick` (grows without slip), `slip begins`, `touch`, `lift-off`, `corner` and `jump` of a waveform, `input turns`, `play taken up` and `lag turns` of hysteresis",
     ),
     of("springs.csv", "time_s", "the moment"),
     of("springs.csv", "contact", "the contact; forces are those of one of its count"),

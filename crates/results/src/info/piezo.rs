@@ -122,6 +122,7 @@ fn of(job: &Job, i: usize, piezo: &Piezo) -> PiezoInfo {
     }
     let stroke = left.map_or(high - low, |(low, high)| high - low);
     words.extend(idle(job, i, &piezo.name, stroke));
+    words.extend(super::ceramic::words(piezo));
     PiezoInfo {
         stiffness: Real(stack.stiffness),
         damping: Real(scene.actuators[i].part.damping),

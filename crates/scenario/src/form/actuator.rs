@@ -1,6 +1,6 @@
 //! Piezo stacks: what they are, what they follow, and what drives them.
 
-use super::{DirectionForm, Moving, Points, Reserved, Two};
+use super::{CreepForm, DirectionForm, HysteresisForm, Moving, Points, Two};
 use crate::quantity::{
     Capacitance, Current, Damping, Force, Frequency, Length, Mass, Resistance, Stiffness, StrokePerVoltage,
     Voltage, dimension,
@@ -69,12 +69,18 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "window": ["0 V", "120 V"], "current": "2 A" }))]
     pub(crate) driver: Option<DriverForm>,
-    /// Hysteresis. Not yet in this version.
+    /// Hysteresis of the stroke; none by default, and none under charge control.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) hysteresis: Option<Reserved>,
-    /// Creep. Not yet in this version.
+    #[schemars(example = json!({ "loop": { "percent": 12 } }))]
+    pub(crate) hysteresis: Option<HysteresisForm>,
+    /// Creep of the stroke; none by default, and none under charge control.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) creep: Option<Reserved>,
+    #[schemars(example = json!({ "per_decade": 0.015 }))]
+    pub(crate) creep: Option<CreepForm>,
+    /// Whether the command is led through the inverses of hysteresis and creep before the driver; not by default.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(example = true)]
+    pub(crate) compensate: bool,
 }
 
 /// Numbers of a stack's data sheet. Those that say the same must agree within 1 %.

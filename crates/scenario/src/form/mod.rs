@@ -3,6 +3,7 @@
 mod actuator;
 mod body;
 mod bordered;
+mod ceramic;
 mod contact;
 mod coupling;
 mod generator;
@@ -28,6 +29,7 @@ pub(crate) use body::{BodyForm, BodyStartForm, FreedomForm};
 pub(crate) use bordered::{
     PowersForm, RoundedFlatForm, TippedParaboloidForm, TruncatedConeForm, TruncatedParaboloidForm,
 };
+pub(crate) use ceramic::{BoucWenForm, CreepForm, HysteresisForm, LoopForm, PlaysForm};
 pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, NormalForm};
 pub(crate) use coupling::{DirectionForm, GravityForm, LoadForm, SpringForm};
 pub(crate) use generator::{CycleForm, GeneratorForm, HeadingForm};

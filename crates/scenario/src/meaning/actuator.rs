@@ -5,6 +5,7 @@
 //! and its figures need no word of volts. Only blocks of the piezo side do, whose columns are volts and amperes.
 
 use super::Builder;
+use super::ceramic::Ceramic;
 use super::coupling::direction;
 use super::data_sheet::stack;
 use crate::fault::Fault;
@@ -35,6 +36,8 @@ pub struct Piezo {
     pub driver: Option<Spec>,
     /// Smallest step of its voltage, V, where the scenario tells it.
     pub resolution: Option<f64>,
+    /// Hysteresis and creep.
+    pub ceramic: Ceramic,
     /// Place of the driver among the blocks of the scene: none where the command is constant.
     pub block: Option<usize>,
 }
@@ -56,6 +59,7 @@ impl Builder<'_> {
                 by_voltage: actuator.voltage.is_some(),
                 driver: None,
                 resolution: None,
+                ceramic: Ceramic::default(),
                 block: None,
             });
         }
@@ -79,10 +83,6 @@ impl Builder<'_> {
         let at = root.key("actuators");
         for (i, (name, actuator)) in form.actuators.iter().enumerate() {
             let at = at.key(name);
-            let later = [("hysteresis", actuator.hysteresis), ("creep", actuator.creep)];
-            if let Some((key, _)) = later.iter().find(|(_, value)| value.is_some()) {
-                return Err(at.key(key).not_yet().help("leave it out"));
-            }
             let between = self.between(&at, &actuator.between)?;
             let stroke = self.command(&at, i, actuator)?;
             let part = Actuator {
@@ -116,16 +116,17 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// command → driver → [hysteresis] → [creep] → stroke, each a block where the scenario asks for it.
+    /// command → [inverses of creep and hysteresis] → driver → hysteresis → creep → stroke, each a block where the scenario asks for it.
     ///
     /// All signals are free strokes, m; one of a volt is `self.stacks[i].stack.stroke_per_volt` (m/V).
     fn chain(&mut self, at: &At<'_>, i: usize, actuator: &ActuatorForm) -> Result<Varying, Fault> {
-        let command = self.stacks[i].command;
+        self.stacks[i].ceramic = self.ceramic(at, i, actuator)?;
+        let command = self.compensation(i, self.stacks[i].command);
         let driven = match &actuator.driver {
             Some(form) => self.driver(at, (i, command), form)?,
             None => command,
         };
-        Ok(driven)
+        Ok(self.response(i, driven))
     }
 
     /// The command of an actuator as a free stroke.

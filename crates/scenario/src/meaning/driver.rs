@@ -1,6 +1,6 @@
 //! Driver electronics of a stack.
 
-use super::{Builder, Piezo, range};
+use super::{Builder, Piezo, ceramic, range};
 use crate::fault::Fault;
 use crate::form::{ControlForm, DriverForm};
 use crate::path::At;
@@ -35,9 +35,8 @@ impl Builder<'_> {
         self.stacks[i].resolution = resolution.transpose()?;
         let (first, reach) = match command {
             Varying::Constant(value) => (value, (value, value)),
-            Varying::Follows(w) => {
-                let waveform = &self.scene.waveforms[w].part;
-                (waveform.first().value, waveform.range())
+            Varying::Follows(signal) => {
+                (ceramic::first(&self.scene, signal).value, ceramic::reach(&self.scene, signal))
             }
         };
         if let Some((low, high)) = spec.window {

@@ -2,6 +2,7 @@
 
 mod actuator;
 mod body;
+mod ceramic;
 pub(crate) mod channels;
 mod contact;
 mod coupling;
@@ -27,6 +28,7 @@ mod waveform;
 mod written;
 
 pub use actuator::Piezo;
+pub use ceramic::{Ceramic, Hysteresis};
 pub use output::{FieldsOutput, MemoryOutput, SpringsOutput};
 pub use plots::OwnPlot;
 pub use written::{Written, WrittenEvents};

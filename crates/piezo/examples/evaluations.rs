@@ -1,0 +1,30 @@
+//! Evaluates hysteresis with ten plays as often as the first argument says, with plays taken up and not: what an evaluation costs
+//! is the difference of two counts of instructions, such as of `valgrind --tool=callgrind` with 0 and 1000000.
+
+use std::error::Error;
+use std::hint::black_box;
+use stickslip_drive::Sample;
+use stickslip_drive::component::{Block, Moment, Standing};
+use stickslip_piezo::Reading;
+use stickslip_piezo::hysteresis::{PlayBlock, Plays};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let count: u64 = std::env::args().nth(1).unwrap_or_default().parse()?;
+    let reading = Reading { signal: 0, span: 1.0, rate: 1.0, column: "stroke_m" };
+    let plays = Plays::of_loop(0.12, 1.0, 10)?;
+    let memory = plays.start(0.3);
+    let block: Box<dyn Block> = Box::new(PlayBlock::new(plays, reading));
+    let (mut sum, mut slopes, mut efforts): (f64, [f64; 0], _) = (0.0, [], [0.0; 8]);
+    for k in 0..count {
+        let inputs = [Sample { value: black_box(0.3), rate: 1.0, acceleration: 0.0 }];
+        let (law, at): (_, Moment<[Sample]>) =
+            (black_box(2 * (k as usize % 11)), Moment { t: 0.0, inputs: &inputs[..], states: &[] });
+        let standing = Standing { law: &law, memory: &memory };
+        let block: &dyn Block = black_box(&*block);
+        // As a step does: slopes and signal at a stage.
+        block.slopes(standing, &at, &mut slopes, &mut efforts);
+        sum += block.signal(standing, &at).value;
+    }
+    black_box(sum);
+    Ok(())
+}
