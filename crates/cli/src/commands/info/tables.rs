@@ -97,7 +97,7 @@ impl Info {
             ];
             numbers
                 .extend(piezo.quality.map(|quality| format!("(Q {} of a soft ceramic)", digits(quality.0))));
-            numbers.extend(piezo.mass.map(|mass| format!("own mass {}", quantity(mass, "kg"))));
+            numbers.extend(piezo.mass.map(|own| format!("own mass {}", mass(own))));
             numbers.extend(piezo.stroke_per_volt.map(|gain| quantity(gain, "m/V")));
             numbers.extend(piezo.capacitance.map(|farads| quantity(farads, "F")));
             numbers.extend(piezo.resolution.map(|step| format!("{} a count", quantity(step, "m"))));
