@@ -177,18 +177,21 @@ impl Guide {
     /// Whether a key may stand in the value under a path.
     pub(crate) fn knows(&self, path: &KeyPath, key: &str) -> bool {
         let schema = self.at(path).and_then(|schema| self.enter(schema, &Step::Key(key.to_owned())));
-        schema.is_some_and(|schema| !is_later(schema))
+        schema.is_some()
     }
 
     fn keys_of<'a>(&self, schema: &'a Value) -> impl Iterator<Item = String> + use<'a> {
         let keys = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
-        keys.filter(|(_, inner)| inner.is_object() && !is_later(inner)).map(|(key, _)| key.clone())
+        keys.filter(|(_, inner)| inner.is_object()).map(|(key, _)| key.clone())
     }
 
     /// Where in a scenario a key stands: the places that share most with the one where it was looked for, of those the
     /// ones closest to the root. Names of parts that are not shared are written as NAME.
     pub(crate) fn homes(&self, sought: &KeyPath, key: &str) -> Vec<String> {
         let mut homes = self.places(sought, key);
+        // The axes of a picture are no home of a coordinate.
+        let pictures = Step::Key("plots".to_owned());
+        homes.retain(|home| home.0.first() != Some(&pictures) || sought.0.first() == Some(&pictures));
         let shared = |home: &KeyPath| home.0.iter().zip(&sought.0).take_while(|(a, b)| a == b).count();
         let rank = |home: &KeyPath| (shared(home), Reverse(home.0.len()));
         let best = homes.iter().map(rank).max();
@@ -267,11 +270,6 @@ pub fn explained(key: &str) -> Vec<(String, String)> {
     }
     let homes = guide.homes(&KeyPath::default(), name);
     homes.iter().filter_map(|home| told(&KeyPath::parse(&format!("{home}.{name}"))?)).collect()
-}
-
-/// Part of the form, but of a later version.
-fn is_later(schema: &Value) -> bool {
-    schema.get("$ref").and_then(Value::as_str).is_some_and(|name| name.ends_with("/NotYet"))
 }
 
 /// A value on one line, as people write it.

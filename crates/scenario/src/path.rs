@@ -124,17 +124,6 @@ impl<'a> At<'a> {
     pub(crate) fn missing(&self, key: &str) -> Fault {
         Fault::missing(self.path(), key)
     }
-
-    /// A key or value of the form that this version does not implement.
-    pub(crate) fn not_yet(&self) -> Fault {
-        let path = self.path();
-        let last = path.0.iter().rev().find_map(|step| match step {
-            Step::Key(key) => Some(key.clone()),
-            Step::Index(_) => None,
-        });
-        let name = last.unwrap_or_default();
-        Fault::new(path, format!("\"{name}\" is part of the form but not yet in this version")).on_key()
-    }
 }
 
 #[cfg(test)]

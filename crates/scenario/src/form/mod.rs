@@ -39,7 +39,7 @@ pub(crate) use material::MaterialForm;
 pub(crate) use measured::{GapPoint, GapTableForm, LawPoint, NormalLawForm, RoughForm, SelfAffineForm};
 pub(crate) use output::{FieldsOutputForm, MemoryOutputForm, OutputForm};
 pub(crate) use periodic::{BurstForm, Periodic, SectionForm};
-pub(crate) use plain::{Count, Reserved, Two};
+pub(crate) use plain::{Count, Two};
 pub(crate) use plot::{OwnPlotForm, PlotForm};
 pub(crate) use point::{PointForm, Points};
 pub(crate) use profile::{FoundationForm, ProfileForm};

@@ -53,7 +53,7 @@ pub(super) fn sawtooth(
         let unit = values.kind.map_or(String::new(), |kind| format!(" {}/s", kind.si()));
         let fault = at
             .key("rate")
-            .expected(format_args!("at least {}{unit}, the rate of the rise", range::short(least)));
+            .expected(format_args!("at least {}{unit}, the rate of the rise", range::short(values.unscaled(least))));
         let paths = ["stroke", "period", "frequency", "flyback", "resonance"].map(|key| at.key(key).path());
         let fault = paths.into_iter().fold(fault, Fault::against_path);
         return Err(fault.help(
@@ -78,7 +78,7 @@ fn rate(at: &At<'_>, given: AnyQuantity, values: &mut Values<'_>) -> Result<f64,
         return Err(at.expected(message).against_path(values.path()));
     }
     values.kind = values.kind.or(of);
-    if given.si > 0.0 { Ok(given.si) } else { Err(at.expected("a rate above 0")) }
+    if given.si > 0.0 { Ok(values.scaled(given.si)) } else { Err(at.expected("a rate above 0")) }
 }
 
 pub(super) fn flyback(at: &At<'_>, flyback: Time, period: f64) -> Result<f64, Fault> {

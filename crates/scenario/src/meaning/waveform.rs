@@ -30,6 +30,16 @@ impl Values<'_> {
         self.at.path()
     }
 
+    /// A rate of values as they are read, from that in the file.
+    pub(super) fn scaled(&self, rate: f64) -> f64 {
+        self.gain * rate
+    }
+
+    /// A rate of values as the file has it.
+    pub(super) fn unscaled(&self, rate: f64) -> f64 {
+        rate / self.gain
+    }
+
     pub(super) fn take(&mut self, at: &At<'_>, value: AnyQuantity) -> Result<f64, Fault> {
         match (self.kind, value.kind) {
             (Some(known), Some(new)) if known != new => {
@@ -144,7 +154,7 @@ fn periodic(
     form: &WaveformForm,
     values: &mut Values<'_>,
 ) -> Result<(&'static str, (Shape, Timing)), Fault> {
-    let Some((key, given)) = form.periodic() else { return Err(at.not_yet()) };
+    let Some((key, given)) = form.periodic() else { return Err(at.expected("a waveform with a period")) };
     let at = at.key(key);
     // In the order of the file's usual keys: what is told first is what stands first.
     let timing = timing(&at, &given, key)?;
@@ -167,7 +177,7 @@ fn periodic(
         WaveformForm::Parabola(form) => shapes::parabola(&at, form, timing.period, values)?,
         WaveformForm::Trapezoid(form) => shapes::trapezoid(&at, form, timing.period, values)?,
         WaveformForm::SCurve(form) => shapes::s_curve(&at, form, timing.period, values)?,
-        _ => return Err(at.not_yet()),
+        _ => return Err(at.expected("a waveform with a period")),
     };
     let parts = pattern::sections(&at, &given, timing.period)?;
     Ok((
