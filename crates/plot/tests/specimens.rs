@@ -190,6 +190,7 @@ fn a_rocking_slider_on_a_foot_that_lifts() {
             },
         ],
         relative: vec![Track { name: "ball", values: slider.values }],
+        is_upright: false,
         gross_slip: None,
     };
     let figure = trajectory_figure("Rocking slider", &trajectory);

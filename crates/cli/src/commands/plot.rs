@@ -28,7 +28,7 @@ enum PlotFailure {
     Over(String),
     /// One picture; the others are drawn.
     #[error("{}: {source}{}", .folder.display(), advice(.source))]
-    Figure { folder: PathBuf, source: FigureError },
+    Figure { folder: PathBuf, source: Box<FigureError> },
     /// The pictures cannot be written.
     #[error("{}: the pictures cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
@@ -67,7 +67,7 @@ fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
     for drawn in stickslip_figures::draw(&sources, &arguments.look.look()) {
         match drawn {
             Ok(files) => pictures.extend(files),
-            Err(source) => failures.push(PlotFailure::Figure { folder: folder.to_owned(), source }),
+            Err(source) => failures.push(PlotFailure::figure(folder, source)),
         }
     }
     let out = arguments.out.as_ref().map_or_else(|| folder.to_owned(), |out| out.join(&job.name));
@@ -97,9 +97,14 @@ fn write(out: &Path, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> 
 }
 
 impl PlotFailure {
+    fn figure(folder: &Path, source: FigureError) -> Self {
+        Self::Figure { folder: folder.to_owned(), source: Box::new(source) }
+    }
+
     fn verdict(&self) -> Verdict {
         match self {
-            Self::Figure { source: FigureError::Plot { .. }, .. } | Self::Write { .. } => Verdict::Stopped,
+            Self::Write { .. } => Verdict::Stopped,
+            Self::Figure { source, .. } if matches!(**source, FigureError::Plot { .. }) => Verdict::Stopped,
             Self::Results(_) | Self::NoPlots(_) | Self::Over(_) | Self::Figure { .. } => Verdict::BadInput,
         }
     }

@@ -51,9 +51,10 @@ pub(super) fn sawtooth(
     let least = stroke.abs() / (period - flyback);
     if rate < least {
         let unit = values.kind.map_or(String::new(), |kind| format!(" {}/s", kind.si()));
-        let fault = at
-            .key("rate")
-            .expected(format_args!("at least {}{unit}, the rate of the rise", range::short(values.unscaled(least))));
+        let fault = at.key("rate").expected(format_args!(
+            "at least {}{unit}, the rate of the rise",
+            range::short(values.unscaled(least))
+        ));
         let paths = ["stroke", "period", "frequency", "flyback", "resonance"].map(|key| at.key(key).path());
         let fault = paths.into_iter().fold(fault, Fault::against_path);
         return Err(fault.help(

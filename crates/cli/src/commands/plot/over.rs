@@ -38,7 +38,7 @@ fn draw(arguments: &PlotArguments) -> Result<Vec<PlotFailure>, PlotFailure> {
     for plot in plots {
         match overlay::draw(&sources, plot, &arguments.look.look()) {
             Ok(files) => pictures.extend(files),
-            Err(source) => failures.push(PlotFailure::Figure { folder: first.clone(), source }),
+            Err(source) => failures.push(PlotFailure::figure(first, source)),
         }
     }
     let out = arguments.out.clone().unwrap_or_default();
