@@ -2,6 +2,7 @@
 //! in a file of its own.
 
 mod alike;
+mod drive;
 mod energy;
 mod events;
 mod fields;
@@ -140,6 +141,7 @@ fn kind(plot: PlotName) -> &'static Kind {
         PlotName::Friction => &friction::KIND,
         PlotName::Xy => &own::KIND,
         PlotName::Waveform => &waveform::KIND,
+        PlotName::Drive => &drive::KIND,
     }
 }
 

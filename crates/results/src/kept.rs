@@ -9,8 +9,8 @@ use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
 
 /// Pictures that are drawn from rows and moments after events; the others have tables of their own, or nothing over time.
-pub(crate) const FROM_SERIES: [PlotName; 5] =
-    [PlotName::Loop, PlotName::Trajectory, PlotName::Energy, PlotName::Phase, PlotName::Xy];
+pub(crate) const FROM_SERIES: [PlotName; 6] =
+    [PlotName::Loop, PlotName::Trajectory, PlotName::Energy, PlotName::Phase, PlotName::Xy, PlotName::Drive];
 
 /// Whether a picture is drawn from what grows with the run.
 pub(crate) fn grows(plot: PlotName) -> bool {

@@ -8,6 +8,9 @@ use stickslip_scenario::PlotName;
 const KEPT: [&str; 11] =
     ["time_s", "x_m", "vx_m_s", "z_m", "vz_m_s", "pitch_rad", "vpitch_rad_s", "u_m", "d_m", "fx_N", "fn_N"];
 
+/// Quantities of a driver.
+const DRIVER: [&str; 2] = ["voltage_V", "current_A"];
+
 /// A row this near to the end of a part, in its lengths, is the end.
 const SAME: f64 = 1e-9;
 
@@ -33,8 +36,10 @@ impl Series {
     /// An empty series of a model's channels; what only pictures need is kept for those in `plots`.
     pub fn new(channels: &[Channel], plots: &[PlotName]) -> Self {
         let (with_energies, with_all) = (plots.contains(&PlotName::Energy), plots.contains(&PlotName::Xy));
+        let with_drive = plots.contains(&PlotName::Drive);
         let is_kept = |channel: &Channel| match channel.name.rsplit_once('.') {
             _ if with_all => !channel.is_state,
+            Some((_, quantity)) if with_drive && DRIVER.contains(&quantity) => true,
             Some((ENERGY, _)) if with_energies => true,
             Some((_, quantity)) => KEPT.contains(&quantity),
             None => KEPT.contains(&channel.name.as_str()),

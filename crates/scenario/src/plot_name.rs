@@ -35,11 +35,13 @@ pub enum PlotName {
     Xy,
     /// The waveforms and their rates over two periods.
     Waveform,
+    /// Voltage, current, motion and contact forces over the last two periods.
+    Drive,
 }
 
 impl PlotName {
     /// All that have a name in the file.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Layout,
         Self::Loop,
         Self::Trajectory,
@@ -52,6 +54,7 @@ impl PlotName {
         Self::Substitute,
         Self::Friction,
         Self::Waveform,
+        Self::Drive,
     ];
 
     /// Most pictures of channels over a channel.
@@ -73,6 +76,7 @@ impl PlotName {
             Self::Friction => "friction",
             Self::Xy => "xy",
             Self::Waveform => "waveform",
+            Self::Drive => "drive",
         }
     }
 }

@@ -65,7 +65,7 @@ fn motion<'a>(job: &'a Job, series: &'a Series, contacts: &[(&'a str, &'a str)])
 }
 
 /// Columns that it is drawn from.
-fn needs(job: &Job) -> Vec<String> {
+pub(super) fn needs(job: &Job) -> Vec<String> {
     let bodies = job.scenario.scene.bodies.iter();
     let of = |body: &Named<Body>| {
         let moving = body.part.coordinates().into_iter().filter(|(_, c)| c.freedom != Freedom::Fixed);
@@ -75,7 +75,7 @@ fn needs(job: &Job) -> Vec<String> {
 }
 
 /// Motions along an axis: of the feet, which stand behind, and of the sliders.
-fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<Track<'a>>, Vec<Track<'a>>) {
+pub(super) fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<Track<'a>>, Vec<Track<'a>>) {
     let (mut feet, mut sliders) = (Vec::new(), Vec::new());
     for (place, body) in job.scenario.scene.bodies.iter().enumerate() {
         let tracks = match body.part.coordinates()[axis as usize].1.freedom {

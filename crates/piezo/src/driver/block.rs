@@ -227,6 +227,9 @@ impl Block for Driver {
         let (_, _, voltage) = self.now(standing, at);
         let volts = voltage.value / self.spec.gain;
         let stored = 0.5 * self.spec.capacitance * volts * volts;
-        row.extend([volts, self.current(voltage.rate), at.states[WORK], stored, at.states[LOST]]);
+        // Where the command has just turned the law is still the one before: no more flows than may.
+        let (down, up) = self.spec.slew();
+        let current = self.current(voltage.rate.clamp(-down, up));
+        row.extend([volts, current, at.states[WORK], stored, at.states[LOST]]);
     }
 }

@@ -1,0 +1,160 @@
+//! Pictures of a drive: what is commanded, what the driver makes of it, and what moves.
+
+use crate::Label;
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Band, Panel, Reference, Series};
+use crate::theme::{Dash, Ink, Style};
+use crate::trajectory::Track;
+
+/// Height that each panel beyond two adds to the figure, px.
+const MORE: u32 = 280;
+
+/// The driver of a stack over the figure's time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Supply<'a> {
+    /// The stack's name.
+    pub name: &'a str,
+    /// Commanded voltage, V; empty where it is not known.
+    pub command: Vec<f64>,
+    /// Voltage at the stack, V.
+    pub voltage: &'a [f64],
+    /// Current into it, A.
+    pub current: &'a [f64],
+    /// From when until when the command is cut at an end of the window, s.
+    pub cut: Vec<(f64, f64)>,
+    /// From when until when the current is at its limit, s.
+    pub limited: Vec<(f64, f64)>,
+}
+
+/// A drive over some of its periods.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DriveCourse<'a> {
+    /// Time, s.
+    pub time: &'a [f64],
+    /// Drivers; no panels of voltage and current without.
+    pub supplies: Vec<Supply<'a>>,
+    /// Free strokes and feet, m, muted behind the bodies.
+    pub feet: Vec<Track<'a>>,
+    /// What is driven, m.
+    pub bodies: Vec<Track<'a>>,
+    /// Tangential forces of the contacts, N.
+    pub forces: Vec<Track<'a>>,
+    /// Limit of friction of the only contact, N, marked with both signs.
+    pub limit: Option<f64>,
+    /// Whether the slide goes up by more than 45 degrees.
+    pub is_upright: bool,
+}
+
+/// Voltage, current, motion and forces, one below the other on one time axis; limits are shaded where they are active.
+pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
+    let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
+    let panel = |label: &str, unit: &str, share: f64| Panel {
+        x: time.clone(),
+        y: Axis::new(Label::plain(label), unit),
+        share,
+        ..Panel::default()
+    };
+    let curve = |name: &str, values: &'a [f64], style: Style| Series {
+        style,
+        ..Series::new(name, course.time, values)
+    };
+    let mut panels = Vec::new();
+    if !course.supplies.is_empty() {
+        let (mut voltage, mut current) = (panel("voltage", "V", 1.0), panel("current", "A", 1.0));
+        for (place, supply) in course.supplies.iter().enumerate() {
+            let command = Style { ink: Some(Ink::Muted), dash: Some(Dash::Dashed), width: 0.7 };
+            if supply.command.len() == course.time.len() {
+                let name = if place == 0 { "command" } else { "" };
+                voltage.series.push(Series {
+                    style: command,
+                    ..Series::new(name, course.time, supply.command.clone())
+                });
+            }
+            voltage.series.push(curve(supply.name, supply.voltage, solid(place)));
+            current.series.push(curve(supply.name, supply.current, solid(place)));
+            voltage.bands.extend(shade("window cuts", &supply.cut, supply.voltage));
+            current.bands.extend(shade("current limit", &supply.limited, supply.current));
+        }
+        panels.extend([voltage, current]);
+    }
+    if !course.feet.is_empty() || !course.bodies.is_empty() || panels.is_empty() {
+        let label = if course.is_upright { "position x, up" } else { "position x" };
+        let foot = |(place, track): (usize, &Track<'a>)| {
+            let style = Style { ink: Some(Ink::Muted), dash: Some(Dash::at(place)), width: 0.7 };
+            curve(track.name, track.values, style)
+        };
+        let body = |(place, track): (usize, &Track<'a>)| curve(track.name, track.values, solid(place));
+        let series = course
+            .feet
+            .iter()
+            .enumerate()
+            .map(foot)
+            .chain(course.bodies.iter().enumerate().map(body))
+            .collect();
+        panels.push(Panel { series, absence: Label::plain("nothing moves"), ..panel(label, "m", 1.6) });
+    }
+    if !course.forces.is_empty() {
+        let force = |(place, track): (usize, &Track<'a>)| curve(track.name, track.values, solid(place));
+        let line = |y| Reference::Horizontal { y, label: Label::markup("±μF_N") };
+        let limit = course.limit.filter(|limit| *limit > 0.0 && limit.is_finite());
+        panels.push(Panel {
+            series: course.forces.iter().enumerate().map(force).collect(),
+            references: limit.into_iter().flat_map(|limit| [line(limit), line(-limit)]).collect(),
+            ..panel("contact force", "N", 1.0)
+        });
+    }
+    let (width, height) = Figure::DEFAULT_SIZE;
+    let size = (width, height + MORE * (panels.len() as u32).saturating_sub(2));
+    let arrangement = Arrangement::Column { share_x: true };
+    Figure { title: Label::plain(title), panels, arrangement, size, ..Figure::default() }
+        .with_room_for_legends()
+}
+
+fn solid(place: usize) -> Style {
+    Style { ink: Some(Ink::Palette(place)), dash: Some(Dash::Solid), width: 1.0 }
+}
+
+/// Spans shaded over the range of some values.
+fn shade<'a>(name: &str, spans: &[(f64, f64)], values: &[f64]) -> Option<Band<'a>> {
+    let finite = values.iter().filter(|value| value.is_finite());
+    let (low, high) = finite.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+    if spans.is_empty() || low > high {
+        return None;
+    }
+    let edge = |y: f64| spans.iter().flat_map(|_| [y, y, f64::NAN]).collect::<Vec<f64>>();
+    Some(Band {
+        label: Label::plain(name),
+        xs: spans.iter().flat_map(|(from, to)| [*from, *to, *to]).collect::<Vec<f64>>().into(),
+        low: edge(low).into(),
+        high: edge(high).into(),
+        ink: Ink::Shade(0),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_shaded_where_they_are_active() {
+        let (time, volts, amperes) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 1.0, 0.0], [2.0, 2.0, 0.0, -2.0]);
+        let supply = Supply {
+            name: "stack",
+            command: vec![0.0, 2.0, 2.0, 0.0],
+            voltage: &volts,
+            current: &amperes,
+            cut: Vec::new(),
+            limited: vec![(0.0, 1.0), (2.5, 3.0)],
+        };
+        let course = DriveCourse { time: &time, supplies: vec![supply], ..DriveCourse::default() };
+        let figure = drive_figure("Title", &course);
+        assert_eq!(figure.panels.len(), 2);
+        assert!(figure.panels[0].bands.is_empty());
+        let band = &figure.panels[1].bands[0];
+        assert_eq!(
+            band.columns().flatten().collect::<Vec<_>>(),
+            [(0.0, -2.0, 2.0), (1.0, -2.0, 2.0), (2.5, -2.0, 2.0), (3.0, -2.0, 2.0)]
+        );
+        assert!(crate::draw_svg(&figure).is_ok());
+    }
+}
