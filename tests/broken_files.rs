@@ -56,7 +56,7 @@ fn what_is_odd_is_said_and_run() {
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         let said = stderr(&output);
         let first: Vec<_> = odd.lines().filter(|line| line.starts_with("tests/odd/")).collect();
-        assert!(first.len() > 4);
+        assert!(!first.is_empty());
         // The pictures are not drawn here: nothing is odd about them.
         for line in first.into_iter().filter(|line| !line.contains("  plots[")) {
             assert!(said.contains(&format!("warning: {line}\n")), "{line}\n{said}");

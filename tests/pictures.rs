@@ -137,7 +137,7 @@ fn pictures_are_as_wide_as_asked_for_in_print() {
     let out = tempdir().unwrap();
     assert_eq!(code(&run(&scenario("p1"), out.path(), &["run.cycles=3", r#"plots=["loop"]"#])), 0);
     let folder = out.path().join("p1");
-    assert_eq!(code(&plot(&folder, &["--format", "svg,png", "--width", "8.5 cm"])), 0);
+    assert_eq!(code(&plot(&folder, &["--format", "svg,png", "--width", "85 mm"])), 0);
     let svg = std::fs::read_to_string(folder.join("loop-85mm.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg[..200].contains("width=\"85mm\""), "{}", &svg[..200]);
     // The title's letters, theme.title of 36 px where 1600 px are 160 mm: 10.2 pt, here 2008 px for 85 mm.

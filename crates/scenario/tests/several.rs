@@ -37,6 +37,8 @@ const JUDGED_BY: &[(&[&str], &[&str])] = &[
     (&["start_force_slips", "radius_falls"], &["contacts.ball"]),
     (&["memory_of_row", "memory_plot_of_row"], &["contacts"]),
     (&["fields_at_beyond", "fields_extent", "fields_every", "fields_radii"], &["contacts.ball.profile"]),
+    // How far a stack goes is what its waveform says.
+    (&["hysteresis_without_stroke"], &["waveforms"]),
     // Who moves and what acts.
     (&["nothing_acts_on_body"], &["bodies.slider", "actuators", "contacts", "gravity", "loads", "springs"]),
     (&["loop_without_contact", "state_without_contact"], &["bodies", "plots", "loads"]),

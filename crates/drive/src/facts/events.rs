@@ -24,6 +24,8 @@ const PER_FLYBACK: f64 = 2.0;
 const DECAY: f64 = 3.0;
 /// Displacement of a contact in a mode, as a share of the mode's largest in m, below which the mode does not ring there.
 const MOVED: f64 = 0.05;
+/// Kinks that a block puts into a period of what it reads, at least: limits begin and end, hysteresis turns twice.
+const KINKS: f64 = 2.0;
 /// A corner this near to the end of a period, in periods, belongs to it.
 const SAME: f64 = 1e-9;
 
@@ -164,11 +166,13 @@ fn of_contact(
         })
     };
     let (mut turns, mut most) = (0.0, 0.0_f64);
-    for waveform in drivers(scene, c).into_iter().map(|w| &scene.waveforms[w].part) {
+    for (w, is_kinked) in drivers(scene, c) {
+        let waveform = &scene.waveforms[w].part;
+        let kinks = if is_kinked { KINKS } else { 0.0 };
         let (events, ringing) = match waveform.period() {
             Some(period) => {
                 let (cycles, corners) =
-                    (cycles(waveform, period, duration), corners_per_period(waveform, period));
+                    (cycles(waveform, period, duration), corners_per_period(waveform, period).max(kinks));
                 // Corners make a free body ring; a smooth waveform, or a walk, makes turns only.
                 let kicked = ringing.is_some() && corners > 0.0;
                 let turns = if kicked { PER_FLYBACK } else { per_turns };
@@ -188,7 +192,9 @@ fn of_contact(
 
 /// The waveforms whose motion reaches contact `c`: those that its sides follow and that press it, and all that act on
 /// the free bodies that hang together with it.
-fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
+///
+/// Each with whether it comes through a block, whose laws put kinks into what is smooth.
+fn drivers(scene: &Scene, c: usize) -> Vec<(usize, bool)> {
     let Some(contact) = scene.contacts.get(c) else { return Vec::new() };
     let edges = || {
         let contacts = scene.contacts.iter().map(|part| part.part.between);
@@ -240,7 +246,9 @@ fn drivers(scene: &Scene, c: usize) -> Vec<usize> {
         Varying::Constant(_) => None,
     });
     let signals = followed.chain(varying);
-    let mut waveforms: Vec<usize> = signals.filter_map(|signal| scene.waveform_of(signal)).collect();
+    let is_block = |signal: usize| signal >= scene.waveforms.len();
+    let mut waveforms: Vec<(usize, bool)> =
+        signals.filter_map(|signal| Some((scene.waveform_of(signal)?, is_block(signal)))).collect();
     waveforms.sort_unstable();
     waveforms.dedup();
     waveforms

@@ -23,7 +23,7 @@ pub(crate) enum Sense {
 /// The stretches of a period, from its start.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Phases {
-    /// Start of the first period, and length of all, s.
+    /// Start of the period they were taken from, and length of all, s.
     start: f64,
     length: f64,
     /// Where each begins after the start of the period, s, ascending from 0, and which way it goes.
@@ -45,15 +45,24 @@ impl Sense {
 }
 
 impl Phases {
-    /// Those of a waveform's first period; none without a period, or with too many turns in it.
+    /// Those of a waveform's second period, or its first where it stops before; none without a period, or with too many turns in it.
+    ///
+    /// The first period of a flyback that is late has none of it.
     pub(crate) fn of(waveform: &Waveform) -> Option<Self> {
-        let (length, start) = (waveform.period()?, waveform.timing().delay);
+        let (length, delay) = (waveform.period()?, waveform.timing().delay);
+        let is_repeated = waveform.window().1 >= delay + 2.0 * length;
+        let start = if is_repeated { delay + length } else { delay };
         let mut phases = Self { start, length, stretches: Vec::new(), ways: [0.0; 2] };
         let end = start + length;
         let mut piece = waveform.piece_at(start);
         for _ in 0..MOST_PIECES {
             let until = piece.end.min(end);
-            phases.take(waveform, &piece, [piece.start.max(start), until]);
+            let from = piece.start.max(start);
+            // A piece of many waves turns more often than that.
+            if (until - from) > MOST_TURNS as f64 * 4.0 * waveform.resolution() {
+                return None;
+            }
+            phases.take(waveform, &piece, [from, until]);
             // Ends are rounded apart.
             if until >= end - 1e-9 * length {
                 let enough = phases.stretches.len() <= MOST_TURNS;

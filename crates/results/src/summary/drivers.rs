@@ -32,6 +32,23 @@ struct Shares {
     window_high: Real,
 }
 
+impl DriverSummary {
+    /// For how much of the run a limit held it back, where one did.
+    pub(super) fn line(&self, name: &str) -> Option<String> {
+        let Shares { current_up, current_down, window_low, window_high } = &self.at_limit;
+        let [current, window] = [current_up.0 + current_down.0, window_low.0 + window_high.0];
+        let told = |share: f64, what: &str| (share > 0.0).then(|| format!("{:.1} % {what}", 100.0 * share));
+        let limits = [told(current, "at its current limit"), told(window, "at an end of its window")];
+        let limits: Vec<String> = limits.into_iter().flatten().collect();
+        (!limits.is_empty()).then(|| {
+            format!(
+                "the driver of {name} was {} of the time: it made less of the command than this says",
+                limits.join(" and ")
+            )
+        })
+    }
+}
+
 /// All drivers, at the end of a run.
 pub(super) fn of(job: &Job, state: &State) -> Parts<DriverSummary> {
     let stacks = job.scenario.stacks.iter();

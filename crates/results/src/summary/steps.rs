@@ -1,7 +1,7 @@
 //! The quantities of a drive.
 
 use super::period::LastPeriod;
-use super::{period, why};
+use super::{drivers, period, why};
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::periods::Periods;
@@ -160,7 +160,8 @@ pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Optio
     let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
     let mut summary = summary(&steps, ends, (&body.name, &waveform.name, period));
     summary.last_period = period::of(job, outcome, stroke(job).is_some());
-    summary.why = summary.last_period.as_ref().map(|last| why::of(job, last)).unwrap_or_default();
+    let drivers = drivers::of(job, &outcome.state);
+    summary.why = summary.last_period.as_ref().map(|last| why::of(job, &drivers, last)).unwrap_or_default();
     Some(summary)
 }
 

@@ -1,7 +1,9 @@
 //! Why a step is as long as it is, in sentences with numbers.
 
+use super::drivers::DriverSummary;
 use super::period::{ContactPeriod, LastPeriod, PeriodWork};
 use crate::job::Job;
+use crate::parts::Parts;
 use crate::quantity::quantity;
 use crate::real::Real;
 use stickslip_drive::facts::zero_step_stroke;
@@ -14,10 +16,11 @@ pub(super) fn is_odd(last: &LastPeriod) -> bool {
     last.forth.stroke.is_some_and(|stroke| last.step.0 * stroke.0.signum() <= NOTHING * stroke.0.abs())
 }
 
-/// The sentences of a period.
-pub(super) fn of(job: &Job, last: &LastPeriod) -> Vec<String> {
+/// The sentences of a period; ways are those that are commanded, whatever a driver makes of them.
+pub(super) fn of(job: &Job, drivers: &Parts<DriverSummary>, last: &LastPeriod) -> Vec<String> {
     let mut lines = Vec::new();
     lines.extend(way(last));
+    lines.extend(drivers.0.iter().filter_map(|(name, driver)| driver.line(name)));
     lines.extend(last.contacts.0.iter().map(|(name, contact)| contact_line(name, contact)));
     lines.extend(short(job, last));
     lines.extend(work(&last.work));
