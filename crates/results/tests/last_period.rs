@@ -142,6 +142,22 @@ fn a_drive_that_turns_on_a_curve() {
     check("quickstart", "slider", "ball", &set);
 }
 
+/// A flyback that is limited in its rate begins the next period: the first period has none of it.
+#[test]
+fn a_flyback_that_is_late() {
+    let saw = r#"{"sawtooth": {"stroke": "200 nm", "period": "1 ms", "rate": "0.6 mm/s"}}"#;
+    let set = [
+        ("waveforms.drive", saw),
+        ("run.duration", "\"10 ms\""),
+        ("output.every", "\"0.02 us\""),
+        ("plots", "[]"),
+    ];
+    let steps = check("quickstart", "slider", "ball", &set);
+    // Falling at 0.6 mm/s it meets the rise of 0.2 mm/s after s = S/(0.6 + 0.2) mm/s: 0.25 ms.
+    near(number(&steps, "/last_period/back/time_s"), 0.25e-3, 1e-9, "time");
+    near(number(&steps, "/last_period/back/stroke_m"), -150e-9, 1e-15, "stroke");
+}
+
 /// With a damper to ground ringing falls below 5 % of the limit of friction long before the flyback.
 #[test]
 fn ringing_settles_when_the_extremes_of_the_rows_say_so() {
