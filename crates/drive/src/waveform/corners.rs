@@ -99,8 +99,11 @@ impl Corners {
     }
 
     /// The same, starting with this value on the second segment, whose line goes back to it beyond its own corner.
+    ///
+    /// That corner may come after the stop, or round to the start: the second segment it is, nevertheless.
     pub(super) fn led_by(self, value: f64) -> Self {
-        Self { lead: Some(value), first: self.first.saturating_add(1), ..self }
+        let first = self.first.max(1);
+        Self { lead: Some(value), first, last: self.last.max(first), ..self }
     }
 
     /// Whether the value moves in straight lines from corner to corner.

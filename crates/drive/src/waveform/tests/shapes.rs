@@ -142,6 +142,36 @@ fn a_limited_sawtooth_meets_what_is_asked_for_on_its_way_up() {
     assert_eq!(slow.unwrap_err(), WaveformError::Rate { least: 0.5, got: 0.4 });
 }
 
+/// Before its first top it is the ramp alone, wherever it stops: that the late way back would still last then makes none.
+#[test]
+fn a_limited_sawtooth_that_stops_early_has_only_risen() {
+    for delay in [0.0, 3.0, 1e3] {
+        // The late way back of the period before would end at 2/3.
+        for stop in [0.25, 0.5, 2.0 / 3.0, 1.0, 3.5] {
+            let timing = Timing { delay, cycles: Some(stop / 5.0), ..Timing::every(5.0) };
+            let short = wave(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 1.0 }, timing);
+            for (t, expected) in
+                [(-0.1, 0.0), (0.0, 0.0), (0.5, 0.25), (0.999, 0.4995), (1.001, 0.5), (9.0, 0.5)]
+            {
+                let t = delay + t * stop;
+                assert!(
+                    near(value(&short, t), expected * stop, 1e-12),
+                    "{delay} {stop} {t}: {}",
+                    value(&short, t)
+                );
+            }
+            let last = short.after(&short.piece_at(delay));
+            assert_eq!((last.end, short.jump_after(&last)), (f64::INFINITY, 0.0));
+        }
+        // A late way back so short that its end rounds to the start.
+        let timing = Timing { delay, ..Timing::every(5.0) };
+        let hair = wave(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 2.0 * (1.0 - 1e-15) }, timing);
+        assert!(
+            near(value(&hair, delay + 2.0), 1.0, 1e-12) && near(hair.piece_at(delay).end - delay, 4.0, 1e-12)
+        );
+    }
+}
+
 #[test]
 fn chirp_sweeps_its_frequency_linearly() {
     // From 1 to 3 Hz in 2 s: turns s + s²/2, four in all.
