@@ -168,6 +168,12 @@ pub trait Block:
     /// Its natural rate, 1/s: events that lie much closer together than a period of it count as accumulating.
     fn rate(&self) -> f64;
 
+    /// Most events that follow from one turn of an input, at least 1: they may be as close together as they like, and so many times
+    /// more of them accumulate.
+    fn events_per_turn(&self) -> u32 {
+        1
+    }
+
     /// Adds the values of its columns to a row.
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>);
 }

@@ -122,6 +122,13 @@ impl Corners {
         self.ways.len()
     }
 
+    /// Duration of the shortest segment, s.
+    pub(super) fn shortest(&self) -> f64 {
+        let again = self.origins.first().filter(|_| self.period > 0.0).map(|first| self.period + first);
+        let ends = self.origins.iter().skip(1).copied().chain(again);
+        self.origins.iter().zip(ends).map(|(start, end)| end - start).fold(f64::INFINITY, f64::min)
+    }
+
     /// Value and derivatives on a segment whose law is kept here.
     pub(super) fn on(&self, placed: &Placed, t: f64) -> Sample {
         let (values, way) = self.ways.get(placed.place()).copied().unwrap_or(((0.0, 0.0), Way::Straight));

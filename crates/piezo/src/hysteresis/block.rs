@@ -163,9 +163,13 @@ impl Block for PlayBlock {
         if guard == ENGAGES { span } else { span * rate }
     }
 
-    /// So many times faster than its input as it has plays: each may be taken up within one of its swings.
     fn rate(&self) -> f64 {
-        self.reading.rate * (1 + self.plays.count()) as f64
+        self.reading.turns
+    }
+
+    /// Each play may be taken up on one way, thresholds as close together as they like.
+    fn events_per_turn(&self) -> u32 {
+        u32::try_from(1 + self.plays.count()).unwrap_or(u32::MAX)
     }
 
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>) {

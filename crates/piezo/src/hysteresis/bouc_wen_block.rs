@@ -162,7 +162,12 @@ impl Block for BoucWenBlock {
     }
 
     fn rate(&self) -> f64 {
-        self.reading.rate
+        self.reading.turns
+    }
+
+    /// The turn, and z coming back through 0.
+    fn events_per_turn(&self) -> u32 {
+        2
     }
 
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>) {
