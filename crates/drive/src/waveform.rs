@@ -290,7 +290,8 @@ impl Waveform {
     fn ends(&self) -> (f64, f64) {
         let (start, stop) = self.window;
         let first = self.corners().map_or_else(|| self.sines(), |corners| corners.piece(1));
-        let before = self.sample(&first, start).value;
+        let ahead = self.corners().and_then(Corners::ahead);
+        let before = ahead.unwrap_or_else(|| self.sample(&first, start).value);
         if stop == f64::INFINITY {
             return (before, before);
         }
