@@ -91,8 +91,9 @@ impl Component for PlayBlock {
         let ((taken_up, sense), v) = (split(*standing.law), at.inputs[0].value);
         if guard == ENGAGES {
             // Steps that locate nothing may have passed several.
+            let next = (taken_up + 1).min(self.plays.count());
             let reached = self.law_at(standing.memory, (v, sense));
-            return (EventKind::Own(ENGAGED), reached.max(Self::law(taken_up + 1, sense)));
+            return (EventKind::Own(ENGAGED), reached.max(Self::law(next, sense)));
         }
         (EventKind::Own(TURNED), self.law_at(standing.memory, (v, -sense)))
     }
@@ -115,6 +116,10 @@ impl Component for PlayBlock {
 impl Block for PlayBlock {
     fn inputs(&self) -> &[Input] {
         &self.inputs
+    }
+
+    fn laws(&self) -> usize {
+        2 * (self.plays.count() + 1)
     }
 
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>) {

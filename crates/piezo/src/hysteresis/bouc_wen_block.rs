@@ -104,6 +104,10 @@ impl Block for BoucWenBlock {
         &self.inputs
     }
 
+    fn laws(&self) -> usize {
+        4
+    }
+
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>) {
         let v = inputs[0].value;
         (vec![self.law.along(0.0, v)], vec![v])
