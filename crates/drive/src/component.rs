@@ -117,7 +117,13 @@ pub trait Block:
     /// What it reads, in the order of the samples.
     fn inputs(&self) -> &[Input];
 
-    /// Its states and its memory at t = 0, in law 0, from the inputs there.
+    /// How many laws it has, numbered from 0; those of a saved state beyond them are refused. By default all numbers are laws, for a
+    /// block that takes any without a panic.
+    fn laws(&self) -> usize {
+        usize::MAX
+    }
+
+    /// Its states and its memory at t = 0, in law 0, from the inputs there. Memory keeps its length.
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>);
 
     /// Slopes of its states, to be filled, and the forces and powers that it makes. A block that has no states and reads no length is
@@ -167,6 +173,12 @@ pub trait Block:
 
     /// Its natural rate, 1/s: events that lie much closer together than a period of it count as accumulating.
     fn rate(&self) -> f64;
+
+    /// Most events that follow from one turn of an input, at least 1: they may be as close together as they like, and so many times
+    /// more of them accumulate.
+    fn events_per_turn(&self) -> u32 {
+        1
+    }
 
     /// Adds the values of its columns to a row.
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>);

@@ -9,6 +9,9 @@ pub struct Reading {
     pub span: f64,
     /// The fastest at which it swings, 1/s, above 0: 2π over the shortest period, or the bandwidth of what makes it.
     pub rate: f64,
+    /// The fastest at which it turns, 1/s, above 0: 2π over the shortest time between two turns. More than `rate` where a waveform
+    /// has corners close together.
+    pub turns: f64,
     /// Name of the block's column, with its SI unit.
     pub column: &'static str,
 }

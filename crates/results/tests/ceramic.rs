@@ -124,3 +124,46 @@ fn info_tells_the_laws() {
         assert!(words.iter().any(|word| word == said), "{said}\n{words:#?}");
     }
 }
+
+/// Waveforms that turn often within what they repeat, and plays that are taken up all at once, accumulate nothing.
+#[test]
+fn many_turns_in_one_repeat_are_no_accumulation() {
+    let zigzag: Vec<Value> =
+        (0..=200).map(|k| json!([0.2e-3 * f64::from(k), 60e0 * f64::from(k % 2)])).collect();
+    let drives = [
+        (
+            json!({ "sine": { "amplitude": "60 V", "offset": "60 V", "frequency": "1 kHz",
+            "burst": { "cycles": 5, "period": "100 ms" } } }),
+            "10 ms",
+        ),
+        (
+            json!({ "chirp": { "amplitude": "60 V", "offset": "60 V", "from": "0.1 kHz", "to": "2 kHz",
+            "duration": "30 ms" } }),
+            "30 ms",
+        ),
+        (
+            json!({ "harmonics": { "period": "100 ms", "terms": [
+            { "amplitude": "10 V", "order": 1 }, { "amplitude": "50 V", "order": 60 }] } }),
+            "40 ms",
+        ),
+        (json!({ "table": { "points": zigzag, "unit": "V" } }), "40 ms"),
+        (json!({ "sawtooth": { "stroke": "120 V", "period": "10 ms", "flyback": "0.01 ms" } }), "20 ms"),
+    ];
+    let loops = [
+        json!({ "loop": { "percent": 12, "operators": 10 } }),
+        json!({ "loop": { "percent": 12, "operators": 64 } }),
+        json!({ "bouc_wen": { "slope": 0.3, "limit": "0.5 um", "share": 0.7, "exponent": 1 } }),
+    ];
+    for (drive, duration) in &drives {
+        for hysteresis in &loops {
+            let mut scenario = example();
+            scenario["waveforms"]["drive"] = drive.clone();
+            scenario["actuators"]["stack"]["hysteresis"] = hysteresis.clone();
+            scenario["run"] = json!({ "duration": duration, "stepper": { "event": { "tolerance": 1e-6 } } });
+            let job = job(&scenario);
+            let (mut state, mut trace) = (job.start.clone(), Trace::new(&job.model));
+            let ended = run(&job.model, &job.scenario.plan, &mut state, &mut trace);
+            assert!(ended.is_ok(), "{drive} {hysteresis}: {ended:?}");
+        }
+    }
+}

@@ -114,11 +114,11 @@ impl Bounds {
         if state.counts.events >= self.limits.events {
             return Err(RunError::TooManyEvents { t: state.t, limit: self.limits.events });
         }
-        let (name, place, frequency) = match source {
-            Source::Contact(c) => (&model.contacts[c].name, c, model.contacts[c].natural.frequency),
+        let (name, place, frequency, at_once) = match source {
+            Source::Contact(c) => (&model.contacts[c].name, c, model.contacts[c].natural.frequency, 1),
             Source::Block(k) => {
-                let wired = &model.blocks[k];
-                (&wired.name, model.contacts.len() + k, wired.block().rate())
+                let (wired, place) = (&model.blocks[k], model.contacts.len() + k);
+                (&wired.name, place, wired.block().rate(), wired.block().events_per_turn().max(1))
             }
             // Corners of waveforms are where their period puts them.
             Source::Waveform(_) => return Ok(()),
@@ -127,7 +127,7 @@ impl Bounds {
         let period = std::f64::consts::TAU / frequency;
         let (place, window, most) = match kind {
             EventKind::LoopClosed => (model.contacts.len() + model.blocks.len() + place, period, LOOPS),
-            _ => (place, period, ZENO_COUNT),
+            _ => (place, period, ZENO_COUNT.saturating_mul(at_once)),
         };
         let Window { start, count } = &mut self.windows[place];
         if state.t - *start > window {

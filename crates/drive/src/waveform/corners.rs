@@ -21,6 +21,8 @@ pub(super) struct Corners {
     carrier: Option<Carrier>,
     /// Value at the very start, where the first segment comes from elsewhere than its corner.
     lead: Option<f64>,
+    /// Value from which a period that begins with a jump jumps.
+    foot: Option<f64>,
     /// First and last segment that run, and when the first starts and the last stops.
     first: u64,
     last: u64,
@@ -49,10 +51,13 @@ impl Leg {
 impl Corners {
     /// Corners of a period that these ways fill from its start to its end.
     ///
-    /// A way that ends where it starts is a jump: none is there.
+    /// A way that ends where it starts is a jump: none is there. Where it is the first one the value from which it jumps is what is
+    /// held before the first period and after the last: the limit of a short way.
     pub(super) fn periodic(legs: &[Leg], timing: &Timing) -> Self {
         let period = timing.period;
         let ends = legs.iter().skip(1).map(|leg| leg.start).chain([period]);
+        let jump = legs.first().zip(legs.get(1)).filter(|(first, second)| first.start >= second.start);
+        let foot = jump.map(|(first, _)| first.values.0);
         let legs = || legs.iter().zip(ends.clone()).filter(|(leg, end)| leg.start < *end).map(|(leg, _)| leg);
         let knots: Vec<f64> = legs().map(|leg| leg.start).collect();
         let shift = shift(&knots, timing);
@@ -63,6 +68,7 @@ impl Corners {
             ways: legs().map(|leg| (leg.values, leg.way)).collect(),
             carrier: None,
             lead: None,
+            foot,
             first: 0,
             last: u64::MAX,
             start: timing.delay,
@@ -86,6 +92,7 @@ impl Corners {
             ways: legs.iter().map(|leg| (leg.values, leg.way)).collect(),
             carrier: None,
             lead: None,
+            foot: None,
             first: 0,
             last,
             start: delay + first.start,
@@ -99,8 +106,11 @@ impl Corners {
     }
 
     /// The same, starting with this value on the second segment, whose line goes back to it beyond its own corner.
+    ///
+    /// That corner may come after the stop, or round to the start: the second segment it is, nevertheless.
     pub(super) fn led_by(self, value: f64) -> Self {
-        Self { lead: Some(value), first: self.first.saturating_add(1), ..self }
+        let first = self.first.max(1);
+        Self { lead: Some(value), first, last: self.last.max(first), ..self }
     }
 
     /// Whether the value moves in straight lines from corner to corner.
@@ -108,15 +118,28 @@ impl Corners {
         self.ways.iter().all(|(_, way)| *way == Way::Straight)
     }
 
-    /// The ways of one period, as they were given.
+    /// The ways of one period, as they were given, of those of no length the first alone.
     pub(super) fn legs(&self) -> impl Iterator<Item = Leg> {
         let ways = self.origins.iter().zip(&self.ways);
-        ways.map(|(start, (values, way))| Leg { start: *start, values: *values, way: *way })
+        let jump = self.foot.zip(ways.clone().next());
+        let jump = jump.map(|(foot, (start, (values, _)))| Leg::straight(*start, (foot, values.0)));
+        jump.into_iter().chain(ways.map(|(start, (values, way))| Leg {
+            start: *start,
+            values: *values,
+            way: *way,
+        }))
     }
 
     /// Number of segments of a period, or of all where there is none.
     pub(super) fn count(&self) -> usize {
         self.ways.len()
+    }
+
+    /// Duration of the shortest segment, s.
+    pub(super) fn shortest(&self) -> f64 {
+        let again = self.origins.first().filter(|_| self.period > 0.0).map(|first| self.period + first);
+        let ends = self.origins.iter().skip(1).copied().chain(again);
+        self.origins.iter().zip(ends).map(|(start, end)| end - start).fold(f64::INFINITY, f64::min)
     }
 
     /// Value and derivatives on a segment whose law is kept here.
@@ -162,7 +185,13 @@ impl Corners {
     pub(super) fn beyond(&self) -> Option<f64> {
         let next = self.last.checked_add(1)?;
         let corner = self.period > 0.0 && self.corner(next) == self.stop;
-        corner.then(|| self.ways.get(self.place(next)).map(|(values, _)| values.0))?
+        let foot = self.foot.filter(|_| self.place(next) == 0);
+        corner.then(|| foot.or(self.ways.get(self.place(next)).map(|(values, _)| values.0)))?
+    }
+
+    /// Value before a jump at the very start; none where it starts otherwise.
+    pub(super) fn ahead(&self) -> Option<f64> {
+        self.foot.filter(|_| self.place(self.first) == 0 && self.corner(self.first) == self.start)
     }
 
     /// Time of corner `n`, the start of segment `n`.

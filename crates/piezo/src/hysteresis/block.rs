@@ -91,8 +91,9 @@ impl Component for PlayBlock {
         let ((taken_up, sense), v) = (split(*standing.law), at.inputs[0].value);
         if guard == ENGAGES {
             // Steps that locate nothing may have passed several.
+            let next = (taken_up + 1).min(self.plays.count());
             let reached = self.law_at(standing.memory, (v, sense));
-            return (EventKind::Own(ENGAGED), reached.max(Self::law(taken_up + 1, sense)));
+            return (EventKind::Own(ENGAGED), reached.max(Self::law(next, sense)));
         }
         (EventKind::Own(TURNED), self.law_at(standing.memory, (v, -sense)))
     }
@@ -115,6 +116,10 @@ impl Component for PlayBlock {
 impl Block for PlayBlock {
     fn inputs(&self) -> &[Input] {
         &self.inputs
+    }
+
+    fn laws(&self) -> usize {
+        2 * (self.plays.count() + 1)
     }
 
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>) {
@@ -163,9 +168,13 @@ impl Block for PlayBlock {
         if guard == ENGAGES { span } else { span * rate }
     }
 
-    /// So many times faster than its input as it has plays: each may be taken up within one of its swings.
     fn rate(&self) -> f64 {
-        self.reading.rate * (1 + self.plays.count()) as f64
+        self.reading.turns
+    }
+
+    /// Each play may be taken up on one way, thresholds as close together as they like.
+    fn events_per_turn(&self) -> u32 {
+        u32::try_from(1 + self.plays.count()).unwrap_or(u32::MAX)
     }
 
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>) {

@@ -104,6 +104,10 @@ impl Block for BoucWenBlock {
         &self.inputs
     }
 
+    fn laws(&self) -> usize {
+        4
+    }
+
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>) {
         let v = inputs[0].value;
         (vec![self.law.along(0.0, v)], vec![v])
@@ -162,7 +166,12 @@ impl Block for BoucWenBlock {
     }
 
     fn rate(&self) -> f64 {
-        self.reading.rate
+        self.reading.turns
+    }
+
+    /// The turn, and z coming back through 0.
+    fn events_per_turn(&self) -> u32 {
+        2
     }
 
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>) {

@@ -23,7 +23,8 @@ pub(crate) fn shared(name: &str, block: impl Block + 'static) -> Named<SharedBlo
 
 /// Of the signal at a place: waveform 0, then blocks.
 pub(crate) fn reading(signal: usize) -> Reading {
-    Reading { signal, span: SPAN, rate: std::f64::consts::TAU / PERIOD, column: "stroke_m" }
+    let rate = std::f64::consts::TAU / PERIOD;
+    Reading { signal, span: SPAN, rate, turns: rate, column: "stroke_m" }
 }
 
 pub(crate) fn every(shape: Shape) -> Waveform {

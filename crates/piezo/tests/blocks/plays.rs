@@ -1,7 +1,7 @@
 //! The Prandtl–Ishlinskii block against plays that are dragged along a finely walked input.
 
 use crate::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
-use stickslip_drive::{Harmonic, Model, Plan, Run, Shape, State, Stepper, Waveform};
+use stickslip_drive::{BytesError, Harmonic, Model, Plan, Run, Shape, State, Stepper, Waveform};
 use stickslip_piezo::hysteresis::{PlayBlock, Plays};
 
 fn law() -> Plays {
@@ -191,4 +191,43 @@ fn fixed_steps_come_near() {
     };
     let (coarse, fine) = (off(1e-6), off(1e-7));
     assert!(coarse < 3e-3 * SPAN && fine < 0.2 * coarse, "{coarse} {fine}");
+}
+
+/// CRC-32 as in Ethernet, bit by bit.
+fn checksum(bytes: &[u8]) -> u32 {
+    let step = |sum: u32| if sum & 1 == 1 { 0xEDB8_8320 ^ (sum >> 1) } else { sum >> 1 };
+    !bytes.iter().fold(u32::MAX, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), |sum, _| step(sum)))
+}
+
+/// Bytes of as many plays as there are not, or of a law beyond all, are no state.
+#[test]
+fn a_forged_state_is_refused() {
+    const KEY: [u8; 32] = [7; 32];
+    let of = |count| {
+        let plays = Plays::of_loop(0.15, SPAN, count).unwrap();
+        let scene = scene(two(), vec![shared("plays", PlayBlock::new(plays, reading(0)))]);
+        let model = Model::new(&scene).unwrap();
+        let state = model.start(&event(PERIOD)).unwrap();
+        (model, state)
+    };
+    let ((model, state), (other, _)) = (of(10), of(9));
+    let bytes = state.to_bytes(&model, &KEY);
+    assert!(State::from_bytes(&model, &KEY, &bytes).unwrap() == state);
+    assert!(matches!(State::from_bytes(&other, &KEY, &bytes), Err(BytesError::Unfit)));
+    // Before its memory of ten numbers stands the law.
+    let word = |place: usize| u64::from_le_bytes(bytes[place..place + 8].try_into().unwrap());
+    let end = bytes.len() - 8;
+    let laws: Vec<usize> =
+        (56..end - 8).step_by(8).filter(|place| word(*place) < 22 && word(place + 8) == 10).collect();
+    let forged = |place: usize, law: u64| {
+        let mut forged = bytes.clone();
+        forged[place..place + 8].copy_from_slice(&law.to_le_bytes());
+        let sum = u64::from(checksum(&forged[..end]));
+        forged[end..].copy_from_slice(&sum.to_le_bytes());
+        State::from_bytes(&model, &KEY, &forged)
+    };
+    let [place] = laws[..] else { panic!("{laws:?}") };
+    assert!(forged(place, 21).is_ok());
+    assert!(matches!(forged(place, 22), Err(BytesError::Unfit)));
+    assert!(matches!(forged(place, u64::MAX), Err(BytesError::Unfit)));
 }

@@ -7,9 +7,9 @@ use crate::path::At;
 use crate::units::Kind;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use stickslip_drive::Sample;
 use stickslip_drive::component::{Block, Input, Moment, SharedBlock, Standing};
 use stickslip_drive::scene::{Named, Scene, Varying};
+use stickslip_drive::{Sample, Waveform};
 use stickslip_piezo::Reading;
 use stickslip_piezo::creep::{Creep, CreepBlock, CreepError};
 use stickslip_piezo::driver::Spec;
@@ -46,6 +46,7 @@ struct Leg {
     signal: usize,
     span: f64,
     rate: f64,
+    turns: f64,
 }
 
 impl Builder<'_> {
@@ -155,16 +156,21 @@ impl Builder<'_> {
     fn leg(&self, i: usize, signal: usize) -> Leg {
         let (low, high) = reach(&self.scene, signal);
         let span = if high - low > 0.0 && (high - low).is_finite() { high - low } else { 1e-9 };
-        let period = self.scene.waveform_of(signal).map(|w| self.scene.waveforms[w].part.extent());
-        let waves = period.filter(|period| period.is_finite()).map_or(UNKNOWN, |period| TAU / period);
+        let waveform = self.scene.waveform_of(signal).map(|w| &self.scene.waveforms[w].part);
         let driver = self.stacks[i].driver.as_ref().map_or(0.0, Spec::rate);
-        Leg { signal, span, rate: waves.max(driver) }
+        let fastest = |time: Option<f64>| {
+            time.filter(|time| time.is_finite()).map_or(UNKNOWN, |time| TAU / time).max(driver)
+        };
+        // Of a burst or a chirp one wave of many.
+        let rate = fastest(waveform.map(|waveform| waveform.extent().min(4.0 * waveform.resolution())));
+        let turns = fastest(waveform.map(Waveform::quickest));
+        Leg { signal, span, rate, turns }
     }
 
     /// Adds a block to a chain.
     fn push(&mut self, i: usize, what: &str, leg: Leg, block: impl FnOnce(Reading) -> SharedBlock) -> Leg {
-        let Leg { signal, span, rate } = leg;
-        let part = block(Reading { signal, span, rate, column: "stroke_m" });
+        let Leg { signal, span, rate, turns } = leg;
+        let part = block(Reading { signal, span, rate, turns, column: "stroke_m" });
         let name = format!("{}.{what}", self.stacks[i].name);
         self.scene.blocks.push(Named { name, part });
         Leg { signal: self.scene.waveforms.len() + self.scene.blocks.len() - 1, ..leg }

@@ -10,13 +10,17 @@ use crate::state::State;
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// The law of a block after one of its guards fell.
+    /// The law of a block after one of its guards fell; none where a jump at the same moment has taken it to a law without that guard.
     pub(super) fn handle_block(
         &mut self,
         state: &mut State,
         (k, guard): (usize, usize),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
+        let block = self.setting.model.blocks[k].block();
+        if !block.guards(&state.blocks[k].law).contains(&guard) {
+            return Ok(());
+        }
         let (kind, law) = self.setting.plain(state).block_next(k, guard, state);
         state.blocks[k].law = law;
         self.note(state, Source::Block(k), kind, record);

@@ -65,7 +65,7 @@ pub(super) struct Watch {
 impl Watch {
     pub(super) fn new(model: &Model, tolerance: f64) -> Self {
         let contacts = vec![Moving::default(); model.contacts.len()];
-        let fired = Vec::with_capacity(model.contacts.len());
+        let fired = Vec::with_capacity(model.contacts.len() + model.blocks.len());
         Self { from: contacts.clone(), to: contacts, fired, tolerance }
     }
 

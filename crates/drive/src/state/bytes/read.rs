@@ -5,7 +5,7 @@ use super::generated::generating;
 use crate::contact::Mode;
 use crate::interval::PhasePoint;
 use crate::method::Tally;
-use crate::model::{BlockState, Model};
+use crate::model::{BlockState, Model, Wired};
 use crate::state::{Ahead, Books, Grip, Layout, Whereabouts};
 use crate::state::{Allowed, Booked, Counts, Crawl, Detour, FixedWay, Gait, Grid, LocatedWay};
 use crate::state::{Generating, State, Stepped, Takeoff, Underway, Window};
@@ -29,7 +29,7 @@ pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
         memories.push(Memory::read(&contact.interface, &contact.engine, words)?);
         modes.push(mode(&contact.interface, words)?);
     }
-    let blocks = model.blocks.iter().map(|_| block(words)).collect::<Option<_>>()?;
+    let blocks = model.blocks.iter().map(|wired| block(model, wired, words)).collect::<Option<_>>()?;
     let (pieces, supplied, generators) = pieces(model, words)?;
     if !((0.0..f64::INFINITY).contains(&t) && step >= 0.0) {
         return None;
@@ -92,9 +92,11 @@ fn mode(law: &Interface, words: &mut Words<'_>) -> Option<Mode> {
     })
 }
 
-fn block(words: &mut Words<'_>) -> Option<BlockState> {
-    let law = usize::try_from(words.word()?).ok()?;
-    let count = words.count(MOST_OF_A_MEMORY)?;
+/// A memory is as long as at the start: a block indexes it.
+fn block(model: &Model, wired: &Wired, words: &mut Words<'_>) -> Option<BlockState> {
+    let law = usize::try_from(words.word()?).ok().filter(|law| *law < wired.block().laws())?;
+    let (_, start) = wired.block().start(&model.signals().first_inputs(wired));
+    let count = words.count(MOST_OF_A_MEMORY).filter(|count| *count == start.len())?;
     Some(BlockState { law, memory: reals(words, count)? })
 }
 

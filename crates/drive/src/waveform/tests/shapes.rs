@@ -84,6 +84,42 @@ fn trapezoid_rises_holds_falls_and_rests() {
     assert!(corners(&full, 0.0, 6).windows(2).all(|pair| pair[1] - pair[0] > 0.09));
 }
 
+/// No rise is the limit of a short one: at rest, before and after as between its periods.
+#[test]
+fn a_trapezoid_that_jumps_is_the_limit_of_one_that_rises() {
+    let shape = |rise| Shape::Trapezoid { stroke: 2.0, rise, hold: 0.25, fall: 0.5 };
+    let full = |rise| Shape::Trapezoid { stroke: 2.0, rise, hold: 0.5 - rise, fall: 0.5 };
+    let timing = Timing { delay: 0.5, cycles: Some(2.0), ..Timing::every(1.0) };
+    let burst = |rise| Shape::Pattern {
+        carrier: Box::new(full(rise)),
+        parts: vec![Section::Run { cycles: 2, reversed: false }, Section::Rest { duration: 0.5 }],
+    };
+    let rested = |rise| Shape::Pattern {
+        carrier: Box::new(shape(rise)),
+        parts: vec![Section::Rest { duration: 0.5 }, Section::Run { cycles: 1, reversed: false }],
+    };
+    let kinds: [&dyn Fn(f64) -> Shape; 4] = [&shape, &full, &burst, &rested];
+    for (kind, of) in kinds.iter().enumerate() {
+        let (jumps, rises) = (wave(of(0.0), timing), wave(of(1e-9), timing));
+        for i in 0..700 {
+            // Between all corners.
+            let t = 0.01 * f64::from(i) + 0.005;
+            let (got, expected) = (value(&jumps, t), value(&rises, t));
+            assert!(near(got, expected, 1e-8), "{kind} {t}: {got} {expected}");
+        }
+        assert_eq!((value(&jumps, 0.0), value(&jumps, 9.0), jumps.range()), (0.0, 0.0, (0.0, 2.0)));
+        // Its jumps are told where it makes them: none at an end that it reaches by itself.
+        let mut piece = jumps.piece_at(0.0);
+        while piece.end < f64::INFINITY {
+            let next = jumps.after(&piece);
+            let jump = jumps.sample(&next, next.start).value - jumps.sample(&piece, piece.end).value;
+            assert_eq!(jumps.jump_after(&piece), jump);
+            assert!(jump == 0.0 || jump == 2.0, "{kind} {}: {jump}", piece.end);
+            piece = next;
+        }
+    }
+}
+
 #[test]
 fn s_curve_has_one_jerk_on_each_way() {
     // Down: Δ = -1, L = 1, τ = 1/8: V = -4/3, J = V/τ² = -256/3, largest acceleration Jτ = -32/3.
@@ -140,6 +176,36 @@ fn a_limited_sawtooth_meets_what_is_asked_for_on_its_way_up() {
     assert!(near(phased.range().0, low, 1e-15) && value(&phased, 0.0) > low);
     let slow = Waveform::new(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 0.4 }, Timing::every(5.0));
     assert_eq!(slow.unwrap_err(), WaveformError::Rate { least: 0.5, got: 0.4 });
+}
+
+/// Before its first top it is the ramp alone, wherever it stops: that the late way back would still last then makes none.
+#[test]
+fn a_limited_sawtooth_that_stops_early_has_only_risen() {
+    for delay in [0.0, 3.0, 1e3] {
+        // The late way back of the period before would end at 2/3.
+        for stop in [0.25, 0.5, 2.0 / 3.0, 1.0, 3.5] {
+            let timing = Timing { delay, cycles: Some(stop / 5.0), ..Timing::every(5.0) };
+            let short = wave(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 1.0 }, timing);
+            for (t, expected) in
+                [(-0.1, 0.0), (0.0, 0.0), (0.5, 0.25), (0.999, 0.4995), (1.001, 0.5), (9.0, 0.5)]
+            {
+                let t = delay + t * stop;
+                assert!(
+                    near(value(&short, t), expected * stop, 1e-12),
+                    "{delay} {stop} {t}: {}",
+                    value(&short, t)
+                );
+            }
+            let last = short.after(&short.piece_at(delay));
+            assert_eq!((last.end, short.jump_after(&last)), (f64::INFINITY, 0.0));
+        }
+        // A late way back so short that its end rounds to the start.
+        let timing = Timing { delay, ..Timing::every(5.0) };
+        let hair = wave(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 2.0 * (1.0 - 1e-15) }, timing);
+        assert!(
+            near(value(&hair, delay + 2.0), 1.0, 1e-12) && near(hair.piece_at(delay).end - delay, 4.0, 1e-12)
+        );
+    }
 }
 
 #[test]
