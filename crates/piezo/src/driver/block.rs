@@ -13,6 +13,8 @@ use stickslip_drive::{EventKind, Sample};
 
 /// A voltage that moves less than this part of its range between two events of the driver chatters.
 const CHATTER: f64 = 1e-6;
+/// Part of its range by which the state of a free voltage may lie beside what it follows: a thousandth of what one sees.
+const NEAR: f64 = 1e-8;
 
 impl Component for Driver {
     type Law = usize;
@@ -207,7 +209,13 @@ impl Block for Driver {
             (None, Some(_)) if at.located => at.states[VOLTAGE] + Self::offset(standing.memory),
             _ => voltage.value,
         };
-        course.output = self.output(followed, (at.states, own));
+        // A free voltage is what it follows, but for what integration leaves between its state and that.
+        let near = (followed.value - own).abs() <= NEAR * self.span;
+        let met = match (before.output, self.spec.resistance) {
+            (Output::Free, None) if near => Sample { value: own, ..followed },
+            _ => followed,
+        };
+        course.output = self.output(met, (at.states, own));
         (course != before).then(|| (EventKind::Own(course.word(before)), course.law()))
     }
 
