@@ -95,6 +95,8 @@ pub struct Moment<'a, I: ?Sized> {
     pub inputs: &'a I,
     /// Its states.
     pub states: &'a [f64],
+    /// Whether steps end where a guard falls. If not, laws change at the ends of steps, late by up to one.
+    pub located: bool,
 }
 
 /// A motion that a component cannot follow, in words.
@@ -213,6 +215,10 @@ pub struct Powers {
 /// The accepted path of a block through a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passage {
+    /// When it ends, s.
+    pub t: f64,
+    /// As in [`Moment::located`].
+    pub located: bool,
     /// How long the step took, s.
     pub duration: f64,
     /// The law in the step.

@@ -17,8 +17,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut sum, mut slopes, mut efforts): (f64, [f64; 0], _) = (0.0, [], [0.0; 8]);
     for k in 0..count {
         let inputs = [Sample { value: black_box(0.3), rate: 1.0, acceleration: 0.0 }];
-        let (law, at): (_, Moment<[Sample]>) =
-            (black_box(2 * (k as usize % 11)), Moment { t: 0.0, inputs: &inputs[..], states: &[] });
+        let (law, at): (_, Moment<[Sample]>) = (
+            black_box(2 * (k as usize % 11)),
+            Moment { t: 0.0, inputs: &inputs[..], states: &[], located: true },
+        );
         let standing = Standing { law: &law, memory: &memory };
         let block: &dyn Block = black_box(&*block);
         // As a step does: slopes and signal at a stage.

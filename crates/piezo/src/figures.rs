@@ -3,7 +3,7 @@
 use crate::driver::Spec;
 
 /// Numbers of a driver's memory.
-pub(crate) const COUNT: usize = 11;
+pub(crate) const COUNT: usize = 12;
 
 /// A driver's memory by its places.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,22 +24,29 @@ pub(crate) struct Kept {
     pub(crate) limited: [f64; 4],
     /// Time in all, s.
     pub(crate) time: f64,
+    /// When the last step ended, s.
+    pub(crate) at: f64,
+}
+
+/// Voltage at the end of the last step, as a stroke, m, and when that was, s: of a driver's memory.
+pub(crate) fn last(memory: &[f64]) -> (f64, f64) {
+    Kept::read(memory).map_or((0.0, 0.0), |kept| (kept.last, kept.at))
 }
 
 impl Kept {
     /// Read from a memory; none where that is of another kind.
     pub(crate) fn read(memory: &[f64]) -> Option<Self> {
-        let &[offset, last, work, way, drawn, fastest, up, down, below, above, time] = memory else {
+        let &[offset, last, work, way, drawn, fastest, up, down, below, above, time, at] = memory else {
             return None;
         };
-        Some(Self { offset, last, work, way, drawn, fastest, limited: [up, down, below, above], time })
+        Some(Self { offset, last, work, way, drawn, fastest, limited: [up, down, below, above], time, at })
     }
 
     /// As a memory.
     pub(crate) fn numbers(&self) -> [f64; COUNT] {
         let [up, down, below, above] = self.limited;
-        let Self { offset, last, work, way, drawn, fastest, time, .. } = *self;
-        [offset, last, work, way, drawn, fastest, up, down, below, above, time]
+        let Self { offset, last, work, way, drawn, fastest, time, at, .. } = *self;
+        [offset, last, work, way, drawn, fastest, up, down, below, above, time, at]
     }
 }
 

@@ -599,3 +599,24 @@ fn units_in_the_heads_of_a_table_are_read() {
     // A column that goes by its whole head is meant before one that goes by a part of it.
     assert_eq!(points("t [ms],t", "t [ms]", "t")[1], (10e-3, 1.3));
 }
+
+/// A column in volts is a voltage that a stack may follow: times its stroke per volt, 4.6 µm/120 V. A body cannot.
+#[test]
+fn a_column_of_volts_is_a_voltage() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("u.csv"), "t [ms],U [V]\n0,0\n10,60\n").unwrap();
+    let table = r#"{ "table": { "file": "u.csv", "time": "t", "value": "U" } }"#;
+    let sine = r#"{ "sine": { "amplitude": "40 V", "offset": "40 V", "period": "10 ms" } }"#;
+    let text = fs::read_to_string("tests/odd/window_cuts.json").unwrap();
+    assert!(text.contains(sine));
+    let text = text.replace(sine, table);
+    let base = folder.path().to_str().unwrap();
+    let scenario = Scenario::from_str(&text, "volts.json", base).unwrap();
+    assert_eq!(scenario.warnings, []);
+    let Shape::Table { points } = scenario.scene.waveforms[0].part.shape() else { panic!("no table") };
+    assert_eq!(points[1].0, 10e-3);
+    assert!((points[1].1 / (60.0 * 4.6e-6 / 120.0) - 1.0).abs() < 1e-15);
+    let moved = text
+        .replace(r#""foot":   { "mass": "5 g", "x": "free" }"#, r#""foot": { "x": { "follows": "drive" } }"#);
+    assert!(moved != text && Scenario::from_str(&moved, "moved.json", base).is_err());
+}

@@ -48,7 +48,8 @@ impl Equations<'_> {
     ) -> R {
         let wired = &self.model.blocks[k];
         let (inputs, states) = (self.block_inputs(wired, at), self.block_states(k, at));
-        let moment = Moment { t: at.time(), inputs: &inputs[..], states: &states };
+        let located = self.layout.located;
+        let moment = Moment { t: at.time(), inputs: &inputs[..], states: &states, located };
         ask(wired.block(), self.blocks[k].standing(), &moment)
     }
 

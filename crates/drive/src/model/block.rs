@@ -81,7 +81,7 @@ impl Signals<'_> {
         let inputs = self.first_inputs(block);
         let (states, memory) = block.block().start(&inputs);
         let standing = Standing { law: &0, memory: &memory };
-        block.block().signal(standing, &Moment { t: 0.0, inputs: &inputs, states: &states })
+        block.block().signal(standing, &Moment { t: 0.0, inputs: &inputs, states: &states, located: true })
     }
 
     /// What a block reads at t = 0.

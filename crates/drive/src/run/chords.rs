@@ -54,7 +54,7 @@ impl<'a> Chords<'a> {
     /// Chords do not carry the extra components of growing contacts.
     pub(super) fn new(model: &'a Model, plan: &Plan) -> Self {
         // A chord's force is the memory's own: nothing has to be carried beside it.
-        let layout = Layout { growing: 0, ..model.layout() };
+        let layout = Layout { growing: 0, located: false, ..model.layout() };
         Self {
             horizon: Horizon::new(model, plan),
             output: Output::new(plan.every, layout),

@@ -35,6 +35,8 @@ impl Ledger {
     /// Room for a segment of every contact, and `more`.
     pub(super) fn new(model: &Model, more: usize) -> Self {
         let passage = |wired: &Wired| Passage {
+            t: 0.0,
+            located: true,
             duration: 0.0,
             law: 0,
             inputs: Vec::with_capacity(wired.wires.len()),
@@ -183,6 +185,7 @@ impl Ledger {
         passage.inputs.extend(equations.block_inputs(wired, &at));
         passage.states.clear();
         passage.states.extend(equations.block_states(k, &at));
+        (passage.t, passage.located) = (t, layout.located);
         (passage.duration, passage.law) = (t - self.booked.blocks, state.blocks[k].law);
         let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
         let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;

@@ -99,6 +99,8 @@ pub(super) fn run(
             Err(_) => {}
         }
         driven.turn_corners(model);
+        let layout = driven.chords.layout;
+        driven.state.choose_block_laws(model, layout);
     }
     if driven.outcome.is_err() {
         driven.chords.write_now(driven.state, driven.record);

@@ -17,6 +17,8 @@ pub(crate) struct Layout {
     pub(crate) own: usize,
     /// Balanced coordinates that a state carries while their contacts grow.
     pub(crate) balanced: usize,
+    /// Whether steps end where guards fall: not by chords.
+    pub(crate) located: bool,
 }
 
 impl Layout {
@@ -69,6 +71,7 @@ impl Model {
             growing: self.growing,
             own: self.blocks.iter().map(Wired::count).sum(),
             balanced: self.balanced.iter().filter(|b| b.slot.is_some()).count(),
+            located: true,
         }
     }
 }

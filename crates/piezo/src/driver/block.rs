@@ -13,6 +13,8 @@ use stickslip_drive::{EventKind, Sample};
 
 /// A voltage that moves less than this part of its range between two events of the driver chatters.
 const CHATTER: f64 = 1e-6;
+/// Part of its range by which the state of a free voltage may lie beside what it follows: a thousandth of what one sees.
+const NEAR: f64 = 1e-8;
 
 impl Component for Driver {
     type Law = usize;
@@ -71,7 +73,7 @@ impl Component for Driver {
             FALLING => course.output = Output::Falling,
             _ => {}
         }
-        let followed = self.followed(course, at.inputs[0], at.states);
+        let followed = self.followed((course, at.located), at.inputs[0], at.states);
         let decided = match (guard, self.spec.resistance) {
             // It has met what it follows, but for rounding: its rate says how it goes on.
             (FREE, None) => {
@@ -101,15 +103,22 @@ impl Component for Driver {
         };
         let course = Course::of(passage.law);
         let Some(&command) = passage.inputs.first() else { return Ok(0.0) };
-        let followed = self.followed(course, command, &passage.states);
-        let voltage = self.voltage(course, followed, (&passage.states, kept.offset));
-        let jumps = passage.duration == 0.0 && self.spec.current.is_some();
-        if jumps && self.spec.resistance.is_none() {
+        let jumps = passage.duration == 0.0;
+        if jumps && self.spec.current.is_some() && self.spec.resistance.is_none() {
             return Ok(0.0);
         }
-        if course.output == Output::Free && self.spec.resistance.is_none() {
+        // After a jump the law is still the one before: the window cuts whatever that says.
+        let located = passage.located && !jumps;
+        let followed = self.followed((course, located), command, &passage.states);
+        let voltage = if passage.located {
+            self.voltage(course, followed, (&passage.states, kept.offset))
+        } else {
+            self.saturated(followed, (&passage.states, memory.as_slice()), passage.t)
+        };
+        if self.spec.resistance.is_none() && (course.output == Output::Free || !passage.located) {
             kept.offset = voltage.value - passage.states[VOLTAGE];
         }
+        kept.at = passage.t;
         if !jumps {
             kept.fastest = kept.fastest.max(voltage.rate.abs());
         }
@@ -194,14 +203,33 @@ impl Block for Driver {
                 _ => Window::Inside,
             };
         }
-        let followed = self.followed(course, at.inputs[0], at.states);
+        let followed = self.followed((course, at.located), at.inputs[0], at.states);
         // Without a resistance a free voltage has jumped with its command; where it was is what the state says.
         let own = match (self.spec.resistance, self.spec.current) {
-            (None, Some(_)) => at.states[VOLTAGE] + Self::offset(standing.memory),
+            (None, Some(_)) if at.located => at.states[VOLTAGE] + Self::offset(standing.memory),
             _ => voltage.value,
         };
-        course.output = self.output(followed, (at.states, own));
+        // A free voltage is what it follows, but for what integration leaves between its state and that.
+        let near = (followed.value - own).abs() <= NEAR * self.span;
+        let met = match (before.output, self.spec.resistance) {
+            (Output::Free, None) if near => Sample { value: own, ..followed },
+            _ => followed,
+        };
+        course.output = self.output(met, (at.states, own));
         (course != before).then(|| (EventKind::Own(course.word(before)), course.law()))
+    }
+
+    /// A jump that it passes on charges the capacitance at once, ½C(V₂² - V₁²). Nothing of that is lost: the source goes with it.
+    fn jump(&self, standing: Now<'_>, at: &At<'_>, states: &mut [f64]) {
+        if self.passes_jumps() {
+            let course = Course::of(*standing.law);
+            let [from, to] = [
+                crate::figures::last(standing.memory).0,
+                self.followed((course, false), at.inputs[0], at.states).value,
+            ];
+            let volts = [from, to].map(|stroke| stroke / self.spec.gain);
+            states[WORK] += 0.5 * self.spec.capacitance * (volts[1] + volts[0]) * (volts[1] - volts[0]);
+        }
     }
 
     /// A voltage that nothing slows jumps with its command.

@@ -1,6 +1,7 @@
 //! What a driver's stages make of a moment: the window, the low-pass, the output stage.
 
 use super::{Course, Driver, Output, Window};
+use crate::figures::last;
 use stickslip_drive::Sample;
 use stickslip_drive::component::{Moment, Standing};
 
@@ -19,13 +20,22 @@ pub(super) const LOW_RATE: usize = 4;
 
 impl Driver {
     /// What the output stage follows: the command in its window, through the low-pass.
-    pub(super) fn followed(&self, course: Course, command: Sample, states: &[f64]) -> Sample {
+    pub(super) fn followed(
+        &self,
+        (course, located): (Course, bool),
+        command: Sample,
+        states: &[f64],
+    ) -> Sample {
         let (low, high) = self.spec.reach();
         let held = |value: f64| Sample { value, rate: 0.0, acceleration: 0.0 };
         let cut = match course.window {
-            Window::Inside => command,
-            Window::Below => held(low),
-            Window::Above => held(high),
+            // Between events nothing may show of an end of the window: a step that goes beyond one is cut there.
+            Window::Inside if located => command,
+            Window::Below if located => held(low),
+            Window::Above if located => held(high),
+            _ if command.value < low => held(low),
+            _ if command.value > high => held(high),
+            _ => command,
         };
         let Some(pass) = &self.spec.low else { return cut };
         let (omega, value, rate) = (self.spec.omega(), states[LOW], states[LOW_RATE]);
@@ -59,6 +69,33 @@ impl Driver {
         }
     }
 
+    /// The same by what limits it alone, whatever the law: where laws change a step late. It never goes faster than the
+    /// current allows, nor from where it was at the last step (in memory) to where that does not let it be at time t, s.
+    pub(super) fn saturated(&self, followed: Sample, (states, memory): (&[f64], &[f64]), t: f64) -> Sample {
+        if self.spec.current.is_none() && self.spec.resistance.is_none() {
+            return followed;
+        }
+        let (down, up) = self.spec.slew();
+        let wish = self.wish(followed, states);
+        let rate = wish.clamp(-down, up);
+        let within = |value: f64, acceleration: f64| Sample {
+            value,
+            rate,
+            acceleration: if rate == wish { acceleration } else { 0.0 },
+        };
+        if let Some(time) = self.spec.time() {
+            return within(states[VOLTAGE] + Self::offset(memory), (followed.rate - wish) / time);
+        }
+        let (last, since) = last(memory);
+        let (lowest, highest) = (last - down * (t - since), last + up * (t - since));
+        let at_limit = |value: f64, rate: f64| Sample { value, rate, acceleration: 0.0 };
+        match followed.value {
+            value if value < lowest => at_limit(lowest, -down),
+            value if value > highest => at_limit(highest, up),
+            value => within(value, followed.acceleration),
+        }
+    }
+
     pub(super) fn offset(memory: &[f64]) -> f64 {
         memory.first().copied().unwrap_or(0.0)
     }
@@ -66,8 +103,12 @@ impl Driver {
     /// What is followed, and the voltage.
     pub(super) fn now(&self, standing: Now<'_>, at: &At<'_>) -> (Course, Sample, Sample) {
         let course = Course::of(*standing.law);
-        let followed = self.followed(course, at.inputs[0], at.states);
-        let voltage = self.voltage(course, followed, (at.states, Self::offset(standing.memory)));
+        let followed = self.followed((course, at.located), at.inputs[0], at.states);
+        let voltage = if at.located {
+            self.voltage(course, followed, (at.states, Self::offset(standing.memory)))
+        } else {
+            self.saturated(followed, (at.states, standing.memory), at.t)
+        };
         (course, followed, voltage)
     }
 

@@ -229,10 +229,13 @@ impl Plays {
         (slope * v - sense * self.backs[taken_up] + held, slope)
     }
 
-    /// Smallest and largest output for inputs in a range that holds 0, from the start on: the law is monotone, and no way leads
-    /// further than the straight one to an end.
+    /// Smallest and largest output for inputs in a range that holds 0, from the start on. The end that is farther from 0 is reached
+    /// on the initial curve, whatever was before; the other one so, or from there back by 2φ(½(high - low)), which leads
+    /// further where weights are negative, as those of an inverse.
     pub fn range(&self, (low, high): (f64, f64)) -> (f64, f64) {
-        (-self.initial((-low).max(0.0)), self.initial(high.max(0.0)))
+        let (down, up) = (-self.initial((-low).max(0.0)), self.initial(high.max(0.0)));
+        let way = self.stroke(high - low);
+        if high >= -low { (down.min(up - way), up) } else { (down, up.max(down + way)) }
     }
 }
 

@@ -81,3 +81,30 @@ fn a_run_taken_up_in_saturation_goes_on_to_the_same_bits() {
     }
     assert!(falling > 5, "{falling}");
 }
+
+/// A window alone passes jumps on: from 0 V to 80 V of 100 V commanded and down to 20 V the source gives ½C(V₂² - V₁²), and no
+/// current is told of a moment.
+#[test]
+fn a_jump_that_is_passed_on_is_in_the_books() {
+    let step = table(&[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (3.0, 100.0), (3.0, 20.0), (99.0, 20.0)]);
+    let spec = Spec { window: Some((0.0, 80.0)), ..ideal() };
+    for stepper in [Stepper::Event { tolerance: 1e-9 }, Stepper::Frames { length: 20e-6, accuracy: 1e-3 }] {
+        let ran = ran(&scene(step.clone(), spec), &crate::parts::plan(stepper, 4e-3), 0.5e-3);
+        let source = ran.column("stack.source_J");
+        for ((t, volts), source) in ran.volts().into_iter().zip(source) {
+            // A row at the jump itself may stand on either side.
+            if t != 1e-3 && t != 3e-3 {
+                let at = if t < 1e-3 {
+                    0.0
+                } else if t < 3e-3 {
+                    80.0
+                } else {
+                    20.0
+                };
+                assert!((volts - at).abs() < 1e-9, "{stepper:?}: {volts} V at {t}");
+                assert!((source - 0.5 * FARADS * at * at).abs() < 1e-12, "{stepper:?}: {source} J at {t}");
+            }
+        }
+        assert_eq!(ran.figures(&spec).peak_current, 0.0);
+    }
+}

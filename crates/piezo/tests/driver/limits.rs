@@ -177,3 +177,37 @@ fn steps_without_events_agree() {
         assert!((x - located.1).abs() < 2e-4 * GAIN * 100.0, "{x} {located:?}");
     }
 }
+
+/// A sawtooth and a sine through a limit, with a resistance and without, by steps that locate nothing: no more current than there
+/// is, to rounding, and from row to row no more than the sine, Aω² = 2 kV/ms², curves in a step of 20 µs: 40 V/ms.
+#[test]
+fn no_stepper_exceeds_the_current() {
+    let saw = Shape::Sawtooth { stroke: GAIN * 100.0, flyback: 20e-6 };
+    let sine = Shape::Sine { amplitude: GAIN * 50.0, phase: 0.3, offset: GAIN * 50.0 };
+    let frames = Stepper::Frames { length: 20e-6, accuracy: 1e-3 };
+    let steppers = [
+        (Stepper::Event { tolerance: 1e-9 }, 1e-8),
+        (Stepper::Rk4 { step: 5e-6 }, 0.05),
+        (Stepper::Verlet { step: 5e-6 }, 0.05),
+        (frames, 0.05),
+        (Stepper::Dopri5 { tolerance: 1e-9 }, 0.05),
+    ];
+    for (shape, resistance) in [(&saw, None), (&saw, Some(10.0)), (&sine, None), (&sine, Some(10.0))] {
+        let spec = Spec { resistance, ..limited(0.2, 0.3) };
+        let mut first = None;
+        for (stepper, near) in steppers {
+            let what = format!("{stepper:?}, {resistance:?}, {shape:?}");
+            let ran = ran(&scene(every(shape.clone()), spec), &plan(stepper, 3e-3), 1e-6);
+            let peak = ran.figures(&spec).peak_current;
+            assert!(peak <= 0.3 * (1.0 + 1e-9), "{what}: {peak}");
+            let volts = ran.volts();
+            for pair in volts.windows(2) {
+                let rate = (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0) * FARADS;
+                assert!((-0.24..=0.34).contains(&rate), "{what}: {rate} at {}", pair[0].0);
+            }
+            let located = first.get_or_insert_with(|| volts.clone());
+            let worst = located.iter().zip(&volts).fold(0.0, |most: f64, (a, b)| most.max((a.1 - b.1).abs()));
+            assert!(worst <= near * 100.0, "{what}: {worst} V");
+        }
+    }
+}

@@ -7,6 +7,7 @@ use stickslip_drive::scene::{
 use stickslip_drive::{
     Event, Limits, Model, Plan, Shape, Source, State, Stepper, Timing, Trace, Waveform, run,
 };
+use stickslip_piezo::Figures;
 use stickslip_piezo::driver::{Control, Driver, Low, Spec};
 
 /// α of these stacks, m/V, and their capacitance, F.
@@ -90,6 +91,11 @@ impl Ran {
     pub(crate) fn column(&self, name: &str) -> Vec<f64> {
         let place = self.model.channels().iter().position(|channel| channel.name == name).unwrap();
         self.trace.column(place).collect()
+    }
+
+    /// What the driver says it has done.
+    pub(crate) fn figures(&self, spec: &Spec) -> Figures {
+        Figures::of(self.state.block_memory(0).unwrap(), spec).unwrap()
     }
 
     /// Times and voltages.

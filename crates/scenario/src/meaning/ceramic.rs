@@ -255,5 +255,5 @@ pub(super) fn first(scene: &Scene, signal: usize) -> Sample {
     let inputs: Vec<Sample> = block.inputs().iter().map(of).collect();
     let (states, memory) = block.start(&inputs);
     let standing = Standing { law: &0, memory: &memory };
-    block.signal(standing, &Moment { t: 0.0, inputs: &inputs[..], states: &states })
+    block.signal(standing, &Moment { t: 0.0, inputs: &inputs[..], states: &states, located: true })
 }

@@ -2,13 +2,17 @@
 
 use super::{Builder, Piezo, ceramic, range};
 use crate::fault::Fault;
-use crate::form::{ControlForm, DriverForm};
+use crate::form::{ActuatorForm, ControlForm, DriverForm};
 use crate::path::At;
+use std::f64::consts::FRAC_1_SQRT_2;
+use stickslip_drive::component::Input;
 use stickslip_drive::scene::{Named, Scene, Varying};
 use stickslip_piezo::driver::{Control, Driver, Low, Spec};
 
 /// Damping ratios of a low-pass.
 const RATIO: (f64, f64) = (0.05, 10.0);
+/// Voltages, as parts of the data sheet's, beyond which it says nothing: makers allow some 20 % the other way round.
+const BEYOND: (f64, f64) = (-0.2, 1.1);
 /// How far beyond an end of the window a voltage may start, as a part of the window: rounding of what it is made of.
 const ROUNDING: f64 = 1e-9;
 
@@ -66,9 +70,11 @@ impl Builder<'_> {
 
 /// Says of a command that the window cuts it.
 pub(super) fn cut(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
-    let (spec, Varying::Follows(waveform)) = (piezo.driver?, piezo.command) else { return None };
+    let (spec, block) = (piezo.driver?, scene.blocks.get(piezo.block?)?);
     let (low, high) = spec.window?;
-    let (least, most) = scene.waveforms.get(waveform)?.part.range();
+    // What it reads, which is the command or what compensation makes of it.
+    let &[Input::Signal(signal)] = block.part.0.inputs() else { return None };
+    let (least, most) = ceramic::reach(scene, signal);
     let [least, most] = [least, most].map(|value| value / spec.gain);
     let slack = ROUNDING * (high - low);
     if least >= low - slack && most <= high + slack {
@@ -78,6 +84,41 @@ pub(super) fn cut(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
     let [least, most] = [least, most].map(range::short);
     let message = format!("the command goes from {least} V to {most} V and is cut at the ends of the window");
     Some(Fault::new(at, message).help("widen the window, or take a smaller stroke"))
+}
+
+/// Says of a command that it goes beyond the voltage for which the data sheet gives the stroke, after the window.
+pub(super) fn beyond(piezo: &Piezo, form: &ActuatorForm, scene: &Scene) -> Option<Fault> {
+    let nominal = form.data_sheet.as_ref()?.voltage?.si;
+    let gain = piezo.stack.stroke_per_volt.filter(|_| piezo.by_voltage)?;
+    let (least, most) = match piezo.command {
+        Varying::Constant(value) => (value, value),
+        Varying::Follows(signal) => ceramic::reach(scene, signal),
+    };
+    let (low, high) = piezo.driver.and_then(|spec| spec.window).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    let [least, most] = [least, most].map(|value| (value / gain).clamp(low, high));
+    let (lowest, highest) = (BEYOND.0 * nominal, BEYOND.1 * nominal);
+    let slack = ROUNDING * nominal;
+    if least >= lowest - slack && most <= highest + slack {
+        return None;
+    }
+    let at = At::ROOT.key("actuators").key(&piezo.name).key("voltage").path();
+    let [least, most, nominal, lowest, highest] = [least, most, nominal, lowest, highest].map(range::short);
+    let message = format!("{least} V to {most} V are commanded, the data sheet is for {nominal} V");
+    let help = format!("told beyond {lowest} V to {highest} V: such fields may depolarise or break a stack");
+    Some(Fault::new(at, message).help(help))
+}
+
+/// Says of the damping ratio of a low-pass that there is none.
+pub(super) fn idle_ratio(name: &str, form: &ActuatorForm) -> Option<Fault> {
+    let driver = form.driver.as_ref()?;
+    // As given: the default says nothing.
+    if driver.bandwidth.is_some() || driver.damping_ratio == FRAC_1_SQRT_2 {
+        return None;
+    }
+    let at = At::ROOT.key("actuators").key(name).key("driver").key("damping_ratio").path();
+    let fault =
+        Fault::new(at, "a damping ratio is that of a low-pass, and there is no \"bandwidth\"".to_owned());
+    Some(fault.help("give the \"bandwidth\", or leave it out"))
 }
 
 /// What a driver can do, checked.

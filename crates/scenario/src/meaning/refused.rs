@@ -77,9 +77,16 @@ fn worded(scene: &Scene, path: KeyPath, error: &SceneError) -> Fault {
             let help = format!("take the event stepper, or {LINEAR}");
             Fault::new(path, error.fault.to_string()).help(help)
         }
+        SceneFault::DampedJump(_) if matches!(error.part, Part::Actuator(_)) => {
+            Fault::new(path, error.fault.to_string()).help(STACK)
+        }
         _ => plain(path, error),
     }
 }
+
+/// What lets a stack follow a waveform that jumps.
+const STACK: &str = "give the waveform a flyback above 0, or the stack a \"driver\" with a current, a resistance or a \
+                     bandwidth, or \"damping\": 0; a stack that says nothing of its damping has that of Q = 50";
 
 /// What keeps an input from jumping.
 const LINEAR: &str = "make the input \"linear\": held, it jumps wherever it is given a value";

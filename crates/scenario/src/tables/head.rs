@@ -109,7 +109,9 @@ impl Head {
         };
         let fits = match column {
             Column::Time => kind == Kind::Time,
-            Column::Value => matches!(kind, Kind::Length | Kind::Force | Kind::Moment | Kind::Angle),
+            Column::Value => {
+                matches!(kind, Kind::Length | Kind::Force | Kind::Moment | Kind::Angle | Kind::Voltage)
+            }
             Column::Of(wanted) => kind == wanted,
         };
         match (fits, unit.bracketed) {
@@ -121,7 +123,9 @@ impl Head {
             (false, true) => Err(Unreadable {
                 message: match column {
                     Column::Time => "expected a column of times".to_owned(),
-                    Column::Value => "expected a column of lengths, forces, moments or angles".to_owned(),
+                    Column::Value => {
+                        "expected a column of lengths, forces, moments, angles or voltages".to_owned()
+                    }
                     Column::Of(kind) => format!("expected a column of {}s", plural(kind)),
                 },
                 help: match wanted {

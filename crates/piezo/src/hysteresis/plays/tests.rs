@@ -162,3 +162,28 @@ fn laws_without_an_inverse_are_refused() {
     assert!(said(Plays::of_loop(0.1, 1.0, 65)).contains("1 to 64 operators, got 65"));
     assert!(said(Plays::of_loop(0.1, -1.0, 5)).contains("stroke above 0"));
 }
+
+/// Back at one end after the other one an inverse has gone further than on the straight way to either; nothing goes beyond the
+/// range, and where one end is 0 both of its ends are reached.
+#[test]
+fn no_walk_leaves_the_range() {
+    let inverse = Plays::of_loop(0.15, 2.0, 10).unwrap().inverse();
+    let (low, high) = inverse.range((0.0, 2.0));
+    let mut places = inverse.start(2.0);
+    assert!((value(&inverse, &places, 2.0) - high).abs() < 1e-14);
+    inverse.drag(&mut places, 0.0);
+    assert!(low < -0.01 && (value(&inverse, &places, 0.0) - low).abs() < 1e-14, "{low}");
+    for law in [inverse, Plays::of_loop(0.15, 2.0, 10).unwrap(), uneven(), uneven().inverse()] {
+        for (low, high) in [(0.0, 2.0), (-0.5, 1.5), (-3.0, 0.2), (-1.0, 1.0)] {
+            let (least, most) = law.range((low, high));
+            let mut places = law.start(0.0);
+            for k in 0..4000 {
+                let to = 0.5 + 0.5 * (0.37 * f64::from(k) + (0.051 * f64::from(k)).cos()).sin();
+                let v = low + (high - low) * if k % 7 == 0 { to.round() } else { to };
+                law.drag(&mut places, v);
+                let y = value(&law, &places, v);
+                assert!((least - 1e-13..=most + 1e-13).contains(&y), "{y} of {least} to {most}");
+            }
+        }
+    }
+}
