@@ -203,13 +203,6 @@ impl Waveform {
         self.shortest_period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
     }
 
-    /// Shortest time between two turns, s, but for few: its shortest piece, or its shortest wave; infinite where it never moves.
-    #[must_use]
-    pub fn quickest(&self) -> f64 {
-        let pieces = self.corners().map_or(f64::INFINITY, Corners::shortest);
-        self.extent().min(self.course.wave).min(pieces)
-    }
-
     /// Shortest period that it can have, s: of a generator that of the largest frequency that may be commanded.
     #[must_use]
     pub(crate) fn shortest_period(&self) -> Option<f64> {

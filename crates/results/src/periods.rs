@@ -23,10 +23,13 @@ impl Periods {
     pub fn until(waveform: &Waveform, end: f64) -> Option<Self> {
         let (length, timing) = (waveform.period()?, waveform.timing());
         let cycles = timing.cycles.unwrap_or(f64::INFINITY);
-        let count = ((end - timing.delay) / length).min(cycles) + SAME;
+        // A repeated table may have begun before the run, which sees the first of its periods that begins in it.
+        let before = (-timing.delay / length - SAME).ceil().max(0.0);
+        let start = if before > 0.0 { timing.delay + before * length } else { timing.delay };
+        let count = ((end - start) / length).min(cycles - before) + SAME;
         // More than any run comes to.
         let count = count.floor().min(1e9);
-        (count >= 1.0).then_some(Self { start: timing.delay, length, count: count as usize })
+        (count >= 1.0).then_some(Self { start, length, count: count as usize })
     }
 
     /// The periods of whatever drives contact `c`: the one waveform that its bodies follow, or else the waveform of the
@@ -167,6 +170,12 @@ mod tests {
         assert_eq!(until(2.9), None);
         assert_eq!(until(5.0 - 1e-12), Some((1.0, 2)));
         assert_eq!(until(99.0), Some((1.0, 3)));
+        // Of what began before the run the first that begins in it, at its very start if that is where one begins.
+        let early = |delay| Periods::until(&triangle(delay, Some(3.0)), 3.5).map(|p| (p.start, p.count));
+        assert_eq!(early(-0.5), Some((1.5, 1)));
+        assert_eq!(early(-2.0), Some((0.0, 1)));
+        assert_eq!(early(-4.0), Some((0.0, 1)));
+        assert_eq!(early(-6.0), None);
     }
 
     #[test]

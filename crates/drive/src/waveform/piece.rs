@@ -59,6 +59,13 @@ impl Piece {
 }
 
 impl Waveform {
+    /// Shortest time between two turns, s, but for few: its shortest piece, or its shortest wave; infinite where it never moves.
+    #[must_use]
+    pub fn quickest(&self) -> f64 {
+        let pieces = self.corners().map_or(f64::INFINITY, Corners::shortest);
+        self.extent().min(self.course.wave).min(pieces)
+    }
+
     /// Jump of the value from the end of one piece to the start of the next.
     ///
     /// A supplied piece ends where the next one starts, also where it would have gone on.

@@ -64,7 +64,7 @@ pub enum PlaysError {
 }
 
 impl Plays {
-    /// Most operators: events of a block that come faster count as accumulating.
+    /// Most operators: each is an event on each way.
     pub const MOST: usize = 64;
 
     /// With the weight w₀ of the input itself, and (rᵢ, wᵢ).
