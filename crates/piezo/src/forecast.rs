@@ -1,19 +1,27 @@
 //! What a driver will make of a periodic command, before any run.
 
 use crate::driver::Spec;
-use stickslip_drive::Waveform;
+use stickslip_drive::{Piece, Waveform};
 
 /// Looks at a smooth piece for where it is steepest.
-const LOOKS: u32 = 64;
+const LOOKS: f64 = 64.0;
+/// … and at a quarter of its shortest wave.
+const WAVE_LOOKS: f64 = 16.0;
+/// Part of its steepest rate by which that of a straight piece may differ: rounding.
+const CURVED: f64 = 1e-9;
 /// Most pieces of a period that are looked at.
 const PIECES: usize = 10_000;
-/// Steps of a period of what is walked through …
-const STEPS: u32 = 8000;
-/// … after which its range is looked at, and most periods of it.
+/// Steps of a period of what is walked through, at least; of a quarter of its shortest wave; and of a piece.
+const STEPS: f64 = 8000.0;
+const LOOKS_PER_WAVE: f64 = 50.0;
+const FEWEST: f64 = 8.0;
+/// Most steps of a period.
+const MOST: f64 = 200_000.0;
+/// Most periods after which its range is looked at.
 const PERIODS: u32 = 400;
 /// Change of the range from period to period, as a part of the command's, at which it has settled.
 const SETTLED: f64 = 1e-6;
-/// Part of 1/ω that one step of the low-pass takes at most, and most of them in a step of the walk.
+/// Part of 1/ω that one step of the low-pass takes at most, and most of them in a step of the walk: beyond, nothing is told.
 const FINE: f64 = 0.1;
 const MOST_FINE: f64 = 50.0;
 
@@ -28,6 +36,8 @@ pub struct Steepest {
     pub current: f64,
     /// Current that there is in that sense, A; infinite without a limit.
     pub available: f64,
+    /// Whether the rate changes on the way: then the current is that of one moment, and nothing takes as long as all of it.
+    pub curved: bool,
 }
 
 /// What a driver will make of a command, from figures and a coarse walk through it.
@@ -37,10 +47,9 @@ pub struct Forecast {
     pub steepest: Steepest,
     /// The commanded strokes, m.
     pub asked: (f64, f64),
-    /// What is left of them when periods repeat, to about a thousandth of the command, m.
-    pub left: (f64, f64),
-    /// Periods until then.
-    pub periods: u32,
+    /// What is left of them when periods repeat, to about a thousandth of the command, m, and after how many of them; none
+    /// where that is not told by a coarse walk.
+    pub left: Option<((f64, f64), u32)>,
 }
 
 impl Steepest {
@@ -67,14 +76,24 @@ impl Steepest {
 #[must_use]
 pub fn forecast(spec: &Spec, command: &Waveform) -> Option<Forecast> {
     let period = command.period()?;
-    let start = command.timing().delay;
-    let (left, periods) = walk(spec, command, (start, period));
+    // From the second one on, which may begin otherwise than the first: with what is left of the one before.
+    let (first, end) = (command.timing().delay, command.window().1);
+    let start = if first + 2.0 * period <= end { first + period } else { first };
     Some(Forecast {
         steepest: steepest(spec, command, (start, period))?,
         asked: command.range(),
-        left,
-        periods,
+        left: walk(spec, command, (start, period)),
     })
+}
+
+/// The largest rate of a piece, and whether it has others.
+fn rates(command: &Waveform, piece: &Piece, (from, to): (f64, f64)) -> (f64, bool) {
+    // Infinite resolution: a straight piece.
+    let looks = ((to - from) / command.resolution() * WAVE_LOOKS).ceil().clamp(LOOKS, MOST) as u32;
+    let rate_at = |k: u32| command.sample(piece, from + (to - from) * f64::from(k) / f64::from(looks)).rate;
+    let steeper = |most: f64, rate: f64| if rate.abs() > most.abs() { rate } else { most };
+    let rate = (0..=looks).map(rate_at).fold(0.0, steeper);
+    (rate, (0..=looks).any(|k| (rate_at(k) - rate).abs() > CURVED * rate.abs()))
 }
 
 fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<Steepest> {
@@ -97,16 +116,13 @@ fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Opt
             break;
         }
         let ends = [from, to].map(|t| volts(command.sample(&piece, t).value));
-        let rates = (0..=LOOKS).map(|k| {
-            let t = from + (to - from) * f64::from(k) / f64::from(LOOKS);
-            command.sample(&piece, t).rate
-        });
-        let rate = rates.fold(0.0, |most: f64, rate| if rate.abs() > most.abs() { rate } else { most });
+        let (rate, curved) = rates(command, &piece, (from, to));
         take(Steepest {
             between: (from - start, to - start),
             volts: (ends[0], ends[1]),
             current: spec.capacitance * volts(rate),
             available: if rate < 0.0 { sink } else { source },
+            curved,
         });
         let jump = command.jump_after(&piece);
         if jump != 0.0 {
@@ -115,6 +131,7 @@ fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Opt
                 volts: (ends[1], ends[1] + volts(jump)),
                 current: jump.signum() * f64::INFINITY,
                 available: if jump < 0.0 { sink } else { source },
+                curved: false,
             });
         }
         piece = command.after(&piece);
@@ -122,57 +139,79 @@ fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Opt
     most
 }
 
-/// Range of the voltage, as a stroke, in the last of as many periods as it takes to settle.
-fn walk(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> ((f64, f64), u32) {
+/// What is commanded from piece to piece, in steps: their length, s, and the commands at their ends. Corners are ends of steps. None of
+/// a period that takes too many.
+fn course(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<Vec<(f64, f64)>> {
+    let (low, high) = spec.reach();
+    let mut steps = Vec::new();
+    let mut piece = command.piece_at(start);
+    while piece.start < start + period {
+        let (from, to) = (piece.start.max(start), piece.end.min(start + period));
+        // A rest that is longer than all waves needs no steps as short as theirs.
+        let (_, curved) = rates(command, &piece, (from, to));
+        let wave = if curved { command.resolution() / LOOKS_PER_WAVE } else { period };
+        let n = ((to - from) / wave.min(period / STEPS)).ceil().max(FEWEST);
+        if steps.len() as f64 + n > MOST {
+            return None;
+        }
+        let h = (to - from) / n;
+        let ends = (1..=n as u32).map(|k| command.sample(&piece, from + h * f64::from(k)).value);
+        steps.extend(ends.map(|value| (h, value.clamp(low, high))));
+        piece = command.after(&piece);
+    }
+    Some(steps)
+}
+
+/// Range of the voltage, as a stroke, in the last of as many periods as it takes to settle, and their number; none where steps are
+/// too coarse for the low-pass, or where it does not settle.
+fn walk(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<((f64, f64), u32)> {
     let (low, high) = spec.reach();
     let (down, up) = spec.slew();
-    let step = period / f64::from(STEPS);
     let omega = spec.omega();
-    let fine = (step * omega / FINE).ceil().clamp(1.0, MOST_FINE);
+    let steps = course(spec, command, (start, period))?;
+    let fine = |h: f64| (h * omega / FINE).ceil().max(1.0);
+    if steps.iter().any(|(h, _)| fine(*h) > MOST_FINE) {
+        return None;
+    }
     let first = command.sample(&command.piece_at(start), start).value.clamp(low, high);
     let (mut voltage, mut passed, mut rate) = (first, first, 0.0);
     let asked = command.range();
     let mut range = (f64::INFINITY, f64::NEG_INFINITY);
     for periods in 1..=PERIODS {
         let mut own = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut piece = command.piece_at(start);
-        for k in 1..=STEPS {
-            let t = start + step * f64::from(k);
-            while piece.end < t {
-                piece = command.after(&piece);
-            }
-            let cut = command.sample(&piece, t).value.clamp(low, high);
+        for &(h, cut) in &steps {
             match spec.low {
                 None => passed = cut,
                 Some(low) => {
+                    let fine = fine(h);
                     // The rate first: then it stays as it is where nothing damps.
                     for _ in 0..fine as u32 {
-                        rate += step / fine * omega * (omega * (cut - passed) - 2.0 * low.ratio * rate);
-                        passed += step / fine * rate;
+                        rate += h / fine * omega * (omega * (cut - passed) - 2.0 * low.ratio * rate);
+                        passed += h / fine * rate;
                     }
                 }
             }
             let wish = match spec.time() {
                 None => passed - voltage,
-                Some(time) => -(passed - voltage) * (-step / time).exp_m1(),
+                Some(time) => -(passed - voltage) * (-h / time).exp_m1(),
             };
-            voltage += wish.clamp(-down * step, up * step);
+            voltage += wish.clamp(-down * h, up * h);
             own = (own.0.min(voltage), own.1.max(voltage));
         }
         let changed = (own.0 - range.0).abs().max((own.1 - range.1).abs());
         range = own;
         if changed <= SETTLED * (asked.1 - asked.0) {
-            return (range, periods - 1);
+            return Some((range, periods - 1));
         }
     }
-    (range, PERIODS)
+    None
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::driver::Control;
-    use stickslip_drive::{Shape, Timing};
+    use stickslip_drive::{Section, Shape, Timing};
 
     /// The stage: 4.6 µm at 120 V, 7.2 µF, 2 A, back in 20 µs.
     fn of(period: f64) -> (Spec, Forecast) {
@@ -200,8 +239,8 @@ mod tests {
         assert!((steepest.takes(&spec) - 432e-6).abs() < 1e-9);
         let (fall, rise) = (2.0 / 7.2e-6, 120.0 / 980e-6);
         let lowest: f64 = rise * (120.0 - fall * 20e-6) / (fall + rise);
-        assert!((forecast.left.0 / spec.gain - lowest).abs() < 0.2, "{forecast:?} {lowest}");
-        assert!((forecast.left.1 - 4.6e-6).abs() < 1e-9);
+        assert!((forecast.left.unwrap().0.0 / spec.gain - lowest).abs() < 0.2, "{forecast:?} {lowest}");
+        assert!((forecast.left.unwrap().0.1 - 4.6e-6).abs() < 1e-9);
     }
 
     /// At 2 kHz it rises at 0.25 V/µs: what falls at 0.278 V/µs meets that at 54.2 V.
@@ -211,8 +250,50 @@ mod tests {
         let (fall, rise) = (2.0 / 7.2e-6, 120.0 / 480e-6);
         let lowest: f64 = rise * (120.0 - fall * 20e-6) / (fall + rise);
         assert!(
-            (lowest - 54.2).abs() < 0.1 && (forecast.left.0 / spec.gain - lowest).abs() < 0.2,
+            (lowest - 54.2).abs() < 0.1 && (forecast.left.unwrap().0.0 / spec.gain - lowest).abs() < 0.2,
             "{lowest}"
         );
+    }
+
+    fn told(shape: Shape, timing: Timing, low: Option<f64>) -> Forecast {
+        let (spec, _) = of(1e-3);
+        let low = low.map(|frequency| crate::driver::Low { frequency, ratio: 0.7 });
+        let spec = Spec { low, current: low.map_or(spec.current, |_| None), ..spec };
+        forecast(&spec, &Waveform::new(shape, timing).unwrap()).unwrap()
+    }
+
+    /// A low-pass of 10 kHz on 10 s: too fine for the walk, which says nothing instead of infinity. On 10 ms it leaves all.
+    #[test]
+    fn what_cannot_be_walked_through_is_not_told() {
+        let sine = || Shape::Sine { amplitude: 2.3e-6, phase: 0.0, offset: 0.0 };
+        assert_eq!(told(sine(), Timing::every(10.0), Some(1e4)).left, None);
+        let ((low, high), _) = told(sine(), Timing::every(1e-2), Some(1e4)).left.unwrap();
+        assert!((low + 2.3e-6).abs() < 1e-8 && (high - 2.3e-6).abs() < 1e-8);
+    }
+
+    /// A sine is steepest at one moment, Aω of it, and no range of volts says so.
+    #[test]
+    fn a_curve_is_told_by_its_rate() {
+        let sine = Shape::Sine { amplitude: 2.3e-6, phase: 0.0, offset: 0.0 };
+        let steepest = told(sine, Timing::every(1e-3), None).steepest;
+        assert!(steepest.curved);
+        // 7.2 µF · 60 V · 2π/1 ms.
+        assert!(
+            (steepest.current.abs() / (7.2e-6 * 60.0 * std::f64::consts::TAU / 1e-3) - 1.0).abs() < 1e-12
+        );
+        assert!(!of(1e-3).1.steepest.curved);
+    }
+
+    /// A burst of three sines of 1 ms in 2 s: the peaks are as high as the command, and its rate is that of the sine.
+    #[test]
+    fn short_waves_in_a_long_pattern_keep_their_peaks() {
+        let sine = Shape::Sine { amplitude: 0.5e-6, phase: 0.0, offset: 1e-6 };
+        let parts = vec![Section::Run { cycles: 3, reversed: false }, Section::Rest { duration: 1.997 }];
+        let burst = told(Shape::Pattern { carrier: Box::new(sine), parts }, Timing::every(1e-3), None);
+        let ((low, high), _) = burst.left.unwrap();
+        assert!((low - 0.5e-6).abs() < 1e-10 && (high - 1.5e-6).abs() < 1e-10, "{burst:?}");
+        let rate = 0.5e-6 * std::f64::consts::TAU / 1e-3;
+        let current = 7.2e-6 * rate * 120.0 / 4.6e-6;
+        assert!((burst.steepest.current.abs() / current - 1.0).abs() < 1e-2, "{burst:?} {current}");
     }
 }

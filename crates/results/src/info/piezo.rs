@@ -10,7 +10,7 @@ use stickslip_drive::facts::zero_step_stroke;
 use stickslip_drive::scene::{Side, Varying};
 use stickslip_piezo::driver::Spec;
 use stickslip_piezo::forecast::{Forecast, forecast};
-use stickslip_scenario::Piezo;
+use stickslip_scenario::{Ceramic, Piezo};
 
 /// Part of a command that counts as none of it lost: the forecast walks in steps of a 8000th of a period.
 const WHOLE: f64 = 2e-3;
@@ -89,7 +89,7 @@ pub struct CornerInfo {
     /// Rate of the voltage that there is.
     #[serde(rename = "slew_V_s", skip_serializing_if = "Option::is_none")]
     pub slew: Option<Real>,
-    /// Time that all of that change takes with it.
+    /// Time that all of that change takes with it; none where the rate is that of one moment.
     #[serde(rename = "takes_s", skip_serializing_if = "Option::is_none")]
     pub takes: Option<Real>,
 }
@@ -114,11 +114,14 @@ fn of(job: &Job, i: usize, piezo: &Piezo) -> PiezoInfo {
     let volts = |stroke: f64| stack.stroke_per_volt.map(|gain| Real(stroke / gain));
     let seen =
         piezo.driver.zip(waveform).and_then(|(spec, waveform)| Some((spec, forecast(&spec, waveform)?)));
-    let left = seen.map(|(_, forecast)| forecast.left);
+    let left = seen.and_then(|(_, forecast)| Some(forecast.left?.0));
     let mut words = Vec::new();
     if let Some((spec, forecast)) = &seen {
         words.extend(steep(&piezo.name, spec, forecast));
         words.extend(lost(&piezo.name, forecast));
+        if !words.is_empty() {
+            words.extend(beside(piezo));
+        }
     }
     let stroke = left.map_or(high - low, |(low, high)| high - low);
     words.extend(idle(job, i, &piezo.name, stroke));
@@ -153,7 +156,7 @@ fn corner(spec: &Spec, forecast: &Forecast) -> CornerInfo {
         needed: Real(steepest.current.abs()),
         available: limited(steepest.available),
         slew: limited(steepest.slew(spec)),
-        takes: limited(steepest.takes(spec)),
+        takes: limited(steepest.takes(spec)).filter(|_| !steepest.curved),
     }
 }
 
@@ -165,6 +168,15 @@ fn steep(name: &str, spec: &Spec, forecast: &Forecast) -> Option<String> {
     }
     let told = |value: f64, unit: &str| quantity(Real(value), unit);
     let (from, to) = steepest.between;
+    if steepest.curved {
+        return Some(format!(
+            "{name}: its command changes by up to {} V/us, which needs {}, and {} are there: the voltage changes by {} V/us",
+            short(steepest.current.abs() / spec.capacitance / 1e6),
+            told(steepest.current.abs(), "A"),
+            told(steepest.available, "A"),
+            short(steepest.slew(spec) / 1e6),
+        ));
+    }
     let needs = if steepest.current.is_finite() {
         format!("in {} needs {}", told(to - from, "s"), told(steepest.current.abs(), "A"))
     } else {
@@ -180,9 +192,19 @@ fn steep(name: &str, spec: &Spec, forecast: &Forecast) -> Option<String> {
     ))
 }
 
+/// What was told is that of the driver alone.
+fn beside(piezo: &Piezo) -> Option<String> {
+    let Ceramic { hysteresis, creep, compensated, idle } = &piezo.ceramic;
+    if *idle || (hysteresis.is_none() && creep.is_none()) {
+        return None;
+    }
+    let of = if *compensated { "the command before its compensation, and " } else { "" };
+    Some(format!("{}: so far this is told of {of}the voltage without hysteresis and creep", piezo.name))
+}
+
 /// What is left of the stroke.
 fn lost(name: &str, forecast: &Forecast) -> Option<String> {
-    let ((least, most), (low, high)) = (forecast.asked, forecast.left);
+    let ((least, most), ((low, high), periods)) = (forecast.asked, forecast.left?);
     let (asked, left) = (most - least, high - low);
     if asked - left <= WHOLE * asked {
         return None;
@@ -194,7 +216,7 @@ fn lost(name: &str, forecast: &Forecast) -> Option<String> {
         told(left),
         told(low),
         told(high),
-        forecast.periods
+        periods
     ))
 }
 
