@@ -47,43 +47,18 @@ pub struct DriveCourse<'a> {
 
 /// Voltage, current, motion and forces, one below the other on one time axis; limits are shaded where they are active.
 pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
-    let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
-    let panel = |label: &str, unit: &str, share: f64| Panel {
-        x: time.clone(),
-        y: Axis::new(Label::plain(label), unit),
-        share,
-        ..Panel::default()
-    };
-    let curve = |name: &str, values: &'a [f64], style: Style| Series {
-        style,
-        ..Series::new(name, course.time, values)
-    };
     let mut panels = Vec::new();
     if !course.supplies.is_empty() {
-        let (mut voltage, mut current) = (panel("voltage", "V", 1.0), panel("current", "A", 1.0));
-        for (place, supply) in course.supplies.iter().enumerate() {
-            let command = Style { ink: Some(Ink::Muted), dash: Some(Dash::Dashed), width: 0.7 };
-            if supply.command.len() == course.time.len() {
-                let name = if place == 0 { "command" } else { "" };
-                voltage.series.push(Series {
-                    style: command,
-                    ..Series::new(name, course.time, supply.command.clone())
-                });
-            }
-            voltage.series.push(curve(supply.name, supply.voltage, solid(place)));
-            current.series.push(curve(supply.name, supply.current, solid(place)));
-            voltage.bands.extend(shade("window cuts", &supply.cut, supply.voltage));
-            current.bands.extend(shade("current limit", &supply.limited, supply.current));
-        }
-        panels.extend([voltage, current]);
+        panels.extend(supplies(course));
     }
     if !course.feet.is_empty() || !course.bodies.is_empty() || panels.is_empty() {
         let label = if course.is_upright { "position x, up" } else { "position x" };
         let foot = |(place, track): (usize, &Track<'a>)| {
             let style = Style { ink: Some(Ink::Muted), dash: Some(Dash::at(place)), width: 0.7 };
-            curve(track.name, track.values, style)
+            curve(course, track.name, track.values, style)
         };
-        let body = |(place, track): (usize, &Track<'a>)| curve(track.name, track.values, solid(place));
+        let body =
+            |(place, track): (usize, &Track<'a>)| curve(course, track.name, track.values, solid(place));
         let series = course
             .feet
             .iter()
@@ -94,7 +69,8 @@ pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
         panels.push(Panel { series, absence: Label::plain("nothing moves"), ..panel(label, "m", 1.6) });
     }
     if !course.forces.is_empty() {
-        let force = |(place, track): (usize, &Track<'a>)| curve(track.name, track.values, solid(place));
+        let force =
+            |(place, track): (usize, &Track<'a>)| curve(course, track.name, track.values, solid(place));
         let line = |y| Reference::Horizontal { y, label: Label::markup("±μF_N") };
         let limit = course.limit.filter(|limit| *limit > 0.0 && limit.is_finite());
         panels.push(Panel {
@@ -108,6 +84,37 @@ pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
     let arrangement = Arrangement::Column { share_x: true };
     Figure { title: Label::plain(title), panels, arrangement, size, ..Figure::default() }
         .with_room_for_legends()
+}
+
+/// Voltage and current of all drivers.
+fn supplies<'a>(course: &DriveCourse<'a>) -> [Panel<'a>; 2] {
+    let (mut voltage, mut current) = (panel("voltage", "V", 1.0), panel("current", "A", 1.0));
+    for (place, supply) in course.supplies.iter().enumerate() {
+        let command = Style { ink: Some(Ink::Muted), dash: Some(Dash::Dashed), width: 0.7 };
+        if supply.command.len() == course.time.len() {
+            let name = if place == 0 { "command" } else { "" };
+            let series = Series::new(name, course.time, supply.command.clone());
+            voltage.series.push(Series { style: command, ..series });
+        }
+        voltage.series.push(curve(course, supply.name, supply.voltage, solid(place)));
+        current.series.push(curve(course, supply.name, supply.current, solid(place)));
+        voltage.bands.extend(shade("window cuts", &supply.cut, supply.voltage));
+        current.bands.extend(shade("current limit", &supply.limited, supply.current));
+    }
+    [voltage, current]
+}
+
+fn panel<'a>(label: &str, unit: &str, share: f64) -> Panel<'a> {
+    Panel {
+        x: Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") },
+        y: Axis::new(Label::plain(label), unit),
+        share,
+        ..Panel::default()
+    }
+}
+
+fn curve<'a>(course: &DriveCourse<'a>, name: &str, values: &'a [f64], style: Style) -> Series<'a> {
+    Series { style, ..Series::new(name, course.time, values) }
 }
 
 fn solid(place: usize) -> Style {

@@ -168,6 +168,7 @@ impl Block for PlayBlock {
         if guard == ENGAGES { span } else { span * rate }
     }
 
+    #[allow(clippy::misnamed_getters, reason = "the contract's rate is how often events come: that of turns")]
     fn rate(&self) -> f64 {
         self.reading.turns
     }

@@ -165,6 +165,7 @@ impl Block for BoucWenBlock {
         if guard == TURNS { self.reading.span * self.reading.rate } else { self.law.limit() }
     }
 
+    #[allow(clippy::misnamed_getters, reason = "the contract's rate is how often events come: that of turns")]
     fn rate(&self) -> f64 {
         self.reading.turns
     }
