@@ -48,7 +48,7 @@ impl Pace {
 pub struct ExpectedEvents {
     /// Corners of waveforms, counted.
     pub corners: f64,
-    /// Events of contacts, estimated: within a factor of two on the examples.
+    /// Events of contacts and blocks, estimated: within a factor of two on the examples.
     pub contacts: f64,
 }
 
@@ -60,13 +60,14 @@ impl ExpectedEvents {
         // As deep as it gets: the stiffest ringing has the most events.
         let modes = linear.modes();
         let of = |c| of_contact(setup, c, plan.duration, (&linear, &modes));
-        let contacts = (0..scene.contacts.len()).map(of).sum();
+        let contacts: f64 = (0..scene.contacts.len()).map(of).sum();
+        let blocks: f64 = (0..scene.blocks.len()).map(|k| of_block(scene, k, plan.duration)).sum();
         // At fixed steps corners are crossed, not located.
         let located = model.effective(plan.stepper).locates_events();
         let corners = scene.waveforms.iter().map(|w| corners(&w.part, plan.duration));
         // The sum of nothing is -0.
         let corners = if located { corners.fold(0.0, |sum, corners| sum + corners) } else { 0.0 };
-        Self { corners, contacts }
+        Self { corners, contacts: contacts + blocks }
     }
 
     /// All events.
@@ -104,6 +105,14 @@ fn corners(waveform: &Waveform, duration: f64) -> f64 {
         Some(period) => cycles(waveform, period, duration) * corners_per_period(waveform, period),
         None => corners_until(waveform, 0.0, duration),
     }
+}
+
+/// Estimate for block `k`: two turns in each period of the waveform that it reads.
+fn of_block(scene: &Scene, k: usize, duration: f64) -> f64 {
+    let Some(block) = scene.blocks.get(k) else { return 0.0 };
+    let waveform = scene.waveform_of(scene.waveforms.len() + k).and_then(|w| scene.waveforms.get(w));
+    let turns = waveform.and_then(|it| Some(2.0 * cycles(&it.part, it.part.period()?, duration)));
+    turns.unwrap_or(0.0) * f64::from(block.part.0.events_per_turn())
 }
 
 /// Whether a mode moves contact `c` along its slide. Angles do not compare with displacements.
