@@ -193,7 +193,7 @@ mod tests {
         for (head, column) in [
             ("t_min", Column::Time),
             ("index_s", Column::Value),
-            ("channel_V", Column::Value),
+            ("channel_Hz", Column::Value),
             ("mass_g", Column::Value),
             ("run_um", Column::Time),
             ("N/m", Column::Value),
