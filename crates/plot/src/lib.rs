@@ -9,7 +9,7 @@
 //! * [`theme`] – colours, line styles, sizes;
 //! * [`label`] – texts, plain or with subscripts;
 //! * the builders: [`hysteresis`] (force over displacement), [`trajectory`] (motion over time), [`phase`] (velocity
-//!   over displacement), [`energy`] (the energy book), [`events`] (what happened when), [`state`] (springs over time),
+//!   over displacement), [`energy`] (the energy book), [`drive`] (what is commanded and what moves), [`events`] (what happened when), [`state`] (springs over time),
 //!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
 //!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
 //!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs);
@@ -32,7 +32,7 @@ pub mod compare;
 mod content;
 mod dash;
 pub mod drive;
-mod energy;
+pub mod energy;
 pub mod error;
 pub mod events;
 pub mod fields;
