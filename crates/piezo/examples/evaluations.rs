@@ -10,7 +10,7 @@ use stickslip_piezo::hysteresis::{PlayBlock, Plays};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let count: u64 = std::env::args().nth(1).unwrap_or_default().parse()?;
-    let reading = Reading { signal: 0, span: 1.0, rate: 1.0, turns: 1.0, column: "stroke_m" };
+    let reading = Reading { signal: 0, span: 1.0, swings: 1.0, turns: 1.0, column: "stroke_m" };
     let plays = Plays::of_loop(0.12, 1.0, 10)?;
     let memory = plays.start(0.3);
     let block: Box<dyn Block> = Box::new(PlayBlock::new(plays, reading));

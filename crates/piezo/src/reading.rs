@@ -8,8 +8,8 @@ pub struct Reading {
     /// Natural span of the signal, in its own unit, above 0. Guards and errors of states are measured by it.
     pub span: f64,
     /// The fastest at which it swings, 1/s, above 0: 2π over the shortest period, or the bandwidth of what makes it.
-    pub rate: f64,
-    /// The fastest at which it turns, 1/s, above 0: 2π over the shortest time between two turns. More than `rate` where a waveform
+    pub swings: f64,
+    /// The fastest at which it turns, 1/s, above 0: 2π over the shortest time between two turns. More than `swings` where a waveform
     /// has corners close together.
     pub turns: f64,
     /// Name of the block's column, with its SI unit.

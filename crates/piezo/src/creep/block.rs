@@ -169,7 +169,7 @@ impl Block for CreepBlock {
     }
 
     fn rate(&self) -> f64 {
-        self.reading.rate
+        self.reading.swings
     }
 
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>) {

@@ -153,7 +153,7 @@ impl Block for PlayBlock {
         at: &Moment<'_, [Sample]>,
     ) -> Option<(EventKind, usize)> {
         let (old, input) = (split(*standing.law).1, &at.inputs[0]);
-        let sense = heading(input, self.reading.rate).unwrap_or(old);
+        let sense = heading(input, self.reading.swings).unwrap_or(old);
         let law = self.law_at(standing.memory, (input.value, sense));
         let kind = EventKind::Own(if sense == old { ENGAGED } else { TURNED });
         (law != *standing.law).then_some((kind, law))
@@ -164,11 +164,10 @@ impl Block for PlayBlock {
     }
 
     fn guard_scale(&self, guard: usize) -> f64 {
-        let Reading { span, rate, .. } = self.reading;
-        if guard == ENGAGES { span } else { span * rate }
+        let Reading { span, swings, .. } = self.reading;
+        if guard == ENGAGES { span } else { span * swings }
     }
 
-    #[allow(clippy::misnamed_getters, reason = "the contract's rate is how often events come: that of turns")]
     fn rate(&self) -> f64 {
         self.reading.turns
     }

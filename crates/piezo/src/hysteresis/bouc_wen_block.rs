@@ -146,7 +146,7 @@ impl Block for BoucWenBlock {
         at: &Moment<'_, [Sample]>,
     ) -> Option<(EventKind, usize)> {
         let (old, z) = (split(*standing.law).0, at.states[0]);
-        let sense = heading(&at.inputs[0], self.reading.rate).unwrap_or(old);
+        let sense = heading(&at.inputs[0], self.reading.swings).unwrap_or(old);
         // About 0 it will have the sign of the way: there both branches are one but for a power of z.
         let side = if z.abs() <= AROUND_ZERO * self.law.limit() { sense } else { z.signum() };
         let law = joined(sense, side);
@@ -162,10 +162,9 @@ impl Block for BoucWenBlock {
     }
 
     fn guard_scale(&self, guard: usize) -> f64 {
-        if guard == TURNS { self.reading.span * self.reading.rate } else { self.law.limit() }
+        if guard == TURNS { self.reading.span * self.reading.swings } else { self.law.limit() }
     }
 
-    #[allow(clippy::misnamed_getters, reason = "the contract's rate is how often events come: that of turns")]
     fn rate(&self) -> f64 {
         self.reading.turns
     }

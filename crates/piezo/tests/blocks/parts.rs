@@ -24,7 +24,7 @@ pub(crate) fn shared(name: &str, block: impl Block + 'static) -> Named<SharedBlo
 /// Of the signal at a place: waveform 0, then blocks.
 pub(crate) fn reading(signal: usize) -> Reading {
     let rate = std::f64::consts::TAU / PERIOD;
-    Reading { signal, span: SPAN, rate, turns: rate, column: "stroke_m" }
+    Reading { signal, span: SPAN, swings: rate, turns: rate, column: "stroke_m" }
 }
 
 pub(crate) fn every(shape: Shape) -> Waveform {

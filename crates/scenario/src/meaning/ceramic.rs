@@ -170,7 +170,7 @@ impl Builder<'_> {
     /// Adds a block to a chain.
     fn push(&mut self, i: usize, what: &str, leg: Leg, block: impl FnOnce(Reading) -> SharedBlock) -> Leg {
         let Leg { signal, span, rate, turns } = leg;
-        let part = block(Reading { signal, span, rate, turns, column: "stroke_m" });
+        let part = block(Reading { signal, span, swings: rate, turns, column: "stroke_m" });
         let name = format!("{}.{what}", self.stacks[i].name);
         self.scene.blocks.push(Named { name, part });
         Leg { signal: self.scene.waveforms.len() + self.scene.blocks.len() - 1, ..leg }
