@@ -201,6 +201,7 @@ impl Summary {
         let value_if = |wanted| (word == wanted).then_some(Real(value));
         let (counts, taken) = (outcome.state.counts(), outcome.events);
         notes.extend(thinned(taken));
+        let drivers = drivers::of(job, &outcome.state);
         Self {
             title: job.scenario.title.clone(),
             program: Program { name: program::NAME, version: program::VERSION },
@@ -223,9 +224,9 @@ impl Summary {
             },
             states: job.scenario.written.state_numbers.then(|| Parts(legend())),
             contacts: contacts::of(job, outcome),
-            steps: steps::of(job, outcome, &mut notes),
+            steps: steps::of(job, outcome, &drivers, &mut notes),
             energy: outcome.books.balance(),
-            drivers: drivers::of(job, &outcome.state),
+            drivers,
             warnings,
             notes,
             files: Vec::new(),

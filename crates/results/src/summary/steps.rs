@@ -1,9 +1,10 @@
 //! The quantities of a drive.
 
 use super::period::LastPeriod;
-use super::{drivers, period, why};
+use super::{DriverSummary, period, why};
 use crate::job::Job;
 use crate::outcome::Outcome;
+use crate::parts::Parts;
 use crate::periods::Periods;
 use crate::real::Real;
 use serde::Serialize;
@@ -136,7 +137,12 @@ pub(super) fn steady_after(job: &Job, outcome: &Outcome) -> Option<usize> {
 }
 
 /// The steps of a run; none, with a note where that needs one, if there are no whole periods or no free body.
-pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Option<DriveSummary> {
+pub(super) fn of(
+    job: &Job,
+    outcome: &Outcome,
+    drivers: &Parts<DriverSummary>,
+    notes: &mut Vec<String>,
+) -> Option<DriveSummary> {
     let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
     let body = scene.bodies.get(figures.body?)?;
     let waveform = scene.waveforms.get(figures.waveform?)?;
@@ -160,8 +166,7 @@ pub(super) fn of(job: &Job, outcome: &Outcome, notes: &mut Vec<String>) -> Optio
     let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
     let mut summary = summary(&steps, ends, (&body.name, &waveform.name, period));
     summary.last_period = period::of(job, outcome, stroke(job).is_some());
-    let drivers = drivers::of(job, &outcome.state);
-    summary.why = summary.last_period.as_ref().map(|last| why::of(job, &drivers, last)).unwrap_or_default();
+    summary.why = summary.last_period.as_ref().map(|last| why::of(job, drivers, last)).unwrap_or_default();
     Some(summary)
 }
 
