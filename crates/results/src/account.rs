@@ -28,8 +28,9 @@ pub(crate) struct Accounts {
     contacts: Vec<Watched>,
     /// The last moment: time, s, x, m, and which way the waveform went after it.
     last: Option<(f64, f64, Sense)>,
-    /// When the waveform last took the way that it goes, s.
+    /// When the waveform last took the way that it goes, and until when it is sure to go that way, s.
     turned: f64,
+    sure_until: f64,
     now: Option<Account>,
     whole: Option<Account>,
 }
@@ -107,6 +108,7 @@ impl Accounts {
             contacts: contacts.collect(),
             last: None,
             turned: 0.0,
+            sure_until: f64::NEG_INFINITY,
             now: None,
             whole: None,
         })
@@ -120,7 +122,7 @@ impl Accounts {
         else {
             return;
         };
-        let sense = self.phases.sense_after(t);
+        let sense = self.sense_after(t);
         match self.last {
             Some((before, x_before, way)) => {
                 self.pass(t - before, x - x_before, way);
@@ -139,6 +141,16 @@ impl Accounts {
         if let Some((Source::Contact(c), kind)) = event {
             self.event((c, kind), (t, sense), values);
         }
+    }
+
+    /// Which way the waveform goes after a moment, s, moments ascending: most events lie between two turns.
+    fn sense_after(&mut self, t: f64) -> Sense {
+        if let Some((_, _, sense)) = self.last.filter(|_| t < self.sure_until) {
+            return sense;
+        }
+        let (sense, until) = self.phases.sense_after(t);
+        self.sure_until = until;
+        sense
     }
 
     /// Goes on in time, s, and place, m.

@@ -9,6 +9,8 @@ const PARTS_OF_ALL: usize = 2048;
 /// Most pieces of a period, and most turns in it, for which the stretches are worth telling.
 const MOST_PIECES: usize = 4096;
 const MOST_TURNS: usize = 16;
+/// A moment this near to a turn, in periods, is the turn.
+const SAME: f64 = 1e-9;
 /// Halvings of an interval in which the rate changes sign: to the last place.
 const HALVINGS: u32 = 64;
 
@@ -64,7 +66,7 @@ impl Phases {
             }
             phases.take(waveform, &piece, [from, until]);
             // Ends are rounded apart.
-            if until >= end - 1e-9 * length {
+            if until >= end - SAME * length {
                 let enough = phases.stretches.len() <= MOST_TURNS;
                 return enough.then_some(phases);
             }
@@ -116,14 +118,15 @@ impl Phases {
         if way > 0.0 { *rise += way } else { *fall -= way }
     }
 
-    /// Which way it goes just after a moment, s.
-    pub(crate) fn sense_after(&self, t: f64) -> Sense {
-        let within = (t - self.start).rem_euclid(self.length);
+    /// Which way it goes just after a moment, s, and from when on that has to be asked again, s: a little before it turns.
+    pub(crate) fn sense_after(&self, t: f64) -> (Sense, f64) {
+        let (within, same) = ((t - self.start).rem_euclid(self.length), SAME * self.length);
         // What is as good as the end is the beginning.
-        let within = if self.length - within <= 1e-9 * self.length { 0.0 } else { within };
-        let same = 1e-9 * self.length;
+        let within = if self.length - within <= same { 0.0 } else { within };
         let after = self.stretches.partition_point(|(begin, _)| *begin <= within + same);
-        after.checked_sub(1).and_then(|k| self.stretches.get(k)).map_or(Sense::Resting, |(_, sense)| *sense)
+        let sense = after.checked_sub(1).and_then(|k| self.stretches.get(k));
+        let turn = self.stretches.get(after).map_or(self.length, |(begin, _)| *begin);
+        (sense.map_or(Sense::Resting, |(_, sense)| *sense), t + (turn - within) - 2.0 * same)
     }
 
     /// Where in a period the waveform turns, s after its start, but for the start.
@@ -159,7 +162,7 @@ mod tests {
         assert_relative_eq!(phases.ways()[0], 2e-7, max_relative = 1e-12);
         assert_relative_eq!(phases.ways()[1], 2e-7, max_relative = 1e-12);
         // In the seventh period; at its end the next begins.
-        let at = |within: f64| phases.sense_after(0.5 + 7.0 * 1e-2 + within);
+        let at = |within: f64| phases.sense_after(0.5 + 7.0 * 1e-2 + within).0;
         assert_eq!(
             [at(0.0), at(9.9e-3), at(9.995e-3), at(1e-2)],
             [Sense::Rising, Sense::Rising, Sense::Falling, Sense::Rising]
