@@ -1,8 +1,8 @@
 //! Stepping alone, without reading, writing and events written down: for a profiler, and to see what a change of a scene
 //! costs. What a whole run takes is on record in `.ci/instructions.csv`.
 //!
-//! `instructions NAME KEY=VALUE…` runs one benchmark with keys of its scenario set and prints what it took, as in
-//! `valgrind --tool=callgrind --toggle-collect='*measured*' BINARY p1 run.cycles=200`.
+//! `instructions NAME KEY=VALUE…` runs one benchmark, or the scenario of a file, with keys of its scenario set and prints what
+//! it took, as in `valgrind --tool=callgrind --toggle-collect='*measured*' BINARY p1 run.cycles=200`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
@@ -28,35 +28,41 @@ fn measured(model: &Model, plan: &Plan, state: &mut State) {
     run(model, plan, state, &mut ()).unwrap();
 }
 
+/// Runs one scenario and prints what it took.
+fn benchmark(name: &str, file: &str, set: &[(&str, &str)]) {
+    let mut scenario = Scenario::load_with(file, set).unwrap();
+    scenario.plan.every = None;
+    let model = Model::new(&scenario.scene).unwrap();
+    let mut state = model.start(&scenario.plan).unwrap();
+    let begun = std::time::Instant::now();
+    measured(&model, &scenario.plan, &mut state);
+    let took = begun.elapsed().as_secs_f64();
+    let counts = state.counts();
+    println!(
+        "{name}: {} evaluations, {} steps, {} rejected, {} events, {:.3} ms, ends at {:?}",
+        counts.evaluations,
+        counts.steps,
+        counts.rejected,
+        counts.events,
+        1e3 * took,
+        (0..3).filter_map(|body| state.body(&model, body)).map(|(x, _)| x).collect::<Vec<_>>(),
+    );
+}
+
 fn main() {
     // Cargo's own arguments begin with dashes.
     let mut asked = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
     let name = asked.next();
     let sets: Vec<(String, String)> =
         asked.filter_map(|set| set.split_once('=').map(|(a, b)| (a.to_owned(), b.to_owned()))).collect();
-    for (benchmark, file, set) in BENCHMARKS {
-        if name.as_deref().is_some_and(|name| name != benchmark) {
-            continue;
+    let sets: Vec<(&str, &str)> = sets.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+    if let Some(file) = name.as_deref().filter(|name| name.ends_with(".json")) {
+        return benchmark(file, file, &sets);
+    }
+    for (known, file, set) in BENCHMARKS {
+        if name.as_deref().is_none_or(|name| name == known) {
+            let file = format!("{}/../../scenarios/{file}.json", env!("CARGO_MANIFEST_DIR"));
+            benchmark(known, &file, &[set, &sets].concat());
         }
-        let file = format!("{}/../../scenarios/{file}.json", env!("CARGO_MANIFEST_DIR"));
-        let set: Vec<(&str, &str)> =
-            set.iter().copied().chain(sets.iter().map(|(a, b)| (a.as_str(), b.as_str()))).collect();
-        let mut scenario = Scenario::load_with(&file, &set).unwrap();
-        scenario.plan.every = None;
-        let model = Model::new(&scenario.scene).unwrap();
-        let mut state = model.start(&scenario.plan).unwrap();
-        let begun = std::time::Instant::now();
-        measured(&model, &scenario.plan, &mut state);
-        let took = begun.elapsed().as_secs_f64();
-        let counts = state.counts();
-        println!(
-            "{benchmark}: {} evaluations, {} steps, {} rejected, {} events, {:.3} ms, ends at {:?}",
-            counts.evaluations,
-            counts.steps,
-            counts.rejected,
-            counts.events,
-            1e3 * took,
-            (0..3).filter_map(|body| state.body(&model, body)).map(|(x, _)| x).collect::<Vec<_>>(),
-        );
     }
 }
