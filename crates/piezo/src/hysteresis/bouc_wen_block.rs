@@ -169,6 +169,12 @@ impl Block for BoucWenBlock {
         self.reading.turns
     }
 
+    /// Near its end z settles at n (A/z_m)|v̇|: with the fastest that the input may go.
+    fn eigenvalues(&self, _: &[Sample]) -> Vec<(f64, f64)> {
+        let fastest = self.reading.span * self.reading.swings;
+        vec![(-self.law.settling() * fastest, 0.0)]
+    }
+
     /// The turn, and z coming back through 0.
     fn events_per_turn(&self) -> u32 {
         2

@@ -7,3 +7,4 @@ mod books;
 mod limits;
 mod parts;
 mod passes;
+mod stable;

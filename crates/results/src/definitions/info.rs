@@ -101,9 +101,12 @@ pub(super) const INFO: &[Definition] = &[
     of("stepping.until_steady", "largest relative change of a step at which the run ends earlier"),
     of(
         "stepping.longest_verlet_step_s",
-        "longest stable step of velocity Verlet, 2/ω of the fastest mode with all contacts stuck and as deep as they get",
+        "longest stable step of velocity Verlet: 2/ω of the fastest mode with all contacts stuck and as deep as they get, or RC of a driver",
     ),
-    of("stepping.longest_rk4_step_s", "the same of the classical Runge–Kutta method, 2√2/ω without damping"),
+    of(
+        "stepping.longest_rk4_step_s",
+        "the same of the classical Runge–Kutta method: 2√2/ω without damping, or 2.785·RC",
+    ),
     of("actuators.ACTUATOR.stiffness_N_m", "k, given or blocking force over stroke of the data sheet"),
     of("actuators.ACTUATOR.damping_N_s_m", "c, given or √(k m)/Q with m the mass that it moves"),
     of("actuators.ACTUATOR.quality", "Q, from which c follows where the scenario gives none"),
