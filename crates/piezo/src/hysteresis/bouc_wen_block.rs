@@ -169,9 +169,9 @@ impl Block for BoucWenBlock {
         self.reading.turns
     }
 
-    /// Near its end z settles at n (A/z_m)|v̇|: with the fastest that the input may go.
+    /// Near its end z settles at n (A/z_m)|v̇|: with the fastest that the input may go, as a sine of its span between its turns.
     fn eigenvalues(&self, _: &[Sample]) -> Vec<(f64, f64)> {
-        let fastest = self.reading.span * self.reading.swings;
+        let fastest = 0.25 * self.reading.span * self.reading.turns;
         vec![(-self.law.settling() * fastest, 0.0)]
     }
 

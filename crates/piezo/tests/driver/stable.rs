@@ -137,7 +137,10 @@ fn ceramics_tell_how_fast_their_states_settle() {
     }
     let bouc_wen = BoucWenBlock::new(BoucWen::new(0.3, 0.2e-6, 0.6, 2.0).unwrap(), reading);
     let (rate, swing) = bouc_wen.eigenvalues(&[])[0];
-    assert!((rate + 2.0 * 0.3 / 0.2e-6 * 2e-6 * 500.0).abs() < 1e-9 * rate.abs() && swing == 0.0, "{rate}");
+    assert!(
+        (rate + 2.0 * 0.3 / 0.2e-6 * 2e-6 * 0.25 * 900.0).abs() < 1e-9 * rate.abs() && swing == 0.0,
+        "{rate}"
+    );
     // As part of a drive.
     let mut drive = scene(table(STEP), ideal());
     drive.blocks.push(named("lag", SharedBlock(Arc::new(bouc_wen))));
