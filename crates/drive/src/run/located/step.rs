@@ -133,6 +133,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         match aim.grade {
             _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
             Grade::Even => self.setting.method,
+            Grade::Few => Method::Brief,
             Grade::Start | Grade::End => Method::Graded,
         }
     }
@@ -153,7 +154,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         self.motion.pace.refuse(aim);
         state.counts.rejected += 1;
-        state.step = verdict.next;
+        // That few stages do not do says nothing about all of them.
+        if aim.grade != Grade::Few {
+            state.step = verdict.next;
+        }
         // Perhaps rounding has grown above what was allowed for it.
         self.motion.allowance.set(self.setting.model, state);
         if verdict.next > 4.0 * f64::EPSILON * state.t.abs() && verdict.next > f64::MIN_POSITIVE {
