@@ -19,7 +19,7 @@ use crate::equations::Equations;
 use crate::method::Method;
 use crate::record::{self, Record};
 use crate::run::horizon::Progress;
-use crate::state::{Detour, State};
+use crate::state::{Detour, State, Whereabouts};
 use stickslip_contact::{Memory, Segment, Timed};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, Stepping, System};
 use way::Way;
@@ -68,8 +68,9 @@ impl Times {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Puts every contact on its whole law.
+    /// Puts every contact on its whole law. The solver stays behind: steps by halves have no use for it.
     pub(super) fn take_whole(&mut self, state: &mut State) {
+        self.motion.whereabouts = Whereabouts::Behind;
         state.modes.fill(Mode::Whole { sense: 0.0 });
         state.grew.fill(false);
         self.takeoff = None;
