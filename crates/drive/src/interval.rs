@@ -11,6 +11,7 @@
 
 mod closed;
 mod followed;
+mod kernel;
 mod slider;
 mod swing;
 
@@ -18,6 +19,7 @@ use crate::contact::Mode;
 pub(crate) use closed::Closed;
 use closed::closed_form;
 pub(crate) use followed::Followed;
+pub(crate) use kernel::Kernel;
 pub(crate) use slider::{Pull, Slider};
 pub(crate) use swing::{PhasePoint, Swing};
 
@@ -43,6 +45,8 @@ pub(crate) struct Interval<'a> {
     pub(crate) slider: Option<Slider>,
     /// What its contacts make of it.
     pub(crate) pulls: Vec<Pull<'a>>,
+    /// All that acts, laid out for evaluations, where it has such a form.
+    pub(crate) kernel: Kernel<'a>,
 }
 
 impl<'a> Interval<'a> {
@@ -58,6 +62,7 @@ impl<'a> Interval<'a> {
             scene: SceneTraits::of(model),
             traits: IntervalTraits::default(),
             slider: None,
+            kernel: Kernel::default(),
         }
     }
 
@@ -114,6 +119,11 @@ impl<'a> Interval<'a> {
             }
             _ => None,
         };
+        // A single slider has a shorter form still.
+        match self.slider {
+            Some(_) => self.kernel.clear(),
+            None => self.kernel.lay_out((model, state), &self.closed, &self.others),
+        }
     }
 
     /// Whether the motion is to be taken in one leap to the next event.

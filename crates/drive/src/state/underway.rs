@@ -233,14 +233,32 @@ pub(crate) struct Stepped {
 impl LocatedWay {
     /// Becomes another one's copy, in the room there is.
     fn copy(&mut self, from: &Self) {
-        self.slopes.clone_from(&from.slopes);
-        self.allowed.copy(&from.allowed);
-        self.booked.copy(&from.booked);
-        self.windows.clone_from(&from.windows);
-        (self.tolerance, self.whereabouts, self.hand) = (from.tolerance, from.whereabouts, from.hand);
-        (self.history, self.gait, self.asked) = (from.history, from.gait, from.asked);
-        (self.leap, self.crawl, self.steps) = (from.leap, from.crawl, from.steps);
-        (self.detour, self.last_detour) = (from.detour, from.last_detour);
+        // Whatever comes to it is to be named here.
+        let Self {
+            tolerance,
+            whereabouts,
+            hand,
+            slopes,
+            history,
+            gait,
+            allowed,
+            booked,
+            asked,
+            leap,
+            detour,
+            last_detour,
+            windows,
+            crawl,
+            steps,
+        } = from;
+        self.slopes.clone_from(slopes);
+        self.allowed.copy(allowed);
+        self.booked.copy(booked);
+        self.windows.clone_from(windows);
+        (self.tolerance, self.whereabouts, self.hand) = (*tolerance, *whereabouts, *hand);
+        (self.history, self.gait, self.asked) = (*history, *gait, *asked);
+        (self.leap, self.crawl, self.steps) = (*leap, *crawl, *steps);
+        (self.detour, self.last_detour) = (*detour, *last_detour);
     }
 
     /// Nothing learnt yet.

@@ -8,7 +8,7 @@ use crate::run::horizon::Goal;
 use crate::run::output::Opening;
 use crate::state::State;
 use crate::{Limits, Plan, RunError};
-use stickslip_stepper::{DOP853_ORDER, Dop853, NYSTROM_ORDER, One, Paired};
+use stickslip_stepper::{DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired};
 
 /// A run between located events, by the method of the scene's intervals without a closed form: where no force depends on a
 /// velocity, one that spares a third of the evaluations.
@@ -18,7 +18,7 @@ pub(in crate::run) enum LocatedRun<'a> {
     /// Several.
     Many(Box<Located<'a, Paired>>),
     /// With dampers, varying loads or growth.
-    General(Box<Located<'a, Dop853>>),
+    General(Box<Located<'a, DormandPrince>>),
 }
 
 impl<'a> LocatedRun<'a> {
@@ -36,7 +36,7 @@ impl<'a> LocatedRun<'a> {
                 Self::Many(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
             }
             _ => {
-                let solver = Dop853::new(layout.dimension(), layout.total());
+                let solver = DormandPrince::new(layout.dimension(), layout.total());
                 Self::General(Box::new(Located::new(setting, plan, solver, DOP853_ORDER)))
             }
         }
