@@ -107,6 +107,14 @@ impl Curve {
         self.knots.reserve(room.saturating_sub(self.knots.len()));
     }
 
+    /// Becomes another curve's copy, in the room there is.
+    pub(crate) fn copy(&mut self, from: &Self) {
+        let Self { knots, apex, front, range, capacity, merged } = from;
+        self.knots.clone_from(knots);
+        (self.apex, self.front, self.range) = (*apex, *front, *range);
+        (self.capacity, self.merged) = (*capacity, *merged);
+    }
+
     /// Remembers no more than so many knots (at least 8) from here on; with more of them the least go, and are booked.
     pub fn bound(&mut self, law: &Interface, capacity: usize) {
         self.capacity = capacity.max(Self::LEAST_CAPACITY);

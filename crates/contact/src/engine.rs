@@ -213,6 +213,19 @@ impl Memory {
     /// Turning points that a curve remembers unless it is [bounded](Self::bound).
     pub const DEFAULT_CAPACITY: usize = Curve::DEFAULT_CAPACITY;
 
+    /// Becomes another one's copy, in the room there is: between memories of one contact nothing is allocated once they have been
+    /// as deep.
+    pub fn copy(&mut self, from: &Self) {
+        match (self, from) {
+            (Self::Curve(own), Self::Curve(from)) => own.copy(from),
+            (Self::Row(own), Self::Row(from)) => {
+                own.row.copy(&from.row);
+                own.springs.clone_from(&from.springs);
+            }
+            (own, from) => *own = from.clone(),
+        }
+    }
+
     /// Makes the room that a new memory has, for one that is a copy or was read from words: within it commits allocate
     /// nothing.
     pub fn make_room(&mut self) {

@@ -47,6 +47,13 @@ impl Row {
         Self { apex, anchors, touching, backward: false }
     }
 
+    /// Becomes the copy of another row of as many springs, in the room there is.
+    pub(crate) fn copy(&mut self, from: &Self) {
+        let Self { apex, anchors, touching, backward } = from;
+        self.anchors.clone_from(anchors);
+        (self.apex, self.touching, self.backward) = (*apex, *touching, *backward);
+    }
+
     /// Where the row stands.
     pub fn apex(&self) -> Apex {
         self.apex

@@ -13,11 +13,11 @@ mod elimination;
 mod statics;
 
 use crate::equations::Equations;
-use crate::model::{Free, Model};
+use crate::model::{Free, Model, Part};
 use crate::record;
 use crate::scene::Axis;
 use crate::state::State;
-use crate::{Accuracy, Field, Part, Plan, SceneError, SceneFault, Stepper};
+use crate::{Accuracy, Field, Part as Place, Plan, SceneError, SceneFault, Stepper};
 use balance::{Balance, Search};
 use nalgebra::DVector;
 use statics::Answer;
@@ -47,9 +47,18 @@ impl Model {
         let follows =
             plan.stepper.locates_events() || plan.stepper.ends_at_corners() && self.balanced.is_empty();
         if jumps && !follows {
-            return Err(SceneFault::UnlocatedJump.of(Part::Run, Field::Stepper));
+            return Err(SceneFault::UnlocatedJump.of(Place::Run, Field::Stepper));
         }
         self.check_step(plan.stepper)?;
+        if !self.parts.is_empty() {
+            let alone = |part: &Part| part.model.begun().map_err(|error| part.in_the_whole(error));
+            return Ok(self.joined(&self.parts.iter().map(alone).collect::<Result<Vec<_>, _>>()?));
+        }
+        self.begun()
+    }
+
+    /// The state at t = 0 where nothing is wrong with a plan.
+    fn begun(&self) -> Result<State, SceneError> {
         let mut state = self.rest();
         if self.equilibrium && !self.free.is_empty() {
             // Copies hold what they must and no more: the room that a run needs lies so far apart that looking through ten
@@ -79,7 +88,7 @@ impl Model {
         if step < limit {
             return Ok(());
         }
-        Err(SceneFault::Unstable { limit, step }.of(Part::Run, Field::Step))
+        Err(SceneFault::Unstable { limit, step }.of(Place::Run, Field::Step))
     }
 
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
@@ -111,7 +120,7 @@ impl<'m> Settling<'m> {
     fn settle(&self, state: &mut State) -> Result<(), SceneError> {
         let n = self.model.free.len();
         if n > MOST {
-            return Err(SceneFault::TooManyFree { most: MOST, count: n }.of(Part::Run, Field::Start));
+            return Err(SceneFault::TooManyFree { most: MOST, count: n }.of(Place::Run, Field::Start));
         }
         // In equilibrium nothing moves; velocities that the scene names are of a start that is given.
         for i in 0..n {
@@ -159,7 +168,7 @@ impl<'m> Settling<'m> {
         for (i, ((contact, memory), to)) in memories.zip(apexes).enumerate() {
             memory
                 .commit(&contact.interface, Segment::Straight(to))
-                .map_err(|error| SceneFault::Settling(error).of(Part::Contact(i), Field::Engine))?;
+                .map_err(|error| SceneFault::Settling(error).of(Place::Contact(i), Field::Engine))?;
         }
         state.y.clone_from(&balance.y);
         Ok(())
@@ -208,6 +217,6 @@ impl<'m> Settling<'m> {
         let unbalanced = without(place, &gone.y).residual[place];
         let Free { body, axis, .. } = self.model.free[place];
         let body = self.model.bodies[body].name.clone();
-        SceneFault::NoEquilibrium { body, axis, unbalanced }.of(Part::Run, Field::Start)
+        SceneFault::NoEquilibrium { body, axis, unbalanced }.of(Place::Run, Field::Start)
     }
 }

@@ -13,6 +13,7 @@ mod contact;
 mod dampers;
 mod held;
 mod measure;
+mod parts;
 mod reach;
 mod scale;
 mod spare;
@@ -21,6 +22,7 @@ mod used;
 pub(crate) use balanced::{Balanced, Pull};
 pub(crate) use block::{BlockState, MOST as MOST_OF_A_BLOCK, Signals, Wire, Wired};
 pub(crate) use measure::{Measure, Terms};
+pub(crate) use parts::{ENERGIES, Part};
 pub use spare::{Pressing, Spared};
 
 use crate::Waveform;
@@ -55,6 +57,8 @@ pub struct Model {
     pub(crate) moment: f64,
     /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
     pub(crate) fastest: f64,
+    /// What feels nothing of each other; empty where all of it is one.
+    pub(crate) parts: Vec<Part>,
 }
 
 /// What a coordinate is bound to.

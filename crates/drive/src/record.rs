@@ -86,6 +86,11 @@ pub trait Record {
     fn wants_events(&self) -> bool {
         true
     }
+
+    /// Whether events between which a run steps come with a row; without, they cost nothing and come with an empty one.
+    fn wants_event_rows(&self) -> bool {
+        true
+    }
 }
 
 /// Keeps nothing.

@@ -4,6 +4,7 @@ mod bytes;
 mod generated;
 mod inputs;
 mod layout;
+mod parts;
 mod underway;
 
 pub use bytes::BytesError;
@@ -11,6 +12,7 @@ pub(crate) use generated::Generating;
 pub use generated::{CommandError, Generated};
 pub use inputs::InputError;
 pub(crate) use layout::Layout;
+pub(crate) use parts::{Energies, PartWay};
 
 pub(crate) use underway::{
     Ahead, Allowed, Booked, Books, Crawl, Detour, FixedWay, Gait, Grid, Grip, LocatedWay, Stepped, Takeoff,

@@ -110,7 +110,8 @@ impl Track {
         let secant = |extreme: f64| {
             let found = questions.iter().find(|q| q.u.is_some() && q.extreme == extreme)?;
             let (from, way) = (self.at_extreme(span, extreme)?, found.u? - extreme);
-            Some((found.answer - self.force[from]) / way)
+            // A contact at rest has no way back.
+            (way != 0.0).then(|| (found.answer - self.force[from]) / way)
         };
         let tangent = |extreme: f64| {
             self.at_extreme(span, extreme)

@@ -7,11 +7,23 @@ use super::{Method, Treatment};
 use stickslip_contact::Words;
 
 /// How often each method was taken, and each treatment given.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, PartialEq, Eq, Default)]
 pub struct Tally {
     methods: [u64; Method::ALL.len()],
     /// By contact.
     treatments: Vec<[u64; Treatment::ALL.len()]>,
+}
+
+impl Clone for Tally {
+    fn clone(&self) -> Self {
+        Self { methods: self.methods, treatments: self.treatments.clone() }
+    }
+
+    /// In the room there is.
+    fn clone_from(&mut self, from: &Self) {
+        self.methods = from.methods;
+        self.treatments.clone_from(&from.treatments);
+    }
 }
 
 impl Method {
@@ -53,6 +65,18 @@ impl Tally {
     /// Nothing yet, of a number of contacts.
     pub(crate) fn of(contacts: usize) -> Self {
         Self { methods: Default::default(), treatments: vec![Default::default(); contacts] }
+    }
+
+    /// Adds what a part, of these contacts, has counted since before.
+    pub(crate) fn add(&mut self, now: &Self, before: &Self, contacts: &[usize]) {
+        let sum = |own: &mut [u64], now: &[u64], before: &[u64]| {
+            let since = now.iter().zip(before).map(|(now, before)| now - before);
+            own.iter_mut().zip(since).for_each(|(own, since)| *own += since);
+        };
+        sum(&mut self.methods, &now.methods, &before.methods);
+        for (own, c) in contacts.iter().enumerate() {
+            sum(&mut self.treatments[*c], &now.treatments[own], &before.treatments[own]);
+        }
     }
 
     /// Writes all counts.

@@ -7,7 +7,7 @@
 use super::contact::{self, Surroundings};
 use super::{
     Balanced, Binding, Body, Free, Link, Load, Measure, Model, Signals, Spared, Stroke, balanced, block,
-    check, dampers, held, reach, scale, used,
+    check, dampers, held, parts, reach, scale, used,
 };
 use crate::contact::Contact;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
@@ -49,13 +49,7 @@ impl Model {
             balanced::check_dampers(scene, (&links, &contacts), first)?;
             balanced::assign(&contacts, &stiffness, (first, &mut balanced))?;
         }
-        let mut spared = Spared { loads: spared_loads(scene, &bodies), ..Spared::default() };
-        for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {
-            match i.checked_sub(scene.springs.len()) {
-                None => spared.springs.push(i),
-                Some(i) => spared.actuators.push(i),
-            }
-        }
+        let mut spared = spared(scene, &bodies, &links);
         links.retain(Link::acts);
         for link in &links {
             link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
@@ -78,8 +72,10 @@ impl Model {
             spared,
             moment,
             fastest: 0.0,
+            parts: Vec::new(),
         };
-        Ok(Self { fastest: constants.largest_rate(), ..constants.settled() })
+        let whole = Self { fastest: constants.largest_rate(), ..constants.settled() };
+        Ok(Self { parts: parts::divide(scene, &whole), ..whole })
     }
 }
 
@@ -214,6 +210,18 @@ fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
         }
     }
     varying
+}
+
+/// What acts on nobody, but for waveforms.
+fn spared(scene: &Scene, bodies: &[Body], links: &[Link]) -> Spared {
+    let mut spared = Spared { loads: spared_loads(scene, bodies), ..Spared::default() };
+    for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {
+        match i.checked_sub(scene.springs.len()) {
+            None => spared.springs.push(i),
+            Some(i) => spared.actuators.push(i),
+        }
+    }
+    spared
 }
 
 /// Loads on bodies that nothing lets move.

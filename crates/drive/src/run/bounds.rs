@@ -53,6 +53,11 @@ impl Bounds {
         Self { limits, begun: Instant::now(), stride, windows, crawl, period }
     }
 
+    /// Stops at other limits from here on.
+    pub(super) fn limit(&mut self, limits: Limits) {
+        self.limits = limits;
+    }
+
     /// Attempts so far. Asked before the first one, too: a run that goes on at its limit stops where it stopped.
     #[inline(always)]
     pub(super) fn tried(&self, state: &State) -> Result<u64, RunError> {
@@ -73,13 +78,15 @@ impl Bounds {
         if tried & (self.stride - 1) != 0 {
             return Ok(());
         }
+        // First: what is found out does not depend on who interrupts.
+        self.watch_progress(state.t)?;
         if let Some(limit) = self.limits.wall.filter(|limit| self.begun.elapsed().as_secs_f64() > *limit) {
             return Err(RunError::OutOfTime { t: state.t, limit });
         }
         if !record.goes_on(state.t) {
             return Err(RunError::Interrupted { t: state.t });
         }
-        self.watch_progress(state.t)
+        Ok(())
     }
 
     /// Fails where very many attempts have moved the run on by next to nothing.

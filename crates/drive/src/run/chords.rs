@@ -95,7 +95,7 @@ impl<'a> Chords<'a> {
             }
         }
         self.output.set_out(state.t, record);
-        if opening.has_row(&self.output, state.t) {
+        if opening.has_row(self.output.every, state.t) {
             self.write_now(state, record);
         }
         self.ledger.begin_telling(record);

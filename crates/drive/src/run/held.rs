@@ -4,6 +4,7 @@ use super::fixed::{Fixed, Frame, Moved};
 use super::horizon::Goal;
 use super::located::LocatedRun;
 use super::output::Opening;
+use super::parted::Parted;
 use crate::equations::Equations;
 use crate::method::{self, Method, SceneTraits};
 use crate::record::{self, Record};
@@ -30,6 +31,7 @@ pub struct Run<'m> {
 /// The workspace of a run, by its stepper.
 enum Way<'m> {
     Located(LocatedRun<'m>),
+    Parted(Box<Parted<'m>>),
     Verlet(Box<Fixed<'m, Verlet>>),
     Rk4(Box<Fixed<'m, Rk4>>),
     Nystrom(Box<Fixed<'m, Nystrom4>>),
@@ -37,6 +39,9 @@ enum Way<'m> {
 
 impl<'m> Way<'m> {
     fn new(model: &'m Model, plan: &Plan) -> Result<Self, RunError> {
+        if model.divides(plan) {
+            return Ok(Self::Parted(Box::new(Parted::new(model, plan))));
+        }
         let one = |step| Frame { length: step, steps: 1.0 };
         Ok(match model.effective(plan.stepper) {
             Stepper::Event { tolerance } => Self::Located(LocatedRun::new(model, plan, tolerance)),
@@ -62,9 +67,8 @@ impl<'m> Way<'m> {
 macro_rules! each {
     ($way:expr, $run:ident => $call:expr) => {
         match $way {
-            Way::Located(LocatedRun::One($run)) => $call,
-            Way::Located(LocatedRun::Many($run)) => $call,
-            Way::Located(LocatedRun::General($run)) => $call,
+            Way::Located($run) => $call,
+            Way::Parted($run) => $call,
             Way::Verlet($run) => $call,
             Way::Rk4($run) => $call,
             Way::Nystrom($run) => $call,
@@ -81,7 +85,7 @@ pub(super) fn to_the_end(
 ) -> Result<(), RunError> {
     let mut way = Way::new(model, plan)?;
     state.check_inputs(model, plan.duration)?;
-    way.set_out(model, state, Opening::Row, record);
+    way.set_out((model, plan), state, Opening::Row, record);
     let outcome = way.go(state, Goal::End(plan.duration), record);
     if outcome.is_err() {
         way.write_now(state, record);
@@ -90,8 +94,26 @@ pub(super) fn to_the_end(
     outcome
 }
 
+/// Brings the parts of a whole to one time, for a run that knows no parts.
+pub(super) fn level(model: &Model, plan: &Plan, state: &mut State) {
+    if !state.is_level() {
+        let mut parted = Parted::new(model, plan);
+        parted.set_out(state, Opening::Resumed, &mut ());
+        parted.level(state);
+    }
+}
+
 impl Way<'_> {
-    fn set_out(&mut self, model: &Model, state: &mut State, opening: Opening, record: &mut dyn Record) {
+    fn set_out(
+        &mut self,
+        (model, plan): (&Model, &Plan),
+        state: &mut State,
+        opening: Opening,
+        record: &mut dyn Record,
+    ) {
+        if !matches!(self, Self::Parted(_)) {
+            level(model, plan, state);
+        }
         // Of a state that was copied or restored; others have it. Bounded as deep as this stepper wants it, whoever came before.
         let most = each!(self, run => run.remembers());
         for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
@@ -105,7 +127,7 @@ impl Way<'_> {
         each!(self, run => run.go(state, goal, record))
     }
 
-    fn write_now(&mut self, state: &State, record: &mut dyn Record) {
+    fn write_now(&mut self, state: &mut State, record: &mut dyn Record) {
         each!(self, run => run.write_now(state, record));
     }
 
@@ -198,7 +220,7 @@ impl<'m> Run<'m> {
     /// Writes the row of where the run stands, which ends it here; nothing before the first call.
     pub fn stop(&mut self, record: &mut dyn Record) {
         if self.begun {
-            self.way.write_now(&self.state, record);
+            self.way.write_now(&mut self.state, record);
             self.way.settle(&mut self.state);
         }
     }
@@ -259,9 +281,16 @@ impl<'m> Run<'m> {
     /// The values of all channels where the run stands, into the room of `row`; their names and units are those of
     /// [`Model::channels`], in that order.
     pub fn row(&self, row: &mut Vec<f64>) {
-        let layout = self.state.layout(self.model);
-        let equations = Equations::on(self.model, &self.state, layout, false);
-        record::fill(&equations, &self.state, self.state.t, &|i| self.state.y[i], row);
+        let fill = |state: &State, row: &mut Vec<f64>| {
+            let equations = Equations::on(self.model, state, state.layout(self.model), false);
+            record::fill(&equations, state, state.t, &|i| state.y[i], row);
+        };
+        if self.state.is_level() {
+            return fill(&self.state, row);
+        }
+        let mut state = self.state.clone();
+        level(self.model, &self.plan, &mut state);
+        fill(&state, row);
     }
 
     fn go(
@@ -274,7 +303,7 @@ impl<'m> Run<'m> {
         self.state.check_inputs(self.model, end)?;
         if !self.begun {
             let opening = if self.resumed { Opening::Resumed } else { opening };
-            self.way.set_out(self.model, &mut self.state, opening, record);
+            self.way.set_out((self.model, &self.plan), &mut self.state, opening, record);
             self.begun = true;
         }
         let outcome = self.way.go(&mut self.state, goal, record);

@@ -13,6 +13,8 @@ pub(super) struct Horizon {
     pub(super) until: f64,
     /// End of the run, s, which steps do not see.
     pub(super) end: f64,
+    /// What the last step is to reach, s; it may go further.
+    past: f64,
     /// From when on a moment is the end, s.
     pub(super) nearly: f64,
     /// Whether the step that reaches the end is taken; otherwise the run stops before it.
@@ -28,16 +30,19 @@ impl Horizon {
     pub(super) fn new(model: &Model, plan: &Plan) -> Self {
         let never = f64::INFINITY;
         let steps = Steps::of(model, plan);
-        Self { until: never, end: never, nearly: never, takes_last: false, corner: never, steps }
+        Self { until: never, end: never, nearly: never, past: never, takes_last: false, corner: never, steps }
     }
 
     /// Goes as far as a goal says.
     pub(super) fn aim(&mut self, goal: Goal) {
+        let never = f64::INFINITY;
         (self.until, self.end, self.takes_last) = match goal {
-            Goal::Moment(until) => (until, f64::INFINITY, false),
-            Goal::BeforeEnd(end) => (f64::INFINITY, end, false),
-            Goal::End(end) => (f64::INFINITY, end, true),
+            Goal::Moment(until) => (until, never, false),
+            Goal::BeforeEnd(end) | Goal::Before(end) => (never, end, false),
+            Goal::End(end) | Goal::Glance(end) => (never, end, true),
+            Goal::Past(_) => (never, never, true),
         };
+        self.past = if let Goal::Past(t) = goal { t } else { never };
         self.nearly = self.end;
     }
 
@@ -48,7 +53,7 @@ impl Horizon {
 
     /// Where a run stops.
     pub(super) fn limit(&self) -> f64 {
-        self.until.min(self.end)
+        self.until.min(self.end).min(self.past)
     }
 
     /// Whether a step that ends at t is one too far.
@@ -67,6 +72,34 @@ pub(super) enum Goal {
     BeforeEnd(f64),
     /// To this end, s, with its last row.
     End(f64),
+    /// As far as whole steps go before this moment, s, at which the run does not end: no row is its last.
+    Before(f64),
+    /// Reads the step that goes on to this moment, s, as far as that; the run goes on from before it.
+    Glance(f64),
+    /// Until a step has reached this moment, s, or gone further.
+    Past(f64),
+}
+
+impl Goal {
+    /// When rows end, s.
+    pub(super) fn last_row(self) -> f64 {
+        match self {
+            Self::BeforeEnd(end) | Self::End(end) => end,
+            Self::Moment(_) | Self::Before(_) | Self::Glance(_) | Self::Past(_) => f64::INFINITY,
+        }
+    }
+
+    /// Where it leads, s.
+    pub(super) fn moment(self) -> f64 {
+        match self {
+            Self::BeforeEnd(t)
+            | Self::End(t)
+            | Self::Moment(t)
+            | Self::Before(t)
+            | Self::Glance(t)
+            | Self::Past(t) => t,
+        }
+    }
 }
 
 /// How a step left the run.

@@ -43,7 +43,7 @@ use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Books, Detour, Grip, Layout, State, Underway, Whereabouts};
-use crate::{Plan, RunError};
+use crate::{Limits, Plan, RunError};
 pub(super) use method::LocatedRun;
 use motion::Motion;
 use path::MOST_PIECES;
@@ -164,9 +164,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
                 self.control.set_history(way.history);
                 self.begin(state, Laws::Kept);
             }
-            Some(Underway::Fixed(_)) | None => self.begin(state, Laws::Chosen),
+            Some(Underway::Fixed(_) | Underway::Parts(_)) | None => self.begin(state, Laws::Chosen),
         }
-        if opening.has_row(&self.output, state.t) {
+        if opening.has_row(self.output.every, state.t) {
             self.output.write_now(&self.setting.plain(state), state, record);
         }
         self.ledger.begin_telling(record);
@@ -184,7 +184,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         self.horizon.aim(goal);
-        self.horizon.nearly = self.output.end_at(self.horizon.end);
+        // A run that does not end there has no last row, and no row that is as good as that.
+        let end = self.output.end_at(goal.last_row());
+        self.horizon.nearly = end.min(self.horizon.end);
         let mut outcome = self.bounds.tried(state).and_then(|_| self.turn_due(state, record));
         self.ledger.tell(record);
         while state.t < self.horizon.limit() && outcome.is_ok() {
@@ -197,6 +199,11 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
         self.put_down(state);
         outcome
+    }
+
+    /// Stops at other limits from here on.
+    pub(super) fn limit(&mut self, limits: Limits) {
+        self.bounds.limit(limits);
     }
 
     /// Tells the range of a watched body so far.

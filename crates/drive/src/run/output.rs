@@ -13,13 +13,13 @@ use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
 
-pub(super) use marks::Marks;
+pub(super) use marks::{Marks, SAME as SAME_MARK};
 
 /// What a run hands to its record. It reads states and dense outputs and changes neither: with it and without it a run has
 /// the same bits.
 pub(super) struct Output {
     /// Interval of the rows, s.
-    every: Option<f64>,
+    pub(super) every: Option<f64>,
     pub(super) grid: Grid,
     pub(super) looks: Looks,
     pub(super) marks: Marks,
@@ -104,12 +104,10 @@ pub(super) enum Opening {
 
 impl Opening {
     /// Whether a row is to be written where a run begins, at t.
-    pub(super) fn has_row(self, output: &Output, t: f64) -> bool {
+    pub(super) fn has_row(self, every: Option<f64>, t: f64) -> bool {
         match self {
             Self::Row => true,
-            Self::Grid => {
-                output.every.is_some_and(|every| Schedule::new(Moments::Every(every), t, t).due() <= t)
-            }
+            Self::Grid => every.is_some_and(|every| Schedule::new(Moments::Every(every), t, t).due() <= t),
             Self::Resumed => false,
         }
     }
@@ -176,6 +174,11 @@ impl Grid {
     ) {
         record::fill(equations, state, t, y, &mut self.row);
         record.row(&self.row);
+        self.pass(t);
+    }
+
+    /// Moves on to the row after one at time t.
+    pub(super) fn pass(&mut self, t: f64) {
         if self.schedule.due() <= t {
             self.schedule.advance();
         }

@@ -6,7 +6,7 @@ use crate::state::{State, Stepped};
 use crate::{Model, Plan, UntilSteady};
 
 /// How many times running a step must agree with the one before it.
-const AGREEING: u32 = 3;
+pub(super) const AGREEING: u32 = 3;
 /// A moment this near to the end of a period, relative to the time, is the end: a corner is a rounded sum.
 const SAME: f64 = 4.0 * f64::EPSILON;
 

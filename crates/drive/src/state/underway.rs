@@ -3,6 +3,7 @@
 //! Kept with the state whenever a caller holds it: a run that takes it up, in this process or another, goes on to the same bits
 //! as one that was never put down. Everything else a run works with is scratch, and follows from the state.
 
+use super::PartWay;
 use crate::Model;
 use crate::interval::PhasePoint;
 use stickslip_stepper::{Hand, StepHistory};
@@ -14,6 +15,18 @@ pub(crate) enum Underway {
     Located(Box<LocatedWay>),
     /// One at a fixed step.
     Fixed(Box<FixedWay>),
+    /// One of parts that feel nothing of each other.
+    Parts(Vec<PartWay>),
+}
+
+impl Underway {
+    /// Makes one the copy of another, in the room there is where both are of a run between located events.
+    pub(crate) fn copy(own: &mut Option<Self>, from: &Option<Self>) {
+        match (own, from) {
+            (Some(Self::Located(own)), Some(Self::Located(from))) => own.copy(from),
+            (own, from) => own.clone_from(from),
+        }
+    }
 }
 
 /// Of a run between located events.
@@ -218,6 +231,36 @@ pub(crate) struct Stepped {
 }
 
 impl LocatedWay {
+    /// Becomes another one's copy, in the room there is.
+    fn copy(&mut self, from: &Self) {
+        // Whatever comes to it is to be named here.
+        let Self {
+            tolerance,
+            whereabouts,
+            hand,
+            slopes,
+            history,
+            gait,
+            allowed,
+            booked,
+            asked,
+            leap,
+            detour,
+            last_detour,
+            windows,
+            crawl,
+            steps,
+        } = from;
+        self.slopes.clone_from(slopes);
+        self.allowed.copy(allowed);
+        self.booked.copy(booked);
+        self.windows.clone_from(windows);
+        (self.tolerance, self.whereabouts, self.hand) = (*tolerance, *whereabouts, *hand);
+        (self.history, self.gait, self.asked) = (*history, *gait, *asked);
+        (self.leap, self.crawl, self.steps) = (*leap, *crawl, *steps);
+        (self.detour, self.last_detour) = (*detour, *last_detour);
+    }
+
     /// Nothing learnt yet.
     pub(crate) const BLANK: Self = Self {
         tolerance: 0.0,

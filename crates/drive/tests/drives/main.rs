@@ -31,6 +31,7 @@ mod linearised;
 mod looks;
 mod lottery;
 mod normal_vibration;
+mod parted;
 mod planar_scenes;
 mod plane_rows;
 mod random_drives;

@@ -265,6 +265,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.counts.events += 1;
         if record.wants_events() {
             let event = Event { t: state.t, source, kind };
+            if !record.wants_event_rows() {
+                return record.event(&event, &[]);
+            }
             self.output.event(&self.setting.plain(state), state, &event, record);
         }
     }

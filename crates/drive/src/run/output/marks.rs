@@ -10,7 +10,7 @@ use crate::scene::Axis;
 use crate::state::State;
 
 /// A moment this near before the one asked for, relative to the time, is it: ends of periods are rounded.
-const SAME: f64 = 4.0 * f64::EPSILON;
+pub(in crate::run) const SAME: f64 = 4.0 * f64::EPSILON;
 
 /// Time (s), place (m) and velocity (m/s) of a body.
 pub(in crate::run) type Point = [f64; 3];

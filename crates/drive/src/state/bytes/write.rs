@@ -3,7 +3,7 @@
 use super::FIXED;
 use crate::contact::Mode;
 use crate::model::Model;
-use crate::state::{Ahead, Books, Grip, Whereabouts};
+use crate::state::{Ahead, Books, Counts, Energies, Grip, PartWay, Whereabouts};
 use crate::state::{Booked, Detour, FixedWay, Gait, LocatedWay, State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
 use stickslip_stepper::StepHistory;
@@ -36,9 +36,7 @@ pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
             page.generating(generating);
         }
     }
-    let counts = state.counts;
-    page.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events]);
-    page.0.extend([counts.detours, counts.missed]);
+    page.counts(&state.counts);
     state.tally.write(page.0);
     page.option(state.underway.as_ref(), Page::underway);
 }
@@ -109,7 +107,27 @@ impl Page<'_> {
                 self.0.push(1);
                 self.fixed(way);
             }
+            Underway::Parts(ways) => {
+                self.0.push(2);
+                ways.iter().for_each(|way| self.part(way));
+            }
         }
+    }
+
+    /// What is a part's own. Its pieces are their indices: parts have no inputs.
+    fn part(&mut self, way: &PartWay) {
+        self.reals([way.t, way.step, way.stuck_step]);
+        self.words(way.pieces.iter().map(|piece| piece.index));
+        let Energies { input, damping, jumps, lost, origin } = way.energies;
+        self.reals([input, damping, jumps, lost, origin]);
+        self.counts(&way.counts);
+        way.tally.write(self.0);
+        self.option(way.underway.as_ref(), Page::underway);
+    }
+
+    fn counts(&mut self, counts: &Counts) {
+        self.0.extend([counts.steps, counts.rejected, counts.evaluations, counts.events]);
+        self.0.extend([counts.detours, counts.missed]);
     }
 
     fn located(&mut self, way: &LocatedWay) {
