@@ -130,6 +130,15 @@ impl Profile {
         of_kind!(self, kind => kind.reduced_energy(h))
     }
 
+    /// M(h) (m²) and N(h) (m³): of a power law one root serves both.
+    #[inline]
+    pub(crate) fn reduced_sums(&self, h: f64) -> [f64; 2] {
+        match &self.shape {
+            Shape::Power(shape) if h > 0.0 => shape.reduced_sums(h),
+            _ => [self.reduced_force(h), self.reduced_energy(h)],
+        }
+    }
+
     /// a(h) = m(h)/2, m: the contact radius; for a foundation given spring by spring half the length in contact.
     #[inline]
     pub fn radius(&self, h: f64) -> f64 {
