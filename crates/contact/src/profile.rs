@@ -12,6 +12,7 @@ mod normal_law;
 mod outline;
 mod power;
 mod powers;
+mod root_series;
 mod rough;
 mod rounded_flat;
 mod self_affine;
@@ -25,6 +26,7 @@ pub use error::ProfileError;
 pub(crate) use foundation::{Foundation, Sums};
 pub(crate) use kappa::kappa;
 pub(crate) use kind::Peak;
+pub use root_series::RootSeries;
 pub use self_affine::{RoughnessError, SelfAffine};
 
 use crate::ContactError;
