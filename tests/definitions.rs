@@ -208,6 +208,17 @@ fn everything_that_a_run_with_every_output_writes_is_defined() {
     assert_eq!(files.iter().collect::<Vec<_>>(), all);
 }
 
+/// What only holds others is explained by all that it holds.
+#[test]
+fn what_holds_figures_is_explained_by_them() {
+    for (name, held) in [("drivers", "peak_current_A"), ("at_limit", "window_high")] {
+        let output = stickslip().args(["explain", name]).output().unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && said.contains(held), "{name}: {said}");
+        assert!(said.lines().filter(|line| !line.starts_with(' ')).all(|line| line.contains(name)), "{said}");
+    }
+}
+
 /// A symbol that stands in the tables of `info` is explained as what it is.
 #[test]
 fn symbols_are_explained() {

@@ -114,7 +114,10 @@ fn the_gallery_of_the_project_is_whole() {
     }
     kinds.sort();
     kinds.dedup();
-    assert_eq!(kinds, ["energy", "events", "layout", "loop", "memory", "phase", "state", "trajectory"]);
+    assert_eq!(
+        kinds,
+        ["drive", "energy", "events", "layout", "loop", "memory", "phase", "state", "trajectory"]
+    );
     assert!(pictures >= 10);
     for link in page.split(['"', '(', ')']).filter(|link| link.ends_with(".png") || link.ends_with(".svg")) {
         assert!(plots.join(link).is_file(), "run stickslip gallery: no {link}");

@@ -12,6 +12,7 @@
 //!        ──► turn, jump                   where rates of inputs may jump, and where inputs themselves do
 //! ```
 
+use crate::linearised::block_eigenvalues;
 use crate::scene::{Direction, Point, Side};
 use crate::{EventKind, Sample};
 use std::fmt;
@@ -175,6 +176,13 @@ pub trait Block:
 
     /// Its natural rate, 1/s: events that lie much closer together than a period of it count as accumulating.
     fn rate(&self) -> f64;
+
+    /// Eigenvalues λ = a + ib of its states' own motions e^{λt} at these inputs, as (a, b), 1/s: they bound fixed steps. By default
+    /// those of its slopes' gradient where it starts, in law 0, by differences over a scale of each state: exact where the
+    /// slopes are linear in the states. A block whose states go by how fast an input goes tells the fastest.
+    fn eigenvalues(&self, inputs: &[Sample]) -> Vec<(f64, f64)> {
+        block_eigenvalues(self, inputs)
+    }
 
     /// Most events that follow from one turn of an input, at least 1: they may be as close together as they like, and so many times
     /// more of them accumulate.

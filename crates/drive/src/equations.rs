@@ -17,7 +17,7 @@ use crate::contact::{Contact, Mode, Motion, Press};
 pub(crate) use balance::Instant;
 pub(crate) use sum::{Components, Reading, View};
 
-use crate::interval::{Interval, Pull};
+use crate::interval::{Interval, Kernel, Pull};
 use crate::model::{Binding, BlockState, Measure};
 use crate::state::{Generating, Layout, State};
 use crate::{Model, Piece, Sample};
@@ -175,6 +175,12 @@ impl<'a> Equations<'a> {
 }
 
 impl Equations<'_> {
+    /// All that acts until the next event, where it is laid out.
+    #[inline(always)]
+    fn kernel(&self) -> Option<&Kernel<'_>> {
+        self.interval.map(|interval| &interval.kernel).filter(|kernel| kernel.is_whole())
+    }
+
     /// Accelerations without any velocity, and the power put in, W.
     ///
     /// `out` is q̈ of the free coordinates and then the one integral. Only for models without dampers,
@@ -206,6 +212,9 @@ impl System for Equations<'_> {
     }
 
     fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+        if let Some(kernel) = self.kernel() {
+            return kernel.slopes(self, (t, y), dy);
+        }
         let layout = self.layout;
         let v = &y[layout.free..2 * layout.free];
         let (dx, rest) = dy.split_at_mut(layout.free);
@@ -260,6 +269,7 @@ impl Conservative for Equations<'_> {
                     pulls => pulls.iter().for_each(add),
                 }
             }
+            (x, out, Some(Interval { kernel, .. })) if kernel.is_whole() => kernel.accelerations((t, x), out),
             (x, out, _) => self.accelerate(&Positions { t, x }, out),
         }
     }

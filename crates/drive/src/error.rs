@@ -21,8 +21,8 @@ pub enum RunError {
         /// Step, s.
         step: f64,
     },
-    /// A fixed step too long for the stiffest mode of the scene.
-    #[error("the step of {step:e} s is unstable here: the stiffest mode allows less than {limit:e} s")]
+    /// A fixed step too long for the fastest motion of the scene, or for a state of a block.
+    #[error("the step of {step:e} s is unstable here: the fastest motion allows less than {limit:e} s")]
     Unstable {
         /// Step, s.
         step: f64,
@@ -169,7 +169,7 @@ impl RunError {
                 "take a step well below the limit, or the event stepper, which needs none"
             }
             Self::NotFinite { .. } => {
-                "look for a number off by orders of magnitude; a fixed step must stay below 2/ω of the stiffest mode"
+                "look for a number off by orders of magnitude; `stickslip info` tells the longest stable step"
             }
             Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
             Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",

@@ -12,6 +12,7 @@
 
 mod closed;
 mod followed;
+mod kernel;
 mod slider;
 mod swing;
 
@@ -19,6 +20,7 @@ use crate::contact::{Guard, Mode};
 pub(crate) use closed::Closed;
 use closed::closed_form;
 pub(crate) use followed::Followed;
+pub(crate) use kernel::Kernel;
 pub(crate) use slider::{Pull, Slider};
 pub(crate) use swing::{PhasePoint, Swing};
 
@@ -44,6 +46,8 @@ pub(crate) struct Interval<'a> {
     pub(crate) slider: Option<Slider>,
     /// What its contacts make of it.
     pub(crate) pulls: Vec<Pull<'a>>,
+    /// All that acts, laid out for evaluations, where it has such a form.
+    pub(crate) kernel: Kernel<'a>,
 }
 
 impl<'a> Interval<'a> {
@@ -59,6 +63,7 @@ impl<'a> Interval<'a> {
             scene: SceneTraits::of(model),
             traits: IntervalTraits::default(),
             slider: None,
+            kernel: Kernel::default(),
         }
     }
 
@@ -99,7 +104,7 @@ impl<'a> Interval<'a> {
         }
         self.traits.slides = self.slides(state);
         self.traits.asked = false;
-        self.pull_slider(model);
+        self.act(model, state);
         true
     }
 
@@ -136,11 +141,11 @@ impl<'a> Interval<'a> {
             gap: self.apart.iter().any(|c| !model.contacts[*c].unguarded),
             asked: false,
         };
-        self.pull_slider(model);
+        self.act(model, state);
     }
 
-    /// What the contacts make of a single slider.
-    fn pull_slider(&mut self, model: &Model) {
+    /// What acts: the contacts on a single slider, or all that the kernel lays out.
+    fn act(&mut self, model: &'a Model, state: &State) {
         self.pulls.clear();
         self.slider = match &model.free[..] {
             [slider] if self.scene.velocities.is_none() && self.traits.is_simple(&self.scene) => {
@@ -148,6 +153,11 @@ impl<'a> Interval<'a> {
             }
             _ => None,
         };
+        // A single slider has a shorter form still.
+        match self.slider {
+            Some(_) => self.kernel.clear(),
+            None => self.kernel.lay_out((model, state), &self.closed, &self.others),
+        }
     }
 
     /// Whether the motion is to be taken in one leap to the next event.

@@ -4,20 +4,22 @@
 //! has 2G\*a along the slide and, where bodies press it, 2E\*a along the normal; one that slips only has less. So the
 //! fastest motion here bounds what a step must resolve, and its stability that of a fixed step.
 
+mod blocks;
 mod frame;
 mod parts;
+mod reach;
+
+pub(crate) use blocks::eigenvalues as block_eigenvalues;
+pub(crate) use reach::Reach;
 
 use crate::{Model, Sample, State, Stepper};
 use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};
+use reach::{longest, rk4_reach};
 use std::f64::consts::SQRT_2;
 
 /// Sweeps of an eigenvalue iteration per row before it counts as failed; a handful is usual.
 // With 10 all of the examples still converge; where one fails, as with 1, a longest step comes out 3e5 times too short.
 const SWEEPS: usize = 100;
-/// Halvings that find a longest step to the last bit.
-// 32 leave a longest step wrong by 3e-10.
-const HALVINGS: u32 = 64;
-
 /// Indentations of a contact, m; negative: open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Indentations {
@@ -102,11 +104,12 @@ impl Model {
         self.parts(|d| d.most).iter().map(Linearised::largest_rate).fold(0.0, f64::max)
     }
 
-    /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get; infinite where
-    /// nothing swings. None for steppers that choose their steps.
+    /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get, and of what the
+    /// states of blocks do of themselves; infinite where nothing swings or settles. None for steppers that choose their steps.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
-        let limit = stepper.longest_stable()?;
-        Some(self.parts(|d| d.most).iter().map(limit).fold(f64::INFINITY, f64::min))
+        let Reach { motion, state } = stepper.reach()?;
+        let motions = self.parts(|d| d.most).iter().map(motion).fold(f64::INFINITY, f64::min);
+        Some(self.block_eigenvalues().iter().map(state).fold(motions, f64::min))
     }
 }
 
@@ -201,7 +204,7 @@ impl Linearised {
     /// Velocity Verlet with the predicted velocity in the damping, see `stickslip_stepper::Verlet`: a motion x ξⁿ obeys
     /// [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0, which leaves the unit circle at ξ = -1, where an eigenvalue of
     /// M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω, with one damped mode (hω)² + 8ζhω = 4.
-    pub(crate) fn longest_verlet_step(&self) -> f64 {
+    fn longest_verlet_step(&self) -> f64 {
         let (stiffness, damping) = (self.by_mass(&self.stiffness), self.by_mass(&self.damping));
         let largest =
             |h: f64| symmetric(&stiffness * (0.25 * h * h) + &damping * h).map(|e| e.eigenvalues.max());
@@ -216,7 +219,7 @@ impl Linearised {
 
     /// Classical Runge–Kutta: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for every λ of λ²M + λC + K. Without damping
     /// h = √8/ω.
-    pub(crate) fn longest_rk4_step(&self) -> f64 {
+    fn longest_rk4_step(&self) -> f64 {
         let frequency = self.highest_frequency();
         if self.damping.amax() == 0.0 {
             return 2.0 * SQRT_2 / frequency;
@@ -234,35 +237,15 @@ impl Linearised {
         matrix.view_mut((0, n), (n, n)).fill_diagonal(frequency);
         matrix.view_mut((n, 0), (n, n)).copy_from(&(self.by_mass(&self.stiffness) / -frequency));
         matrix.view_mut((n, n), (n, n)).copy_from(&-self.by_mass(&self.damping));
-        let schur = finite(matrix).and_then(|matrix| Schur::try_new(matrix, f64::EPSILON, 2 * n * SWEEPS));
-        schur.map_or_else(Vec::new, |schur| schur.complex_eigenvalues().iter().copied().collect())
+        eigenvalues(matrix)
     }
 }
 
-/// The longest step with which Runge–Kutta of order 4 keeps x' = `rate` x from growing. In the left half-plane the region
-/// of stability is star-shaped, contains the half disc |z| < 2.6 and ends before |z| = 3.
-fn rk4_reach(rate: &Complex<f64>) -> f64 {
-    let growth = |h: f64| {
-        let z = rate * h;
-        (((z / 4.0 + 1.0) * z / 3.0 + 1.0) * z / 2.0 + 1.0) * z + 1.0
-    };
-    // The half disc is asked first: near 0 growth differs from 1 by rounding only, and rounding may fall on
-    // the wrong side.
-    longest(3.0 / rate.norm(), |h| h * rate.norm() < 2.6 || growth(h).norm() <= 1.0)
-}
-
-/// The largest h up to `most` for which `stable` holds, where it holds from 0 up to that.
-fn longest(most: f64, stable: impl Fn(f64) -> bool) -> f64 {
-    let (mut good, mut bad) = (0.0, most);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (good + bad);
-        if stable(middle) {
-            good = middle;
-        } else {
-            bad = middle;
-        }
-    }
-    good
+/// All eigenvalues of a matrix; none where an entry is not finite or the iteration does not end.
+fn eigenvalues(matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
+    let sweeps = matrix.nrows() * SWEEPS;
+    let schur = finite(matrix).and_then(|matrix| Schur::try_new(matrix, f64::EPSILON, sweeps.max(1)));
+    schur.map_or_else(Vec::new, |schur| schur.complex_eigenvalues().iter().copied().collect())
 }
 
 /// The matrix if all its entries are finite: the iterations of nalgebra do not end otherwise.

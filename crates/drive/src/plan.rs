@@ -1,6 +1,6 @@
 //! How a scene is run: how long, by which stepper, what is written down.
 
-use crate::linearised::Linearised;
+use crate::linearised::Reach;
 use crate::{Field, Part, SceneError, SceneFault};
 
 /// How a scene is run.
@@ -118,8 +118,8 @@ struct Facts {
     name: &'static str,
     accuracy: Accuracy,
     locates_events: bool,
-    /// The longest step, s, with which small motions do not grow; steppers with a tolerance find it themselves.
-    longest_step: Option<fn(&Linearised) -> f64>,
+    /// How long its steps may be; steppers with a tolerance find it themselves.
+    reach: Option<Reach>,
 }
 
 impl Stepper {
@@ -129,21 +129,21 @@ impl Stepper {
             name,
             accuracy: Accuracy::Tolerance(tolerance),
             locates_events,
-            longest_step: None,
+            reach: None,
         };
-        let fixed = |name, step, longest_step| Facts {
+        let fixed = |name, step, reach| Facts {
             name,
             accuracy: Accuracy::Step(step),
             locates_events: false,
-            longest_step: Some(longest_step),
+            reach: Some(reach),
         };
         match self {
             Self::Event { tolerance } => adaptive("event", tolerance, true),
-            Self::Verlet { step } => fixed("verlet", step, Linearised::longest_verlet_step),
-            Self::Rk4 { step } => fixed("rk4", step, Linearised::longest_rk4_step),
+            Self::Verlet { step } => fixed("verlet", step, Reach::VERLET),
+            Self::Rk4 { step } => fixed("rk4", step, Reach::RK4),
             Self::Frames { length, accuracy } => Facts {
                 accuracy: Accuracy::Frame { length, error: accuracy },
-                ..fixed("frames", length, Linearised::longest_rk4_step)
+                ..fixed("frames", length, Reach::RK4)
             },
             Self::Dopri5 { tolerance } => adaptive("dopri5", tolerance, false),
         }
@@ -169,9 +169,9 @@ impl Stepper {
         self.locates_events() || matches!(self, Self::Frames { .. })
     }
 
-    /// What tells the longest step, s, with which small motions do not grow; none of steppers that choose their steps.
-    pub(crate) fn longest_stable(self) -> Option<fn(&Linearised) -> f64> {
-        self.facts().longest_step
+    /// How long its steps may be; none of steppers that choose them.
+    pub(crate) fn reach(self) -> Option<Reach> {
+        self.facts().reach
     }
 }
 

@@ -217,7 +217,7 @@ impl Waveform {
     }
 
     /// Longest step, s, that cannot overlook a wave inside a smooth piece: a quarter of the shortest one; infinite where
-    /// all pieces are straight.
+    /// all pieces are straight or cubic.
     #[must_use]
     pub fn resolution(&self) -> f64 {
         0.25 * self.course.wave

@@ -13,25 +13,32 @@
 //!
 //! Its books are its own. The output stage is fed with f·I, I = C V̇, stores ½CV² and loses (f - V)I, in R and in what limits the
 //! current; both are integrated beside the voltage, so that source = stored + lost is a check. The mechanical side takes nothing out of
-//! them: what a stack's charge has from its strain is left out (one-way), a share k α²/C of the energy.
+//! them: what a stack's charge has from its strain is left out (one-way), a share κ = k α²/C of the energy.
+//!
+//! With [`Driver::reciprocal`] it is there: Q = CV + kα(e - αV), C the free capacitance and e the elongation. As a stroke the current is
+//! αI/C = (1 - κ)αV̇ + κė, which is what flows through R and what the limit holds; stored are ½CV² - k αV(αV - e), and the
+//! source gives the work of the stroke ∫k(αV - e)α dV beside: source = stored + lost + worked.
 
 mod block;
 mod course;
 mod spec;
 mod stage;
+mod strain;
 
 pub use spec::{Control, Low, Spec, SpecError};
 
 use course::{Course, Output, Window};
 use std::sync::Arc;
 use stickslip_drive::component::{Input, SharedBlock};
+use strain::Strain;
 
 /// Driver electronics as a block.
 #[derive(Debug)]
 pub struct Driver {
     spec: Spec,
-    /// The command.
-    inputs: [Input; 1],
+    /// The command, and the elongation of a stack whose strain acts back.
+    inputs: Vec<Input>,
+    strain: Option<Strain>,
     /// Widest range of its command, as a stroke, m: the scale of its states.
     span: f64,
     /// Guards of each law.
@@ -45,7 +52,16 @@ impl Driver {
         let span = (range.1 - range.0).max(range.0.abs()).max(range.1.abs());
         let span = if span > 0.0 && span.is_finite() { span } else { spec.gain };
         let guards = Course::all().map(|course| course.guards(&spec)).collect();
-        Self { spec, inputs: [Input::Signal(signal)], span, guards }
+        Self { spec, inputs: vec![Input::Signal(signal)], strain: None, span, guards }
+    }
+
+    /// The same with the charge that the strain of its stack makes: `coupling` κ, above 0 and below 1, and the elongation, a
+    /// [`Input::Length`].
+    #[must_use]
+    pub fn reciprocal(mut self, coupling: f64, elongation: Input) -> Self {
+        self.inputs.push(elongation);
+        self.strain = Some(Strain { coupling });
+        self
     }
 
     /// The same for a scene.

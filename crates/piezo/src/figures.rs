@@ -3,7 +3,7 @@
 use crate::driver::Spec;
 
 /// Numbers of a driver's memory.
-pub(crate) const COUNT: usize = 12;
+pub(crate) const COUNT: usize = 13;
 
 /// A driver's memory by its places.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,27 +26,53 @@ pub(crate) struct Kept {
     pub(crate) time: f64,
     /// When the last step ended, s.
     pub(crate) at: f64,
+    /// Elongation of a stack whose strain makes charge, then, m.
+    pub(crate) elongation: f64,
 }
 
-/// Voltage at the end of the last step, as a stroke, m, and when that was, s: of a driver's memory.
-pub(crate) fn last(memory: &[f64]) -> (f64, f64) {
-    Kept::read(memory).map_or((0.0, 0.0), |kept| (kept.last, kept.at))
+/// Where a driver stood at the end of the last step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Last {
+    /// Its voltage as a stroke, m.
+    pub(crate) stroke: f64,
+    /// Elongation of the stack, m.
+    pub(crate) elongation: f64,
+    /// When that was, s.
+    pub(crate) at: f64,
+}
+
+/// Of a driver's memory.
+pub(crate) fn last(memory: &[f64]) -> Last {
+    let of = |kept: Kept| Last { stroke: kept.last, elongation: kept.elongation, at: kept.at };
+    Kept::read(memory).map_or_else(Last::default, of)
 }
 
 impl Kept {
     /// Read from a memory; none where that is of another kind.
     pub(crate) fn read(memory: &[f64]) -> Option<Self> {
-        let &[offset, last, work, way, drawn, fastest, up, down, below, above, time, at] = memory else {
+        let &[offset, last, work, way, drawn, fastest, up, down, below, above, time, at, elongation] = memory
+        else {
             return None;
         };
-        Some(Self { offset, last, work, way, drawn, fastest, limited: [up, down, below, above], time, at })
+        Some(Self {
+            offset,
+            last,
+            work,
+            way,
+            drawn,
+            fastest,
+            limited: [up, down, below, above],
+            time,
+            at,
+            elongation,
+        })
     }
 
     /// As a memory.
     pub(crate) fn numbers(&self) -> [f64; COUNT] {
         let [up, down, below, above] = self.limited;
-        let Self { offset, last, work, way, drawn, fastest, time, at, .. } = *self;
-        [offset, last, work, way, drawn, fastest, up, down, below, above, time, at]
+        let Self { offset, last, work, way, drawn, fastest, time, at, elongation, .. } = *self;
+        [offset, last, work, way, drawn, fastest, up, down, below, above, time, at, elongation]
     }
 }
 

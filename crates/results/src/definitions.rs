@@ -44,6 +44,13 @@ impl Definition {
             && known.iter().rev().zip(asked.iter().rev()).all(|(known, asked)| fits(known, asked))
     }
 
+    /// Whether a name is that of something which holds it: `drivers`, `at_limit`.
+    pub fn is_within(&self, asked: &str) -> bool {
+        self.name.rsplit_once('.').is_some_and(|(holders, _)| {
+            holders.split('.').any(|holder| holder == asked && !PLACEHOLDERS.contains(&holder))
+        })
+    }
+
     /// Whether its text begins with a symbol and what that is: `u_c = κd …` or `a, contact radius …`; digits may stand for those
     /// below the line.
     pub fn has_symbol(&self, asked: &str) -> bool {

@@ -2,9 +2,10 @@
 //!
 //! The scenario's own warnings look at the file alone; these look at pressures, forces and frequencies that follow from it. In
 //! reading order: [`contacts`] (materials, pressures, shapes), [`forces`] (loads, stacks, masses), [`motion`] (strokes,
-//! resonances, tolerances).
+//! resonances, tolerances), [`drivers`] (their cost).
 
 mod contacts;
+mod drivers;
 mod forces;
 mod motion;
 
@@ -31,7 +32,9 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
     odd.strokes();
     odd.resonances();
     odd.tolerance();
-    odd.frames(job.model.effective(job.scenario.plan.stepper));
+    let stepper = job.model.effective(job.scenario.plan.stepper);
+    odd.frames(stepper);
+    odd.drivers(stepper);
     let Implausible { mut found, left_out, .. } = odd;
     if let (Some(last), 1..) = (found.last_mut(), left_out) {
         let (more, help) = (format!("{left_out} more warnings are not shown"), &mut last.report.help);
@@ -44,6 +47,7 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
 pub(crate) fn of_frames(job: &Job, stepper: Stepper) -> Vec<Warning> {
     let mut odd = Implausible { job, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.frames(stepper);
+    odd.drivers(stepper);
     odd.found
 }
 

@@ -41,8 +41,18 @@ fn odd_scenes_are_warned_of_word_for_word() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     kinds.sort_unstable();
     kinds.dedup();
-    let all =
-        ["damping", "geometry", "load", "mass", "modulus", "pressure", "resonance", "stroke", "tolerance"];
+    let all = [
+        "damping",
+        "geometry",
+        "load",
+        "mass",
+        "modulus",
+        "pressure",
+        "resonance",
+        "stiff_driver",
+        "stroke",
+        "tolerance",
+    ];
     assert_eq!(kinds, all);
 }
 

@@ -3,7 +3,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use stickslip_stepper::{Attempt, Completion, Dop853, Rk4, Step, Stepping, System, Target, Verlet};
+use stickslip_stepper::{Attempt, Completion, DormandPrince, Rk4, Step, Stepping, System, Target, Verlet};
 
 /// `pairs` uncoupled oscillators ẍ = -x and two quadratures.
 struct Oscillators {
@@ -63,9 +63,9 @@ fn evaluation(c: &mut Criterion, system: &Oscillators) {
 fn dop853(c: &mut Criterion, system: &Oscillators) {
     let (dimension, total) = (system.dimension(), system.total());
     let (start, scale) = (vec![1.0; total], vec![1e-8; dimension]);
-    let next = |stepper: &Dop853| Target::even(stepper.span().time + black_box(0.1));
+    let next = |stepper: &DormandPrince| Target::even(stepper.span().time + black_box(0.1));
     c.bench_function(&format!("dop853 x100 steps, {dimension} components"), |b| {
-        let mut stepper = Dop853::new(dimension, total);
+        let mut stepper = DormandPrince::new(dimension, total);
         b.iter(|| {
             stepper.start(system, 0.0, &start);
             let mut worst = 0.0_f64;
@@ -78,7 +78,7 @@ fn dop853(c: &mut Criterion, system: &Oscillators) {
         });
     });
     c.bench_function(&format!("dop853 dense x100 steps, {dimension} components"), |b| {
-        let mut stepper = Dop853::new(dimension, total);
+        let mut stepper = DormandPrince::new(dimension, total);
         b.iter(|| {
             stepper.start(system, 0.0, &start);
             for _ in 0..100 {

@@ -30,7 +30,14 @@ pub trait Step {
     /// [complete](Attempt::complete).
     fn slope(&self, i: usize, at: End) -> f64;
     /// Component `i` at time `t` of it, by the dense output.
-    fn value(&self, i: usize, t: f64) -> f64;
+    #[inline]
+    fn value(&self, i: usize, t: f64) -> f64 {
+        self.value_at(i, self.part(t))
+    }
+    /// Where in it time `t` lies, as the dense output counts: asked once for all components of a moment.
+    fn part(&self, t: f64) -> f64;
+    /// Component `i` at such a part of it.
+    fn value_at(&self, i: usize, part: f64) -> f64;
     /// Ends it at an earlier time `t`, in the state of the dense output.
     fn cut(&mut self, t: f64);
     /// Moves to its end.

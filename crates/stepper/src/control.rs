@@ -78,7 +78,7 @@ pub struct Verdict {
 }
 
 impl StepControl {
-    /// Control for an error estimate that falls with the power `order` of the step (8 for [`Dop853`](crate::Dop853)).
+    /// Control for an error estimate that falls with the power `order` of the step (8 for [`DormandPrince`](crate::DormandPrince)).
     #[must_use]
     pub fn new(order: u32, limits: StepLimits) -> Self {
         let order = f64::from(order.max(1));

@@ -8,7 +8,7 @@
 //!
 //! * [`System`]: coupled components and quadratures.
 //! * [`Attempt`]: one attempt at a time, by a [`Method`], of a [`Step`] that an event may cut short.
-//! * [`Dop853`]: order 8(5,3) with dense output.
+//! * [`DormandPrince`]: order 8(5,3) with dense output.
 //! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities.
 //! * [`Paired`]: both, for conservative systems with singular moments.
 //! * [`StepControl`]: how long the next step is.
@@ -17,7 +17,7 @@
 //! * [`reference`](mod@reference): a driver for the solver `Dopri5` of the crate `ode_solvers`, without events.
 //!
 //! ```
-//! use stickslip_stepper::{Attempt, Completion, Dop853, Step, StepControl, StepLimits, System, Target};
+//! use stickslip_stepper::{Attempt, Completion, DormandPrince, Step, StepControl, StepLimits, System, Target};
 //!
 //! /// ẍ = -x, and the work ∫ẋ² dt of a damper that is not there.
 //! struct Oscillator;
@@ -31,7 +31,7 @@
 //!     }
 //! }
 //!
-//! let (mut stepper, mut control) = (Dop853::new(2, 3), StepControl::new(8, StepLimits::default()));
+//! let (mut stepper, mut control) = (DormandPrince::new(2, 3), StepControl::new(8, StepLimits::default()));
 //! stepper.start(&Oscillator, 0.0, &[1.0, 0.0, 0.0]);
 //! let mut h: f64 = 0.1;
 //! while stepper.span().time < 1.0 {
@@ -52,8 +52,8 @@ mod system;
 pub use system::System;
 mod attempt;
 pub use attempt::{Attempt, Completion, End, Hand, Method, Span, Step, Target};
-mod dop853;
-pub use dop853::{Dop853, Grade, ORDER as DOP853_ORDER};
+mod dormand_prince;
+pub use dormand_prince::{DormandPrince, Grade, ORDER as DOP853_ORDER};
 mod nystrom;
 pub use nystrom::{Conservative, Many, Nystrom, ORDER as NYSTROM_ORDER, One, Storage, Track, Values};
 mod paired;

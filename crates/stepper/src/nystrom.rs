@@ -1,7 +1,7 @@
 //! The Runge–Kutta–Nyström pair RKN8(6)9 for forces without velocities: order 8, error estimate of order 6.
 //!
 //! Where accelerations depend on time and positions alone, positions need no stages of their own for the velocities: a
-//! step costs 8 evaluations instead of the 12 of [`Dop853`](crate::Dop853), and each carries half the components. At equal
+//! step costs 8 evaluations instead of the 12 of [`DormandPrince`](crate::DormandPrince), and each carries half the components. At equal
 //! evaluations, 72 per period, a swing is 3e-10 off after ten periods instead of 2e-8.
 //!
 //! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*,
@@ -38,7 +38,7 @@ pub trait Conservative {
     }
 }
 
-/// One step of RKN8(6)9 at a time, as [`Dop853`](crate::Dop853) does it.
+/// One step of RKN8(6)9 at a time, as [`DormandPrince`](crate::DormandPrince) does it.
 ///
 /// ```text
 /// x₁ = x + h v + h² Σ b_j k_j     v₁ = v + h Σ b'_j k_j     q₁ = q + h Σ b'_j r_j
@@ -189,8 +189,14 @@ impl<N: Storage> Step for Nystrom<N> {
         self.tracks.as_ref()[i - self.positions()].k[stage]
     }
 
-    fn value(&self, i: usize, t: f64) -> f64 {
-        self.at(i, (t - self.time) / self.step)
+    #[inline]
+    fn value_at(&self, i: usize, part: f64) -> f64 {
+        self.at(i, part)
+    }
+
+    #[inline]
+    fn part(&self, t: f64) -> f64 {
+        (t - self.time) / self.step
     }
 
     fn cut(&mut self, t: f64) {

@@ -1,22 +1,22 @@
 //! Nyström's method, and DOP853 for steps that end at a singular moment.
 //!
 //! Grading a step multiplies ẍ by the pace of time and adds a term with ẋ: what a Nyström method spares is lost there, and
-//! with it its order. Such steps are few, one before each start of gross slip; they go by [`Dop853`].
+//! with it its order. Such steps are few, one before each start of gross slip; they go by [`DormandPrince`].
 //!
 //! Both carry one motion: whichever makes an attempt is first put where the other one has brought it.
 
 use crate::{
-    Attempt, Completion, Conservative, Dop853, End, Grade, Hand, Many, Method, Nystrom, One, Span, Step,
+    Attempt, Completion, Conservative, DormandPrince, End, Hand, Many, Method, Nystrom, One, Span, Step,
     Storage, System, Target,
 };
 
-/// [`Nystrom`] for even steps, [`Dop853`] for graded ones, of one and the same motion.
+/// [`Nystrom`] for even steps, [`DormandPrince`] for graded ones, of one and the same motion.
 #[derive(Debug, Clone)]
 pub struct Paired<N: Storage = Many> {
     /// For steps whose stages lie evenly: nearly all.
     even: Nystrom<N>,
     /// For those that end at a singular moment.
-    graded: Dop853,
+    graded: DormandPrince,
     /// Which of both made the last attempt; it is where the motion is.
     last: By,
     /// Whether the other one is there, too.
@@ -33,7 +33,7 @@ impl Paired {
     /// Workspace for `positions` positions and `quadratures` quadratures; `total` components as [`System::total`] has them.
     #[must_use]
     pub fn new(positions: usize, quadratures: usize, total: usize) -> Self {
-        Self::of(Nystrom::new(positions, quadratures), Dop853::new(2 * positions, total))
+        Self::of(Nystrom::new(positions, quadratures), DormandPrince::new(2 * positions, total))
     }
 }
 
@@ -41,13 +41,13 @@ impl Paired<One> {
     /// Workspace for one position and one quadrature.
     #[must_use]
     pub fn one(total: usize) -> Self {
-        Self::of(Nystrom::one(), Dop853::new(2, total))
+        Self::of(Nystrom::one(), DormandPrince::new(2, total))
     }
 }
 
 impl<N: Storage> Paired<N> {
     /// Both where nothing has begun.
-    fn of(even: Nystrom<N>, graded: Dop853) -> Self {
+    fn of(even: Nystrom<N>, graded: DormandPrince) -> Self {
         Self { even, graded, last: By::Even, both: false }
     }
 
@@ -127,8 +127,13 @@ impl<N: Storage> Step for Paired<N> {
     }
 
     #[inline]
-    fn value(&self, i: usize, t: f64) -> f64 {
-        last!(self, value(i, t))
+    fn value_at(&self, i: usize, part: f64) -> f64 {
+        last!(self, value_at(i, part))
+    }
+
+    #[inline]
+    fn part(&self, t: f64) -> f64 {
+        last!(self, part(t))
     }
 
     fn cut(&mut self, t: f64) {
@@ -178,7 +183,7 @@ impl<S: System + Conservative + ?Sized, N: Storage> Attempt<S> for Paired<N> {
 
     #[inline]
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
-        if to.grade == Grade::Even {
+        if to.grade.is_even() {
             self.take(system, By::Even);
             self.even.attempt(system, to, scale)
         } else {

@@ -2,7 +2,7 @@
 
 mod systems;
 
-use stickslip_stepper::{Attempt, Completion, Dop853, Grade, Method, Step, System, Target};
+use stickslip_stepper::{Attempt, Completion, DormandPrince, Grade, Method, Step, System, Target};
 use systems::order;
 
 /// ẏ = ±(3/2) √s y with s the time from a singular moment T, or to it: y = e^{s^{3/2}} up to a factor.
@@ -34,7 +34,7 @@ impl System for Root {
 
 /// Relative error at the end of one step from 0 to `h` and, by the dense output, at its worst inside.
 fn errors(system: &Root, h: f64, grade: Grade) -> [f64; 2] {
-    let mut stepper = Dop853::new(1, 1);
+    let mut stepper = DormandPrince::new(1, 1);
     stepper.start(system, 0.0, &[system.exact(0.0)]);
     stepper.attempt(system, Target { end: h, grade }, &[1.0]);
     stepper.complete(system, Completion::Dense);
@@ -83,7 +83,7 @@ impl System for Stone {
 
 #[test]
 fn what_coasts_is_exact_at_any_length_and_free() {
-    let mut stepper = Dop853::new(2, 3);
+    let mut stepper = DormandPrince::new(2, 3);
     stepper.start(&Stone, 1.0, &[2.0, 20.0, 0.5]);
     assert_eq!(stepper.attempt(&Stone, Target::even(4.0), &[1.0; 2]), 0.0);
     stepper.complete(&Stone, Completion::Dense);

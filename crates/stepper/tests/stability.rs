@@ -1,6 +1,6 @@
 //! How long a step may be before motions that fade or swing begin to grow.
 
-use stickslip_stepper::{Attempt, Conservative, Dop853, Method, Nystrom, Step, System, Target};
+use stickslip_stepper::{Attempt, Conservative, DormandPrince, Method, Nystrom, Step, System, Target};
 
 /// ẏ = λy, λ = rate e^{i angle}.
 struct Fades {
@@ -27,7 +27,7 @@ impl System for Fades {
 /// |R(hλ)| of one step.
 fn growth(angle: f64, step: f64) -> f64 {
     let system = Fades { real: angle.cos(), imaginary: angle.sin() };
-    let mut stepper = Dop853::new(2, 2);
+    let mut stepper = DormandPrince::new(2, 2);
     stepper.start(&system, 0.0, &[1.0, 0.0]);
     stepper.attempt(&system, Target::even(step), &[1.0; 2]);
     stepper.span().end[0].hypot(stepper.span().end[1])
@@ -35,7 +35,7 @@ fn growth(angle: f64, step: f64) -> f64 {
 
 #[test]
 fn below_the_limit_of_dop853_nothing_grows_that_fades_or_swings() {
-    let limit = Dop853::new(2, 2).stability_limit();
+    let limit = DormandPrince::new(2, 2).stability_limit();
     for k in 0..=90 {
         let angle = f64::from(90 + k).to_radians();
         for part in 1..=50 {

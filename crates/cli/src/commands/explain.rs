@@ -18,6 +18,12 @@ pub(crate) fn explain(names: &[String]) -> Verdict {
             found = true;
             say(format_args!("scenario  {path}\n    {text}"));
         }
+        // What holds others is explained by them.
+        let held: Vec<_> = definitions().filter(|definition| !found && definition.is_within(name)).collect();
+        for definition in held {
+            found = true;
+            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
+        }
         // A symbol such as u_c or E* is none's name; what it is stands first.
         let symbols = definitions().filter(|definition| !found && definition.has_symbol(name));
         let symbols: Vec<_> = symbols.collect();

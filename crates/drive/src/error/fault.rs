@@ -94,8 +94,8 @@ pub enum SceneFault {
     /// Steps of a given length or without events on waveforms that jump.
     #[error("only the steppers \"event\" and \"frames\" follow waveforms that jump")]
     UnlocatedJump,
-    /// A fixed step with which the stiffest motion grows.
-    #[error("expected less than {limit:.3e} s, from where on the stiffest motion grows, got {step:e} s")]
+    /// A fixed step with which the fastest motion, or a state of a block, grows.
+    #[error("expected less than {limit:.3e} s, from where on the fastest motion grows, got {step:e} s")]
     Unstable {
         /// Longest stable step, s.
         limit: f64,

@@ -36,6 +36,21 @@ impl<'a> Followed<'a> {
         Some(Self::Line { constant, rate, start: start.unwrap_or(0.0) })
     }
 
+    /// What does not move, m.
+    pub(crate) fn constant(constant: f64) -> Self {
+        Self::Line { constant, rate: 0.0, start: 0.0 }
+    }
+
+    /// A signal alone; none where its piece is neither a line nor a sum of sines.
+    pub(crate) fn signal(w: usize, model: &'a Model, state: &State) -> Option<Self> {
+        let piece = state.pieces.get(w)?;
+        if piece.is_sines() {
+            return Some(Self::Sines { constant: 0.0, factor: 1.0, waveform: &model.waveforms[w] });
+        }
+        let line = piece.line()?;
+        Some(Self::Line { constant: line.at(line.time), rate: line.rate, start: line.time })
+    }
+
     /// Value (m) and its derivatives at time t, s.
     #[inline(always)]
     pub(crate) fn at(&self, t: f64) -> Sample {

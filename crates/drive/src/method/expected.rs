@@ -4,13 +4,15 @@
 //! waveforms on straight pieces or on curved ones, and the run's own functions are asked what they would do there. Kinds of
 //! intervals that a scene cannot come to, such as a flight of a contact that is always pressed, are left out.
 
-use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
+use super::{
+    IntervalTraits, Method, SceneTraits, TIGHTEST_BRIEF, Treatment, Why, choice, stepping, treatment,
+};
 use crate::contact::{Contact, Mode, Motion};
 use crate::equations::Equations;
 use crate::interval::{Followed, Interval, PhasePoint, Swing};
 use crate::model::Model;
 use crate::state::State;
-use crate::{Stepper, Waveform};
+use crate::{Accuracy, Stepper, Waveform};
 use stickslip_contact::{Apex, Course, Memory, Segment};
 
 /// The methods and treatments that the intervals of a run can come to, each with its reason.
@@ -101,6 +103,13 @@ impl Model {
         }
         if !self.free.is_empty() && self.contacts.iter().any(|contact| contact.interface.damping() > 0.0) {
             expected.add((Method::Whole, Why::Turns));
+        }
+        let tolerance = match self.effective(stepper).accuracy() {
+            Accuracy::Tolerance(tolerance) => tolerance,
+            Accuracy::Step(_) | Accuracy::Frame { .. } => 0.0,
+        };
+        if tolerance >= TIGHTEST_BRIEF && expected.takes(Method::DormandPrince) {
+            expected.add((Method::Brief, Why::NearEvent));
         }
         if self.contacts.iter().any(Contact::ends_singularly) {
             expected.add((Method::Graded, Why::SingularMoment));

@@ -16,12 +16,13 @@ pub struct Tally {
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Walk,
         Self::Swing,
         Self::Parabola,
         Self::Nystrom,
         Self::DormandPrince,
+        Self::Brief,
         Self::Graded,
         Self::Whole,
         Self::AskedFor,
@@ -35,6 +36,7 @@ impl Method {
             Self::Parabola => "parabola",
             Self::Nystrom => "Runge–Kutta–Nyström 8(6)",
             Self::DormandPrince => "Dormand–Prince 8(5,3)",
+            Self::Brief => "Dormand–Prince 5(4)",
             Self::Graded => "Dormand–Prince 8(5,3) with crowded stages",
             Self::Whole => "the whole law, by halved steps",
             Self::AskedFor => "the stepper asked for",

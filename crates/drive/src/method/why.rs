@@ -29,6 +29,8 @@ pub enum Why {
     Growth,
     /// A block has states of its own.
     Block,
+    /// An event is near.
+    NearEvent,
     /// A force ends with the power 3/2 of the time.
     SingularMoment,
     /// The stepper was asked for.
@@ -69,6 +71,7 @@ impl fmt::Display for Why {
             Self::VaryingLoad => "the power of a load that varies depends on a velocity",
             Self::Growth => "the force of a contact that grows in full stick depends on its path",
             Self::Block => "a block has states of its own beside the motion",
+            Self::NearEvent => "where an event is near: it would cut a longer step",
             Self::SingularMoment => {
                 "where gross slip or a touch begins or ends, a force goes with the power 3/2 of the time"
             }

@@ -13,7 +13,8 @@ pub(super) struct Course {
     pub(super) period: Option<f64>,
     /// Smallest and largest value over all time, or bounds of them.
     pub(super) range: (f64, f64),
-    /// Period of the shortest wave in a smooth piece, s; infinite where all pieces are straight.
+    /// Period of the shortest wave in a smooth piece, s; infinite where all pieces are polynomials, of
+    /// which a step misses nothing that its error does not show.
     pub(super) wave: f64,
     /// Whether the value ever jumps by design.
     pub(super) has_jumps: bool,

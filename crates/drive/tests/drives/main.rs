@@ -39,6 +39,7 @@ mod ruby;
 mod shapes;
 mod small_oscillations;
 mod soak;
+mod stack_rows;
 mod stages;
 mod statics;
 mod steady;

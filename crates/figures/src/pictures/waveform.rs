@@ -5,7 +5,7 @@ use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Freedom, Varying};
 use stickslip_drive::{Piece, Scene, Waveform};
 use stickslip_plot::{WaveformCourse, waveform_figure};
-use stickslip_scenario::PlotName;
+use stickslip_scenario::{Piezo, PlotName};
 
 pub(super) const KIND: Kind = Kind {
     shows: "waveforms and their rates over two periods, or from start to end; dots are corners",
@@ -28,11 +28,19 @@ const MARGIN: f64 = 0.1;
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
     let scene = &job.scenario.scene;
+    let stacks = &job.scenario.stacks;
     let drawn: Vec<Drawn> = scene
         .waveforms
         .iter()
+        .enumerate()
         .take(MOST)
-        .map(|waveform| Drawn::of(&waveform.part, span(&waveform.part, job.scenario.plan.duration)))
+        .map(|(place, waveform)| {
+            let drawn = Drawn::of(&waveform.part, span(&waveform.part, job.scenario.plan.duration));
+            match volt(stacks, place) {
+                Some(volt) => drawn.in_units_of(volt),
+                None => drawn,
+            }
+        })
         .collect();
     let courses: Vec<WaveformCourse<'_>> = scene
         .waveforms
@@ -41,7 +49,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         .enumerate()
         .map(|(place, (waveform, drawn))| WaveformCourse {
             name: &waveform.name,
-            unit: unit(scene, place),
+            unit: if volt(stacks, place).is_some() { "V" } else { unit(scene, place) },
             time: &drawn.time,
             value: &drawn.value,
             rate: &drawn.rate,
@@ -62,6 +70,12 @@ fn span(waveform: &Waveform, duration: f64) -> (f64, f64) {
         }
         None => (0.0, duration.max(2.0 * end)),
     }
+}
+
+/// The free stroke of a volt, m, of a waveform that stacks follow as their voltage: a scene knows it as their stroke.
+fn volt(stacks: &[Piezo], place: usize) -> Option<f64> {
+    let followed = |piezo: &&Piezo| piezo.by_voltage && piezo.command == Varying::Follows(place);
+    stacks.iter().find(followed)?.stack.stroke_per_volt
 }
 
 /// Unit of what follows a waveform first.
@@ -127,6 +141,13 @@ impl Drawn {
         drawn
     }
 
+    /// The same with values counted in a unit.
+    fn in_units_of(mut self, unit: f64) -> Self {
+        let Self { value, rate, corner_values, .. } = &mut self;
+        value.iter_mut().chain(rate).chain(corner_values).for_each(|number| *number /= unit);
+        self
+    }
+
     fn piece(&mut self, waveform: &Waveform, piece: &Piece, (from, to): (f64, f64)) {
         // Sines may have the same rate at both ends and in the middle.
         let straight = [0.0, 0.137, 0.59, 1.0]
@@ -164,6 +185,9 @@ mod tests {
         let sine = Waveform::new(sine, Timing::every(1.0)).unwrap();
         // Two waves in one piece.
         assert!(Drawn::of(&sine, span(&sine, 9.0)).time.len() > 100);
+        // A stack of 20 nm/V.
+        let volts = Drawn::of(&saw, span(&saw, 9.0)).in_units_of(2e-8);
+        assert!((volts.value[1] - 5e7).abs() < 1.0 && (volts.rate[7] + 2e8).abs() < 1.0);
         // What comes once is shown with what it holds before and after.
         let step = Waveform::new(Shape::Step { height: 2.0, at: 3.0 }, Timing::every(1.0)).unwrap();
         let drawn = Drawn::of(&step, span(&step, 9.0));

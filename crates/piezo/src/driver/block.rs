@@ -7,7 +7,7 @@
 use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
 use super::stage::{At, LOST, LOW, LOW_RATE, Now, ROUNDING, VOLTAGE, WORK};
 use super::{Course, Driver, Output, Window};
-use crate::figures::Kept;
+use crate::figures::{Kept, last};
 use stickslip_drive::component::{Block, Component, Input, Passage, Powers, Refused, States};
 use stickslip_drive::{EventKind, Sample};
 
@@ -31,6 +31,9 @@ impl Component for Driver {
         if self.spec.low.is_some() {
             scales.extend([self.span, self.span * self.spec.omega()]);
         }
+        if self.worked().is_some() {
+            scales.push(energy);
+        }
         States { scales, integrals: 0 }
     }
 
@@ -50,7 +53,7 @@ impl Component for Driver {
             (INSIDE, _) => return command - high,
             _ => {}
         }
-        let wish = self.wish(followed, at.states);
+        let wish = self.wish(followed, (at.states, self.elongation(at.inputs).rate));
         match (guard, course.output, self.spec.resistance) {
             (RISING, ..) => up - wish,
             (FALLING, ..) => wish + down,
@@ -74,11 +77,12 @@ impl Component for Driver {
             _ => {}
         }
         let followed = self.followed((course, at.located), at.inputs[0], at.states);
+        let elongated = self.elongation(at.inputs).rate;
         let decided = match (guard, self.spec.resistance) {
             // It has met what it follows, but for rounding: its rate says how it goes on.
             (FREE, None) => {
                 let met = Sample { value: voltage.value, ..followed };
-                Some(self.output(met, (at.states, voltage.value)))
+                Some(self.output(met, (at.states, voltage.value, elongated)))
             }
             (FREE, Some(_)) => Some(Output::Free),
             // At an end of the window the rate of the command jumps.
@@ -88,7 +92,7 @@ impl Component for Driver {
                 } else {
                     followed
                 };
-                Some(self.output(met, (at.states, voltage.value)))
+                Some(self.output(met, (at.states, voltage.value, elongated)))
             }
             _ => None,
         };
@@ -110,20 +114,24 @@ impl Component for Driver {
         // After a jump the law is still the one before: the window cuts whatever that says.
         let located = passage.located && !jumps;
         let followed = self.followed((course, located), command, &passage.states);
+        let elongation = self.elongation(&passage.inputs);
         let voltage = if passage.located {
-            self.voltage(course, followed, (&passage.states, kept.offset))
+            self.voltage(course, followed, (&passage.states, kept.offset, elongation.rate))
         } else {
-            self.saturated(followed, (&passage.states, memory.as_slice()), passage.t)
+            self.saturated(followed, (&passage.states, memory.as_slice()), (passage.t, elongation))
         };
         if self.spec.resistance.is_none() && (course.output == Output::Free || !passage.located) {
             kept.offset = voltage.value - passage.states[VOLTAGE];
         }
         kept.at = passage.t;
         if !jumps {
-            kept.fastest = kept.fastest.max(voltage.rate.abs());
+            kept.fastest = kept.fastest.max(self.flow(voltage.rate, elongation.rate).abs());
         }
+        // A start is not told how long the stack is.
+        let before = if kept.time > 0.0 { kept.elongation } else { elongation.value };
+        kept.elongation = elongation.value;
         let given = passage.states[WORK] - kept.work;
-        kept.way += (voltage.value - kept.last).abs();
+        kept.way += self.flow(voltage.value - kept.last, elongation.value - before).abs();
         kept.drawn += given.max(0.0);
         (kept.last, kept.work) = (voltage.value, passage.states[WORK]);
         kept.time += passage.duration;
@@ -146,7 +154,9 @@ impl Component for Driver {
     }
 
     fn columns(&self) -> Vec<&'static str> {
-        vec!["voltage_V", "current_A", "source_J", "stored_J", "lost_J"]
+        let mut columns = vec!["voltage_V", "current_A", "source_J", "stored_J", "lost_J"];
+        columns.extend(self.strain.map(|_| "worked_J"));
+        columns
     }
 }
 
@@ -162,17 +172,23 @@ impl Block for Driver {
         if self.spec.low.is_some() {
             states.extend([value, 0.0]);
         }
+        if self.worked().is_some() {
+            states.push(0.0);
+        }
         (states, Kept { last: value, ..Kept::default() }.numbers().to_vec())
     }
 
     fn slopes(&self, standing: Now<'_>, at: &At<'_>, slopes: &mut [f64], _: &mut [f64]) -> Powers {
         let (_, followed, voltage) = self.now(standing, at);
-        let current = self.current(voltage.rate);
+        let current = self.current(self.flow(voltage.rate, self.elongation(at.inputs).rate));
         slopes[VOLTAGE] = voltage.rate;
         slopes[WORK] = followed.value / self.spec.gain * current;
         slopes[LOST] = (followed.value - voltage.value) / self.spec.gain * current;
         if self.spec.low.is_some() {
             (slopes[LOW], slopes[LOW_RATE]) = (followed.rate, followed.acceleration);
+        }
+        if let Some(worked) = self.worked() {
+            slopes[worked] = self.power(voltage, at);
         }
         Powers::default()
     }
@@ -215,20 +231,24 @@ impl Block for Driver {
             (Output::Free, None) if near => Sample { value: own, ..followed },
             _ => followed,
         };
-        course.output = self.output(met, (at.states, own));
+        course.output = self.output(met, (at.states, own, self.elongation(at.inputs).rate));
         (course != before).then(|| (EventKind::Own(course.word(before)), course.law()))
     }
 
-    /// A jump that it passes on charges the capacitance at once, ½C(V₂² - V₁²). Nothing of that is lost: the source goes with it.
+    /// A jump that it passes on charges the capacitance at once, ½C(V₂² - V₁²), held as long as the stack is. Nothing of that is
+    /// lost: the source goes with it.
     fn jump(&self, standing: Now<'_>, at: &At<'_>, states: &mut [f64]) {
         if self.passes_jumps() {
             let course = Course::of(*standing.law);
-            let [from, to] = [
-                crate::figures::last(standing.memory).0,
-                self.followed((course, false), at.inputs[0], at.states).value,
-            ];
+            let from = last(standing.memory).stroke;
+            let to = self.followed((course, false), at.inputs[0], at.states).value;
             let volts = [from, to].map(|stroke| stroke / self.spec.gain);
-            states[WORK] += 0.5 * self.spec.capacitance * (volts[1] + volts[0]) * (volts[1] - volts[0]);
+            let held = self.flow(self.spec.capacitance, 0.0);
+            states[WORK] += 0.5 * held * (volts[1] + volts[0]) * (volts[1] - volts[0]);
+            if let Some(worked) = self.worked() {
+                let middle = 0.5 * (from + to) - self.elongation(at.inputs).value;
+                states[worked] += self.stiffness() * middle * (to - from);
+            }
         }
     }
 
@@ -254,10 +274,12 @@ impl Block for Driver {
     fn fill(&self, standing: Now<'_>, at: &At<'_>, row: &mut Vec<f64>) {
         let (_, _, voltage) = self.now(standing, at);
         let volts = voltage.value / self.spec.gain;
-        let stored = 0.5 * self.spec.capacitance * volts * volts;
+        let elongation = self.elongation(at.inputs);
+        let stored = self.stored(voltage.value, elongation.value);
         // Where the command has just turned the law is still the one before: no more flows than may.
         let (down, up) = self.spec.slew();
-        let current = self.current(voltage.rate.clamp(-down, up));
+        let current = self.current(self.flow(voltage.rate, elongation.rate).clamp(-down, up));
         row.extend([volts, current, at.states[WORK], stored, at.states[LOST]]);
+        row.extend(self.worked().map(|worked| at.states[worked]));
     }
 }

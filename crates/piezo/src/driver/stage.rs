@@ -1,7 +1,7 @@
 //! What a driver's stages make of a moment: the window, the low-pass, the output stage.
 
 use super::{Course, Driver, Output, Window};
-use crate::figures::last;
+use crate::figures::{Last, last};
 use stickslip_drive::Sample;
 use stickslip_drive::component::{Moment, Standing};
 
@@ -43,9 +43,10 @@ impl Driver {
         Sample { value, rate, acceleration }
     }
 
-    /// Rate that the output stage wishes for without a limit, m/s.
-    pub(super) fn wish(&self, followed: Sample, states: &[f64]) -> f64 {
-        self.spec.time().map_or(followed.rate, |time| (followed.value - states[VOLTAGE]) / time)
+    /// Current, as a rate of the stroke, that the output stage wishes for without a limit, m/s, at this rate of the elongation.
+    pub(super) fn wish(&self, followed: Sample, (states, elongated): (&[f64], f64)) -> f64 {
+        let follows = || self.flow(followed.rate, elongated);
+        self.spec.time().map_or_else(follows, |time| (followed.value - states[VOLTAGE]) / time)
     }
 
     /// The voltage as a stroke, m, with its rate, m/s.
@@ -53,42 +54,58 @@ impl Driver {
         &self,
         course: Course,
         followed: Sample,
-        (states, offset): (&[f64], f64),
+        (states, offset, elongated): (&[f64], f64, f64),
     ) -> Sample {
         let (down, up) = self.spec.slew();
         let own = states[VOLTAGE] + offset;
-        let limited = |rate: f64| Sample { value: own, rate, acceleration: 0.0 };
+        // How the elongation accelerates is what the scene is about to work out: nothing that a stack drives asks for it.
+        let limited =
+            |flow: f64| Sample { value: own, rate: self.charged(flow, elongated), acceleration: 0.0 };
         match (course.output, self.spec.time()) {
             (Output::Rising, _) => limited(up),
             (Output::Falling, _) => limited(-down),
             (Output::Free, None) => followed,
             (Output::Free, Some(time)) => {
-                let rate = self.wish(followed, states);
-                Sample { value: own, rate, acceleration: (followed.rate - rate) / time }
+                let rate = self.charged(self.wish(followed, (states, elongated)), elongated);
+                let acceleration = self.charged((followed.rate - rate) / time, 0.0);
+                Sample { value: own, rate, acceleration }
             }
         }
     }
 
     /// The same by what limits it alone, whatever the law: where laws change a step late. It never goes faster than the
     /// current allows, nor from where it was at the last step (in memory) to where that does not let it be at time t, s.
-    pub(super) fn saturated(&self, followed: Sample, (states, memory): (&[f64], &[f64]), t: f64) -> Sample {
+    pub(super) fn saturated(
+        &self,
+        followed: Sample,
+        (states, memory): (&[f64], &[f64]),
+        (t, elongation): (f64, Sample),
+    ) -> Sample {
         if self.spec.current.is_none() && self.spec.resistance.is_none() {
             return followed;
         }
         let (down, up) = self.spec.slew();
-        let wish = self.wish(followed, states);
-        let rate = wish.clamp(-down, up);
+        let wish = self.wish(followed, (states, elongation.rate));
+        let flow = wish.clamp(-down, up);
+        let rate = self.charged(flow, elongation.rate);
         let within = |value: f64, acceleration: f64| Sample {
             value,
             rate,
-            acceleration: if rate == wish { acceleration } else { 0.0 },
+            acceleration: if flow == wish { acceleration } else { 0.0 },
         };
         if let Some(time) = self.spec.time() {
-            return within(states[VOLTAGE] + Self::offset(memory), (followed.rate - wish) / time);
+            let acceleration = self.charged((followed.rate - rate) / time, 0.0);
+            return within(states[VOLTAGE] + Self::offset(memory), acceleration);
         }
-        let (last, since) = last(memory);
-        let (lowest, highest) = (last - down * (t - since), last + up * (t - since));
-        let at_limit = |value: f64, rate: f64| Sample { value, rate, acceleration: 0.0 };
+        let Last { stroke, elongation: from, at: since } = last(memory);
+        let charge = self.flow(stroke, from);
+        let reached = |flow: f64| self.charged(charge + flow * (t - since), elongation.value);
+        let (lowest, highest) = (reached(-down), reached(up));
+        let at_limit = |value: f64, flow: f64| Sample {
+            value,
+            rate: self.charged(flow, elongation.rate),
+            acceleration: 0.0,
+        };
         match followed.value {
             value if value < lowest => at_limit(lowest, -down),
             value if value > highest => at_limit(highest, up),
@@ -104,16 +121,21 @@ impl Driver {
     pub(super) fn now(&self, standing: Now<'_>, at: &At<'_>) -> (Course, Sample, Sample) {
         let course = Course::of(*standing.law);
         let followed = self.followed((course, at.located), at.inputs[0], at.states);
+        let elongation = self.elongation(at.inputs);
         let voltage = if at.located {
-            self.voltage(course, followed, (at.states, Self::offset(standing.memory)))
+            self.voltage(course, followed, (at.states, Self::offset(standing.memory), elongation.rate))
         } else {
-            self.saturated(followed, (at.states, standing.memory), at.t)
+            self.saturated(followed, (at.states, standing.memory), (at.t, elongation))
         };
         (course, followed, voltage)
     }
 
     /// What the output stage does from here on, by where it stands and what it wishes.
-    pub(super) fn output(&self, followed: Sample, (states, voltage): (&[f64], f64)) -> Output {
+    pub(super) fn output(
+        &self,
+        followed: Sample,
+        (states, voltage, elongated): (&[f64], f64, f64),
+    ) -> Output {
         let (down, up) = self.spec.slew();
         if self.spec.current.is_none() {
             return Output::Free;
@@ -122,7 +144,7 @@ impl Driver {
         if self.spec.resistance.is_none() && ahead.abs() > ROUNDING * self.span {
             return if ahead > 0.0 { Output::Rising } else { Output::Falling };
         }
-        let wish = self.wish(followed, states);
+        let wish = self.wish(followed, (states, elongated));
         if wish > up * (1.0 + ROUNDING) {
             Output::Rising
         } else if wish < -down * (1.0 + ROUNDING) {
@@ -132,8 +154,8 @@ impl Driver {
         }
     }
 
-    /// Current of a rate, A.
-    pub(super) fn current(&self, rate: f64) -> f64 {
-        self.spec.capacitance * rate / self.spec.gain
+    /// Current, A, that is a rate of the stroke.
+    pub(super) fn current(&self, flow: f64) -> f64 {
+        self.spec.capacitance * flow / self.spec.gain
     }
 }

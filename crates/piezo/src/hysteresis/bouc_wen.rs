@@ -83,6 +83,11 @@ impl BoucWen {
         self.slope
     }
 
+    /// n A/z_m, in 1 over the unit of the input: how fast z settles along the way of v as it comes to ±z_m.
+    pub fn settling(&self) -> f64 {
+        self.exponent * self.slope / self.limit
+    }
+
     /// dz/dv and its own derivative by z, on the branch on which v goes in a sense and z has a sign (`side`); it goes on
     /// smoothly beyond z = 0.
     pub fn gradient(&self, z: f64, sense: f64, side: f64) -> (f64, f64) {

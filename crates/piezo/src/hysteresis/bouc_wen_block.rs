@@ -169,6 +169,12 @@ impl Block for BoucWenBlock {
         self.reading.turns
     }
 
+    /// Near its end z settles at n (A/z_m)|v̇|: with the fastest that the input may go, as a sine of its span between its turns.
+    fn eigenvalues(&self, _: &[Sample]) -> Vec<(f64, f64)> {
+        let fastest = 0.25 * self.reading.span * self.reading.turns;
+        vec![(-self.law.settling() * fastest, 0.0)]
+    }
+
     /// The turn, and z coming back through 0.
     fn events_per_turn(&self) -> u32 {
         2

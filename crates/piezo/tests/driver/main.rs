@@ -7,3 +7,5 @@ mod books;
 mod limits;
 mod parts;
 mod passes;
+mod reciprocal;
+mod stable;

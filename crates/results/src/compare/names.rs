@@ -1,16 +1,19 @@
 //! What the name of a channel or figure says.
 
 /// SI units by the end of a name.
-const UNITS: [(&str, &str); 10] = [
+const UNITS: [(&str, &str); 13] = [
     ("_rad_s", "rad/s"),
     ("_m_s", "m/s"),
     ("_N_m", "N/m"),
+    ("_m_V", "m/V"),
     ("_rad", "rad"),
     ("_Hz", "Hz"),
     ("_m", "m"),
     ("_N", "N"),
     ("_J", "J"),
     ("_V", "V"),
+    ("_A", "A"),
+    ("_F", "F"),
     ("_s", "s"),
 ];
 
@@ -39,6 +42,7 @@ mod tests {
         let read = |name| (owner(name), unit(name));
         assert_eq!(read("slider.x_m"), ("slider", "m"));
         assert_eq!(read("slider.vpitch_rad_s"), ("slider", "rad/s"));
+        assert_eq!(read("stack.current_A"), ("stack", "A"));
         assert_eq!(read("ball.state"), ("ball", ""));
         assert_eq!(read("contacts.ball.fretting.cycle_s[1]"), ("ball", "s"));
         assert_eq!(read("contacts.x_m"), ("contacts", "m"));

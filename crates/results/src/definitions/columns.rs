@@ -56,17 +56,30 @@ pub(super) const COLUMNS: &[Definition] = &[
         "ACTUATOR.voltage_V",
         "voltage V at a stack that has a driver; charge over C where that controls the charge",
     ),
-    of("trace.csv", "ACTUATOR.current_A", "current C·dV/dt into the stack"),
+    of(
+        "trace.csv",
+        "ACTUATOR.current_A",
+        "current C·dV/dt into the stack, with the charge of strain where the driver is reciprocal",
+    ),
     of(
         "trace.csv",
         "ACTUATOR.source_J",
         "work ∫f·I dt of the driver's source since the start, f what its output stage follows",
     ),
-    of("trace.csv", "ACTUATOR.stored_J", "energy CV²/2 in the stack's capacitance"),
+    of(
+        "trace.csv",
+        "ACTUATOR.stored_J",
+        "energy CV²/2 in the stack's capacitance; of a reciprocal driver less kαV(αV - e)",
+    ),
     of(
         "trace.csv",
         "ACTUATOR.lost_J",
         "work ∫(f - V)·I dt lost in the driver since the start: source less what the store has gained",
+    ),
+    of(
+        "trace.csv",
+        "ACTUATOR.worked_J",
+        "work ∫k(αV - e)α dV of a stack since the start that its reciprocal driver pays: source less lost less what the store has gained",
     ),
     of("trace.csv", "ACTUATOR.hysteresis.stroke_m", "free stroke behind the hysteresis of a stack"),
     of("trace.csv", "ACTUATOR.creep.stroke_m", "free stroke behind its creep: what the stack follows"),

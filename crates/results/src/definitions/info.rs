@@ -101,10 +101,16 @@ pub(super) const INFO: &[Definition] = &[
     of("stepping.until_steady", "largest relative change of a step at which the run ends earlier"),
     of(
         "stepping.longest_verlet_step_s",
-        "longest stable step of velocity Verlet, 2/ω of the fastest mode with all contacts stuck and as deep as they get",
+        "longest stable step of velocity Verlet: 2/ω of the fastest mode with all contacts stuck and as deep as they get, or RC of a driver",
     ),
-    of("stepping.longest_rk4_step_s", "the same of the classical Runge–Kutta method, 2√2/ω without damping"),
-    of("actuators.ACTUATOR.stiffness_N_m", "k, given or blocking force over stroke of the data sheet"),
+    of(
+        "stepping.longest_rk4_step_s",
+        "the same of the classical Runge–Kutta method: 2√2/ω without damping, or 2.785·RC",
+    ),
+    of(
+        "actuators.ACTUATOR.stiffness_N_m",
+        "k, given or blocking force over stroke of the data sheet; k/(1 - kα²/C) of a reciprocal stack under charge control",
+    ),
     of("actuators.ACTUATOR.damping_N_s_m", "c, given or √(k m)/Q with m the mass that it moves"),
     of("actuators.ACTUATOR.quality", "Q, from which c follows where the scenario gives none"),
     of("actuators.ACTUATOR.mass_kg", "its own mass, given or k/(2f)² of the resonance with both ends free"),
@@ -114,7 +120,7 @@ pub(super) const INFO: &[Definition] = &[
     of("actuators.ACTUATOR.resolution_m", "smallest step of its driver as a stroke"),
     of(
         "actuators.ACTUATOR.coupling",
-        "kα²/C: share of the electrical energy that the charge of strain, left out, comes to",
+        "kα²/C: share of the electrical energy that the charge of strain comes to, left out unless the driver is reciprocal",
     ),
     of("actuators.ACTUATOR.command.stroke_m", "smallest and largest free stroke that is commanded"),
     of("actuators.ACTUATOR.command.voltage_V", "smallest and largest voltage that is commanded"),

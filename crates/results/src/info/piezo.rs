@@ -18,7 +18,7 @@ const WHOLE: f64 = 2e-3;
 /// A stack.
 #[derive(Debug, Serialize)]
 pub struct PiezoInfo {
-    /// k.
+    /// k; of a stack under charge control with the charge of strain k/(1 - kα²/C).
     #[serde(rename = "stiffness_N_m")]
     pub stiffness: Real,
     /// c.
@@ -42,7 +42,7 @@ pub struct PiezoInfo {
     /// Smallest step of its driver as a stroke.
     #[serde(rename = "resolution_m", skip_serializing_if = "Option::is_none")]
     pub resolution: Option<Real>,
-    /// kα²/C: what the charge that strain makes, which is left out, comes to, as a part of the electrical energy.
+    /// kα²/C: what the charge that strain makes, left out unless the driver is `reciprocal`, comes to, as a part of the electrical energy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Real>,
     /// What it is commanded.
@@ -111,6 +111,7 @@ fn of(job: &Job, i: usize, piezo: &Piezo) -> PiezoInfo {
         Varying::Follows(_) => waveform.map_or((0.0, 0.0), Waveform::range),
     };
     let stack = piezo.stack;
+    let stiffness = scene.actuators[i].part.stiffness;
     let volts = |stroke: f64| stack.stroke_per_volt.map(|gain| Real(stroke / gain));
     let seen =
         piezo.driver.zip(waveform).and_then(|(spec, waveform)| Some((spec, forecast(&spec, waveform)?)));
@@ -127,7 +128,7 @@ fn of(job: &Job, i: usize, piezo: &Piezo) -> PiezoInfo {
     words.extend(idle(job, i, &piezo.name, stroke));
     words.extend(super::ceramic::words(piezo));
     PiezoInfo {
-        stiffness: Real(stack.stiffness),
+        stiffness: Real(stiffness),
         damping: Real(scene.actuators[i].part.damping),
         quality: piezo.quality.map(Real),
         mass: Some(stack.mass).filter(|mass| *mass > 0.0).map(Real),
@@ -139,7 +140,7 @@ fn of(job: &Job, i: usize, piezo: &Piezo) -> PiezoInfo {
         command: CommandInfo {
             stroke: [low, high].map(Real),
             voltage: volts(low).zip(volts(high)).filter(|_| piezo.by_voltage).map(|(low, high)| [low, high]),
-            blocking_force: Real(stack.stiffness * low.abs().max(high.abs())),
+            blocking_force: Real(stiffness * low.abs().max(high.abs())),
             left: left.map(|(low, high)| [low, high].map(Real)),
         },
         corner: seen.as_ref().map(|(spec, forecast)| corner(spec, forecast)),

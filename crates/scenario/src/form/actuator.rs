@@ -154,6 +154,11 @@ pub(crate) struct DriverForm {
     #[serde(default)]
     #[schemars(example = &"charge")]
     pub(crate) control: ControlForm,
+    /// Whether the charge kα(e - αV) that strain makes is there, C being the capacitance of the free stack: it flows through the driver and,
+    /// under charge control, stiffens the stack to k/(1 - kα²/C); false by default. `info` tells kα²/C.
+    #[serde(default)]
+    #[schemars(example = true)]
+    pub(crate) reciprocal: bool,
 }
 
 /// What a driver controls.

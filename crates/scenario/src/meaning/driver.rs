@@ -6,7 +6,7 @@ use crate::form::{ActuatorForm, ControlForm, DriverForm};
 use crate::path::At;
 use std::f64::consts::FRAC_1_SQRT_2;
 use stickslip_drive::component::Input;
-use stickslip_drive::scene::{Named, Scene, Varying};
+use stickslip_drive::scene::{Actuator, Named, Scene, Varying};
 use stickslip_piezo::driver::{Control, Driver, Low, Spec};
 
 /// Damping ratios of a low-pass.
@@ -59,12 +59,50 @@ impl Builder<'_> {
                 return outside(format!("expected a start inside {window}, got {} V", range::short(first)));
             }
         }
+        let coupling = if form.reciprocal { Some(self.coupling(&at, i)?) } else { None };
+        if let (Some(coupling), Control::Charge) = (coupling, spec.control) {
+            // V = (Q - kαe)/C(1 - κ): k(αV - e) is the force of a stack of this stiffness whose stroke is αQ/C.
+            self.scene.actuators[i].part.stiffness /= 1.0 - coupling;
+        }
         let Varying::Follows(signal) = command else { return Ok(command) };
-        let driver = Driver::new(spec, signal, reach).shared();
+        let driver = Driver::new(spec, signal, reach);
+        let driver = match coupling.filter(|_| spec.control == Control::Voltage) {
+            Some(coupling) => driver.reciprocal(coupling, self.elongation(i)),
+            None => driver,
+        };
         let place = self.scene.blocks.len();
         self.stacks[i].block = Some(place);
-        self.scene.blocks.push(Named { name: self.stacks[i].name.clone(), part: driver });
+        self.scene.blocks.push(Named { name: self.stacks[i].name.clone(), part: driver.shared() });
         Ok(Varying::Follows(self.scene.waveforms.len() + place))
+    }
+}
+
+impl Builder<'_> {
+    /// κ = kα²/C of a stack whose strain is to make charge.
+    fn coupling(&self, at: &At<'_>, i: usize) -> Result<f64, Fault> {
+        let fault = |what: String| Err(at.key("reciprocal").fault(what));
+        let ceramic = &self.stacks[i].ceramic;
+        if !ceramic.idle && (ceramic.hysteresis.is_some() || ceramic.creep.is_some()) {
+            return fault("the charge of strain is that of a stack without hysteresis and creep".to_owned())
+                .map_err(|fault| fault.help("leave it out, or control the charge"));
+        }
+        match self.stacks[i].stack.coupling() {
+            Some(coupling) if coupling < 1.0 => Ok(coupling),
+            coupling => {
+                let coupling = range::short(coupling.unwrap_or(f64::NAN));
+                fault(format!(
+                    "expected kα²/C below 1, got {coupling}: the stack would give more than it gets"
+                ))
+                .map_err(|fault| fault.help("look at stiffness, stroke per volt and capacitance"))
+            }
+        }
+    }
+
+    /// Elongation of a stack, second end less first.
+    fn elongation(&self, i: usize) -> Input {
+        let Actuator { between: [first, second], at: [near, far], direction, .. } =
+            self.scene.actuators[i].part;
+        Input::Length { between: [second, first], at: [far, near], direction }
     }
 }
 
@@ -73,7 +111,7 @@ pub(super) fn cut(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
     let (spec, block) = (piezo.driver?, scene.blocks.get(piezo.block?)?);
     let (low, high) = spec.window?;
     // What it reads, which is the command or what compensation makes of it.
-    let &[Input::Signal(signal)] = block.part.0.inputs() else { return None };
+    let &[Input::Signal(signal), ..] = block.part.0.inputs() else { return None };
     let (least, most) = ceramic::reach(scene, signal);
     let [least, most] = [least, most].map(|value| value / spec.gain);
     let slack = ROUNDING * (high - low);

@@ -6,7 +6,7 @@ use super::{Nystrom, ORDER, Storage};
 
 impl<N: Storage> Nystrom<N> {
     /// Largest difference of the two orders in units of `scale`: of positions, velocities and, where `scale` has values for
-    /// them, quadratures. Why the largest, says the estimate of [`Dop853`](crate::Dop853).
+    /// them, quadratures. Why the largest, says the estimate of [`DormandPrince`](crate::DormandPrince).
     #[inline]
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
         let (h, n) = (self.step, self.positions());

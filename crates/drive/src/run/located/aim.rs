@@ -52,6 +52,8 @@ const OVERSTEP: f64 = 1.05;
 // With 20 some profiles end nearer, but a sine drive at 1e-6 no longer finds its steady step; with 1 a profile of power 4 has
 // five times the error at 1e-9.
 const FASTEST: f64 = 2.0;
+/// Shortest step of few stages, as a part of the longest: what turns sooner is as good as turning.
+const LEAST: f64 = 0.05;
 /// A step is not tried again with less than this part of it, and the next one is no shorter.
 // Refused: 0.8, four times the error on a profile of power 3. With 0.02 no run differs.
 pub(super) const SHRINK: f64 = 0.2;
@@ -86,7 +88,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let most = step.max(self.motion.pace.gait.proven / FASTEST).min(longest / FASTEST);
         let first = [self.piece_end(state), self.lift_off(state, step.max(most))].into_iter().flatten();
         let start = |step: f64| Aim { grade: self.start_grade(state, step), ..even(step) };
-        let Some(first) = first.min_by(|a, b| a.left.total_cmp(&b.left)) else { return start(step) };
+        let first = first.min_by(|a, b| a.left.total_cmp(&b.left));
+        if self.start_grade(state, step) == Grade::Even
+            && first.is_none_or(|first| !self.is_singular(state, first))
+            && let Some(brief) = self.brief(state, (step, first.map_or(f64::INFINITY, within)), corner)
+        {
+            return brief;
+        }
+        let Some(first) = first else { return start(step) };
         // Half of what may be missed, on the far side of the moment: its guard has then fallen inside the
         // step.
         let over = 0.5 * self.motion.pace.closeness * first.left;
@@ -104,6 +113,26 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let closes = Some((first.contact, first.guard));
         Aim { target: state.t + to, grade: Grade::End, most, singular: f64::INFINITY, closes }
+    }
+
+    /// A step of few stages, where something near will end it anyway: the law of a contact as it moves now, or a corner. Beyond
+    /// that moment a longer step would be lost.
+    fn brief(&self, state: &State, (step, left): (f64, f64), corner: f64) -> Option<Aim> {
+        let short = self.motion.pace.short;
+        // What few stages were refused is tried again with all.
+        if short == 0.0 || self.control.history().rejected.is_some() {
+            return None;
+        }
+        let eq = self.setting.equations(state, &self.interval);
+        let ends = left.min(OVERSTEP * self.watch.turn(&eq, &self.motion.solver)).min(corner - state.t);
+        let brief = |step: f64| Aim {
+            target: end(state.t, step, corner),
+            grade: Grade::Few,
+            most: step,
+            singular: f64::INFINITY,
+            closes: None,
+        };
+        (ends <= short.min(step)).then(|| brief(ends.max(LEAST * short).min(step)))
     }
 
     /// Whether a law ends with a force that goes with a power 3/2 of the time left, and enough of it to tell.

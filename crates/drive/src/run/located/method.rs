@@ -4,7 +4,7 @@ use super::{Located, Setting};
 use crate::Plan;
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
-use stickslip_stepper::{DOP853_ORDER, Dop853, NYSTROM_ORDER, One, Paired};
+use stickslip_stepper::{DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired};
 
 /// A run between located events, by the method of the scene's intervals without a closed form: where no force depends on a
 /// velocity, one that spares a third of the evaluations.
@@ -14,7 +14,7 @@ pub(in crate::run) enum LocatedRun<'a> {
     /// Several.
     Many(Box<Located<'a, Paired>>),
     /// With dampers, varying loads or growth.
-    General(Box<Located<'a, Dop853>>),
+    General(Box<Located<'a, DormandPrince>>),
 }
 
 impl<'a> LocatedRun<'a> {
@@ -32,7 +32,7 @@ impl<'a> LocatedRun<'a> {
                 Self::Many(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
             }
             _ => {
-                let solver = Dop853::new(layout.dimension(), layout.total());
+                let solver = DormandPrince::new(layout.dimension(), layout.total());
                 Self::General(Box::new(Located::new(setting, plan, solver, DOP853_ORDER)))
             }
         }

@@ -9,6 +9,7 @@ use super::aim::{Aim, SHRINK};
 use super::allowance::Allowance;
 use crate::Waveform;
 use crate::equations::Equations;
+use crate::method::{Method, TIGHTEST_BRIEF};
 use crate::model::{Free, Model};
 use crate::state::{Ahead, Gait, Grip, State, Whereabouts};
 use stickslip_stepper::{Attempt, End, Grade, Target};
@@ -39,6 +40,8 @@ pub(super) struct Pace {
     pub(super) longest: f64,
     /// What takes its place at the start of a run where there is none, s.
     first: f64,
+    /// Longest step, s, of few stages, for what something near will end; 0 where the method has no other.
+    pub(super) short: f64,
     /// How near to a singular moment a step must end, as a part of it.
     pub(super) closeness: f64,
     /// How much must be left before such a moment for its law to matter, in natural lengths.
@@ -54,6 +57,11 @@ impl<A> Motion<A> {
         let pace = Pace {
             longest: longest(model),
             first: scene_time(model),
+            short: if setting.method == Method::DormandPrince {
+                short(tolerance) / model.fastest
+            } else {
+                0.0
+            },
             closeness: closeness(model, tolerance),
             resolved: tolerance.powf(2.0 / 3.0),
             gait: Gait { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips },
@@ -226,4 +234,15 @@ fn scene_time(model: &Model) -> f64 {
 fn closeness(model: &Model, tolerance: f64) -> f64 {
     let damped = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
     0.1 * tolerance.powf(if damped { 2.0 / 3.0 } else { 0.4 })
+}
+
+/// Error of a swing's amplitude that the embedded estimate of order 5 tells after a step of one radian: what its polynomial of
+/// stability lacks of the fifth power, 1097/120000 - 1/120.
+const ESTIMATED: f64 = 8.1e-4;
+/// Longest step of it, rad: up to here swings do not grow.
+const STABLE: f64 = 0.9;
+
+/// Longest step that the pair of order 5 takes, in radians of the fastest swing: there it meets the tolerance.
+fn short(tolerance: f64) -> f64 {
+    if tolerance < TIGHTEST_BRIEF { 0.0 } else { (tolerance / ESTIMATED).powf(0.2).min(1.0) * STABLE }
 }

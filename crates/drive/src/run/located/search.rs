@@ -30,6 +30,17 @@ struct Search<'r, 'e, A> {
     eq: &'r Equations<'e>,
 }
 
+/// A moment inside a step.
+#[derive(Clone, Copy)]
+struct Instant {
+    /// s.
+    t: f64,
+    /// The same as the dense output counts.
+    part: f64,
+    /// The contact last asked for, and its motion: all its guards are functions of it.
+    moved: Option<(usize, Motion)>,
+}
+
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 // Seven looks or one see the same but for a few events of contacts that grow under a sine of load.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
@@ -98,15 +109,17 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// A guard that is up at both ends of the step may be down where another one falls: the piece of memory that an
     /// edge has used up before it turns back. Then that one comes first.
     fn before(&mut self, mut first: Fall<'e>) -> Fall<'e> {
+        let mut moment = self.moment(first.t);
         Watched::each(self.eq, |watched| {
             if watched.fallen() == first.watched.fallen() {
                 return;
             }
-            let g = self.inside(watched, first.t);
+            let g = self.value_then(watched, &mut moment);
             if g < 0.0 && self.has_fallen(watched, g) {
                 let t = self.fall(watched, (first.t, g));
                 if t < first.t {
                     first = Fall { t, watched };
+                    moment = self.moment(t);
                 }
             }
         });
@@ -256,13 +269,30 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// Its value at a time inside the step, on the dense output.
     #[inline(always)]
     fn inside(&self, watched: Watched<'_>, t: f64) -> f64 {
-        let value = |i: usize| self.solver.value(i, t);
+        self.value_then(watched, &mut self.moment(t))
+    }
+
+    #[inline(always)]
+    fn moment(&self, t: f64) -> Instant {
+        Instant { t, part: self.solver.part(t), moved: None }
+    }
+
+    /// Its value at a moment inside the step, on the dense output.
+    #[inline(always)]
+    fn value_then(&self, watched: Watched<'_>, at: &mut Instant) -> f64 {
+        let (t, part) = (at.t, at.part);
+        let value = |i: usize| self.solver.value_at(i, part);
         match watched {
             Watched::Closed(steady, guard) => {
                 steady.guard(guard, t, value, |i| value(self.eq.layout.velocity(i)))
             }
             Watched::Contact(index, contact, guard) => {
-                guard.value(contact, self.eq.law(index), &self.eq.motion(contact, t, value))
+                let motion = match at.moved {
+                    Some((known, motion)) if known == index => motion,
+                    _ => self.eq.motion(contact, t, value),
+                };
+                at.moved = Some((index, motion));
+                guard.value(contact, self.eq.law(index), &motion)
             }
             Watched::Block(k, guard) => self.eq.block_guard(k, guard, t, value),
         }

@@ -94,7 +94,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if turns || !self.watch.fired.is_empty() {
             self.pass_event(state, turns, record)?;
         } else {
-            self.watch.go_on();
+            self.go_on(state);
             if self.motion.rest(self.setting.model, state) {
                 self.stop(state);
             }
@@ -133,6 +133,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         match aim.grade {
             _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
             Grade::Even => self.setting.method,
+            Grade::Few => Method::Brief,
             Grade::Start | Grade::End => Method::Graded,
         }
     }
@@ -153,7 +154,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         self.motion.pace.refuse(aim);
         state.counts.rejected += 1;
-        state.step = verdict.next;
+        // That few stages do not do says nothing about all of them.
+        if aim.grade != Grade::Few {
+            state.step = verdict.next;
+        }
         // Perhaps rounding has grown above what was allowed for it.
         self.motion.allowance.set(self.setting.model, state);
         if verdict.next > 4.0 * f64::EPSILON * state.t.abs() && verdict.next > f64::MIN_POSITIVE {
@@ -188,6 +192,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let scene = (self.setting.model, self.setting.layout);
         self.ledger.commit(scene, t, state)?;
         if self.setting.model.blocks.is_empty() { Ok(()) } else { self.ledger.commit_blocks(scene, state) }
+    }
+
+    /// The end of a step is the start of the next one.
+    ///
+    /// Places without mass are solved for from where the memories are, which have moved: they are looked at anew, as a run that is
+    /// taken up here does.
+    fn go_on(&mut self, state: &State) {
+        if self.setting.model.balanced.is_empty() {
+            self.watch.go_on();
+        } else {
+            self.watch.set_out(&self.setting.equations(state, &self.interval), &self.motion.solver);
+        }
     }
 
     /// Takes away what rounding has left of the velocities: it would add up over a long rest.

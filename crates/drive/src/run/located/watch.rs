@@ -150,6 +150,32 @@ fn second(
 }
 
 impl Watch {
+    /// When the first contact will turn or leave full stick as it moves now, s from the start of the step.
+    pub(super) fn turn(&self, eq: &Equations<'_>, solver: &impl Step) -> f64 {
+        let Some(interval) = eq.interval else { return f64::INFINITY };
+        let (span, n) = (solver.span(), eq.layout.free);
+        let (v, a) = (|i: usize| span.begin[n + i], |i: usize| solver.slope(n + i, End::Start));
+        let falls = |value: f64, rate: f64| {
+            if value > 0.0 && rate < 0.0 { -value / rate } else { f64::INFINITY }
+        };
+        let closed = interval.closed.iter().map(|steady| {
+            let at = |guard| steady.guard(guard, span.time, |i| span.begin[i], v);
+            falls(at(Guard::Drag), steady.guard_rate(Guard::Drag, span.time, v, a))
+        });
+        let open = interval.others.iter().flat_map(|&c| {
+            let (contact, law, Moving { motion, second }) = (&eq.model.contacts[c], eq.law(c), &self.from[c]);
+            let guards: &[Guard] = match law.1 {
+                Mode::Slip(_) => &[Guard::Drag],
+                Mode::Grow => &[Guard::Lower, Guard::Upper],
+                _ => &[],
+            };
+            guards.iter().map(move |guard| {
+                falls(guard.value(contact, law, motion), guard.rate(contact, law.1, motion, *second))
+            })
+        });
+        closed.chain(open).fold(f64::INFINITY, f64::min)
+    }
+
     /// When a contact of closed form will have used up its piece of memory, s from the start of the step.
     #[inline(always)]
     pub(super) fn expected_of_closed(steady: &Closed<'_>, n: usize, solver: &impl Step) -> f64 {

@@ -32,13 +32,11 @@ pub(super) fn course(
     }
     let origin = if repeated { ends[0].0 } else { 0.0 };
     let mut legs = Vec::new();
-    let mut shortest = f64::INFINITY;
     for (i, pair) in points.windows(2).enumerate() {
         if pair[0].0 < pair[1].0 {
             let rates = rates.get(i).copied();
             let way = rates.map_or(Way::Straight, |(first, last)| Way::Cubic(Cubic::new(first, last)));
             legs.push(Leg { start: pair[0].0 - origin, values: (pair[0].1, pair[1].1), way });
-            shortest = shortest.min(pair[1].0 - pair[0].0);
         }
     }
     let chain = if repeated {
@@ -57,7 +55,7 @@ pub(super) fn course(
         range: points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |range, point| {
             (range.0.min(point.1), range.1.max(point.1))
         }),
-        wave: if smoothed { shortest } else { f64::INFINITY },
+        wave: f64::INFINITY,
         has_jumps: inside || repeated && !closed,
     })
 }

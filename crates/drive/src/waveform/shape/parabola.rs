@@ -39,7 +39,7 @@ pub(super) fn course(stroke: f64, turn: f64, timing: &Timing) -> Result<Course, 
         ends: None,
         period: Some(period),
         range: (stroke.min(0.0), stroke.max(0.0)),
-        wave: shortest,
+        wave: f64::INFINITY,
         has_jumps: false,
     })
 }

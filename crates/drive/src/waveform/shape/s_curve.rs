@@ -36,7 +36,7 @@ pub(super) fn course(
         ends: None,
         period: Some(timing.period),
         range: (stroke.min(0.0), stroke.max(0.0)),
-        wave: rounding,
+        wave: f64::INFINITY,
         has_jumps: false,
     })
 }

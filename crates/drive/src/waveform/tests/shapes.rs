@@ -215,6 +215,9 @@ fn chirp_sweeps_its_frequency_linearly() {
     let timing = Timing { delay: 1.0, ..Timing::every(1.0) };
     let chirp = wave(Shape::Chirp(sweep), timing);
     assert_eq!((chirp.window(), chirp.period(), chirp.range()), ((1.0, 3.0), None, (3.0, 7.0)));
+    // Cubic pieces bound no step.
+    let parabola = wave(Shape::Parabola { stroke: 1.0, turn: 0.125 }, Timing::every(1.0));
+    assert_eq!((parabola.resolution(), parabola.quickest()), (f64::INFINITY, 0.125));
     assert_eq!((value(&chirp, 0.0), chirp.resolution()), (5.0, 0.25 / 3.0));
     let s = 0.7;
     let (angle, omega) = (TAU * (s + 0.5 * s * s), TAU * (1.0 + s));

@@ -1,13 +1,14 @@
 //! The stages of a step, and its end.
 
-use super::tableau::{
-    NODES, Row, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9, Stage10, Stage11, Stage12,
-    Weights,
+use super::order5;
+use super::order8::{
+    NODES, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9, Stage10, Stage11, Stage12, Weights,
 };
-use super::{Dop853, Grade};
+use super::tableau::Row;
+use super::{DormandPrince, Grade};
 use crate::{System, Target};
 
-impl Dop853 {
+impl DormandPrince {
     /// Tries a step: all stages, the end y + h Σ b_i k_i, the error.
     pub(super) fn attempt_span<S: System + ?Sized>(
         &mut self,
@@ -26,32 +27,65 @@ impl Dop853 {
             return self.coast(system);
         }
         self.recall_first();
-        self.stage::<Stage2, 1, S>(system);
-        self.stage::<Stage3, 2, S>(system);
-        self.stage::<Stage4, 3, S>(system);
-        self.stage::<Stage5, 4, S>(system);
-        self.stage::<Stage6, 5, S>(system);
-        self.stage::<Stage7, 6, S>(system);
-        self.stage::<Stage8, 7, S>(system);
-        self.stage::<Stage9, 8, S>(system);
-        self.stage::<Stage10, 9, S>(system);
-        self.stage::<Stage11, 10, S>(system);
-        self.stage::<Stage12, 11, S>(system);
-        self.keep::<11>();
-        for ((to, y), k) in self.end.iter_mut().zip(&self.begin).zip(&self.k) {
-            *to = y + h * Weights::dot(k);
-        }
-        if self.extent.grade != Grade::Even {
-            self.end.iter_mut().zip(&self.ends.first).for_each(|(to, first)| *to += h * first);
+        if self.extent.grade == Grade::Few {
+            self.by_fifth(system);
+        } else {
+            self.by_eighth(system);
         }
         self.error(scale)
     }
 
-    /// One stage, y + h Σ a k at the time of node `J`: keep the newest slope, combine all so far over the coupled components, evaluate the next.
+    /// The stages of the pair of order 5, the end, and the slopes there: they are the last stage.
+    #[inline(never)]
+    fn by_fifth<S: System + ?Sized>(&mut self, system: &S) {
+        self.stage::<order5::Stage2, S>(system, order5::NODES[1]);
+        self.stage::<order5::Stage3, S>(system, order5::NODES[2]);
+        self.stage::<order5::Stage4, S>(system, order5::NODES[3]);
+        self.stage::<order5::Stage5, S>(system, order5::NODES[4]);
+        self.stage::<order5::Stage6, S>(system, order5::NODES[5]);
+        self.keep::<5>();
+        self.end_by::<order5::Weights>();
+        self.end_slopes(system);
+        self.newest.copy_from_slice(&self.ends.last);
+        self.pace(self.extent.grade.pace(1.0));
+        self.keep::<{ order5::END }>();
+    }
+
+    /// The stages of the pair of order 8 and the end.
+    #[inline(always)]
+    fn by_eighth<S: System + ?Sized>(&mut self, system: &S) {
+        self.stage::<Stage2, S>(system, NODES[1]);
+        self.stage::<Stage3, S>(system, NODES[2]);
+        self.stage::<Stage4, S>(system, NODES[3]);
+        self.stage::<Stage5, S>(system, NODES[4]);
+        self.stage::<Stage6, S>(system, NODES[5]);
+        self.stage::<Stage7, S>(system, NODES[6]);
+        self.stage::<Stage8, S>(system, NODES[7]);
+        self.stage::<Stage9, S>(system, NODES[8]);
+        self.stage::<Stage10, S>(system, NODES[9]);
+        self.stage::<Stage11, S>(system, NODES[10]);
+        self.stage::<Stage12, S>(system, NODES[11]);
+        self.keep::<11>();
+        self.end_by::<Weights>();
+    }
+
+    /// y + h Σ b_i k_i, and the straight part that graded stages leave out.
+    #[inline(always)]
+    fn end_by<R: Row>(&mut self) {
+        let h = self.extent.step;
+        for ((to, y), k) in self.end.iter_mut().zip(&self.begin).zip(&self.k) {
+            *to = y + h * R::dot(k);
+        }
+        if !self.extent.grade.is_even() {
+            self.end.iter_mut().zip(&self.ends.first).for_each(|(to, first)| *to += h * first);
+        }
+    }
+
+    /// One stage, y + h Σ a k at the time of a node: keep the newest slope, combine all so far over the coupled components, evaluate the next.
     ///
     /// Evaluations follow on one another, so what counts is the path from one slope to the next: a product and a sum.
     #[inline(always)]
-    pub(super) fn stage<R: Row, const J: usize, S: System + ?Sized>(&mut self, system: &S) {
+    pub(super) fn stage<R: Row, S: System + ?Sized>(&mut self, system: &S, node: f64) {
         // The newest slope comes last into the sum, apart from all that is known before it: 157 ns instead of 170 for a step
         // of one oscillator. Rounding differs from the order of the books by a last place.
         let h = self.extent.step;
@@ -68,25 +102,25 @@ impl Dop853 {
         }
         // Over σ the slopes begin with 0 at a singular start; the straight motion with the first slope is taken apart from
         // them and added here exactly.
-        if self.extent.grade != Grade::Even {
-            let past = h * self.extent.grade.time(NODES[J]);
+        if !self.extent.grade.is_even() {
+            let past = h * self.extent.grade.time(node);
             self.stage.iter_mut().zip(&self.ends.first).for_each(|(to, first)| *to += past * first);
         }
         // A node of 1 is the very end of the step, not t + h, which may differ in the last bit.
-        let t = if NODES[J] == 1.0 {
+        let t = if node == 1.0 {
             self.extent.target
         } else {
-            self.extent.time + self.extent.grade.time(NODES[J]) * h
+            self.extent.time + self.extent.grade.time(node) * h
         };
         system.slopes(t, &self.stage, &mut self.newest);
         self.evaluations += 1;
-        self.pace(self.extent.grade.pace(NODES[J]));
+        self.pace(self.extent.grade.pace(node));
     }
 
     /// From slopes over the part of the time to those over σ, less the straight part: φ'(σ) (f - f₀).
     #[inline(always)]
     pub(super) fn pace(&mut self, pace: f64) {
-        if self.extent.grade != Grade::Even {
+        if !self.extent.grade.is_even() {
             self.newest
                 .iter_mut()
                 .zip(&self.ends.first)

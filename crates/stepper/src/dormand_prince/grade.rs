@@ -13,6 +13,8 @@ pub enum Grade {
     /// φ = σ.
     #[default]
     Even,
+    /// φ = σ as well, and few of them: the pair of order 5, for a step that something near will end.
+    Few,
     /// φ = σ²: the step starts at a singular moment.
     Start,
     /// φ = 1 - (1-σ)²: it ends at one.
@@ -20,11 +22,17 @@ pub enum Grade {
 }
 
 impl Grade {
+    /// Whether the stages lie evenly.
+    #[inline]
+    pub(crate) fn is_even(self) -> bool {
+        matches!(self, Self::Even | Self::Few)
+    }
+
     /// φ(σ), the part of the time.
     #[inline]
     pub(super) fn time(self, s: f64) -> f64 {
         match self {
-            Self::Even => s,
+            Self::Even | Self::Few => s,
             Self::Start => s * s,
             Self::End => s * (2.0 - s),
         }
@@ -34,7 +42,7 @@ impl Grade {
     #[inline]
     pub(super) fn pace(self, s: f64) -> f64 {
         match self {
-            Self::Even => 1.0,
+            Self::Even | Self::Few => 1.0,
             Self::Start => 2.0 * s,
             Self::End => 2.0 * (1.0 - s),
         }
@@ -44,7 +52,7 @@ impl Grade {
     #[inline]
     pub(super) fn fraction(self, done: f64, left: f64) -> f64 {
         match self {
-            Self::Even => done,
+            Self::Even | Self::Few => done,
             Self::Start => done.max(0.0).sqrt(),
             Self::End => 1.0 - left.max(0.0).sqrt(),
         }

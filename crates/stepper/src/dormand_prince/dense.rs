@@ -1,14 +1,16 @@
 //! Dense output of order 7 (Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.6, equation (6.12) ff.).
 
-use super::tableau::{Dense5, Dense6, Dense7, Dense8, END, Row, Stage14, Stage15, Stage16, Weights};
-use super::{Dop853, Grade};
+use super::order5;
+use super::order8::{Dense5, Dense6, Dense7, Dense8, END, NODES, Stage14, Stage15, Stage16, Weights};
+use super::tableau::{Row, Slopes};
+use super::{DormandPrince, Grade};
 use crate::System;
 
 /// The polynomial of one component over a step in nested form:
 /// c₀ + s(c₁ + (1-s)(c₂ + s(c₃ + (1-s)(c₄ + s(c₅ + (1-s)(c₆ + s c₇)))))), s the fraction of the step.
 pub(super) type Polynomial = [f64; 8];
 
-impl Dop853 {
+impl DormandPrince {
     /// Makes the dense output of the step tried: the end slopes if they are not known yet, and three evaluations.
     /// Nothing happens if it is there already.
     ///
@@ -22,45 +24,63 @@ impl Dop853 {
             self.dense_coast();
             return;
         }
+        if self.extent.grade == Grade::Few {
+            // The slopes at the end are a stage: all is there.
+            self.polynomials_of::<order5::Weights>(order5::END, |k| [order5::Dense5::dot(k), 0.0, 0.0, 0.0]);
+        } else {
+            self.refine(system);
+        }
+        self.dense_known = true;
+    }
+
+    /// Three more stages, and the polynomials that they lift to order 7.
+    fn refine<S: System + ?Sized>(&mut self, system: &S) {
         self.end_slopes(system);
         self.newest.copy_from_slice(&self.ends.last);
         self.pace(self.extent.grade.pace(1.0));
         self.keep::<END>();
         // Only steps in which something is looked at pay for these three. The cubic through both ends costs none, but misses
         // a swing by 1.6e-4 inside a step of half a radian, and this by 5e-9: an event would undo what the step has gained.
-        self.stage::<Stage14, 13, S>(system);
-        self.stage::<Stage15, 14, S>(system);
-        self.stage::<Stage16, 15, S>(system);
+        self.stage::<Stage14, S>(system, NODES[13]);
+        self.stage::<Stage15, S>(system, NODES[14]);
+        self.stage::<Stage16, S>(system, NODES[15]);
         self.keep::<15>();
+        self.polynomials_of::<Weights>(END, |k| {
+            [Dense5::dot(k), Dense6::dot(k), Dense7::dot(k), Dense8::dot(k)]
+        });
+    }
+
+    /// The polynomials of all components, from the slopes at both ends and four forms of the stages.
+    #[inline(always)]
+    fn polynomials_of<R: Row>(&mut self, last: usize, lift: impl Fn(&Slopes) -> [f64; 4]) {
         let (h, grade) = (self.extent.step, self.extent.grade);
         for (((c, k), begin), end) in self.polynomials.iter_mut().zip(&self.k).zip(&self.begin).zip(&self.end)
         {
-            let rise = if grade == Grade::Even { end - begin } else { h * Weights::dot(k) };
-            let bend = h * k[0] - rise;
+            let rise = if grade.is_even() { end - begin } else { h * R::dot(k) };
+            let (bend, lifted) = (h * k[0] - rise, lift(k));
             *c = [
                 *begin,
                 rise,
                 bend,
-                rise - h * k[END] - bend,
-                h * Dense5::dot(k),
-                h * Dense6::dot(k),
-                h * Dense7::dot(k),
-                h * Dense8::dot(k),
+                rise - h * k[last] - bend,
+                h * lifted[0],
+                h * lifted[1],
+                h * lifted[2],
+                h * lifted[3],
             ];
         }
         // The straight part that graded stages leave out: φ = σ ∓ σ(1-σ).
         let bend = match grade {
-            Grade::Even => 0.0,
+            Grade::Even | Grade::Few => 0.0,
             Grade::Start => -h,
             Grade::End => h,
         };
-        if grade != Grade::Even {
+        if !grade.is_even() {
             for (c, first) in self.polynomials.iter_mut().zip(&self.ends.first) {
                 c[1] += h * first;
                 c[2] += bend * first;
             }
         }
-        self.dense_known = true;
     }
 
     /// All components at time `t` of the step, by the dense output; NaN where there is none.

@@ -1,10 +1,12 @@
 //! What a step may be: its error, and the length of a first one.
 
-use super::tableau::{Error3, Error5, Row};
-use super::{Dop853, ORDER};
+use super::order5::Error4;
+use super::order8::{Error3, Error5};
+use super::tableau::Row;
+use super::{DormandPrince, Grade, ORDER};
 use crate::System;
 
-impl Dop853 {
+impl DormandPrince {
     /// A first step for a fresh start (Hairer, Nørsett, Wanner, section II.4), at most `longest`; one evaluation.
     pub(super) fn starting_step<S: System + ?Sized>(
         &mut self,
@@ -36,6 +38,23 @@ impl Dop853 {
     /// The estimate of DOP853, h e₅² / √(e₅² + 0.01 e₃²), with the largest component for e₅ and e₃ instead of the root of the
     /// mean square; of all components that `scale` has values for.
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
+        if self.extent.grade == Grade::Few { self.error_of_fifth(scale) } else { self.error_of_eighth(scale) }
+    }
+
+    /// The embedded estimate of DOPRI5, h e₄ with the largest component, as if it fell with h⁸ as the other does: e^{8/5}.
+    fn error_of_fifth(&self, scale: &[f64]) -> f64 {
+        let (mut most, mut probe) = (0.0_f64, 0.0_f64);
+        for (k, scale) in self.k.iter().zip(scale) {
+            let error = (Error4::dot(k) / scale).abs();
+            most = most.max(error);
+            probe += error;
+        }
+        probe += self.end.iter().sum::<f64>();
+        let error = self.extent.step.abs() * most;
+        if probe.is_finite() { error * error.powf(0.6) } else { f64::INFINITY }
+    }
+
+    fn error_of_eighth(&self, scale: &[f64]) -> f64 {
         let (mut five, mut three, mut probe) = (0.0_f64, 0.0_f64, 0.0_f64);
         // With a mean, components at rest dilute the one that matters: a swing with a true error of 54 is told as 504 by the
         // largest, as 321 by the mean, and with fifteen others at rest beside it as 80. A scene of more bodies would be

@@ -4,62 +4,11 @@
 //! section II.5 (method of order 8 by Dormand and Prince with 12 stages), section II.6 (dense output of order 7) and
 //! section II.10 (the estimators of order 5 and 3), as printed in their program DOP853 and rounded to the nearest double.
 //!
-//! A row is a sparse linear form of the slopes k₁ … k₁₆ (indices 0 … 15). Each becomes one straight sum without loop,
-//! zero or bounds check. The newest slope stands apart: everything else can be summed while its evaluation is under way.
-//!
 //! The state of stage i is y + h Σ a_ij k_j at the time t + c_i h, the end y + h Σ b_i k_i. Stages 1 to 12 make the step;
 //! k₁₃ is the slope at its end, stages 14 to 16 are for the dense output alone. Tests hold the rows against the conditions
 //! of order: Σ_j a_ij = c_i, Σ b_i c_i^{q-1} = 1/q, and those of the taller trees.
 
-/// The sixteen slopes of one component: twelve stages, the end point, three more for the dense output.
-pub(super) type Slopes = [f64; 16];
-
-/// A linear form of the slopes, split at the newest of them.
-pub(super) trait Row {
-    /// Index of the newest slope.
-    const NEWEST: usize;
-    /// Coefficient of the newest slope.
-    const LAST: f64;
-    /// Coefficients by the index of their slope.
-    #[cfg(test)]
-    const TERMS: &'static [(usize, f64)];
-
-    /// Value of the form without its newest term.
-    fn rest(k: &Slopes) -> f64;
-
-    /// Value of the form.
-    #[inline(always)]
-    fn dot(k: &Slopes) -> f64 {
-        Self::rest(k) + Self::LAST * k[Self::NEWEST]
-    }
-}
-
-macro_rules! sum {
-    ($k:ident) => {{
-        let _ = $k;
-        0.0
-    }};
-    ($k:ident $j0:literal $a0:literal $($j:literal $a:literal)*) => { $a0 * $k[$j0] $(+ $a * $k[$j])* };
-}
-
-macro_rules! rows {
-    ($($(#[$doc:meta])* $name:ident { $($j:literal => $a:literal,)* newest $n:literal => $last:literal })+) => {$(
-        $(#[$doc])*
-        pub(super) struct $name;
-
-        impl Row for $name {
-            const NEWEST: usize = $n;
-            const LAST: f64 = $last;
-            #[cfg(test)]
-            const TERMS: &'static [(usize, f64)] = &[$(($j, $a),)* ($n, $last)];
-
-            #[inline(always)]
-            fn rest(k: &Slopes) -> f64 {
-                sum!(k $($j $a)*)
-            }
-        }
-    )+};
-}
+use super::tableau::{Slopes, rows};
 
 /// Index of the slope at the end of the step (k₁₃).
 pub(super) const END: usize = 12;
@@ -302,6 +251,7 @@ rows! {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dormand_prince::tableau::Row;
 
     fn sum<R: Row>() -> f64 {
         R::TERMS.iter().map(|term| term.1).sum()

@@ -3,10 +3,10 @@
 //! With constant accelerations x₁ = x₀ + h(v₀ + h a/2), v₁ = v₀ + h a, and every other component runs along a straight line.
 //! A body in gross slip under a constant load moves so, and one in flight.
 
-use super::Dop853;
+use super::DormandPrince;
 use crate::System;
 
-impl Dop853 {
+impl DormandPrince {
     /// The end of a parabola and its slopes, without an evaluation; 0, or infinity where it is not finite.
     pub(super) fn coast<S: System + ?Sized>(&mut self, system: &S) -> f64 {
         // The stages would sum up the same parabola for 12 evaluations, and estimate the rounding of their sums.

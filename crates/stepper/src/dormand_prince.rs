@@ -7,6 +7,8 @@ mod coast;
 mod dense;
 mod estimate;
 mod grade;
+mod order5;
+mod order8;
 mod stages;
 mod tableau;
 
@@ -24,7 +26,7 @@ pub const ORDER: u32 = 8;
 /// for the slopes over its σ. A step costs 11 evaluations and one more for the slopes at its end, which are the next step's first; the dense
 /// output costs three more, only when asked for. Nothing is allocated after construction.
 #[derive(Debug, Clone)]
-pub struct Dop853 {
+pub struct DormandPrince {
     /// Coupled components; quadratures come after them.
     dimension: usize,
     extent: Extent,
@@ -68,7 +70,7 @@ struct EndSlopes {
     last_known: bool,
 }
 
-impl Dop853 {
+impl DormandPrince {
     /// Workspace for systems of `dimension` coupled components among `total`.
     ///
     /// A `total` below `dimension` counts as `dimension`.
@@ -120,7 +122,7 @@ impl Dop853 {
     }
 }
 
-impl Method for Dop853 {
+impl Method for DormandPrince {
     /// The region of stability ends on the imaginary axis at 6.0, on the real axis at -6.4. Steps that events cut end on
     /// the dense output, which near there is no longer that of a swing.
     fn stability_limit(&self) -> f64 {
@@ -139,7 +141,7 @@ impl Method for Dop853 {
     }
 }
 
-impl Step for Dop853 {
+impl Step for DormandPrince {
     /// States have `total` components.
     fn span(&self) -> Span<'_> {
         Span { time: self.extent.time, end_time: self.extent.end_time, begin: &self.begin, end: &self.end }
@@ -156,8 +158,13 @@ impl Step for Dop853 {
 
     /// NaN where there is no dense output.
     #[inline]
-    fn value(&self, i: usize, t: f64) -> f64 {
-        self.polynomial(i).map_or(f64::NAN, |c| dense::value(c, self.fraction(t)))
+    fn value_at(&self, i: usize, part: f64) -> f64 {
+        self.polynomial(i).map_or(f64::NAN, |c| dense::value(c, part))
+    }
+
+    #[inline]
+    fn part(&self, t: f64) -> f64 {
+        self.fraction(t)
     }
 
     /// For an event: its state by the dense output is as good as one more attempt up to it, and free. Without dense
@@ -193,7 +200,7 @@ impl Step for Dop853 {
     }
 }
 
-impl<S: System + ?Sized> Attempt<S> for Dop853 {
+impl<S: System + ?Sized> Attempt<S> for DormandPrince {
     /// Components of `y` that are missing are 0.
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.extent.time = t;

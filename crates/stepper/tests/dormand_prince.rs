@@ -3,12 +3,12 @@
 mod systems;
 
 use stickslip_stepper::{
-    Attempt, Completion, Dop853, End, Method, Step, StepControl, StepLimits, System, Target,
+    Attempt, Completion, DormandPrince, End, Method, Step, StepControl, StepLimits, System, Target,
 };
 use systems::{Forced, Kepler, Oscillator, order};
 
-fn run<S: System>(system: &S, y: &[f64], t1: f64, steps: u32) -> Dop853 {
-    let mut stepper = Dop853::new(system.dimension(), system.total());
+fn run<S: System>(system: &S, y: &[f64], t1: f64, steps: u32) -> DormandPrince {
+    let mut stepper = DormandPrince::new(system.dimension(), system.total());
     let scale = vec![1.0; system.dimension()];
     stepper.start(system, 0.0, y);
     for i in 1..=steps {
@@ -38,7 +38,7 @@ fn order_8_on_a_nonlinear_system_with_time() {
 #[test]
 fn a_step_cut_short_ends_on_the_dense_output_and_goes_on_from_there() {
     let system = Oscillator { omega: 1.0 };
-    let mut stepper = Dop853::new(2, 4);
+    let mut stepper = DormandPrince::new(2, 4);
     stepper.start(&system, 0.0, &[1.0, 0.0, 0.0, 0.0]);
     stepper.attempt(&system, Target::even(0.4), &[1.0, 1.0]);
     let whole = stepper.span().end.to_vec();
@@ -74,7 +74,7 @@ fn order_8_in_each_component_and_in_quadratures() {
 
 /// Largest error of the dense output and of its derivative over one step from t = 0.4.
 fn dense_errors(h: f64) -> [f64; 2] {
-    let mut stepper = Dop853::new(2, 3);
+    let mut stepper = DormandPrince::new(2, 3);
     stepper.start(&Forced, 0.4, &Forced::exact(0.4));
     stepper.attempt(&Forced, Target::even(0.4 + h), &[1.0; 2]);
     stepper.complete(&Forced, Completion::Dense);
@@ -109,7 +109,7 @@ fn dense_output_has_order_7_and_its_rate_6() {
 #[test]
 fn dense_output_meets_both_ends_with_their_slopes() {
     let system = Oscillator { omega: 2.0 };
-    let mut stepper = Dop853::new(2, 4);
+    let mut stepper = DormandPrince::new(2, 4);
     stepper.start(&system, 3.0, &system.exact(3.0));
     stepper.attempt(&system, Target::even(3.25), &[1.0; 2]);
     assert!(stepper.value(0, 3.1).is_nan());
@@ -125,7 +125,7 @@ fn dense_output_meets_both_ends_with_their_slopes() {
 #[test]
 fn error_falls_with_the_eighth_power_and_bounds_the_true_one() {
     let points = [0.5, 0.4, 0.3, 0.2].map(|h| {
-        let mut stepper = Dop853::new(2, 3);
+        let mut stepper = DormandPrince::new(2, 3);
         stepper.start(&Forced, 0.0, &Forced::exact(0.0));
         let error = stepper.attempt(&Forced, Target::even(h), &[1e-6; 2]);
         let truth = distance(&stepper.span().end[..2], &Forced::exact(h)[..2]) / 1e-6;
@@ -139,7 +139,7 @@ fn error_falls_with_the_eighth_power_and_bounds_the_true_one() {
 #[test]
 fn counts_evaluations_and_forgets_trials() {
     let system = Oscillator { omega: 1.0 };
-    let mut stepper = Dop853::new(2, 4);
+    let mut stepper = DormandPrince::new(2, 4);
     stepper.start(&system, 0.0, &[1.0, 0.0, 0.0, 0.0]);
     assert_eq!(stepper.evaluations(), 1);
     stepper.attempt(&system, Target::even(0.9), &[1.0; 2]);
@@ -153,7 +153,7 @@ fn counts_evaluations_and_forgets_trials() {
     stepper.attempt(&system, Target::even(0.6), &[1.0; 2]);
     assert_eq!(stepper.evaluations(), 28 + 11);
     // Without the trial, bit for bit the same.
-    let mut direct = Dop853::new(2, 4);
+    let mut direct = DormandPrince::new(2, 4);
     direct.start(&system, 0.0, &[1.0, 0.0, 0.0, 0.0]);
     direct.attempt(&system, Target::even(0.3), &[1.0; 2]);
     direct.complete(&system, Completion::EndSlopes);
@@ -165,7 +165,7 @@ fn counts_evaluations_and_forgets_trials() {
 #[test]
 fn a_step_without_end_slopes_evaluates_them_when_due() {
     let system = Oscillator { omega: 1.0 };
-    let mut stepper = Dop853::new(2, 4);
+    let mut stepper = DormandPrince::new(2, 4);
     stepper.start(&system, 0.0, &[1.0, 0.0, 0.0, 0.0]);
     stepper.attempt(&system, Target::even(0.3), &[1.0; 2]);
     stepper.accept();
@@ -193,11 +193,11 @@ fn what_is_not_finite_is_an_infinite_error() {
             dy[1] = if t > 0.5 { f64::NAN } else { 1.0 };
         }
     }
-    let mut stepper = Dop853::new(1, 2);
+    let mut stepper = DormandPrince::new(1, 2);
     stepper.start(&Wall, 0.0, &[0.0; 2]);
     assert_eq!(stepper.attempt(&Wall, Target::even(1.0), &[1.0]), f64::INFINITY);
     assert!(stepper.attempt(&Wall, Target::even(0.5), &[1.0]) < 1e-12);
-    let mut stepper = Dop853::new(2, 4);
+    let mut stepper = DormandPrince::new(2, 4);
     let system = Oscillator { omega: f64::MAX };
     stepper.start(&system, 0.0, &[1.0, 0.0, 0.0, 0.0]);
     assert_eq!(stepper.attempt(&system, Target::even(1.0), &[1.0; 2]), f64::INFINITY);
@@ -206,7 +206,7 @@ fn what_is_not_finite_is_an_infinite_error() {
 #[test]
 fn ends_at_the_time_asked_for_to_the_last_bit() {
     let system = Oscillator { omega: 1.0 };
-    let mut stepper = Dop853::new(2, 4);
+    let mut stepper = DormandPrince::new(2, 4);
     stepper.start(&system, 0.1 + 0.2, &[1.0, 0.0, 0.0, 0.0]);
     let corner = 1.0 / 3.0 * 7.0;
     stepper.attempt(&system, Target::even(corner), &[1.0; 2]);
@@ -220,7 +220,7 @@ fn kepler_under_control_keeps_its_tolerance() {
     let system = Kepler { e: 0.6 };
     let t1 = 3.0 * std::f64::consts::TAU;
     for (tolerance, most) in [(1e-6, 900), (1e-9, 1_800), (1e-12, 3_200)] {
-        let mut stepper = Dop853::new(4, 4);
+        let mut stepper = DormandPrince::new(4, 4);
         let mut control = StepControl::new(8, StepLimits::default());
         stepper.start(&system, 0.0, &system.start());
         let scale = [tolerance; 4];

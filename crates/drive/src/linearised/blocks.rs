@@ -1,0 +1,45 @@
+//! What the states of blocks do of themselves.
+//!
+//! A block reads the blocks before it and none after: together their states have the eigenvalues that each has alone. What a
+//! block exerts on the bodies whose lengths it reads is left out.
+
+use super::eigenvalues as all;
+use crate::component::{Block, Moment, Standing};
+use crate::model::MOST_OF_A_BLOCK;
+use crate::{Model, Sample};
+use nalgebra::{Complex, DMatrix};
+
+impl Model {
+    /// Eigenvalues, 1/s, of the states of all blocks, but for those that stay as they are.
+    pub(super) fn block_eigenvalues(&self) -> Vec<Complex<f64>> {
+        let signals = self.signals();
+        let with_states = self.blocks.iter().filter(|wired| wired.count() > 0);
+        let of = with_states.flat_map(|wired| wired.block().eigenvalues(&signals.first_inputs(wired)));
+        of.map(|(re, im)| Complex { re, im }).filter(|rate| rate.norm() > 0.0).collect()
+    }
+}
+
+/// Eigenvalues of the gradient of a block's slopes about its start at these inputs, 1/s.
+pub(crate) fn eigenvalues(block: &(impl Block + ?Sized), inputs: &[Sample]) -> Vec<(f64, f64)> {
+    let scales = block.states().scales;
+    let (start, memory) = block.start(inputs);
+    let slopes = |states: &[f64]| {
+        let mut slopes = vec![0.0; scales.len()];
+        let at = Moment { t: 0.0, inputs, states, located: true };
+        // What it exerts is not asked for.
+        block.slopes(Standing { law: &0, memory: &memory }, &at, &mut slopes, &mut [0.0; MOST_OF_A_BLOCK]);
+        slopes
+    };
+    let first = slopes(&start);
+    let n = scales.len();
+    let mut gradient = DMatrix::zeros(n, n);
+    // In units of the scales: entries of like sizes, which an eigenvalue iteration needs for its digits.
+    for (j, scale) in scales.iter().enumerate() {
+        let mut moved = start.clone();
+        moved[j] += scale;
+        for (i, (slope, rest)) in slopes(&moved).iter().zip(&first).enumerate() {
+            gradient[(i, j)] = (slope - rest) / scales[i];
+        }
+    }
+    all(gradient).iter().map(|rate| (rate.re, rate.im)).collect()
+}

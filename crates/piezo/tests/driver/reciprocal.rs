@@ -1,0 +1,122 @@
+//! The charge of strain, Q = CV + kα(e - αV): what it makes of time constants, limits, resonances and books.
+
+use crate::parts::{FARADS, GAIN, Ran, event, every, named, plan, ran, table};
+use std::f64::consts::TAU;
+use stickslip_drive::component::Input;
+use stickslip_drive::scene::{Actuator, Body, Coordinate, Direction, Freedom, Point, Scene, Side, Varying};
+use stickslip_drive::{Shape, Stepper, Waveform};
+use stickslip_piezo::driver::{Driver, Spec};
+
+/// κ; then k = κC/α².
+const COUPLING: f64 = 0.25;
+const STIFFNESS: f64 = COUPLING * FARADS / (GAIN * GAIN);
+const MASS: f64 = 0.5;
+const ENDS: [Side; 2] = [Side::Ground, Side::Body(0)];
+
+/// A stack between ground and a foot, whose strain makes charge.
+fn stack(command: Waveform, spec: Spec, foot: Coordinate) -> Scene {
+    let elongation =
+        Input::Length { between: [ENDS[1], ENDS[0]], at: [Point::default(); 2], direction: Direction::X };
+    let range = command.range();
+    let driver = Driver::new(spec, 0, range).reciprocal(COUPLING, elongation);
+    let actuator = Actuator {
+        between: ENDS,
+        at: [Point::default(); 2],
+        direction: Direction::X,
+        stiffness: STIFFNESS,
+        damping: 0.0,
+        stroke: Varying::Follows(1),
+    };
+    Scene {
+        waveforms: vec![named("drive", command)],
+        blocks: vec![named("stack", driver.shared())],
+        bodies: vec![named("foot", Body { mass: Some(MASS), x: foot, ..Body::default() })],
+        actuators: vec![named("stack", actuator)],
+        ..Scene::default()
+    }
+}
+
+fn spec(resistance: Option<f64>, current: Option<f64>) -> Spec {
+    Spec { resistance, current: current.map(|current| (current, current)), ..crate::parts::ideal() }
+}
+
+const HELD: Coordinate = Coordinate { position: 0.0, velocity: 0.0, freedom: Freedom::Fixed };
+const STEP: &[(f64, f64)] = &[(0.0, 0.0), (0.1, 0.0), (0.1, 100.0), (9.0, 100.0)];
+
+/// Held, the stack has the capacitance C(1 - κ): V = 100 V (1 - e^{-t/RC(1-κ)}).
+#[test]
+fn a_held_stack_charges_through_a_resistance_by_its_clamped_capacitance() {
+    let ran = ran(&stack(table(STEP), spec(Some(300.0), None), HELD), &event(1e-12, 2e-3), 37e-6);
+    let time = 300.0 * FARADS * (1.0 - COUPLING);
+    let exact = |t: f64| if t < 1e-4 { 0.0 } else { -100.0 * (-(t - 1e-4) / time).exp_m1() };
+    let worst = ran.worst(exact);
+    assert!(worst < 1e-9 * 100.0, "{worst}");
+}
+
+/// Held it rises at I/C(1 - κ), until it meets the command.
+#[test]
+fn a_held_stack_rises_faster_at_a_limited_current() {
+    let ran = ran(&stack(table(STEP), spec(None, Some(0.2)), HELD), &event(1e-10, 1e-3), 37e-6);
+    let slew = 0.2 / (FARADS * (1.0 - COUPLING));
+    let worst = ran.worst(|t| (slew * (t - 1e-4)).clamp(0.0, 100.0));
+    assert!(worst < 1e-9 * 100.0, "{worst}");
+    let ends = ran.events();
+    assert!((ends[1].0 - 1e-4 - 100.0 / slew).abs() < 1e-12, "{ends:?}");
+    let fixed = crate::parts::ran(
+        &stack(table(&[(0.0, 0.0), (0.01, 100.0), (9.0, 100.0)]), spec(None, Some(0.2)), HELD),
+        &plan(Stepper::Rk4 { step: 0.5e-6 }, 0.2e-3),
+        37e-6,
+    );
+    let worst = fixed.worst(|t| slew * t.min(0.2e-3));
+    assert!(worst < 1e-6 * 100.0, "{worst}");
+}
+
+/// Time from the first to the last upward crossing of 0 over their number.
+fn period(ran: &Ran) -> f64 {
+    let (t, x) = (ran.column("time_s"), ran.column("foot.x_m"));
+    let crossings: Vec<f64> = (1..x.len())
+        .filter(|&i| x[i - 1] < 0.0 && x[i] >= 0.0)
+        .map(|i| t[i - 1] + (t[i] - t[i - 1]) * x[i - 1] / (x[i - 1] - x[i]))
+        .collect();
+    (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64
+}
+
+/// Short-circuited by an ideal source a mass rings at √(k/m), open behind a megohm at √(k/m(1 - κ)), but for (RCω)⁻² of it.
+#[test]
+fn open_electrodes_stiffen_the_stack() {
+    let released = Coordinate { position: 0.0, velocity: 1e-3, freedom: Freedom::Free };
+    let still = || table(&[(0.0, 0.0), (99.0, 0.0)]);
+    let natural = TAU / (STIFFNESS / MASS).sqrt();
+    for (resistance, expected) in [(None, natural), (Some(1e6), natural * (1.0 - COUPLING).sqrt())] {
+        let scene = stack(still(), spec(resistance, None), released);
+        let ran = ran(&scene, &event(1e-11, 40.0 * natural), natural / 200.0);
+        let measured = period(&ran);
+        assert!((measured / expected - 1.0).abs() < 1e-5, "{resistance:?}: {measured} {expected}");
+    }
+}
+
+/// Source = stored + lost + worked, through all that a driver has; and what the stack works goes into the scene.
+#[test]
+fn books_close_with_the_work_of_the_stack_in_them() {
+    let saw = || every(Shape::Sawtooth { stroke: 100.0 * GAIN, flyback: 50e-6 });
+    let cases = [
+        (saw(), spec(None, None)),
+        (saw(), spec(None, Some(0.3))),
+        (saw(), spec(Some(40.0), Some(0.3))),
+        (table(STEP), spec(None, None)),
+    ];
+    for (command, spec) in cases {
+        let ran = ran(&stack(command, spec, Coordinate::FREE), &event(1e-11, 5e-3), 11e-6);
+        let [source, stored, lost, worked] =
+            ["source_J", "stored_J", "lost_J", "worked_J"].map(|name| ran.column(&format!("stack.{name}")));
+        let scale = stored.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for i in 0..source.len() {
+            let open = source[i] - lost[i] - worked[i] - (stored[i] - stored[0]);
+            assert!(open.abs() < 1e-8 * scale, "{spec:?}: {open} of {scale} in row {i}");
+        }
+        let input = ran.column("energy.input_J");
+        let apart = worked.iter().zip(&input).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-8 * scale, "{spec:?}: {apart} of {scale}");
+        assert!(worked.iter().any(|work| work.abs() > 1e-4 * scale), "it works");
+    }
+}
