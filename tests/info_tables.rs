@@ -132,13 +132,14 @@ fn what_the_event_stepper_spares_is_told_where_it_does() {
         ];
         what.filter(|what| of_stepper.contains(&what.as_str())).collect()
     };
-    let sphere = r#"contacts.ball.profile={"sphere":{"radius":"1 mm"}}"#;
+    let power = r#"contacts.ball.profile={"power":{"exponent":2.5,"coefficient":1e4}}"#;
     let stepped = [NYSTROM, PARABOLA, CROWDED, "position", "stages for velocities", "evaluations", MEMORY];
-    assert_eq!(told("p1", &[sphere]), stepped);
-    // A paraboloid needs no steps between events.
+    assert_eq!(told("p1", &[power]), stepped);
+    // A paraboloid needs no steps between events, nor does a sphere.
     let swung =
         [SWING, PARABOLA, NYSTROM, CROWDED, "position", "steps between events", "evaluations", MEMORY];
     assert_eq!(told("p1", &[]), swung);
+    assert_eq!(told("p1", &[r#"contacts.ball.profile={"sphere":{"radius":"1 mm"}}"#]), swung);
     // A stepper without events knows none of it.
     assert!(told("p1", &["run.stepper={\"verlet\":{\"step\":\"1 us\"}}"]).is_empty());
     // A curved waveform drags the edge along no line, so evaluations go on in gross slip.

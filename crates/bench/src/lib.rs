@@ -10,13 +10,14 @@
 //! In reading order: `request`; `problem` (a scenario with its reference), `norm` and `samples` (how far off a run is);
 //! `contestant`, `family` and `steps` (who runs, at what tolerances and steps), `baseline` (what others would do); `turns` and
 //! `clock` (the measurement); `front` (what an error costs); `sheet`, [`picture`] and `page` (what is written), `machine`;
-//! [`growth`]; [`frames`], which are drives in real time.
+//! [`growth`]; [`frames`], which are drives in real time; [`floor`], how little the benchmark drive could cost.
 
 mod baseline;
 mod clock;
 mod contestant;
 mod error;
 mod family;
+pub mod floor;
 pub mod frames;
 mod front;
 pub mod growth;

@@ -39,7 +39,7 @@ pub use material::{Material, MaterialError, Pair};
 pub use motion::{
     Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState, Timed,
 };
-pub use profile::{Profile, ProfileError, RoughnessError, SelfAffine};
+pub use profile::{Profile, ProfileError, RootSeries, RoughnessError, SelfAffine};
 pub use row::{Change, Lull, Row, Slack, Springs, SpringsError};
 pub use similarity::Similarity;
 pub use words::Words;

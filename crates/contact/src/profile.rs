@@ -12,6 +12,7 @@ mod normal_law;
 mod outline;
 mod power;
 mod powers;
+mod root_series;
 mod rough;
 mod rounded_flat;
 mod self_affine;
@@ -25,6 +26,7 @@ pub use error::ProfileError;
 pub(crate) use foundation::{Foundation, Sums};
 pub(crate) use kappa::kappa;
 pub(crate) use kind::Peak;
+pub use root_series::RootSeries;
 pub use self_affine::{RoughnessError, SelfAffine};
 
 use crate::ContactError;
@@ -128,6 +130,15 @@ impl Profile {
             return 0.0;
         }
         of_kind!(self, kind => kind.reduced_energy(h))
+    }
+
+    /// M(h) (m²) and N(h) (m³): of a power law one root serves both.
+    #[inline]
+    pub(crate) fn reduced_sums(&self, h: f64) -> [f64; 2] {
+        match &self.shape {
+            Shape::Power(shape) if h > 0.0 => shape.reduced_sums(h),
+            _ => [self.reduced_force(h), self.reduced_energy(h)],
+        }
     }
 
     /// a(h) = m(h)/2, m: the contact radius; for a foundation given spring by spring half the length in contact.

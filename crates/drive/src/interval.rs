@@ -5,7 +5,8 @@
 //! these u is linear in the coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
 //! not looked at until their gap closes. What is left goes through the general [`Equations`](crate::equations::Equations).
 //!
-//! An interval is made anew after each event, from the state alone, and read by everybody until the next: evaluations ask it
+//! An interval is made anew after each event, from the state alone, or takes up the laws of those contacts that fired; it is
+//! read by everybody until the next: evaluations ask it
 //! for forces, the watch for guards, the leap for the swing of a single slider. What is done about each contact is decided by
 //! [`treatment`](crate::method::treatment), by which method the interval is taken by [`choice`](crate::method::choice).
 
@@ -15,7 +16,7 @@ mod kernel;
 mod slider;
 mod swing;
 
-use crate::contact::Mode;
+use crate::contact::{Guard, Mode};
 pub(crate) use closed::Closed;
 use closed::closed_form;
 pub(crate) use followed::Followed;
@@ -84,6 +85,34 @@ impl<'a> Interval<'a> {
         self.others.is_empty() && self.apart.is_empty()
     }
 
+    /// Takes up the new laws of some contacts, all else being as it was before the event; false, with nothing done, where one
+    /// of them has no closed form before and after it.
+    pub(crate) fn renew(
+        &mut self,
+        model: &'a Model,
+        state: &State,
+        changed: impl Iterator<Item = usize> + Clone,
+    ) -> bool {
+        let stays = |c: usize| self.closed_form(c).is_some() && matches!(state.modes[c], Mode::Slip(_));
+        if !changed.clone().all(stays) {
+            return false;
+        }
+        for c in changed {
+            if let (Some(place), Mode::Slip(branch)) = (self.places[c], &state.modes[c]) {
+                self.closed[place].renew(branch, Guard::of(&model.contacts[c], &state.modes[c]));
+            }
+        }
+        self.traits.slides = self.slides(state);
+        self.traits.asked = false;
+        self.act(model, state);
+        true
+    }
+
+    /// Whether every contact that is not apart is in gross slip.
+    fn slides(&self, state: &State) -> bool {
+        state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open)
+    }
+
     /// Works out what stays the same from a state on.
     pub(crate) fn begin(&mut self, model: &'a Model, state: &State) {
         self.closed.clear();
@@ -106,12 +135,17 @@ impl<'a> Interval<'a> {
             self.places.push((place < self.closed.len()).then_some(place));
         }
         self.traits = IntervalTraits {
-            slides: state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open),
+            slides: self.slides(state),
             straight: self.closed.iter().all(|closed| closed.followed.line().is_some()),
             general: !self.others.is_empty(),
             gap: self.apart.iter().any(|c| !model.contacts[*c].unguarded),
             asked: false,
         };
+        self.act(model, state);
+    }
+
+    /// What acts: the contacts on a single slider, or all that the kernel lays out.
+    fn act(&mut self, model: &'a Model, state: &State) {
         self.pulls.clear();
         self.slider = match &model.free[..] {
             [slider] if self.scene.velocities.is_none() && self.traits.is_simple(&self.scene) => {
@@ -158,6 +192,7 @@ impl<'a> Interval<'a> {
             sum.power += work * force;
             if gain != 0.0 {
                 self.pulls.push(Pull {
+                    index: closed.index,
                     profile: closed.contact.interface.profile(),
                     front: front + lean * constant,
                     advance: lean * rate,

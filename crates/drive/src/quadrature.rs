@@ -1,9 +1,11 @@
-//! Gauss–Legendre quadrature that tells how far it can be trusted.
+//! Gaussian quadrature that tells how far it can be trusted.
 //!
 //! Time of a swing and of a lift-off is a mean over [0, 1] of a smooth function. Rules of 4, 8, 16 and 32
 //! nodes are tried in turn from the first that may do; each tells its error from the last coefficients of the
-//! polynomial through its values, without a second rule. Nothing is allocated, and every rule is made once.
+//! polynomial through its values, without a second rule. Nothing is allocated, and every rule is made once. Over whole arcs
+//! from turn to turn the nodes are Chebyshev's, equally spaced in the angle: there the function goes on evenly beyond both ends.
 
+use std::array;
 use std::sync::LazyLock;
 
 /// Nodes of the finest rule.
@@ -59,6 +61,20 @@ static RULES: [LazyLock<Rule>; 4] = [
     LazyLock::new(|| Rule::new(MOST)),
 ];
 
+/// The same over an arc, of Gauss and Chebyshev.
+static ARCS: [LazyLock<Rule>; 4] = [
+    LazyLock::new(|| Rule::arc(4)),
+    LazyLock::new(|| Rule::arc(8)),
+    LazyLock::new(|| Rule::arc(16)),
+    LazyLock::new(|| Rule::arc(MOST)),
+];
+
+/// Mean over the angle θ from 0 to π of a smooth function of sin²(θ/2), as [`mean`] finds it.
+#[inline]
+pub(crate) fn mean_over_arc(allowed: f64, f: impl Fn(Lanes) -> Lanes) -> Mean {
+    first_that_serves(&ARCS, (allowed, allowed), f)
+}
+
 /// Mean of a function over [0, 1], by the coarsest rule whose relative error is below `allowed`, or else by the finest.
 /// Begins with a rule from which that can be hoped for, where [0, 1] is but a `part` of the range that the function changes
 /// over.
@@ -66,9 +82,19 @@ static RULES: [LazyLock<Rule>; 4] = [
 pub(crate) fn mean(allowed: f64, part: f64, f: impl Fn(Lanes) -> Lanes) -> Mean {
     // On a part of the range the coefficients fall faster: a coarser rule has the same hope.
     let needed = allowed / (part * part * part * part);
+    first_that_serves(&RULES, (allowed, needed), f)
+}
+
+/// The mean by the first rule whose error is below `allowed`, beginning where that can be hoped for of what is `needed`.
+#[inline(always)]
+fn first_that_serves(
+    rules: &[LazyLock<Rule>; 4],
+    (allowed, needed): (f64, f64),
+    f: impl Fn(Lanes) -> Lanes,
+) -> Mean {
     let first = HOPELESS.iter().filter(|hopeless| needed < **hopeless).count();
     let mut mean = Mean { value: f64::NAN, error: f64::INFINITY, asked: 0 };
-    for rule in &RULES[first..] {
+    for rule in &rules[first..] {
         let asked = mean.asked + rule.count as u64;
         // Nodes of Gauss are not nested: nothing of the coarser rule can be used again, but its values are
         // counted.
@@ -98,6 +124,22 @@ impl Rule {
         rule
     }
 
+    /// The rule of n nodes, at most [`MOST`], in the middle of n equal parts of the angle: exact for cosines up to degree 2n - 1.
+    fn arc(n: usize) -> Self {
+        let mut rule = Self { nodes: Default::default(), count: n };
+        for i in 0..n {
+            let (nodes, lane) = (&mut rule.nodes[i / LANES], i % LANES);
+            let angle = std::f64::consts::PI * (i as f64 + 0.5) / n as f64;
+            nodes.at[lane] = (0.5 * angle).sin().powi(2);
+            let weight = (n as f64).recip();
+            let share = |degree: usize| 2.0 * weight * (degree as f64 * angle).cos();
+            for (shares, share) in nodes.shares.iter_mut().zip([weight, share(n - 2), share(n - 1)]) {
+                shares[lane] = share;
+            }
+        }
+        rule
+    }
+
     /// The mean by this rule. One of n nodes is exact up to degree 2n - 1: where the coefficients of the polynomial through
     /// its values, of degree n - 1, have fallen to c, its own error is about c².
     #[inline(always)]
@@ -106,9 +148,7 @@ impl Rule {
         for nodes in &self.nodes[..self.count / LANES] {
             // Four at once: roots and quotients of one node do not wait for those of another.
             let y = f(nodes.at);
-            for (sum, shares) in sums.iter_mut().zip(&nodes.shares) {
-                (0..LANES).for_each(|i| sum[i] += shares[i] * y[i]);
-            }
+            sums = array::from_fn(|k| array::from_fn(|i| sums[k][i] + nodes.shares[k][i] * y[i]));
         }
         let [value, second, first] = sums.map(|[a, b, c, d]| (a + b) + (c + d));
         // Two coefficients: of an even or odd function every other one vanishes.
@@ -158,6 +198,27 @@ mod tests {
             }
             let beyond = rule.mean(|x| x.map(|x| x.powi(degree as i32 + 1))).value;
             assert!(level > 1 || (beyond - 1.0 / (degree as f64 + 2.0)).abs() > 1e-14);
+        }
+    }
+
+    /// Means of x^m over the angle are Wallis' products, (1/2)(3/4)…((2m-1)/(2m)).
+    #[test]
+    fn arcs_are_exact_up_to_the_degree_of_each_rule() {
+        for rule in &ARCS {
+            for degree in 0..2 * rule.count as i32 {
+                let exact: f64 = (1..=degree).map(|k| 1.0 - 0.5 / f64::from(k)).product();
+                let mean = rule.mean(|x| x.map(|x| x.powi(degree))).value;
+                assert!((mean - exact).abs() < 2e-15, "{} {degree}: {mean} {exact}", rule.count);
+            }
+        }
+        // ⟨1/(1 + x)⟩ = 1/√2: the estimate holds, and the coarsest rule that serves is taken.
+        for (allowed, count) in [(1e-1, 4), (1e-7, 8), (1e-12, 16)] {
+            let mean = mean_over_arc(allowed, |x| x.map(|x| (1.0 + x).recip()));
+            let off = (mean.value * 2.0_f64.sqrt() - 1.0).abs();
+            assert!(
+                off <= mean.error.max(4e-16) && mean.error <= allowed && mean.asked == count,
+                "{mean:?} {off:e}"
+            );
         }
     }
 

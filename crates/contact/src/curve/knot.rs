@@ -61,8 +61,8 @@ impl Knot {
     /// two rounded anchors.
     #[inline]
     pub(super) fn grow(&self, law: &Interface, h: f64, slope: f64, p: f64) -> Self {
-        let profile = law.profile();
-        self.extend(h, p, slope, slope, profile.reduced_force(h), profile.reduced_energy(h))
+        let [reduced_force, reduced_energy] = law.profile().reduced_sums(h);
+        self.extend(h, p, slope, slope, reduced_force, reduced_energy)
     }
 
     /// The end of a straight piece of growth in full stick.
@@ -109,8 +109,7 @@ impl Knot {
     /// so that a later cut meets the sum that was integrated and not the chord's.
     // The chord's own sums would lose the order again that the integration has kept.
     pub(super) fn grow_by(&self, law: &Interface, to: Apex, shear: f64, square: f64) -> Self {
-        let profile = law.profile();
-        let (reduced_force, reduced_energy) = (profile.reduced_force(to.d), profile.reduced_energy(to.d));
+        let [reduced_force, reduced_energy] = law.profile().reduced_sums(to.d);
         let (rise, swell) = (to.d - self.h, reduced_force - self.reduced_force);
         Self {
             h: to.d,
@@ -130,10 +129,9 @@ impl Knot {
     /// Where the end's energy came from an integration along a curved path, the difference to the straight
     /// piece is shared out by height.
     pub(super) fn point(&self, law: &Interface, end: &Self, h: f64) -> Self {
-        let profile = law.profile();
+        let [reduced_force, reduced_energy] = law.profile().reduced_sums(h);
         let p = self.p + end.slope * (h - self.h);
-        let mut point =
-            self.extend(h, p, end.slope, end.gain, profile.reduced_force(h), profile.reduced_energy(h));
+        let mut point = self.extend(h, p, end.slope, end.gain, reduced_force, reduced_energy);
         if end.gain != end.slope {
             let straight =
                 self.extend(end.h, end.p, end.slope, end.gain, end.reduced_force, end.reduced_energy);

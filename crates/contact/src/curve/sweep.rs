@@ -29,8 +29,7 @@ pub(super) fn work(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f64
     let (rise, travel) = (to.d - from.d, to.u - from.u);
     let forward = if travel.abs() >= -slope * rise { travel > 0.0 } else { to.u > anchor(knots, to.d) };
     let sense = if forward { 1.0 } else { -1.0 };
-    let sweep = Sweep { law, from, to, rise, travel, sense, level: sense * to.u - slope * to.d };
-
+    let sweep = Sweep::new(law, [from, to], sense);
     let edge = Edge::find(law, knots, sense, to);
     let foot = edge.foot(law, knots, to);
     sweep.swept(knots, top, &edge, &foot)
@@ -44,9 +43,7 @@ pub(super) fn slipped(
     (edge, foot): (&Edge, &Knot),
 ) -> f64 {
     let Some(top) = knots.last() else { return 0.0 };
-    let (sense, rise, travel) = (edge.sense, to.d - from.d, to.u - from.u);
-    let sweep = Sweep { law, from, to, rise, travel, sense, level: sense * to.u - law.stick_slope() * to.d };
-    sweep.swept(knots, top, edge, foot)
+    Sweep::new(law, [from, to], edge.sense).swept(knots, top, edge, foot)
 }
 
 /// One chord of the apex and the edge that drags at its end.
@@ -62,24 +59,32 @@ struct Sweep<'a> {
     sense: f64,
     /// Its level at the end, m.
     level: f64,
+    /// How much deeper the contact gets per way of that edge.
+    curl: f64,
 }
 
-impl Sweep<'_> {
+impl<'a> Sweep<'a> {
+    fn new(law: &'a Interface, [from, to]: [Apex; 2], sense: f64) -> Self {
+        let level = sense * to.u - law.stick_slope() * to.d;
+        let (rise, travel) = (to.d - from.d, to.u - from.u);
+        Self { law, from, to, rise, travel, sense, level, curl: curl(law, [rise, travel], sense) }
+    }
+
     /// Work of everything that is swept, J. `top` is the last of the knots.
     // From the pieces swept and not from the change of energies: work done less energy gained is the same sum, but of a small
     // loop it is the difference of numbers a million times larger. One chord to 0.9 u_c has the work of a hundred thousand
     // short ones to 1e-14.
     fn swept(&self, knots: &[Knot], top: &Knot, edge: &Edge, foot: &Knot) -> f64 {
-        let mut lower = if edge.is_gross() { knots[0] } else { *foot };
+        let mut lower = if edge.is_gross() { &knots[0] } else { foot };
         // The dragging begins with 0 at the cut; in gross slip the centre is dragged as well.
         let slope = self.law.stick_slope();
         let mut drag =
             if edge.is_gross() { self.level + slope * lower.h - self.sense * lower.p } else { 0.0 };
         let mut total = 0.0;
         for upper in &knots[edge.kept.max(1).min(knots.len())..] {
-            total += self.piece(&lower, upper, drag);
+            total += self.piece(lower, upper, drag);
             drag += self.rate(upper) * (upper.h - lower.h);
-            lower = *upper;
+            lower = upper;
         }
         if self.rise > 0.0 {
             total +=
@@ -114,8 +119,7 @@ impl Sweep<'_> {
     /// place of κd, and q would not close.
     fn staying(&self, lower: &Knot, upper: &Knot, drag: f64) -> f64 {
         let rate = self.rate(upper);
-        let curl = self.curl(self.sense);
-        let tilt = |h: f64, drag: f64| -drag + (self.to.d - h) * rate - curl * drag * rate;
+        let tilt = |h: f64, drag: f64| -drag + (self.to.d - h) * rate - self.curl * drag * rate;
         let beyond = drag + rate * (upper.h - lower.h);
         strip(self.law.profile(), lower, upper, tilt(lower.h, drag), tilt(upper.h, beyond))
     }
@@ -141,15 +145,15 @@ impl Sweep<'_> {
     /// Springs that leave, all dragged in one sense: by `below` at the lower end of the piece, `beyond` at the upper one.
     fn leaving_one_way(&self, lower: &Knot, upper: &Knot, below: f64, beyond: f64, rate: f64) -> f64 {
         let sense = if below + beyond >= 0.0 { 1.0 } else { -1.0 };
-        let curl = self.curl(sense);
+        let curl = curl(self.law, [self.rise, self.travel], sense);
         strip(self.law.profile(), lower, upper, -curl * below * rate, -curl * beyond * rate)
     }
+}
 
-    /// r = dd/dL for the edge of a sense.
-    fn curl(&self, sense: f64) -> f64 {
-        let climb = sense * self.travel - self.law.stick_slope() * self.rise;
-        if self.rise == 0.0 || climb <= 0.0 { 0.0 } else { self.rise / climb }
-    }
+/// r = dd/dL for the edge of a sense, along a chord.
+fn curl(law: &Interface, [rise, travel]: [f64; 2], sense: f64) -> f64 {
+    let climb = sense * travel - law.stick_slope() * rise;
+    if rise == 0.0 || climb <= 0.0 { 0.0 } else { rise / climb }
 }
 
 /// Strips thinner than this share of their height are summed over m itself.

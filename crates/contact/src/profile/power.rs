@@ -110,6 +110,13 @@ impl Power {
         }
     }
 
+    /// M(h) and N(h), h > 0.
+    #[inline]
+    pub(super) fn reduced_sums(&self, h: f64) -> [f64; 2] {
+        let reduced_force = self.reduced_force(h);
+        [reduced_force, self.energy_factor * h * reduced_force]
+    }
+
     /// The roots that cost a call, kept out of the way of those that do not.
     #[inline(never)]
     fn other_root(&self, x: f64) -> f64 {
@@ -138,7 +145,8 @@ impl Kind for Power {
     /// N(h) = n/(2n+1) h M, m³.
     #[inline]
     fn reduced_energy(&self, h: f64) -> f64 {
-        self.energy_factor * h * self.reduced_force(h)
+        let [_, reduced_energy] = self.reduced_sums(h);
+        reduced_energy
     }
 
     /// g(a) = aⁿ/s, m.

@@ -59,7 +59,7 @@ const RATIO: [f64; TERMS] = [
 const AREA: [f64; TERMS] = integrated(RATIO, 2.0, 1.5);
 
 /// N/R³ = η^{5/2} Σ 2cₖ/((k+3/2)(k+5/2)) ηᵏ.
-const VOLUME: [f64; TERMS] = integrated(AREA, 1.0, 2.5);
+static VOLUME: [f64; TERMS] = integrated(AREA, 1.0, 2.5);
 
 /// The series factor·Σ cₖ/(k+power) ηᵏ.
 const fn integrated(series: [f64; TERMS], factor: f64, power: f64) -> [f64; TERMS] {
@@ -128,7 +128,20 @@ impl Profile {
     }
 }
 
+/// Those terms of N/R³ = η^{5/2} Σ aₖηᵏ that count up to η, the first one always; none beyond the series. What is left out is
+/// below `last` of the first term.
+pub(super) fn energy_terms(eta: f64, last: f64) -> Option<&'static [f64]> {
+    let counts = |k: &usize| (VOLUME[*k] * eta.powi(*k as i32)).abs() > last * VOLUME[0];
+    let count = 1 + (1..TERMS).rev().find(counts).unwrap_or(0);
+    (eta <= SERIES_END).then(|| &VOLUME[..count])
+}
+
 impl Sphere {
+    /// R, m.
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
+    }
+
     /// Largest a/R to which the profile is held to stand; the functions are checked up to here.
     const LARGEST_RATIO: f64 = 0.999;
 }

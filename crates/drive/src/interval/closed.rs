@@ -7,7 +7,7 @@
 use super::Followed;
 use crate::Sample;
 use crate::contact::{Contact, Guard, Mode, Motion, Press};
-use stickslip_contact::FixedDepthBranch;
+use stickslip_contact::{Apex, Branch, FixedDepthBranch};
 
 /// A contact at constant indentation on one branch.
 #[derive(Debug, Clone)]
@@ -26,6 +26,14 @@ pub(crate) struct Closed<'a> {
 }
 
 impl Closed<'_> {
+    /// Takes up another branch and its guards.
+    pub(super) fn renew(&mut self, branch: &Branch, guards: &'static [Guard]) {
+        if let Press::Constant { d, reduced_force } = self.contact.press {
+            self.branch = branch.at_depth(d, reduced_force);
+        }
+        self.guards = guards;
+    }
+
     /// The part of u that does not depend on the free coordinates, m, and its derivatives.
     #[inline(always)]
     pub(crate) fn followed(&self, t: f64) -> Sample {
@@ -55,6 +63,12 @@ impl Closed<'_> {
     pub(crate) fn motion(&self, t: f64, x: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64) -> Motion {
         let Sample { value, rate, .. } = self.followed(t);
         Motion { d: self.d, u: self.own(x) + value, dd: 0.0, du: self.own(v) + rate }
+    }
+
+    /// Where it stands at time t, s; `x` reads positions of free coordinates.
+    #[inline(always)]
+    pub(crate) fn apex(&self, t: f64, x: impl Fn(usize) -> f64) -> Apex {
+        Apex { d: self.d, u: self.displacement(t, x) }
     }
 
     /// Value of one of its guards at time t, s: the margin of its piece, or else the speed of its edge.

@@ -18,6 +18,8 @@ pub(crate) struct Slider {
 /// What a contact in partial slip adds to a single slider. Kept so that as little as can be waits for the position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pull<'a> {
+    /// Its place among the contacts.
+    pub(super) index: usize,
     pub(super) profile: &'a Profile,
     /// h_c = front + advance (t - start) + lean · x.
     pub(super) front: f64,
@@ -39,13 +41,7 @@ impl Pull<'_> {
 
     /// Height of the slip front, m.
     #[inline(always)]
-    fn height(&self, t: f64, x: f64) -> f64 {
+    pub(super) fn height(&self, t: f64, x: f64) -> f64 {
         (self.front + self.advance * (t - self.start)) + self.lean * x
-    }
-
-    /// N of one metre (m³), the height now (m) and how it leans on the coordinate, where M is a power 3/2 of the height.
-    pub(super) fn root_law(&self, t: f64, x: f64) -> Option<(f64, f64, f64)> {
-        let is_paraboloid = self.profile.exponent() == Some(2.0);
-        is_paraboloid.then(|| (self.profile.reduced_energy(1.0), self.height(t, x), self.lean))
     }
 }

@@ -11,8 +11,8 @@
 //! few nodes of Gauss and Legendre give all digits, whatever the number of periods in a second. Where a piece of memory ends
 //! long before the motion would turn, T = ∫dq/ν is as smooth, and no turning point is sought.
 //!
-//! Closed forms are there for the paraboloid, M = c h^{3/2}: b = b₀ + Σ αM(h), h = h₀ - λq. Means of M are taken over roots
-//! of heights, so that no swing is too small for its digits.
+//! Closed forms are there for cones, paraboloids, powers r³ and r⁴, and the exact sphere: b = b₀ + Σ αM(h), h = h₀ - λq. Means
+//! of M are taken over roots of heights, so that no swing is too small for its digits.
 //!
 //! Source: Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (motion in one dimension); the mean of the force in place of
 //! the difference of the potential is the discrete gradient of Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
@@ -24,9 +24,11 @@ mod turning;
 
 use super::Interval;
 use crate::Model;
+use crate::contact::Press;
 use crate::model::Free;
 use slip::PartialSlip;
 use std::f64::consts::PI;
+use stickslip_contact::RootSeries;
 use turning::{EXACT, ROUGH, softer};
 
 /// Part of its height at the start below which a slip front comes so near to the centre that its branch point is felt.
@@ -53,6 +55,8 @@ pub(crate) struct Swing {
     load: f64,
     /// b₀ along the slide, m/s².
     push: f64,
+    /// By contact: the closed form of its energy, if it has one.
+    laws: Vec<Option<RootSeries>>,
     slips: Vec<PartialSlip>,
     /// Where the first piece of memory ends, m; ∞ if none does.
     reach: f64,
@@ -102,8 +106,13 @@ impl Swing {
     /// Room for the contacts of a model; places in parts of its natural length to a `tolerance`.
     pub(crate) fn of(model: &Model, tolerance: f64) -> Self {
         let last = (0.1 * tolerance.cbrt()).clamp(EXACT, ROUGH);
-        let near = (0.1 * tolerance.sqrt()).clamp(1e-7, 1e-3);
-        Self { tolerance, last, near, slips: Vec::with_capacity(model.contacts.len()), ..Self::default() }
+        let near = (0.1 * tolerance.sqrt()).clamp(1e-7, 1e-2);
+        let laws = model.contacts.iter().map(|contact| match contact.press {
+            Press::Constant { d, .. } => contact.interface.profile().root_series(d),
+            _ => None,
+        });
+        let slips = Vec::with_capacity(model.contacts.len());
+        Self { tolerance, last, near, laws: laws.collect(), slips, ..Self::default() }
     }
 
     /// Takes up what an interval has become; false where it has no such form.
@@ -132,13 +141,14 @@ impl Swing {
         }
         self.slips.clear();
         for pull in &interval.pulls {
-            let Some((volume, height, lean)) = pull.root_law(start.t, start.x) else { return false };
-            let (gain, lean) = (self.sense * pull.acceleration * volume, -self.sense * lean);
+            let Some(law) = self.laws[pull.index] else { return false };
+            let height = pull.height(start.t, start.x);
+            let (gain, lean) = (self.sense * pull.acceleration, -self.sense * pull.lean);
             // Slip that spreads must hold back.
             if !(gain > 0.0 && lean > 0.0 && height > 0.0) {
                 return false;
             }
-            self.slips.push(PartialSlip::new(gain, lean, height));
+            self.slips.push(PartialSlip::new(law, gain, lean, height));
         }
         true
     }
@@ -227,7 +237,8 @@ impl Swing {
 
     /// Whether a slip front comes near to the centre up to q.
     fn nears_centre(&self, q: f64) -> bool {
-        self.slips.iter().any(|slip| slip.height - slip.lean * q < BRANCH * slip.height)
+        let nears = |slip: &PartialSlip| slip.height - slip.lean * q < BRANCH * slip.height;
+        self.slips.iter().any(|slip| !slip.ends_smoothly() && nears(slip))
     }
 
     /// Finds the time of the event.
@@ -292,14 +303,15 @@ impl Swing {
 mod tests {
     use super::*;
 
-    /// Sets out at a speed against one contact, all of its quantities 1, whose piece of memory ends in the centre.
-    fn swing(push: f64, speed: f64) -> Swing {
+    /// Sets out at a speed against one contact, N = h^{2+1/n} and all else 1, whose piece of memory ends in the centre.
+    fn swing(root: u32, push: f64, speed: f64) -> Swing {
+        let law = RootSeries { root, factor: 1.0, curvature: 0.0, terms: &[1.0] };
         Swing {
             sense: 1.0,
             start: PhasePoint { t: 0.0, x: 0.0, v: speed },
             mobility: 1.0,
             push,
-            slips: vec![PartialSlip::new(1.0, 1.0, 1.0)],
+            slips: vec![PartialSlip::new(law, 1.0, 1.0, 1.0)],
             reach: 1.0,
             tolerance: 1e-12,
             last: EXACT,
@@ -312,22 +324,27 @@ mod tests {
     /// the way that is left counted by its root, which has neither of both ends' branch points.
     #[test]
     fn every_start_has_its_swing() {
-        for push in [-2.5, -1.0, -0.5, -0.1] {
-            for speed in (1..=240).map(|k| 0.05 * f64::from(k)) {
-                let mut swing = swing(push, speed);
-                assert!(swing.aim(1.0), "{push} {speed}");
-                let end = if swing.turns { swing.high } else { swing.reach };
-                let slowness = |q: f64| {
-                    let work = push * q + (1.0 - (1.0 - q).powf(2.5));
-                    (speed * speed + 2.0 * work).sqrt().recip()
-                };
-                let strips = 20_000;
-                let middle = |k: i32| (f64::from(k) + 0.5) / f64::from(strips);
-                let part = |s: f64| 2.0 * s * end * slowness(end * (1.0 - s * s));
-                let time = (0..strips).map(|k| part(middle(k))).sum::<f64>() / f64::from(strips);
-                let off = (swing.duration / time - 1.0).abs();
-                assert!(off < 1e-5, "{push} {speed}: off by {off:e}");
-            }
+        for (root, push, k) in all() {
+            let speed = 0.05 * f64::from(k);
+            let mut swing = swing(root, push, speed);
+            assert!(swing.aim(1.0), "{root} {push} {speed}");
+            let end = if swing.turns { swing.high } else { swing.reach };
+            let power = 2.0 + f64::from(root).recip();
+            let slowness = |q: f64| {
+                let work = push * q + (1.0 - (1.0 - q).powf(power));
+                (speed * speed + 2.0 * work).sqrt().recip()
+            };
+            let strips = 20_000;
+            let middle = |k: i32| (f64::from(k) + 0.5) / f64::from(strips);
+            let part = |s: f64| 2.0 * s * end * slowness(end * (1.0 - s * s));
+            let time = (0..strips).map(|k| part(middle(k))).sum::<f64>() / f64::from(strips);
+            let off = (swing.duration / time - 1.0).abs();
+            assert!(off < 1e-5, "{root} {push} {speed}: off by {off:e}");
         }
+    }
+
+    fn all() -> impl Iterator<Item = (u32, f64, i32)> {
+        let pushes = |root| [-2.5, -1.0, -0.5, -0.1].map(|push| (root, push));
+        (1..=4).flat_map(pushes).flat_map(|(root, push)| (1..=240).map(move |k| (root, push, k)))
     }
 }

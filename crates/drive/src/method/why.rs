@@ -9,7 +9,7 @@ pub enum Why {
     NothingFree,
     /// Places without mass are solved for.
     Balanced,
-    /// A single slider among paraboloids, all dragged alike along a line.
+    /// A single slider among contacts whose energy has a closed form of roots, all dragged alike along a line.
     OneQuadrature,
     /// Gross slip or flight under constant loads.
     ConstantForces,
@@ -61,7 +61,7 @@ impl fmt::Display for Why {
                 "nothing has a mass: places are solved from the balance of forces, contacts walked from event to event"
             }
             Self::OneQuadrature => {
-                "one slider, paraboloids under constant load, straight waveforms: an interval is one quadrature"
+                "one slider, cones, powers up to r⁴ or spheres under constant load, straight waveforms: an interval is one quadrature"
             }
             Self::ConstantForces => "in gross slip or flight all forces are constant",
             Self::AtRest => "where a swing comes to rest or does not turn",

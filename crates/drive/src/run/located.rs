@@ -14,6 +14,7 @@
 mod aim;
 mod allowance;
 mod balanced;
+mod beginning;
 mod block_laws;
 mod ending;
 mod laws;
@@ -36,13 +37,12 @@ use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon, Progress};
 use super::ledger::Ledger;
 use super::output::{Opening, Output};
-use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::interval::{Interval, Swing};
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Books, Detour, Grip, Layout, State, Underway, Whereabouts};
+use crate::state::{Books, Detour, Layout, State, Underway, Whereabouts};
 use crate::{Limits, Plan, RunError};
 pub(super) use method::LocatedRun;
 use motion::Motion;
@@ -280,8 +280,11 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             self.check_balance(state)?;
         }
         // Here and nowhere else: the solver starts anew at once and keeps no place counted from before.
-        shift::shift(self.setting.model, state);
-        self.restart(state);
+        let moves = shift::shift(self.setting.model, state);
+        if is_corner || moves || !self.renew_interval(state) {
+            self.begin_interval(state);
+        }
+        self.go_on_from(state);
         Ok(())
     }
 
@@ -291,6 +294,11 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     /// may bring another.
     fn restart(&mut self, state: &mut State) {
         self.begin_interval(state);
+        self.go_on_from(state);
+    }
+
+    /// Into an interval that has begun.
+    fn go_on_from(&mut self, state: &State) {
         self.motion.pace.restart();
         self.motion.whereabouts = Whereabouts::Behind;
         if !self.interval.leaps() {
@@ -308,16 +316,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.watch.set_out(&eq, &self.motion.solver);
         self.motion.allowance.set(self.setting.model, state);
         self.motion.rest(self.setting.model, state);
-    }
-
-    /// What is known until the next event: forms of contacts, the method, and whether anything holds.
-    fn begin_interval(&mut self, state: &mut State) {
-        self.interval.begin(self.setting.model, state);
-        self.takeoff = None;
-        self.interval.count(&mut state.tally);
-        // Without contacts links alone hold, and their steps must damp all the same.
-        let holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
-        self.motion.pace.gait.grip = if holds { Grip::Sticks } else { Grip::Slips };
     }
 
     /// Waveforms are on new pieces.

@@ -57,8 +57,8 @@ pub(crate) enum RunStartForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StepperForm {
-    /// Order 8 with located events; in closed form from event to event where a single slider swings among paraboloids under
-    /// constant load that straight waveforms drag.
+    /// Order 8 with located events; in closed form from event to event where a single slider swings among cones, paraboloids, powers
+    /// r³ and r⁴ or spheres under constant load that straight waveforms drag.
     #[schemars(example = json!({ "event": { "tolerance": 1e-8 } }))]
     Event(ToleranceForm),
     /// Velocity Verlet at a fixed step.

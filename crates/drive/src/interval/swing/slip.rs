@@ -1,11 +1,26 @@
 //! A contact in partial slip as it acts on a single slider.
+//!
+//! Its energy is N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ ([`RootSeries`]). With y = ⁿ√h the leading term is a power 2n+1 of y, and the
+//! divided differences of y^{2n+1} over the heights yⁿ are quotients of sums of products, all of one sign. With the complete
+//! homogeneous polynomials Pₖ(a, y) = Σ aᵏ⁻ⁱyⁱ
+//!
+//! * f\[a, y\] = P_{2n}(a, y)/P_{n-1}(a, y),
+//! * f\[a, y, c\] = Σ Cₛyˢ/[P_{n-1}(a, y) P_{n-1}(y, c) P_{n-1}(a, c)], Cₛ = Σ (ac)ᴮ P_{A-B-1}(a, c) over n ≤ A ≤ 2n, 0 ≤ B < n
+//!   with A + B = 3n-1-s, 0 ≤ s < 2n.
+//!
+//! A series multiplies by Leibniz' rule: (fV)\[a, y, c\] = f\[a, y, c\]V(c) + f\[a, y\]V\[y, c\] + f(a)V\[a, y, c\].
 
 use std::array;
+use stickslip_contact::RootSeries;
+
+/// Most coefficients Cₛ.
+const DEGREES: usize = 8;
 
 /// A contact in partial slip, its heights counted by their roots.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartialSlip {
-    /// αN(1 m) = 2αc/5.
+    law: RootSeries,
+    /// αc: b falls by gain·N' as the height does.
     gain: f64,
     /// λ.
     pub(super) lean: f64,
@@ -15,66 +30,189 @@ pub(super) struct PartialSlip {
     /// Roots of h at both turning points; the second may lie beyond the centre, at a height below zero.
     ends: [f64; 2],
     beyond: f64,
-    /// Its part of K is that cubic in √h over the two sums of √h and the roots at the ends.
-    cubic: [f64; 4],
+    /// Its part of K is that polynomial in the root of h over both sums of it and the roots at the ends.
+    numerator: [f64; DEGREES],
+}
+
+/// Runs an expression with the constant N at the root of a law.
+macro_rules! rooted {
+    ($law:expr, $N:ident => $call:expr) => {
+        match $law.root {
+            2 => {
+                const $N: usize = 2;
+                $call
+            }
+            1 => {
+                const $N: usize = 1;
+                $call
+            }
+            3 => {
+                const $N: usize = 3;
+                $call
+            }
+            _ => {
+                const $N: usize = 4;
+                $call
+            }
+        }
+    };
 }
 
 impl PartialSlip {
-    pub(super) fn new(gain: f64, lean: f64, height: f64) -> Self {
-        let root = height.sqrt();
-        Self { gain, lean, height, root, ends: [root; 2], beyond: 0.0, cubic: [0.0; 4] }
+    /// `pull` is what M adds to b, 1/(m s²).
+    pub(super) fn new(law: RootSeries, pull: f64, lean: f64, height: f64) -> Self {
+        let root = rooted!(law, N => root::<N>(height));
+        let gain = pull * law.factor;
+        Self { law, gain, lean, height, root, ends: [root; 2], beyond: 0.0, numerator: [0.0; DEGREES] }
     }
 
-    /// Takes up the turning points: the second divided difference of h^{5/2} over them and h is, with a and c the roots at
-    /// the ends, S = a+c, P = ac and y = √h, [Sy³ + S²y² + S(S²-P)y + P(S²-P)]/[(a+y)(y+c)S].
+    /// Whether its force goes on smoothly to the centre.
+    pub(super) fn ends_smoothly(&self) -> bool {
+        self.law.root == 1
+    }
+
+    /// Takes up the turning points.
     pub(super) fn swing_between(&mut self, low: f64, high: f64) {
+        rooted!(self.law, N => self.take_up::<N>(low, high));
+    }
+
+    fn take_up<const N: usize>(&mut self, low: f64, high: f64) {
         let height = |q: f64| self.height - self.lean * q;
         // A slide that would turn only beyond the centre has no root of a height there.
         self.beyond = height(high).min(0.0);
-        self.ends = [height(low).max(0.0).sqrt(), height(high).max(0.0).sqrt()];
-        let (sum, product) = (self.ends[0] + self.ends[1], self.ends[0] * self.ends[1]);
-        let (scale, square) = (self.gain * self.lean, sum * sum - product);
-        self.cubic = [scale * product * square / sum, scale * square, scale * sum, scale];
+        let ends = [above(height(low)), above(height(high))].map(root::<N>);
+        let [a, c] = ends;
+        let scale = self.gain * self.lean / symmetric(N - 1, a, c);
+        let mut sums = [0.0; 2 * DEGREES];
+        let (mut sum, mut power) = (1.0, 1.0);
+        for sums in &mut sums[..2 * N] {
+            *sums = scale * sum;
+            power *= c;
+            sum = a * sum + power;
+        }
+        self.numerator = [0.0; DEGREES];
+        let mut product = 1.0;
+        for low in 0..N {
+            for high in N..=2 * N {
+                // Where the degree would be below zero the two terms of the pair have cancelled.
+                if let Some(coefficient) = (3 * N - 1).checked_sub(high + low).map(|s| &mut self.numerator[s])
+                {
+                    *coefficient += product * sums[high - low - 1];
+                }
+            }
+            product *= a * c;
+        }
+        self.ends = ends;
     }
 
     /// Its parts of b at the start and of its first two derivatives; m/s², 1/s², 1/(m s²).
     #[inline(always)]
     pub(super) fn start(&self) -> [f64; 3] {
-        let bend = -3.75 * self.gain * self.lean * self.root;
-        [2.5 * self.gain * self.root * self.height, bend, -0.5 * bend * self.lean / self.height]
+        let [force, stiffness, bend] = rooted!(self.law, N => self.derivatives::<N>(self.height));
+        let (power, lean) = (self.gain * self.root, -self.lean);
+        [power * self.height * force, power * lean * stiffness, power * lean * lean / self.height * bend]
+    }
+
+    /// The first three derivatives of N at a height, over c h^{1+1/n}, c h^{1/n} and c h^{1/n-1}.
+    #[inline(always)]
+    fn derivatives<const N: usize>(&self, height: f64) -> [f64; 3] {
+        let e = 2.0 + 1.0 / N as f64;
+        if self.law.terms.len() == 1 {
+            return [e, e * (e - 1.0), e * (e - 1.0) * (e - 2.0)];
+        }
+        // V, h dV/dh and half of h² d²V/dh²; what the third derivative adds to the last one is left out: that is for guesses.
+        let [value, slope, bend] = self.law.divided([height; 3]);
+        let (slope, bend) = (height * slope, height * height * bend);
+        [
+            e * value + slope,
+            e * (e - 1.0) * value + 2.0 * (e * slope + bend),
+            e * (e - 1.0) * ((e - 2.0) * value + 3.0 * slope) + 6.0 * e * bend,
+        ]
     }
 
     /// Its part of K at q, 1/s².
     #[inline(always)]
-    pub(super) fn stiffness<const N: usize>(&self, q: [f64; N]) -> [f64; N] {
+    pub(super) fn stiffness<const L: usize>(&self, q: [f64; L]) -> [f64; L] {
         let heights = q.map(|q| above(self.height - self.lean * q));
-        // One branch for all nodes: the cubic of the usual case stays free of it.
+        // One branch for all nodes: the usual case stays free of it.
         if self.beyond < 0.0 {
-            return heights.map(|height| self.stiffness_beyond(height));
+            return rooted!(self.law, N => self.stiffness_beyond::<N, L>(heights));
         }
-        let ([a, c], [k0, k1, k2, k3]) = (self.ends, self.cubic);
-        heights.map(f64::sqrt).map(|y| (((k3 * y + k2) * y + k1) * y + k0) / ((a + y) * (y + c)))
+        if self.law.terms.len() > 1 {
+            return self.stiffness_of_series(heights);
+        }
+        rooted!(self.law, N => heights.map(root::<N>).map(|y| self.leading_stiffness::<N>(y)))
     }
 
-    /// The same at a height where the slide would turn only beyond the centre.
-    fn stiffness_beyond(&self, height: f64) -> f64 {
-        let (a, y) = (self.ends[0], height.sqrt());
-        let (inner, outer) = (mean_power(a, y), height * height * y / (height - self.beyond));
-        self.gain * self.lean * (inner - outer) / (a * a - self.beyond)
+    /// That of the leading term, V = 1.
+    #[inline(always)]
+    fn leading_stiffness<const N: usize>(&self, y: f64) -> f64 {
+        let [a, c] = self.ends;
+        let numerator = self.numerator[..2 * N].iter().rev().fold(0.0, |sum, term| sum * y + term);
+        numerator / (symmetric(N - 1, a, y) * symmetric(N - 1, y, c))
+    }
+
+    /// That of a sphere.
+    fn stiffness_of_series<const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
+        let ([a, c], scale) = (self.ends, self.gain * self.lean);
+        let (first, last) = (a * a, c * c);
+        heights.map(|height| {
+            let y = height.sqrt();
+            let [value, slope, bend] = self.law.divided([last, height, first]);
+            let differences = mean_power::<2>(a, y) * slope + first * first * a * bend;
+            self.leading_stiffness::<2>(y) * value + scale * differences
+        })
+    }
+
+    /// The same where the slide would turn only beyond the centre.
+    fn stiffness_beyond<const N: usize, const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
+        let (a, roots) = (self.ends[0], heights.map(root::<N>));
+        let first = a.powi(N as i32);
+        let mut inner = roots.map(|y| mean_power::<N>(a, y));
+        let mut outer: [f64; L] =
+            array::from_fn(|i| heights[i] * heights[i] * roots[i] / (heights[i] - self.beyond));
+        if self.law.terms.len() > 1 {
+            for i in 0..L {
+                let [value, slope, _] = self.law.divided([heights[i], first, 0.0]);
+                (inner[i], outer[i]) = (inner[i] * value + first * first * a * slope, outer[i] * value);
+            }
+        }
+        let scale = self.gain * self.lean / (first - self.beyond);
+        array::from_fn(|i| scale * (inner[i] - outer[i]))
     }
 
     /// Its parts of the mean of b up to q, of b there and of its slope; m/s², m/s², 1/s².
     #[inline(always)]
-    pub(super) fn pull<const N: usize>(&self, q: [f64; N]) -> [[f64; N]; 3] {
+    pub(super) fn pull<const L: usize>(&self, q: [f64; L]) -> [[f64; L]; 3] {
         let heights = q.map(|q| self.height - self.lean * q);
         let inside = heights.map(above);
-        let roots = inside.map(f64::sqrt);
         // Beyond the centre the mean goes on over nothing.
         let share = |i: usize| if heights[i] < 0.0 { self.height / (self.height - heights[i]) } else { 1.0 };
+        let shares: [f64; L] = array::from_fn(share);
+        rooted!(self.law, N => self.pull_inside::<N, L>(inside, shares))
+    }
+
+    #[inline(always)]
+    fn pull_inside<const N: usize, const L: usize>(
+        &self,
+        inside: [f64; L],
+        shares: [f64; L],
+    ) -> [[f64; L]; 3] {
+        let roots = inside.map(root::<N>);
+        let mut means = roots.map(|y| mean_power::<N>(self.root, y));
+        let e = 2.0 + 1.0 / N as f64;
+        let (mut forces, mut stiffness) = ([e; L], [e * (e - 1.0); L]);
+        if self.law.terms.len() > 1 {
+            for i in 0..L {
+                let [value, slope, _] = self.law.divided([inside[i], self.height, 0.0]);
+                means[i] = means[i] * value + self.height * self.height * self.root * slope;
+                [forces[i], stiffness[i], _] = self.derivatives::<N>(inside[i]);
+            }
+        }
         [
-            array::from_fn(|i| self.gain * mean_power(self.root, roots[i]) * share(i)),
-            array::from_fn(|i| 2.5 * self.gain * roots[i] * inside[i]),
-            roots.map(|y| -3.75 * self.gain * self.lean * y),
+            array::from_fn(|i| self.gain * means[i] * shares[i]),
+            array::from_fn(|i| forces[i] * self.gain * roots[i] * inside[i]),
+            array::from_fn(|i| -stiffness[i] * self.gain * self.lean * roots[i]),
         ]
     }
 }
@@ -85,38 +223,76 @@ fn above(height: f64) -> f64 {
     if height > 0.0 { height } else { 0.0 }
 }
 
-/// (a⁵ - b⁵)/(a² - b²) of two roots, not both zero: 5/2 of the mean of h^{3/2} between their squares, without a difference.
+/// The N-th root of a number that is not below zero.
 #[inline(always)]
-fn mean_power(a: f64, b: f64) -> f64 {
-    let (a2, b2, ab) = (a * a, b * b, a * b);
-    (a2 * a2 + b2 * b2 + ab * (a2 + ab + b2)) / (a + b)
+fn root<const N: usize>(x: f64) -> f64 {
+    match N {
+        1 => x,
+        2 => x.sqrt(),
+        3 => x.cbrt(),
+        _ => x.sqrt().sqrt(),
+    }
+}
+
+/// Pₖ(a, b).
+#[inline(always)]
+fn symmetric(degree: usize, a: f64, b: f64) -> f64 {
+    let (mut sum, mut power) = (1.0, 1.0);
+    for _ in 0..degree {
+        power *= b;
+        sum = a * sum + power;
+    }
+    sum
+}
+
+/// f\[a, b\] = (a^{2N+1} - b^{2N+1})/(aᴺ - bᴺ) of two roots, not both zero, without a difference.
+#[inline(always)]
+fn mean_power<const N: usize>(a: f64, b: f64) -> f64 {
+    if N == 2 {
+        let (a2, b2, ab) = (a * a, b * b, a * b);
+        return (a2 * a2 + b2 * b2 + ab * (a2 + ab + b2)) / (a + b);
+    }
+    symmetric(2 * N, a, b) / symmetric(N - 1, a, b)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use stickslip_contact::Profile;
 
-    /// h^{5/2}, whose divided differences the closed forms are; nothing below zero.
-    fn power(h: f64) -> f64 {
-        h.max(0.0).powf(2.5)
+    /// Power laws with N = h^{2+1/n}, and a sphere of 2 m.
+    fn laws() -> [RootSeries; 5] {
+        let power = |root| RootSeries { root, factor: 1.0, curvature: 0.0, terms: &[1.0] };
+        let sphere = Profile::sphere(2.0).unwrap().root_series(0.9).unwrap();
+        [power(1), power(2), power(3), power(4), sphere]
     }
 
-    fn divided(a: f64, b: f64) -> f64 {
-        (power(a) - power(b)) / (a - b)
+    /// N, whose divided differences the closed forms are; nothing below zero.
+    fn energy(law: &RootSeries, h: f64) -> f64 {
+        let h = h.max(0.0);
+        let sum = law.terms.iter().rev().fold(0.0, |sum, term| sum * (law.curvature * h) + term);
+        law.factor * h.powf(2.0 + f64::from(law.root).recip()) * sum
+    }
+
+    fn divided(law: &RootSeries, a: f64, b: f64) -> f64 {
+        (energy(law, a) - energy(law, b)) / (a - b)
     }
 
     #[test]
     fn stiffness_is_a_second_divided_difference() {
-        // Turning points inside, at and beyond the centre, h = 0.8 - 0.5 q.
-        for (low, high) in [(-0.4, 1.2), (0.0, 1.6), (-1.0, 3.0)] {
-            let mut slip = PartialSlip::new(3.0, 0.5, 0.8);
-            slip.swing_between(low, high);
-            let height = |q: f64| 0.8 - 0.5 * q;
-            for q in [-0.3, 0.1, 0.6, 1.1] {
-                let (a, h, c) = (height(low), height(q), height(high));
-                let exact = 3.0 * 0.5 * (divided(a, h) - divided(h, c)) / (a - c);
-                let [stiffness] = slip.stiffness([q]);
-                assert!((stiffness / exact - 1.0).abs() < 1e-14, "{low} {high} {q}");
+        for law in laws() {
+            // Turning points inside, at and beyond the centre, h = 0.8 - 0.5 q.
+            for (low, high) in [(-0.2, 1.2), (0.0, 1.6), (-0.1, 3.0)] {
+                let mut slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
+                slip.swing_between(low, high);
+                let height = |q: f64| 0.8 - 0.5 * q;
+                for q in [-0.05, 0.1, 0.6, 1.1] {
+                    let (a, h, c) = (height(low), height(q), height(high));
+                    let exact = 3.0 * 0.5 * (divided(&law, a, h) - divided(&law, h, c)) / (a - c);
+                    let [stiffness] = slip.stiffness([q]);
+                    let off = (stiffness / exact - 1.0).abs();
+                    assert!(off < 3e-14, "{} {low} {high} {q}: {off:e}", law.root);
+                }
             }
         }
     }
@@ -124,23 +300,33 @@ mod tests {
     /// A swing of 1e-12 of the height: a difference of powers would have lost all but four digits.
     #[test]
     fn no_swing_is_too_small_for_its_digits() {
-        let mut slip = PartialSlip::new(3.0, 0.5, 0.8);
-        slip.swing_between(-1e-12, 1e-12);
-        let curvature = 3.0 * 0.5 * 0.5 * 3.75 * 0.8_f64.sqrt();
-        let [stiffness] = slip.stiffness([3e-13]);
-        assert!((stiffness / curvature - 1.0).abs() < 1e-11);
+        for law in laws() {
+            let mut slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
+            let [_, bend, _] = slip.start();
+            slip.swing_between(-1e-12, 1e-12);
+            let [stiffness] = slip.stiffness([3e-13]);
+            assert!((2.0 * stiffness / -bend - 1.0).abs() < 1e-11, "{}", law.root);
+        }
     }
 
     #[test]
     fn pull_is_mean_value_and_slope_of_the_force() {
-        let slip = PartialSlip::new(3.0, 0.5, 0.8);
-        for q in [-0.7, 0.3, 1.5, 2.5] {
-            let h = 0.8 - 0.5 * q;
-            let root = f64::max(h, 0.0).sqrt();
-            let exact = [3.0 * divided(0.8, h), 7.5 * root.powi(3), -3.0 * 0.5 * 3.75 * root];
-            for (found, exact) in slip.pull([q]).as_flattened().iter().zip(exact) {
-                assert!((found - exact).abs() < 1e-14 * (1.0 + exact.abs()), "{q}: {found} {exact}");
+        for law in laws() {
+            let slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
+            for q in [-0.2, 0.3, 1.5, 2.5] {
+                let (h, step) = (0.8 - 0.5 * q, 1e-4);
+                // Central differences of N: its derivatives to the square of the step.
+                let [less, same, more] = [h - step, h, h + step].map(|h| energy(&law, h));
+                let (force, bend) =
+                    ((more - less) / (2.0 * step), (more - 2.0 * same + less) / (step * step));
+                let exact = [3.0 * divided(&law, 0.8, h), 3.0 * force, -1.5 * bend];
+                for (k, (found, exact)) in slip.pull([q]).as_flattened().iter().zip(exact).enumerate() {
+                    let limit = [1e-14, 1e-6, 1e-5][k] * (1.0 + exact.abs());
+                    assert!((found - exact).abs() < limit, "{} {q}: {found} {exact}", law.root);
+                }
             }
+            let ([force, bend, _], [_, [again], [slope]]) = (slip.start(), slip.pull([0.0]));
+            assert!((force / again - 1.0).abs() < 1e-15 && (bend / slope - 1.0).abs() < 1e-15);
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::{Clock, Swing};
 use crate::quadrature::{self, Lanes};
 use std::array;
+use std::f64::consts::PI;
 
 impl Swing {
     /// Time from one position of the clock to another, s, `part` of the whole way, and whether its relative error is as
@@ -19,6 +20,11 @@ impl Swing {
                 array::from_fn(|i| 2.0 * left[i] * slowness[i])
             };
             (start - end, quadrature::mean(allowed, part, slowness))
+        } else if self.clock == Clock::Angle && from == 0.0 && to == PI {
+            // From turn to turn no angle is needed, but its sine at nodes known beforehand.
+            let range = self.high - self.low;
+            let slowness = |shares: Lanes| self.angular(shares.map(|share| self.low + range * share));
+            (PI, quadrature::mean_over_arc(allowed, slowness))
         } else {
             let slowness = |shares: Lanes| self.slowness(shares.map(|share| from + (to - from) * share));
             (to - from, quadrature::mean(allowed, part, slowness))
@@ -36,6 +42,12 @@ impl Swing {
         }
         let mut ways = [0.0; N];
         (0..N).for_each(|i| ways[i] = self.swung(at[i]));
+        self.angular(ways)
+    }
+
+    /// dt/dθ at q, s.
+    #[inline(always)]
+    fn angular<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
         self.stiffness(ways).map(|stiffness| (0.5 / stiffness).sqrt())
     }
 
@@ -95,7 +107,6 @@ fn sine(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     #[test]
     fn the_series_is_the_sine() {

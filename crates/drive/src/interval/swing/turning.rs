@@ -27,7 +27,9 @@ impl Swing {
             // instructions.
             let step: [f64; 2] = array::from_fn(|i| {
                 let left = speed * speed + 2.0 * q[i] * mean[i];
-                2.0 * left * force[i] / (4.0 * force[i] * force[i] - left * bend[i])
+                let step = 2.0 * left * force[i] / (4.0 * force[i] * force[i] - left * bend[i]);
+                // Where b still drives on, the slide is fastest further out: from there the step would lead to the other point.
+                if force[i] * guesses[i] > 0.0 { -q[i] } else { step }
             });
             q = array::from_fn(|i| q[i] - step[i]);
             // The last step is exact to the third power of itself.

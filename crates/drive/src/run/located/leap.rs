@@ -71,6 +71,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if is_event {
             self.collect_reached(state);
         }
+        if is_event || is_corner {
+            self.remember(state, is_corner)?;
+        }
         let turns = is_corner && !state.waits_for_input(self.setting.model);
         if is_event || turns {
             self.pass_event(state, turns, record)?;
@@ -223,9 +226,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.takeoff.unwrap_or(0.0) + self.swing.work(place)
     }
 
-    /// Moves the state to a place; where an interval `ends`, the memories of all contacts with it.
+    /// Moves the state to a place; memories stay behind. Counts one step where an interval `ends`.
     ///
-    /// Counts one step then. Fails where place or velocity is not finite, or a contact refuses its path.
+    /// Fails where place or velocity is not finite.
     fn land(&mut self, state: &mut State, to: PhasePoint, ends: bool) -> Result<(), RunError> {
         if let Some(i) = [to.x, to.v].iter().position(|y| !y.is_finite()) {
             return Err(self.setting.model.not_finite(to.t, i));
@@ -233,16 +236,27 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.y[self.setting.layout.input()] = self.input_at(&to);
         (state.y[0], state.y[1]) = (to.x, to.v);
         state.t = to.t;
-        if !ends {
-            // One chord to the event, as if nobody had looked on the way.
-            self.ledger.booked.books = Books::Behind;
-            return Ok(());
+        // One chord to the event, as if nobody had looked on the way.
+        self.ledger.booked.books = Books::Behind;
+        if ends {
+            self.takeoff = None;
+            state.counts.steps += 1;
+            state.tally.step(if self.swing.is_free() { Method::Parabola } else { Method::Swing });
         }
-        self.takeoff = None;
-        state.counts.steps += 1;
-        state.tally.step(if self.swing.is_free() { Method::Parabola } else { Method::Swing });
-        self.ledger.booked.books = Books::Current;
-        self.trace_closed(state);
+        Ok(())
+    }
+
+    /// Moves the memories of those contacts whose guards fell to where the state is, at a corner those of all. The others go on
+    /// along their pieces: one chord to their own next event is the same as many.
+    ///
+    /// Fails where a contact refuses its path.
+    fn remember(&mut self, state: &mut State, is_corner: bool) -> Result<(), RunError> {
+        if is_corner || self.watch.fired.len() == self.interval.closed.len() {
+            self.trace_closed(state);
+            self.ledger.booked.books = Books::Current;
+        } else {
+            self.trace_fired(state);
+        }
         self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }
 

@@ -9,6 +9,7 @@
 
 use super::Located;
 use super::motion::Motion;
+use super::watch::Fallen;
 use crate::contact::{Mode, Motion as ContactMotion};
 use crate::equations::Equations;
 use crate::state::State;
@@ -99,13 +100,26 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let _ = self.ledger.commit((self.setting.model, self.setting.layout), state.t, state);
     }
 
+    /// The segments of those contacts of closed form whose guards fell that lead to the state.
+    pub(super) fn trace_fired(&mut self, state: &State) {
+        let (ledger, t) = (&mut self.ledger, state.t);
+        ledger.clear();
+        for fallen in &self.watch.fired {
+            if let Fallen::Contact(c, _) = fallen
+                && let Some(steady) = self.interval.closed_form(*c)
+            {
+                ledger.push(*c, t, Segment::Straight(steady.apex(t, |i| state.y[i])));
+            }
+        }
+    }
+
     /// The segments of contacts of closed form, and of those that only are there, that lead to the state.
     pub(super) fn trace_closed(&mut self, state: &State) {
         let (ledger, t) = (&mut self.ledger, state.t);
         ledger.clear();
         let x = |i: usize| state.y[i];
         for steady in &self.interval.closed {
-            ledger.push(steady.index, t, Segment::Straight(steady.motion(t, x, x).apex()));
+            ledger.push(steady.index, t, Segment::Straight(steady.apex(t, x)));
         }
         for &c in &self.interval.apart {
             let motion = self.setting.plain(state).motion(&self.setting.model.contacts[c], t, x);

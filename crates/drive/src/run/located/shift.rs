@@ -8,6 +8,7 @@
 
 use crate::Model;
 use crate::contact::Mode;
+use crate::model::Free;
 use crate::state::State;
 
 /// A coordinate this many natural lengths away from its origin takes it along.
@@ -19,16 +20,23 @@ const SIGN_AND_EXPONENT: u64 = 0xfff0_0000_0000_0000;
 /// Moves the origins of coordinates that have travelled far. Due before a restart.
 ///
 /// Far is 1 024 natural lengths of the coordinate; only one that counts against nothing but the other side of
-/// its contacts travels.
-pub(super) fn shift(model: &Model, state: &mut State) {
+/// its contacts travels. Tells whether any has been moved.
+#[inline]
+pub(super) fn shift(model: &Model, state: &mut State) -> bool {
+    let is_far = |(free, x): (&Free, &f64)| free.travels && x.abs() > FAR * free.scale.0;
+    if !model.free.iter().zip(&state.y).any(is_far) {
+        return false;
+    }
     for (i, free) in model.free.iter().enumerate() {
-        if free.travels && state.y[i].abs() > FAR * free.scale.0 {
+        if is_far((free, &state.y[i])) {
             shift_one(model, state, i);
         }
     }
+    true
 }
 
 /// Moves one origin by the power of two next below the position: no sum is rounded.
+#[inline(never)]
 fn shift_one(model: &Model, state: &mut State, i: usize) {
     // Without its fraction a number is the power of two below it: x - by and shift + by are exact.
     let by = f64::from_bits(state.y[i].to_bits() & SIGN_AND_EXPONENT);

@@ -1,0 +1,32 @@
+//! Rules of a number of nodes known when the program is built.
+
+use std::f64::consts::PI;
+
+/// Nodes (0 to 1) and weights of Gauss and Legendre.
+#[derive(Debug, Clone, Copy)]
+pub struct Rule<const N: usize> {
+    pub(super) nodes: [f64; N],
+    pub(super) weights: [f64; N],
+}
+
+impl<const N: usize> Default for Rule<N> {
+    /// Zeros of the Legendre polynomial by Newton's method.
+    fn default() -> Self {
+        let [mut nodes, mut weights] = [[0.0; N]; 2];
+        for (i, (node, weight)) in nodes.iter_mut().zip(&mut weights).enumerate() {
+            let mut x = -(PI * (i as f64 + 0.75) / (N as f64 + 0.5)).cos();
+            let mut slope = 0.0;
+            for _ in 0..5 {
+                let (mut before, mut value) = (1.0, x);
+                for k in 2..=N {
+                    let k = k as f64;
+                    (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+                }
+                slope = N as f64 * (x * value - before) / (x * x - 1.0);
+                x -= value / slope;
+            }
+            (*node, *weight) = (0.5 + 0.5 * x, ((1.0 - x * x) * slope * slope).recip());
+        }
+        Self { nodes, weights }
+    }
+}

@@ -1,0 +1,43 @@
+//! Where an interval between two events begins.
+//!
+//! After most events only the contacts that fired have another law, and the interval takes up those; after a corner, a moved
+//! origin and events of blocks it is made anew.
+
+use super::Located;
+use super::watch::Fallen;
+use crate::contact::Mode;
+use crate::equations::Equations;
+use crate::state::{Grip, State};
+use stickslip_stepper::Attempt;
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// What is known until the next event: forms of contacts, the method, and whether anything holds.
+    pub(super) fn begin_interval(&mut self, state: &mut State) {
+        self.interval.begin(self.setting.model, state);
+        self.count_interval(state);
+    }
+
+    /// The same where nothing but the laws of the contacts that fired has changed; false, with nothing done, where it has.
+    pub(super) fn renew_interval(&mut self, state: &mut State) -> bool {
+        let of_contact = |fallen: &Fallen| matches!(fallen, Fallen::Contact(..));
+        let contacts = self.watch.fired.iter().filter_map(|fallen| match fallen {
+            Fallen::Contact(c, _) => Some(*c),
+            Fallen::Block(..) => None,
+        });
+        let renews = self.watch.fired.iter().all(of_contact)
+            && self.interval.renew(self.setting.model, state, contacts);
+        if renews {
+            self.count_interval(state);
+        }
+        renews
+    }
+
+    /// Nothing is under way in it yet.
+    fn count_interval(&mut self, state: &mut State) {
+        self.takeoff = None;
+        self.interval.count(&mut state.tally);
+        // Without contacts links alone hold, and their steps must damp all the same.
+        let holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
+        self.motion.pace.gait.grip = if holds { Grip::Sticks } else { Grip::Slips };
+    }
+}

@@ -1,0 +1,47 @@
+//! The benchmark drive with other profiles, by swings from event to event, against steps of a Runge–Kutta–Nyström pair.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and shows what it saw"
+)]
+
+use std::path::PathBuf;
+use stickslip_drive::{Method, Model, State, run};
+use stickslip_scenario::Scenario;
+
+/// Scenes, and where the slider ends after 20 periods, m. By the version before profiles other than the paraboloid swung: its
+/// Runge–Kutta–Nyström steps at a tolerance of 1e-13, which differ by up to 5e-20 m from those at 1e-12.
+const STEPPED: [(&str, f64); 3] = [
+    ("p1_cone", 9.64957582475719e-6),
+    ("p1_power4", 1.0370759769434074e-5),
+    ("p1_sphere", 1.0084259523886863e-5),
+];
+/// Less than a fifteenth of u_c of these scenes, m: 67, 54 and 63 nm.
+const LENGTH: f64 = 3e-9;
+
+/// The end of a run at a tolerance, and the slider's place there, m.
+fn ended(name: &str, tolerance: &str) -> (State, f64) {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(format!("{name}.json"));
+    let scenario = Scenario::load_with(&file, &[("run.stepper.event.tolerance", tolerance)]).unwrap();
+    let model = Model::new(&scenario.scene).unwrap();
+    let mut state = model.start(&scenario.plan).unwrap();
+    run(&model, &scenario.plan, &mut state, &mut ()).unwrap();
+    let (place, _) = state.body(&model, 1).unwrap();
+    (state, place)
+}
+
+/// Errors are below a fifteenth of the tolerance in u_c, but for rounding, and every interval is one leap: whoever steps again loosens both.
+#[test]
+fn other_profiles_swing_to_where_steps_lead() {
+    for (name, stepped) in STEPPED {
+        for (tolerance, allowed) in [("1e-3", 1e-3), ("1e-6", 1e-6), ("1e-9", 1e-9), ("1e-12", 1e-10)] {
+            let (state, place) = ended(name, tolerance);
+            let off = (place - stepped).abs();
+            println!("{name} at {tolerance}: {off:e} m");
+            assert!(off < allowed * LENGTH, "{name} at {tolerance}: {off:e} m");
+            let leaps = state.tally().steps(Method::Swing) + state.tally().steps(Method::Parabola);
+            assert_eq!(leaps, state.counts().steps, "{name} at {tolerance}");
+        }
+    }
+}
