@@ -100,11 +100,19 @@ impl<'m> Parted<'m> {
         whole.divide(self.model);
         self.merged.set_out((self.every, whole.t), opening, record);
         self.lanes.iter_mut().for_each(|lane| lane.begin(whole, opening, record));
-        // Without a record of events nobody runs ahead.
-        let scouts = self.lanes.iter().filter(|_| record.wants_events());
-        self.scouts = scouts.map(Lane::scout).collect();
+        self.send_scouts(record);
         // What earlier runs have done is no work of this one.
         self.asked = self.work();
+    }
+
+    /// Without a record of events nobody runs ahead. Every call may bring another record.
+    fn send_scouts(&mut self, record: &dyn Record) {
+        let wants_events = record.wants_events();
+        self.lanes.iter_mut().for_each(|lane| lane.sheet.wants_events = wants_events);
+        if wants_events == self.scouts.is_empty() {
+            let scouts = self.lanes.iter().filter(|_| wants_events);
+            self.scouts = scouts.map(Lane::scout).collect();
+        }
     }
 
     /// Goes as far as a goal says, and puts down in the state what its future depends on.
@@ -118,6 +126,7 @@ impl<'m> Parted<'m> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         let (mut tries, mut is_known) = (0, self.leader.is_none());
+        self.send_scouts(record);
         self.merged.end_at(goal.last_row());
         if self.merged.opens_at(whole.t) {
             self.stretch(whole, Goal::Glance(whole.t), record)?;

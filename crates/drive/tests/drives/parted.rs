@@ -468,6 +468,26 @@ fn frames_are_the_whole_run() {
     assert_eq!(frames.state().counts().events, once.counts().events);
 }
 
+/// Each call may bring a record of its own: events are told to whoever wants them then.
+#[test]
+fn a_later_record_has_its_events() {
+    let model = Model::new(&sliders(&[0.02, 0.031])).unwrap();
+    let plan = event(1e-8, 5.0 * PERIOD);
+    let mut whole = Diary::default();
+    run(&model, &plan, &mut model.start(&plan).unwrap(), &mut whole).unwrap();
+    let mut held = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
+    held.advance(1.7 * PERIOD, &mut ()).unwrap();
+    let mut diary = Diary::default();
+    held.advance(3.1 * PERIOD, &mut diary).unwrap();
+    held.advance(3.9 * PERIOD, &mut ()).unwrap();
+    held.finish(&mut diary).unwrap();
+    let within = |t: f64| t > 1.7 * PERIOD && t <= 3.1 * PERIOD || t > 3.9 * PERIOD;
+    let times = |diary: &Diary| diary.events.iter().map(|(event, _)| event.t).collect::<Vec<_>>();
+    let known: Vec<f64> = times(&whole).into_iter().filter(|t| within(*t)).collect();
+    assert!(known.len() > 10);
+    assert_eq!(times(&diary), known);
+}
+
 /// The steps of one part end the run of all: where they are constant, as alone.
 #[test]
 fn the_steady_end_of_one_part_ends_all() {

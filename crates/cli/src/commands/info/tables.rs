@@ -112,7 +112,7 @@ impl Info {
         }
         let table = grid(["ACTUATORS", "command, as a stroke", "stack"], self.actuators.0.iter().map(row));
         let said = self.actuators.0.iter().flat_map(|(_, piezo)| &piezo.words);
-        std::iter::once(table).chain(said.cloned()).collect::<Vec<_>>().join("\n\n")
+        std::iter::once(table).chain(said.map(|words| paragraph(words))).collect::<Vec<_>>().join("\n\n")
     }
 
     fn run(&self) -> String {
@@ -206,6 +206,14 @@ pub(crate) fn grid(
     let text = table.trim_fmt().replace(KEPT_SPACE, " ");
     // The table's own space at the left.
     text.lines().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect::<Vec<_>>().join("\n")
+}
+
+/// A sentence in lines that fit.
+fn paragraph(sentence: &str) -> String {
+    let mut table = Table::new();
+    table.load_style(TableStyle::new()).set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
+    table.add_row([sentence]);
+    table.trim_fmt().lines().map(str::trim).collect::<Vec<_>>().join("\n")
 }
 
 /// A list that is broken between its names only.

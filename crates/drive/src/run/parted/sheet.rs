@@ -19,7 +19,7 @@ pub(super) struct Sheet {
     /// Up to here all is written, s: a step that is taken again tells it again.
     written: f64,
     window: [f64; 2],
-    wants_events: bool,
+    pub(super) wants_events: bool,
     follows: bool,
     watched: Option<usize>,
     /// Whether the step at hand will be taken again: paths are told then.
