@@ -279,7 +279,7 @@ impl<'m> Parted<'m> {
             for (_, lane) in self.lanes.iter_mut().enumerate().filter(|(k, _)| *k != first) {
                 lane.give_up(whole);
                 lane.set_out(u64::MAX, u64::MAX);
-                lane.come(Goal::Moment(t));
+                lane.come(Goal::End(t));
             }
         }
     }
