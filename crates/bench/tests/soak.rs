@@ -17,8 +17,9 @@ const SAMPLE: u64 = 160;
 /// that grow, whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c.
 /// 36 has a row of 50 springs, whose kinks the books do not see: at 1e-10 they miss 4.3e-8, at 3e-10 1.6e-8, and with the sines of
 /// another library 1.9e-8 and 4.2e-8.
-/// 24 came and 98 went as guards learned what rounding is in them: of 400 seeds 25 had such books before it and after.
-const KNOWN: [u64; 9] = [14, 24, 36, 45, 73, 87, 90, 120, 149];
+/// 24 came and 98 went as guards learned what rounding is in them, of 400 seeds 25 had such books before it and after; 14, 24 and 90
+/// went with short steps.
+const KNOWN: [u64; 6] = [36, 45, 73, 87, 120, 149];
 
 #[test]
 fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
