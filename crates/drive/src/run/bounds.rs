@@ -109,6 +109,12 @@ impl Bounds {
         self.crawl.attempts = 0;
     }
 
+    /// Knows of no attempt and no event.
+    pub(super) fn begin_anew(&mut self) {
+        self.windows.fill(QUIET);
+        self.crawl = Crawl { since: 0.0, attempts: 0 };
+    }
+
     /// Called after every event of a component. Many loops may close at once: they accumulate far later.
     ///
     /// Fails at the limit of events, or where a component has more than [`ZENO_COUNT`] within its natural period.

@@ -262,7 +262,8 @@ impl<'m> Run<'m> {
     }
 
     /// Where the run stands, and all that its future depends on. Memories of contacts may wait for the next event, where one
-    /// move leads them further.
+    /// move leads them further. Where bodies feel nothing of each other each may stand up to a step of its own before the time of
+    /// the whole, after [`Run::approach`]; [`Run::row`] brings them together.
     pub fn state(&self) -> &State {
         &self.state
     }

@@ -23,6 +23,8 @@ pub(super) struct Horizon {
     pub(super) corner: f64,
     /// The steps of the drive, where they may end the run.
     pub(super) steps: Steps,
+    /// The same before the first.
+    pub(super) unmade: Steps,
 }
 
 impl Horizon {
@@ -30,7 +32,16 @@ impl Horizon {
     pub(super) fn new(model: &Model, plan: &Plan) -> Self {
         let never = f64::INFINITY;
         let steps = Steps::of(model, plan);
-        Self { until: never, end: never, nearly: never, past: never, takes_last: false, corner: never, steps }
+        Self {
+            until: never,
+            end: never,
+            nearly: never,
+            past: never,
+            takes_last: false,
+            corner: never,
+            steps,
+            unmade: steps,
+        }
     }
 
     /// Goes as far as a goal says.

@@ -42,13 +42,13 @@ use crate::interval::{Interval, Swing};
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Books, Detour, Layout, State, Underway, Whereabouts};
+use crate::state::{Books, Detour, Gait, Layout, State, Underway, Whereabouts};
 use crate::{Limits, Plan, RunError};
 pub(super) use method::LocatedRun;
 use motion::Motion;
 use path::MOST_PIECES;
 use stickslip_contact::Memory;
-use stickslip_stepper::{Attempt, StepControl, StepLimits};
+use stickslip_stepper::{Attempt, StepControl, StepHistory, StepLimits};
 use turning::Turning;
 use watch::Watch;
 use whole::Halves;
@@ -154,6 +154,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     /// Takes up a state: begins a run there, or goes on with one.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         state.carry_over(self.setting.model, self.setting.layout);
+        self.forget();
         self.output.set_out(state.t, record);
         match state.underway.take() {
             Some(Underway::Located(way)) if way.tolerance == self.setting.tolerance => {
@@ -172,6 +173,19 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.ledger.begin_telling(record);
         let eq = self.setting.plain(state);
         self.output.begin_looks(&eq, (self.setting.model, state), opening, record);
+    }
+
+    /// Whatever it has done before: the workspace knows nothing of a state that it has yet to take up.
+    fn forget(&mut self) {
+        self.takeoff = None;
+        (self.detour, self.last_detour) = (None, Detour::NONE);
+        self.control.set_history(StepHistory::BLANK);
+        self.motion.pace.gait = Gait::FRESH;
+        self.horizon.steps = self.horizon.unmade;
+        self.bounds.begin_anew();
+        self.ledger.booked.books = Books::Current;
+        // What was tried and given up is not counted.
+        self.output.evaluations = self.motion.solver.evaluations();
     }
 
     /// Goes as far as a goal says, and puts down in the state what its future depends on.

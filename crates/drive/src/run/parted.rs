@@ -82,7 +82,8 @@ impl<'m> Parted<'m> {
             leader,
             merged: Merged::new(model),
             begun: Instant::now(),
-            span: FIRST * natural,
+            // Where nothing swings and no waveform is quick time itself tells.
+            span: (FIRST * natural).min(plan.duration),
             threads: available_parallelism().map_or(1, NonZero::get),
             is_busy: false,
             asked: 0.0,
@@ -190,11 +191,15 @@ impl<'m> Parted<'m> {
             return Err(halt);
         }
         let (t, fault) = match self.fault(whole) {
-            Some((t, fault)) => (t, Some(fault)),
+            Some((t, fault)) => (t.max(whole.t), Some(fault)),
             None => (outcome?, None),
         };
         self.merged.write(&mut self.lanes, t, record);
         self.put_down(whole, t);
+        if let Goal::Moment(_) = stop {
+            // The last steps were cut, and what follows has other bits than the scouts foresee.
+            self.scouts = self.scouts.iter().zip(&self.lanes).map(|(_, lane)| lane.scout()).collect();
+        }
         self.scouts.iter_mut().for_each(|scout| scout.forget(t));
         fault.map_or(Ok(()), Err)
     }

@@ -105,6 +105,11 @@ pub(crate) struct Gait {
     pub(crate) grip: Grip,
 }
 
+impl Gait {
+    /// Before the first step.
+    pub(crate) const FRESH: Self = Self { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips };
+}
+
 /// What a singular moment ahead does to even steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ahead {

@@ -422,9 +422,8 @@ fn interruptions_change_no_bit() {
     first.finish(&mut diary).unwrap();
     println!("{interrupted} interruptions");
     assert!(interrupted >= 2);
-    assert!(first.state().memories() == end.memories());
-    let [got, known] = [first.state(), &end].map(|state| (state.counts().steps, state.counts().events));
-    assert_eq!(got, known);
+    assert_eq!(first.state().counts(), end.counts());
+    assert!(*first.state() == end);
     assert!(diary.rows == whole.rows && diary.events == whole.events);
 }
 
@@ -488,6 +487,26 @@ fn a_later_record_has_its_events() {
     assert_eq!(times(&diary), known);
 }
 
+/// Periods longer than a stretch: the part whose steps may end the run is looked ahead in the middle of its leaps.
+#[test]
+fn steps_longer_than_a_stretch_are_those_of_each_alone() {
+    let slow = |mut scene: Scene| {
+        let sawtooth = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 };
+        scene.waveforms[0] = wave("drive", sawtooth, 60e-3);
+        scene
+    };
+    let steady = Some(UntilSteady { waveform: 0, body: 1, change: 1e-4 });
+    let plan = Plan { until_steady: steady, every: Some(1e-3), ..event(1e-8, 0.8) };
+    let (own, alone, rows, _) = told(&slow(sliders(&[0.02])), &plan, Diary::default());
+    let (model, state, whole, outcome) = told(&slow(sliders(&[0.02, 0.031])), &plan, Diary::default());
+    outcome.unwrap();
+    assert_eq!((state.time(), state.body(&model, 1)), (alone.time(), alone.body(&own, 1)));
+    assert!(whole.events.len() > rows.events.len() && rows.rows.len() > 200);
+    let x = |model: &Model| channel(model, "slider.x_m");
+    let of = |diary: &Diary, place: usize| diary.rows.iter().map(|row| row[place]).collect::<Vec<_>>();
+    assert_eq!(of(&whole, x(&model)), of(&rows, x(&own)));
+}
+
 /// The steps of one part end the run of all: where they are constant, as alone.
 #[test]
 fn the_steady_end_of_one_part_ends_all() {
@@ -503,6 +522,7 @@ fn the_steady_end_of_one_part_ends_all() {
     // The other one up to there.
     let (own, end, _, _) = told(&sliders(&[0.031]), &event(1e-8, state.time()), Diary::default());
     assert_eq!(state.body(&model, 2), end.body(&own, 1));
+    assert_eq!(state.body(&model, 1), alone.body(&Model::new(&p1()).unwrap(), 1));
     // Put down before, taken up again.
     let mut first = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
     first.approach(&mut ()).unwrap();

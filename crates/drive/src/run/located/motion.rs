@@ -57,14 +57,10 @@ impl<A> Motion<A> {
         let pace = Pace {
             longest: longest(model),
             first: scene_time(model),
-            short: if setting.method == Method::DormandPrince {
-                short(tolerance) / model.fastest
-            } else {
-                0.0
-            },
+            short: if setting.method == Method::DormandPrince { short(model, tolerance) } else { 0.0 },
             closeness: closeness(model, tolerance),
             resolved: tolerance.powf(2.0 / 3.0),
-            gait: Gait { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips },
+            gait: Gait::FRESH,
         };
         Self { solver, whereabouts: Whereabouts::Behind, allowance: Allowance::new(model, tolerance), pace }
     }
@@ -242,7 +238,10 @@ const ESTIMATED: f64 = 8.1e-4;
 /// Longest step of it, rad: up to here swings do not grow.
 const STABLE: f64 = 0.9;
 
-/// Longest step that the pair of order 5 takes, in radians of the fastest swing: there it meets the tolerance.
-fn short(tolerance: f64) -> f64 {
-    if tolerance < TIGHTEST_BRIEF { 0.0 } else { (tolerance / ESTIMATED).powf(0.2).min(1.0) * STABLE }
+/// Longest step that the pair of order 5 takes, s: there it meets the tolerance for the fastest swing; none where nothing swings.
+fn short(model: &Model, tolerance: f64) -> f64 {
+    if tolerance < TIGHTEST_BRIEF || model.fastest == 0.0 {
+        return 0.0;
+    }
+    (tolerance / ESTIMATED).powf(0.2).min(1.0) * STABLE / model.fastest
 }

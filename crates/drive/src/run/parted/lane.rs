@@ -208,7 +208,7 @@ impl<'m> Lane<'m> {
 
     /// Attempts so far, without those given up.
     pub(super) fn attempts(&self) -> u64 {
-        self.state.counts.steps + self.state.counts.rejected
+        self.state.counts.steps.saturating_add(self.state.counts.rejected)
     }
 
     /// Attempts of this stretch.
@@ -218,7 +218,7 @@ impl<'m> Lane<'m> {
 
     /// All that it has done.
     pub(super) fn work(&self) -> f64 {
-        self.weight * (self.attempts() + self.given_up) as f64
+        self.weight * self.attempts().saturating_add(self.given_up) as f64
     }
 
     /// Turning points made or given up.
