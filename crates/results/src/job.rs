@@ -3,6 +3,7 @@
 use crate::columns::Columns;
 use crate::excess;
 use crate::limits;
+use crate::marks::Marks;
 use crate::plausibility;
 use crate::program::this_program;
 use crate::seal::hash;
@@ -121,7 +122,12 @@ impl Job {
         let resolved = scenario.resolved();
         let hash = hash(&resolved);
         let program = this_program();
-        let job = Self { name, folder, scenario, model, start, columns, grids, resolved, hash, program };
+        let mut job = Self { name, folder, scenario, model, start, columns, grids, resolved, hash, program };
+        if Marks::of(&job).are_dense {
+            // Parts would wait for each other at every one of them: two damped sliders took ten times as long.
+            job.model.keep_together();
+            job.start = job.model.start(&job.scenario.plan).map_err(|error| job.scenario.refusal(&error))?;
+        }
         excess::check(&job)?;
         Ok(job)
     }

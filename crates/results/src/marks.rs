@@ -21,6 +21,8 @@ pub(crate) struct Marks {
     grids: Vec<Grid>,
     /// How many of them, the first, are not for the account of a period alone.
     common: usize,
+    /// Whether contacts are looked at in parts of a period.
+    pub(crate) are_dense: bool,
     /// Body whose way in each period is wanted.
     pub(crate) body: Option<usize>,
     /// Periods of the figures.
@@ -50,13 +52,19 @@ impl Marks {
         let of_figures = || Periods::until(&scene.waveforms.get(figures.waveform?)?.part, for_ever);
         let figures = body.and_then(|_| of_figures());
         let mut grids: Vec<Grid> = figures.iter().map(|periods| Grid::of(periods, 1.0)).collect();
+        let mut are_dense = false;
         for c in 0..scene.contacts.len() {
             let grids_of_contact = match (Periods::of_contact(job, c, for_ever), table_of(job, c)) {
                 (Some(periods), _) => {
                     let steps = body.is_some_and(|body| touches(job, c, body));
-                    vec![Grid::of(&periods, if steps || is_walked(job, c) { 1.0 } else { PARTS })]
+                    let whole = steps || is_walked(job, c);
+                    are_dense |= !whole;
+                    vec![Grid::of(&periods, if whole { 1.0 } else { PARTS })]
                 }
-                (None, Some(table)) => Grid::along(table, is_walked(job, c), end),
+                (None, Some(table)) => {
+                    are_dense |= !is_walked(job, c);
+                    Grid::along(table, is_walked(job, c), end)
+                }
                 (None, None) => Vec::new(),
             };
             for grid in grids_of_contact {
@@ -67,7 +75,7 @@ impl Marks {
         }
         let common = grids.len();
         grids.extend(figures.iter().flat_map(|periods| turns(job, periods)));
-        Self { grids, common, body: body.filter(|_| figures.is_some()), figures, end }
+        Self { grids, common, are_dense, body: body.filter(|_| figures.is_some()), figures, end }
     }
 
     /// Whether a moment is one for all figures, and not for the account of a period alone.

@@ -43,6 +43,12 @@ impl Model {
         self.parts.len().max(1)
     }
 
+    /// Steps all parts together, as one: for a record that wants so many rows of its own ([`Record::next_mark`](crate::Record))
+    /// that parts would have to wait for each other at every step.
+    pub fn keep_together(&mut self) {
+        self.parts.clear();
+    }
+
     /// Values of a row.
     pub(crate) fn channel_count(&self) -> usize {
         let moving = self.bodies.iter().map(Body::columns).sum::<usize>();
