@@ -2,3 +2,18 @@
 //!
 //! Knows no terminal and draws nothing, so that any door can stand on it. What it computes does not depend on the number of
 //! threads.
+//!
+//! In reading order: `parameter` (numbers of a scene that vary) and `sketch` (those of its waveforms), `figure` (what is kept of
+//! a run), `line` (what is told of it), `batch` (the runs).
+
+mod batch;
+mod figure;
+mod line;
+mod parameter;
+mod sketch;
+
+pub use batch::Batch;
+pub use figure::{Figure, FigureError};
+pub use line::{Ended, Line, LineFault, Lines};
+pub use parameter::{Parameter, ParameterError, ValueError};
+pub use sketch::Quantity;

@@ -6,7 +6,7 @@
 //! contact. What has no such form (curved followers, rows in a lull, the whole law, blocks, varying loads) leaves the scene to
 //! the general [`Equations`], of which this is a copy that asks nothing twice.
 
-use super::{Closed, Followed};
+use super::{Closed, Followed, emptied};
 use crate::contact::{Contact, Mode, Motion, Press};
 use crate::equations::Equations;
 use crate::model::{Link, Measure, Model, Stroke, Terms};
@@ -109,6 +109,20 @@ impl<'a> Kernel<'a> {
             && model.loads.is_empty()
             && model.blocks.is_empty()
             && model.balanced.is_empty()
+    }
+
+    /// Room for all that acts in a model.
+    pub(super) fn reserve(&mut self, model: &Model) {
+        self.clear();
+        self.steady.reserve(model.contacts.len());
+        self.moving.reserve(model.contacts.len());
+        self.links.reserve(model.links.len());
+    }
+
+    /// The room that it takes, empty.
+    pub(super) fn emptied(self) -> Kernel<'static> {
+        let (steady, moving, links) = (emptied(self.steady), emptied(self.moving), emptied(self.links));
+        Kernel { steady, moving, links, ..Kernel::default() }
     }
 
     /// No interval: the general equations hold.

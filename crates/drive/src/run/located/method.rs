@@ -1,12 +1,12 @@
 //! The solver of a run between located events.
 
-use super::{Located, Setting};
+use super::{Located, Room, Setting};
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
 use crate::record::Record;
 use crate::run::horizon::Goal;
 use crate::run::output::Opening;
-use crate::state::State;
+use crate::state::{LocatedWay, State};
 use crate::{Limits, Plan, RunError};
 use stickslip_stepper::{DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired};
 
@@ -38,6 +38,43 @@ impl<'a> LocatedRun<'a> {
             _ => {
                 let solver = DormandPrince::new(layout.dimension(), layout.total());
                 Self::General(Box::new(Located::new(setting, plan, solver, DOP853_ORDER)))
+            }
+        }
+    }
+}
+
+/// Rooms of runs between located events, by the kind of their solver: runs of one shape take turns in one of them.
+#[derive(Default)]
+pub(in crate::run) struct Workspace {
+    one: Option<Room<Paired<One>>>,
+    many: Option<Room<Paired>>,
+    general: Option<Room<DormandPrince>>,
+}
+
+impl Workspace {
+    /// Moves a state that has begun to the end of its plan; `way` is room for what is put down with it.
+    pub(in crate::run) fn run(
+        &mut self,
+        (model, plan, tolerance): (&Model, &Plan, f64),
+        state: &mut State,
+        way: Option<Box<LocatedWay>>,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let layout = model.layout();
+        let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
+        let to = (state, way);
+        match (setting.method, layout.free) {
+            (Method::Nystrom, 1) => {
+                let solver = || Paired::one(layout.total());
+                Room::run(&mut self.one, (setting, plan, NYSTROM_ORDER), solver, to, record)
+            }
+            (Method::Nystrom, free) => {
+                let solver = || Paired::new(free, 1, layout.total());
+                Room::run(&mut self.many, (setting, plan, NYSTROM_ORDER), solver, to, record)
+            }
+            _ => {
+                let solver = || DormandPrince::new(layout.dimension(), layout.total());
+                Room::run(&mut self.general, (setting, plan, DOP853_ORDER), solver, to, record)
             }
         }
     }
