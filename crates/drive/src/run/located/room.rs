@@ -75,12 +75,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves a state to the end of its plan.
-    fn finish(
-        &mut self,
-        state: &mut State,
-        plan: &Plan,
-        record: &mut dyn Record,
-    ) -> Result<(), RunError> {
+    fn finish(&mut self, state: &mut State, plan: &Plan, record: &mut dyn Record) -> Result<(), RunError> {
         let model = self.setting.model;
         state.check_inputs(model, plan.duration)?;
         for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
