@@ -34,13 +34,13 @@ impl Model {
     /// nothing holds, dampers that would have to follow a jump. Where these stand in a file is the file reader's to say.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let mut model = Self::blank();
-        model.become_of(scene, &mut Scaffold::default())?;
+        model.rebuild(scene, &mut Scaffold::default())?;
         Ok(model)
     }
 
     /// Becomes the model of another scene, in the room that this one takes: of a scene of the same shape with a single free
     /// coordinate nothing is allocated. After an error it is the model of no scene, and can become another one's.
-    pub(crate) fn become_of(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
+    pub(crate) fn rebuild(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         check::check(scene)?;
         (self.fastest, self.growing) = (0.0, 0);
         self.parts.clear();

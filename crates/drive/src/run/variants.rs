@@ -58,7 +58,7 @@ impl Variants {
     /// What [`Model::new`], [`Model::start`] and [`run`](crate::run()) refuse; of a run that stopped itself the state is that
     /// where it did.
     pub fn run(&mut self, scene: &Scene, plan: &Plan, record: &mut dyn Record) -> Result<(), VariantError> {
-        self.model.become_of(scene, &mut self.scaffold)?;
+        self.model.rebuild(scene, &mut self.scaffold)?;
         let way = match self.state.underway.take() {
             Some(Underway::Located(way)) => Some(way),
             _ => None,
