@@ -24,6 +24,7 @@ mod cut;
 mod fixed_depth;
 mod front;
 mod knot;
+mod legs;
 mod stack;
 mod sweep;
 mod thinning;
@@ -33,6 +34,7 @@ mod words;
 pub use branch::{Branch, Dragged};
 pub use course::Course;
 pub use fixed_depth::FixedDepthBranch;
+pub use legs::Legs;
 
 use crate::{Apex, ContactError, ContactState, Interface, Segment, SpringState};
 use cut::Drag;

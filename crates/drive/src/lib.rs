@@ -30,6 +30,7 @@ mod record;
 mod run;
 pub mod scene;
 mod schedule;
+pub mod section;
 mod state;
 mod waveform;
 
