@@ -6,10 +6,12 @@
 
 mod blocks;
 mod frame;
+mod paces;
 mod parts;
 mod reach;
 
 pub(crate) use blocks::eigenvalues as block_eigenvalues;
+pub(crate) use paces::Paces;
 pub(crate) use reach::Reach;
 
 use crate::{Model, Sample, State, Stepper};
@@ -97,13 +99,6 @@ impl Model {
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
     }
 
-    /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
-    pub(super) fn largest_rate(&self) -> f64 {
-        // As deep as they get: stiffness grows with the indentation, and a bound must hold throughout the
-        // run.
-        self.parts(|d| d.most).iter().map(Linearised::largest_rate).fold(0.0, f64::max)
-    }
-
     /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get, and of what the
     /// states of blocks do of themselves; infinite where nothing swings or settles. None for steppers that choose their steps.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
@@ -183,17 +178,6 @@ impl Linearised {
     fn by_mass(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let root = self.mass.map(f64::sqrt);
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
-    }
-
-    /// Largest |λ|, 1/s, of the motions e^{λt}.
-    fn largest_rate(&self) -> f64 {
-        let frequency = self.highest_frequency();
-        // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
-        if self.damping.amax() == 0.0 {
-            return frequency;
-        }
-        let rates = self.rates(if frequency > 0.0 { frequency } else { 1.0 });
-        rates.iter().map(|rate| rate.norm()).fold(frequency, f64::max)
     }
 
     /// ω of the fastest mode, rad/s; 0 without any.

@@ -10,6 +10,7 @@ use super::{
     check, dampers, held, parts, reach, scale, used,
 };
 use crate::contact::Contact;
+use crate::linearised::Paces;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
 
@@ -72,9 +73,11 @@ impl Model {
             spared,
             moment,
             fastest: 0.0,
+            stiff: false,
             parts: Vec::new(),
         };
-        let whole = Self { fastest: constants.largest_rate(), ..constants.settled() };
+        let Paces { fastest, stiff } = constants.paces();
+        let whole = Self { fastest, stiff, ..constants.settled() };
         Ok(Self { parts: parts::divide(scene, &whole), ..whole })
     }
 }

@@ -120,12 +120,12 @@ impl<'a> Setting<'a> {
 }
 
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
-    /// `order` is that of the solver, for step control.
-    fn new(setting: Setting<'a>, plan: &Plan, solver: A, order: u32) -> Self {
+    /// `order` is that of the solver, for step control, and `limits` what its steps may do.
+    fn new(setting: Setting<'a>, plan: &Plan, solver: A, (order, limits): (u32, StepLimits)) -> Self {
         let model = setting.model;
         let motion = Motion::new(&setting, solver);
         // No step leaps over a smooth wave.
-        let limits = StepLimits { longest: motion.pace.longest, ..StepLimits::default() };
+        let limits = StepLimits { longest: motion.pace.longest, ..limits };
         Self {
             horizon: Horizon::new(model, plan),
             interval: Interval::of(model),

@@ -1,5 +1,6 @@
 //! The solver of a run between located events.
 
+use super::allowance::differences;
 use super::{Located, Setting};
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
@@ -8,7 +9,13 @@ use crate::run::horizon::Goal;
 use crate::run::output::Opening;
 use crate::state::State;
 use crate::{Limits, Plan, RunError};
-use stickslip_stepper::{DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired};
+use stickslip_stepper::{
+    DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired, RADAU_ORDER, Radau, StepLimits,
+};
+
+/// Strongest shortening of an implicit step at once.
+// Where a follower turns, the first step that sees what settles there is a millionth of the one before.
+const SHRINK: f64 = 0.1;
 
 /// A run between located events, by the method of the scene's intervals without a closed form: where no force depends on a
 /// velocity, one that spares a third of the evaluations.
@@ -19,25 +26,34 @@ pub(in crate::run) enum LocatedRun<'a> {
     Many(Box<Located<'a, Paired>>),
     /// With dampers, varying loads or growth.
     General(Box<Located<'a, DormandPrince>>),
+    /// With something stiff among them.
+    Stiff(Box<Located<'a, Radau>>),
 }
 
 impl<'a> LocatedRun<'a> {
     pub(in crate::run) fn new(model: &'a Model, plan: &Plan, tolerance: f64) -> Self {
         let layout = model.layout();
         let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
+        let limits = StepLimits::default();
         match (setting.method, layout.free) {
             // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
             (Method::Nystrom, 1) => {
                 let solver = Paired::one(layout.total());
-                Self::One(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
+                Self::One(Box::new(Located::new(setting, plan, solver, (NYSTROM_ORDER, limits))))
             }
             (Method::Nystrom, free) => {
                 let solver = Paired::new(free, 1, layout.total());
-                Self::Many(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
+                Self::Many(Box::new(Located::new(setting, plan, solver, (NYSTROM_ORDER, limits))))
+            }
+            (Method::Radau, free) => {
+                let coupled = (layout.dimension(), free);
+                let solver = Radau::new(coupled, layout.total(), differences(model));
+                let limits = StepLimits { shrink: SHRINK, ..limits };
+                Self::Stiff(Box::new(Located::new(setting, plan, solver, (RADAU_ORDER, limits))))
             }
             _ => {
                 let solver = DormandPrince::new(layout.dimension(), layout.total());
-                Self::General(Box::new(Located::new(setting, plan, solver, DOP853_ORDER)))
+                Self::General(Box::new(Located::new(setting, plan, solver, (DOP853_ORDER, limits))))
             }
         }
     }
@@ -50,6 +66,7 @@ macro_rules! each {
             Self::One($run) => $call,
             Self::Many($run) => $call,
             Self::General($run) => $call,
+            Self::Stiff($run) => $call,
         }
     };
 }
