@@ -94,7 +94,7 @@ fn assert_page(page: &str, folder: &Path) {
     assert!(places.iter().all(|place| folder.join(place).exists()), "{places:?}");
     let tables: Vec<&str> = page.lines().filter(|line| line.starts_with('|')).collect();
     let ratios = tables.iter().filter(|line| line.starts_with("| `p1` |"));
-    assert_eq!(ratios.map(|line| line.matches('|').count()).collect::<Vec<_>>(), [10; 4]);
+    assert_eq!(ratios.map(|line| line.matches('|').count()).collect::<Vec<_>>(), [10; 6]);
     assert_eq!(tables.iter().filter(|line| line.starts_with("| 1e-")).count(), 12);
 }
 
@@ -152,6 +152,21 @@ fn the_loop_knows_loads_that_vary_and_bodies_that_turn() {
         assert!((order - 2.0).abs() < 0.35 && runs.0[6][1] < 1e-3, "{name}: {order}, {:?}", runs.0);
         assert!(Runs::read(&table, "ode_solvers", "curve", "").0.is_empty());
     }
+}
+
+/// What valgrind is to count runs once and leaves nothing behind; how it counts is no matter of a test.
+#[test]
+fn what_is_counted_runs_alone() {
+    for what in ["1e-3", "floor:4", "floor:16"] {
+        let output =
+            stickslip().args(["bench", "--quiet", "--counted", what]).arg(scenario("p1")).output().unwrap();
+        assert!(
+            output.status.success() && output.stdout.is_empty() && output.stderr.is_empty(),
+            "{output:?}"
+        );
+    }
+    let output = stickslip().args(["bench", "--counted", "floor"]).arg(scenario("p1")).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
 }
 
 #[test]

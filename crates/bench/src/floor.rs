@@ -10,8 +10,10 @@
 //!
 //! Source: Mindlin, Deresiewicz, J. Appl. Mech. 20 (1953) 327; Landau, Lifshitz, *Mechanics*, 3rd ed., section 11.
 
+mod beside;
 mod rule;
 
+pub(crate) use beside::Beside;
 pub use rule::Rule;
 use std::f64::consts::PI;
 

@@ -9,7 +9,7 @@
 //!
 //! In reading order: `request`; `problem` (a scenario with its reference), `norm` and `samples` (how far off a run is);
 //! `contestant`, `family` and `steps` (who runs, at what tolerances and steps), `baseline` (what others would do); `turns` and
-//! `clock` (the measurement); `front` (what an error costs); `sheet`, [`picture`] and `page` (what is written), `machine`;
+//! `clock` (the measurement), [`instructions`]; `front` (what an error costs); `sheet`, [`picture`] and `page` (what is written), `machine`;
 //! [`growth`]; [`frames`], which are drives in real time; [`floor`], how little the benchmark drive could cost.
 
 mod baseline;
@@ -21,6 +21,7 @@ pub mod floor;
 pub mod frames;
 mod front;
 pub mod growth;
+pub mod instructions;
 mod machine;
 mod measurement;
 mod norm;
@@ -33,6 +34,7 @@ mod sheet;
 pub mod soak;
 mod steps;
 mod turns;
+mod work;
 
 pub use error::BenchError;
 pub use measurement::{TABLE, measure};

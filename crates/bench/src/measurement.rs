@@ -4,6 +4,7 @@ use crate::error::BenchError;
 use crate::page::Chapter;
 use crate::problem::{Known, Problem};
 use crate::request::Request;
+use crate::work::Work;
 use crate::{family, picture, sheet, turns};
 use std::path::{Path, PathBuf};
 use stickslip_results::folder::Folder;
@@ -37,6 +38,9 @@ pub fn measure(
     folder.stage(TABLE, table).map_err(failed)?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes)).map_err(failed)?;
     folder.publish().map_err(failed)?;
-    let chapter = |page: &PathBuf| Chapter::new((job, file), &problem, &families, page);
+    let chapter = |page: &PathBuf| {
+        let work = Work::of(&problem, &families, file, request);
+        Chapter::new((job, file), &problem, (&families, work), page)
+    };
     request.page.as_ref().map(chapter).transpose().map_err(failed)
 }

@@ -7,6 +7,7 @@ use crate::front::{Cost, Front};
 use crate::measurement::TABLE;
 use crate::problem::{CHECK, Problem};
 use crate::request::Request;
+use crate::work::Work;
 use crate::{growth, machine, picture};
 use std::fmt::Write;
 use std::io;
@@ -16,16 +17,18 @@ use stickslip_results::program::this_program;
 use stickslip_results::{Job, folder};
 
 /// Errors at which methods are compared.
-const ERRORS: [f64; 4] = [1e-3, 1e-6, 1e-8, 1e-9];
+const ERRORS: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
 /// What is compared with the event stepper on the exact curve: a name and the methods whose front counts.
 const RIVALS: [Rival; 6] = [
     ("loop over springs", |method| matches!(method, Method::Loop { .. })),
+    ("rk4 over springs", |method| {
+        matches!(method, Method::Own { stepping: Stepping::Rk4, springs: Some(_) })
+    }),
     ("ode_solvers with events", |method| method == Method::Outside),
-    ("verlet", |method| method == own(Stepping::Verlet)),
     ("rk4", |method| method == own(Stepping::Rk4)),
+    ("verlet", |method| method == own(Stepping::Verlet)),
     ("dopri5", |method| method == own(Stepping::Dopri5)),
-    ("own steppers on springs", |method| matches!(method, Method::Own { springs: Some(_), .. })),
 ];
 
 type Rival = (&'static str, fn(Method) -> bool);
@@ -36,8 +39,12 @@ const fn own(stepping: Stepping) -> Method {
 
 /// What the page says of one scenario.
 pub struct Chapter {
+    name: String,
+    work: Work,
     /// Lines of the table of ratios.
     ratios: String,
+    /// Where others are faster, in words.
+    losses: Vec<String>,
     /// Everything else.
     text: String,
 }
@@ -47,7 +54,7 @@ impl Chapter {
     pub(crate) fn new(
         (job, file): (&Job, &Path),
         problem: &Problem,
-        families: &[Family<'_>],
+        (families, work): (&[Family<'_>], Work),
         page: &Path,
     ) -> io::Result<Self> {
         let folder = relative(&job.folder, parent(page))?;
@@ -73,7 +80,9 @@ impl Chapter {
             let _ =
                 writeln!(text, "\nThe loop and ode_solvers are not here: their baselines know no {what}.");
         }
-        Ok(Self { ratios: ratios(&name, problem, families), text })
+        text.push_str(&work.against_floor(digits));
+        let (ratios, losses) = ratios(&name, problem, families);
+        Ok(Self { ratios, losses, name, work, text })
     }
 }
 
@@ -118,17 +127,24 @@ fn runs(text: &mut String, problem: &Problem, families: &[Family<'_>]) {
 }
 
 /// What the event stepper needs for errors along the way, and how many times as long others take.
-fn ratios(name: &str, problem: &Problem, families: &[Family<'_>]) -> String {
+///
+/// The second list has those that take less.
+fn ratios(name: &str, problem: &Problem, families: &[Family<'_>]) -> (String, Vec<String>) {
     let front = |is: &dyn Fn(Method) -> bool| {
         Front::of(families.iter().filter(|family| is(family.method)), |errors| errors.trajectory)
     };
     let event = front(&|method| method == own(Stepping::Event));
     let rivals = RIVALS.map(|(_, is)| front(&is));
-    let mut lines = String::new();
+    let (mut lines, mut losses) = (String::new(), Vec::new());
     for error in ERRORS {
         let Some(Cost::Measured(best)) = event.cost(error) else { continue };
         let _ = write!(lines, "| `{name}` | {error:e} | {} ms |", digits(1e3 * best / problem.duration));
-        for rival in &rivals {
+        for (rival, (who, _)) in rivals.iter().zip(RIVALS) {
+            if let Some(Cost::Measured(cost)) = rival.cost(error)
+                && cost < best
+            {
+                losses.push(format!("`{name}` at {error:e} ({who}, {} ×)", digits(cost / best)));
+            }
             let ratio = match rival.cost(error) {
                 Some(Cost::Measured(cost)) => format!("{} ×", digits(cost / best)),
                 Some(Cost::Extrapolated(cost)) => format!("≈ {} ×", digits(cost / best)),
@@ -139,7 +155,7 @@ fn ratios(name: &str, problem: &Problem, families: &[Family<'_>]) -> String {
         }
         lines.push('\n');
     }
-    lines
+    (lines, losses)
 }
 
 /// Writes the page of all chapters.
@@ -163,6 +179,7 @@ fn text(chapters: &[Chapter], request: &Request, file: &Path) -> io::Result<Stri
         this_program(),
     );
     if !chapters.is_empty() {
+        page.push_str(&work_table(chapters));
         page.push_str(&ratio_table(chapters));
     }
     chapters.iter().for_each(|chapter| page.push_str(&chapter.text));
@@ -172,6 +189,26 @@ fn text(chapters: &[Chapter], request: &Request, file: &Path) -> io::Result<Stri
     Ok(page)
 }
 
+/// The table of what the event stepper takes.
+fn work_table(chapters: &[Chapter]) -> String {
+    let first = chapters.iter().find(|chapter| chapter.name == FIRST).map(|chapter| &chapter.work);
+    let lines = chapters.iter().map(|chapter| chapter.work.lines(&chapter.name, first, digits));
+    WORK.to_owned() + &lines.collect::<String>() + "\n"
+}
+
+/// The scene whose instructions those of others are told in.
+const FIRST: &str = "p1";
+
+const WORK: &str = "\
+## What it takes
+
+The event stepper on the exact contact. **Instructions** are those of a run with a record that keeps nothing, counted by
+valgrind's callgrind: they do not depend on what else the machine does. Beside them those per simulated second in parts of P1's.
+
+| scenario | tolerance | error at the end | along the way | million instructions | × P1 per second | ms per simulated second | steps | events |
+| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |
+";
+
 /// The table of ratios of all scenarios.
 fn ratio_table(chapters: &[Chapter]) -> String {
     let mut table = RATIOS.to_owned();
@@ -179,6 +216,9 @@ fn ratio_table(chapters: &[Chapter]) -> String {
     let rule = RIVALS.map(|_| " ---: |").concat();
     let _ = writeln!(table, "\n\n| scenario | error | event |{head}\n| --- | ---: | ---: |{rule}");
     chapters.iter().for_each(|chapter| table.push_str(&chapter.ratios));
+    let losses: Vec<&str> = chapters.iter().flat_map(|chapter| &chapter.losses).map(String::as_str).collect();
+    let told = if losses.is_empty() { "nowhere here".to_owned() } else { losses.join("; ") };
+    let _ = writeln!(table, "\n**Where others are faster** than the event stepper: {told}.");
     table
 }
 
@@ -230,7 +270,9 @@ const RATIOS: &str = "\
 
 Time per simulated second of the event stepper for an error along the way, and how many times as long the others take: between
 measured runs by the straight line through their logarithms; ≈ beyond the finest run that was measured, along the order of its
-last two decades; \"not reached\" where finer runs have no smaller errors, or where the finest is more than three decades away.";
+last two decades; \"not reached\" where finer runs have no smaller errors, or where the finest is more than three decades away; –
+where others do not know the scene: the loop has up to six free coordinates, the events by hand up to three and constant loads,
+and neither of them springs, stacks or damped contacts.";
 
 /// The command that writes the page.
 fn command(request: &Request) -> String {
@@ -241,6 +283,7 @@ fn command(request: &Request) -> String {
         command += &format!(" --known {name}:{}={:e}", known.channel, known.value);
     }
     command += &format!(" --budget \"{} s\" --out {}", request.budget, word(&request.out));
+    command += if request.instructions { " --instructions" } else { "" };
     command += if request.growth { " --growth" } else { "" };
     request.page.iter().for_each(|page| command += &format!(" --page {}", word(page)));
     command

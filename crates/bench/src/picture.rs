@@ -28,7 +28,8 @@ pub(crate) fn draw(
 ) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
     let points: Vec<Points> = families.iter().map(|family| Points::new(family, problem.duration)).collect();
     let curves: Vec<WorkCurve<'_>> = points.iter().map(Points::curve).collect();
-    let error = format!("largest error, parts of {}", problem.norm.of);
+    // Short: it stands along the height of a panel.
+    let error = format!("error / {}", problem.norm.of.trim_start_matches("the ").replace('"', ""));
     let mut figure = work_precision_figure(job.title(), &error, &curves, Some(problem.doubt.trajectory));
     figure.provenance = [
         (provenance::TITLE, job.title().to_owned()),

@@ -16,6 +16,8 @@ pub struct Request {
     pub set: Vec<(String, String)>,
     /// Coordinates at the end of scenarios that are known from elsewhere, by the scenario's name.
     pub known: Vec<(String, Known)>,
+    /// Whether instructions are counted, where valgrind is installed.
+    pub instructions: bool,
     /// Whether what more of something costs is measured, too.
     pub growth: bool,
     /// A page in Markdown with the tables and pictures of all scenarios, where one is wanted.

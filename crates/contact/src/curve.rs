@@ -24,6 +24,7 @@ mod cut;
 mod fixed_depth;
 mod front;
 mod knot;
+mod legs;
 mod stack;
 mod sweep;
 mod thinning;
@@ -33,6 +34,7 @@ mod words;
 pub use branch::{Branch, Dragged};
 pub use course::Course;
 pub use fixed_depth::FixedDepthBranch;
+pub use legs::Legs;
 
 use crate::{Apex, ContactError, ContactState, Interface, Segment, SpringState};
 use cut::Drag;
@@ -85,20 +87,28 @@ impl Curve {
     /// The same with a stack of another capacity (at least 8 knots).
     pub fn with_capacity(law: &Interface, at: Apex, capacity: usize) -> Self {
         let capacity = capacity.max(Self::LEAST_CAPACITY);
-        let mut knots = Vec::with_capacity(capacity.min(Self::ROOM));
-        if at.d > 0.0 {
-            let first = Knot::touch(at.u);
-            knots.push(first);
-            knots.push(first.grow(law, at.d, 0.0, at.u));
-        }
-        Self {
-            knots,
+        let mut curve = Self {
+            knots: Vec::with_capacity(capacity.min(Self::ROOM)),
             apex: at,
             front: Front::STICK,
             range: SlopeRange::ALL,
             capacity,
             merged: Merged::default(),
+        };
+        curve.begin(law, at);
+        curve
+    }
+
+    /// Becomes the curve of an untouched contact at an apex, in the room there is; its capacity stays.
+    pub(crate) fn begin(&mut self, law: &Interface, at: Apex) {
+        self.knots.clear();
+        if at.d > 0.0 {
+            let first = Knot::touch(at.u);
+            self.knots.push(first);
+            self.knots.push(first.grow(law, at.d, 0.0, at.u));
         }
+        (self.apex, self.front, self.range) = (at, Front::STICK, SlopeRange::ALL);
+        self.merged = Merged::default();
     }
 
     /// Makes the room that a new curve has: a copy, or a curve read from words, has none but for what it holds.

@@ -27,6 +27,14 @@ impl Engine {
         }
     }
 
+    /// Makes a memory that of an untouched contact at an apex: a curve in the room it has, a row anew.
+    pub fn begin(&self, memory: &mut Memory, law: &Interface, at: Apex) {
+        match (self, memory) {
+            (Self::Curve, Memory::Curve(curve)) => curve.begin(law, at),
+            (engine, memory) => *memory = engine.memory(law, at),
+        }
+    }
+
     /// Whether its memories can freeze smooth branches: the capability that [`Tangential::branching`] gives.
     pub fn branches(&self) -> bool {
         matches!(self, Self::Curve)

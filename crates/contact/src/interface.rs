@@ -32,11 +32,22 @@ impl Interface {
 
     /// An interface of a pair, a profile and Coulomb's coefficient μ in [0, [`Self::MAX_FRICTION`]].
     pub fn new(pair: Pair, profile: Profile, friction: f64) -> Result<Self, FrictionError> {
+        let mut interface = Self { pair, friction: 0.0, slope: 0.0, profile, damping: 0.0, springs: None };
+        interface.set_friction(friction)?;
+        Ok(interface)
+    }
+
+    /// Another coefficient μ, all else being as it is: for whoever runs one scene with many of them.
+    ///
+    /// # Errors
+    /// One out of [0, [`Self::MAX_FRICTION`]]; the former one stays.
+    pub fn set_friction(&mut self, friction: f64) -> Result<(), FrictionError> {
         if !(0.0..=Self::MAX_FRICTION).contains(&friction) {
             return Err(FrictionError(friction));
         }
-        let slope = friction * pair.normal_modulus() / pair.tangential_modulus();
-        Ok(Self { pair, friction, slope, profile, damping: 0.0, springs: None })
+        self.friction = friction;
+        self.slope = friction * self.pair.normal_modulus() / self.pair.tangential_modulus();
+        Ok(())
     }
 
     /// The same with stuck springs that carry βG\*ṡ beside G\*s, ṡ the rate of their stretch; β in s, at least 0.

@@ -30,7 +30,7 @@ mod row;
 mod similarity;
 mod words;
 
-pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Merged};
+pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Legs, Merged};
 pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use fields::{Field, Fields, FrictionMap, Zone, ZoneKind};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};

@@ -41,6 +41,18 @@ impl Model {
     /// Fails where a number of the plan is out of its range, where an equilibrium is asked for and there is none, where the
     /// plan's stepper cannot follow the model's waveforms, and where its fixed step is unstable.
     pub fn start(&self, plan: &Plan) -> Result<State, SceneError> {
+        let mut state = State::blank();
+        self.start_in(plan, &mut state, &mut Vec::new())?;
+        Ok(state)
+    }
+
+    /// The same in the room of another state; `row` is scratch. After an error the state is of no use.
+    pub(crate) fn start_in(
+        &self,
+        plan: &Plan,
+        state: &mut State,
+        row: &mut Vec<f64>,
+    ) -> Result<(), SceneError> {
         plan.check()?;
         // A free mass does not follow a jump: only a step that ends there can tell its two sides apart.
         let jumps = !self.free.is_empty() && self.waveforms.iter().any(crate::Waveform::has_jumps);
@@ -51,34 +63,34 @@ impl Model {
         }
         self.check_step(plan.stepper)?;
         if !self.parts.is_empty() {
-            let alone = |part: &Part| part.model.begun().map_err(|error| part.in_the_whole(error));
-            return Ok(self.joined(&self.parts.iter().map(alone).collect::<Result<Vec<_>, _>>()?));
+            let alone = |part: &Part| part.begun();
+            *state = self.joined(&self.parts.iter().map(alone).collect::<Result<Vec<_>, _>>()?);
+            return Ok(());
         }
-        self.begun()
+        self.begin(state, row)
     }
 
     /// The state at t = 0 where nothing is wrong with a plan.
-    fn begun(&self) -> Result<State, SceneError> {
-        let mut state = self.rest();
+    fn begin(&self, state: &mut State, row: &mut Vec<f64>) -> Result<(), SceneError> {
+        self.put_at_rest(state);
         if self.equilibrium && !self.free.is_empty() {
             // Copies hold what they must and no more: the room that a run needs lies so far apart that looking through ten
             // thousand of them took seven times as long.
             state.memories = state.memories.clone();
-            Settling::new(self, &state).settle(&mut state)?;
+            Settling::new(self, state).settle(state)?;
             state.memories.iter_mut().for_each(Memory::make_room);
         }
-        self.balance_first(&mut state)?;
+        self.balance_first(state)?;
         // What pressed and lifted before the start is no work of the run: it is read off the present state,
         // and taken off here.
         let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());
         state.jumps = -varying.map(|c| c.count * c.interface.normal_energy(self.indentation(c))).sum::<f64>()
             - self.lifted(|i| state.y[i]);
-        let mut row = Vec::new();
         // By the row itself: whatever it counts as stored, the books close on it at t = 0.
-        record::fill(&self.equations(&state), &state, 0.0, &|i| state.y[i], &mut row);
+        record::fill(&self.equations(state), state, 0.0, &|i| state.y[i], row);
         // The books' error at t = 0 is minus what is stored: that is where they start.
         state.origin = -row.last().copied().unwrap_or(0.0);
-        Ok(state)
+        Ok(())
     }
 
     /// Refuses a fixed step with which the stiffest motion grows.
@@ -93,6 +105,15 @@ impl Model {
 
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
         Equations::on(self, state, self.layout(), false)
+    }
+}
+
+impl Part {
+    /// Its state at t = 0, what is wrong with it told by its place in the whole scene.
+    fn begun(&self) -> Result<State, SceneError> {
+        let mut state = State::blank();
+        self.model.begin(&mut state, &mut Vec::new()).map_err(|error| self.in_the_whole(error))?;
+        Ok(state)
     }
 }
 

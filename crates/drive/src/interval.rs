@@ -50,6 +50,12 @@ pub(crate) struct Interval<'a> {
     pub(crate) kernel: Kernel<'a>,
 }
 
+/// A list without its items, which may borrow from what is gone soon, as room for others: a list is collected in the room of the
+/// one that it comes from.
+fn emptied<T, U>(list: Vec<T>) -> Vec<U> {
+    list.into_iter().filter_map(|_| None).collect()
+}
+
 impl<'a> Interval<'a> {
     /// Room for all contacts of a model.
     pub(crate) fn of(model: &Model) -> Self {
@@ -64,6 +70,31 @@ impl<'a> Interval<'a> {
             traits: IntervalTraits::default(),
             slider: None,
             kernel: Kernel::default(),
+        }
+    }
+
+    /// Room for all contacts of another model.
+    pub(crate) fn renewed(mut self, model: &Model) -> Self {
+        self.closed.reserve(model.contacts.len());
+        self.pulls.reserve(model.contacts.len());
+        [&mut self.others, &mut self.apart].into_iter().for_each(|list| list.clear());
+        self.places.clear();
+        self.kernel.reserve(model);
+        Self { scene: SceneTraits::of(model), traits: IntervalTraits::default(), slider: None, ..self }
+    }
+
+    /// The room that it takes, empty: it knows no model.
+    pub(crate) fn emptied(self) -> Interval<'static> {
+        Interval {
+            closed: emptied(self.closed),
+            pulls: emptied(self.pulls),
+            kernel: self.kernel.emptied(),
+            others: self.others,
+            apart: self.apart,
+            places: self.places,
+            scene: self.scene,
+            traits: self.traits,
+            slider: None,
         }
     }
 

@@ -30,6 +30,7 @@ mod record;
 mod run;
 pub mod scene;
 mod schedule;
+pub mod section;
 mod state;
 mod waveform;
 
@@ -40,7 +41,7 @@ pub use method::{Expected, Method, Tally, Treatment, Why};
 pub use model::{Model, NaturalScale, Pressing, Spared};
 pub use plan::{Accuracy, Limits, Plan, Stepper, UntilSteady};
 pub use record::{Channel, Record, Trace, state_name};
-pub use run::{Run, WALK_TOLERANCE, run};
+pub use run::{Run, VariantError, Variants, WALK_TOLERANCE, run};
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
 pub use state::{BytesError, CommandError, Counts, Generated, InputError, State};

@@ -14,6 +14,7 @@ pub(crate) use blocks::eigenvalues as block_eigenvalues;
 pub(crate) use paces::Paces;
 pub(crate) use reach::Reach;
 
+use crate::model::Terms;
 use crate::{Model, Sample, State, Stepper};
 use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};
 use reach::{longest, rk4_reach};
@@ -97,6 +98,35 @@ impl Model {
         let stiffness =
             if contact.inert { 0.0 } else { contact.count * contact.interface.stick_stiffness(d) };
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
+    }
+
+    /// ω of a single coordinate without dampers, rad/s, as deep as its contacts get: the root of k/m, without a matrix.
+    fn only_frequency(&self) -> Option<f64> {
+        let [free] = &self.free[..] else { return None };
+        let damped = self.links.iter().any(|link| link.damping != 0.0)
+            || self.contacts.iter().any(|contact| contact.interface.damping() != 0.0);
+        if damped {
+            return None;
+        }
+        let along = |row: &Terms| row.first().map_or(0.0, |(_, a)| *a);
+        let mut stiffness = 0.0;
+        for link in &self.links {
+            let a = along(&link.elongation.free);
+            stiffness += link.stiffness * a * a;
+        }
+        for (c, contact) in self.contacts.iter().enumerate() {
+            let d = self.indentations_from(self.indentation(contact), c)?.most;
+            let (u, normal) = (along(&contact.u.free), contact.coupling().map_or(0.0, |d| along(&d.free)));
+            if !contact.inert {
+                stiffness += contact.count * contact.interface.stick_stiffness(d) * u * u;
+            }
+            if normal != 0.0 {
+                stiffness += contact.count * contact.interface.normal_stiffness(d) * normal * normal;
+            }
+        }
+        let root = free.mass.sqrt();
+        let eigenvalue = stiffness / (root * root);
+        eigenvalue.is_finite().then(|| eigenvalue.sqrt())
     }
 
     /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get, and of what the

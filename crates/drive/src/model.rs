@@ -21,6 +21,7 @@ mod used;
 
 pub(crate) use balanced::{Balanced, Pull};
 pub(crate) use block::{BlockState, MOST as MOST_OF_A_BLOCK, Signals, Wire, Wired};
+pub(crate) use build::Scaffold;
 pub(crate) use measure::{Measure, Terms};
 pub(crate) use parts::{ENERGIES, Part};
 pub use spare::{Pressing, Spared};
@@ -145,6 +146,27 @@ pub(crate) struct Load {
 }
 
 impl Model {
+    /// Of no scene yet.
+    pub(crate) fn blank() -> Self {
+        Self {
+            waveforms: Vec::new(),
+            bodies: Vec::new(),
+            free: Vec::new(),
+            contacts: Vec::new(),
+            blocks: Vec::new(),
+            balanced: Vec::new(),
+            links: Vec::new(),
+            loads: Vec::new(),
+            growing: 0,
+            equilibrium: false,
+            spared: Spared::default(),
+            moment: 0.0,
+            fastest: 0.0,
+            stiff: false,
+            parts: Vec::new(),
+        }
+    }
+
     /// Names of the bodies, in the scene's order.
     pub fn bodies(&self) -> impl Iterator<Item = &str> {
         self.bodies.iter().map(|b| b.name.as_str())

@@ -14,8 +14,10 @@ mod parted;
 mod reference;
 mod steady;
 mod stored;
+mod variants;
 
 pub use held::Run;
+pub use variants::{VariantError, Variants};
 
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper, UntilSteady};

@@ -111,58 +111,94 @@ impl Model {
 
     /// The state at t = 0, before anything is in equilibrium or classified.
     pub(crate) fn rest(&self) -> State {
+        let mut state = State::blank();
+        self.put_at_rest(&mut state);
+        state
+    }
+
+    /// The same in the room of another state.
+    pub(crate) fn put_at_rest(&self, state: &mut State) {
         let layout = self.layout();
-        let mut y = vec![0.0; layout.total()];
+        state.t = 0.0;
+        refill(&mut state.y, layout.total(), 0.0);
         for (i, free) in self.free.iter().enumerate() {
-            (y[i], y[layout.velocity(i)]) = free.start;
+            (state.y[i], state.y[layout.velocity(i)]) = free.start;
         }
-        let mut blocks = Vec::with_capacity(self.blocks.len());
+        state.blocks.clear();
         for wired in &self.blocks {
             let (states, memory) = wired.block().start(&self.signals().first_inputs(wired));
             let from = layout.block(wired.first);
-            y[from..from + wired.count()].copy_from_slice(&states);
-            blocks.push(BlockState { law: 0, memory });
+            state.y[from..from + wired.count()].copy_from_slice(&states);
+            state.blocks.push(BlockState { law: 0, memory });
         }
-        let pieces = (0..self.waveforms.len()).map(|w| self.first_piece(w)).collect();
-        let memories: Vec<Memory> = self.contacts.iter().map(|c| self.touched(c)).collect();
+        state.pieces.clear();
+        state.pieces.extend((0..self.waveforms.len()).map(|w| self.first_piece(w)));
+        self.touch(&mut state.memories);
+        let contacts = self.contacts.len();
+        refill(&mut state.shifts, layout.free, 0.0);
+        // Not classified yet: a run chooses laws from velocities and accelerations when it begins.
+        refill(&mut state.modes, contacts, Mode::Whole { sense: 0.0 });
+        refill(&mut state.grew, contacts, false);
+        refill(&mut state.friction, contacts, 0.0);
+        (state.jumps, state.lost, state.origin, state.step) = (0.0, 0.0, 0.0, 0.0);
+        // No gross slip has begun yet: its end takes nothing from the step.
+        state.stuck_step = f64::INFINITY;
+        state.underway = None;
         let inputs = self.waveforms.iter().any(|w| w.interpolation().is_some());
-        State {
+        refill(&mut state.supplied, if inputs { self.waveforms.len() } else { 0 }, None);
+        state.generators = self.generators();
+        state.counts = Counts::default();
+        state.tally.clear(contacts);
+    }
+
+    /// The memories that contacts start with: untouched, or loaded monotonically to their starting displacement.
+    fn touch(&self, memories: &mut Vec<Memory>) {
+        memories.truncate(self.contacts.len());
+        for (c, contact) in self.contacts.iter().enumerate() {
+            let at = Apex { d: self.indentation(contact), u: 0.0 };
+            match memories.get_mut(c) {
+                Some(memory) => contact.engine.begin(memory, &contact.interface, at),
+                None => memories.push(contact.engine.memory(&contact.interface, at)),
+            }
+            let to = Apex { u: contact.start, ..at };
+            // Finite by the scene's checks, so the commit cannot fail.
+            let _ = memories[c].commit(&contact.interface, stickslip_contact::Segment::Straight(to));
+        }
+    }
+}
+
+/// Makes a list so many of one value, in the room there is.
+fn refill<T: Clone>(list: &mut Vec<T>, count: usize, value: T) {
+    list.clear();
+    list.resize(count, value);
+}
+
+impl State {
+    /// Of no model yet.
+    pub(crate) fn blank() -> Self {
+        Self {
             t: 0.0,
-            y,
-            shifts: vec![0.0; layout.free],
-            // Not classified yet: a run chooses laws from velocities and accelerations when it begins.
-            modes: memories.iter().map(|_| Mode::Whole { sense: 0.0 }).collect(),
-            grew: vec![false; memories.len()],
-            memories,
-            blocks,
-            pieces,
-            friction: vec![0.0; self.contacts.len()],
+            y: Vec::new(),
+            shifts: Vec::new(),
+            memories: Vec::new(),
+            modes: Vec::new(),
+            grew: Vec::new(),
+            blocks: Vec::new(),
+            pieces: Vec::new(),
+            friction: Vec::new(),
             jumps: 0.0,
             lost: 0.0,
             origin: 0.0,
             step: 0.0,
-            // No gross slip has begun yet: its end takes nothing from the step.
             stuck_step: f64::INFINITY,
             underway: None,
-            supplied: if inputs { vec![None; self.waveforms.len()] } else { Vec::new() },
-            generators: self.generators(),
+            supplied: Vec::new(),
+            generators: Vec::new(),
             counts: Counts::default(),
-            tally: Tally::of(self.contacts.len()),
+            tally: Tally::of(0),
         }
     }
 
-    /// The memory a contact starts with: untouched, or loaded monotonically to its starting displacement.
-    fn touched(&self, contact: &Contact) -> Memory {
-        let d = self.indentation(contact);
-        let mut memory = contact.engine.memory(&contact.interface, Apex { d, u: 0.0 });
-        let to = Apex { d, u: contact.start };
-        // Finite by the scene's checks, so the commit cannot fail.
-        let _ = memory.commit(&contact.interface, stickslip_contact::Segment::Straight(to));
-        memory
-    }
-}
-
-impl State {
     /// Time, s.
     pub fn time(&self) -> f64 {
         self.t

@@ -68,6 +68,18 @@ impl Waveform {
         Ok(waveform)
     }
 
+    /// Becomes another one's copy, in the room there is; nothing is done where both are the same.
+    pub(crate) fn copy(&mut self, from: &Self) {
+        if self == from {
+            return;
+        }
+        if self.shape != from.shape {
+            self.shape.clone_from(&from.shape);
+        }
+        self.course.copy(&from.course);
+        (self.timing, self.held, self.window) = (from.timing, from.held, from.window);
+    }
+
     /// Zero for ever, without a corner.
     pub(crate) fn held() -> Self {
         let shape = Shape::Table { points: vec![(0.0, 0.0)] };

@@ -3,6 +3,7 @@
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_bench::frames::FramesRequest;
+use stickslip_bench::instructions::Counted;
 use stickslip_bench::{Known, Request};
 use stickslip_scenario::quantity;
 
@@ -22,7 +23,8 @@ at the farthest contact point. Errors are against the event stepper at a toleran
 itself at 1e-13 is told.
 
 Times are those of the run alone, without building and output: wall times, and processor times, which a busy machine does not \
-spoil; pictures and pages show these. All runs take turns, several rounds; the shortest turn counts. What does not fit into the budget is left out with a note.
+spoil; pictures and pages show these. With --instructions the page also has what the event stepper takes at 1e-3, 1e-6 and \
+1e-9 counted in instructions by valgrind, where that is installed. All runs take turns, several rounds; the shortest turn counts. What does not fit into the budget is left out with a note.
 
 Writes OUT/NAME/bench.csv and work-precision.png (also dark, and as SVG), and the page asked for, which tells how many times as \
 long as the event stepper the others take for the same error.
@@ -40,7 +42,7 @@ pub(crate) const EXAMPLES: &str = "\
 Examples:
   stickslip bench drive.json
   stickslip bench scenarios/p1.json scenarios/ruby_drive.json --budget \"5 min\"
-  stickslip bench scenarios/p1.json --out docs/performance --growth --page docs/performance.md
+  stickslip bench scenarios/p1.json --out docs/performance --instructions --growth --page docs/performance.md
   stickslip bench --realtime scenarios/p1.json scenarios/commanded.json --period \"20 us,50 us\" --frames 1e6
   stickslip bench scenarios/p1.json --known p1:slider.x_m=1.00842862803207490e-5";
 
@@ -64,6 +66,12 @@ pub(crate) struct BenchArguments {
     /// A coordinate at the end of scenario NAME that is known from elsewhere, SI: errors against it are told as well
     #[arg(long, value_name = "NAME:CHANNEL=VALUE", value_parser = known)]
     pub(crate) known: Vec<(String, Known)>,
+    /// Count the instructions of the event stepper at 1e-3, 1e-6 and 1e-9 for the page, where valgrind is installed
+    #[arg(long, requires = "page")]
+    pub(crate) instructions: bool,
+    /// Run the file once, for valgrind to count
+    #[arg(long, hide = true, requires = "files")]
+    pub(crate) counted: Option<Counted>,
     /// What more of something costs, too: springs, contacts, coordinates, simulated time, rows, memory; OUT/growth.csv and .png
     #[arg(long)]
     pub(crate) growth: bool,
@@ -71,7 +79,7 @@ pub(crate) struct BenchArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) page: Option<PathBuf>,
     /// Measure frames in real time: how long they take, what happens in them, what they lose
-    #[arg(long, requires = "files", conflicts_with_all = ["growth", "known", "budget"])]
+    #[arg(long, requires = "files", conflicts_with_all = ["growth", "known", "budget", "instructions"])]
     pub(crate) realtime: bool,
     /// Lengths of the frames
     #[arg(long, value_name = "TIME,…", default_value = "20 us", value_delimiter = ',', requires = "realtime", allow_hyphen_values = true, value_parser = frame)]
@@ -96,6 +104,7 @@ impl BenchArguments {
             budget: self.budget,
             set: self.set.clone(),
             known: self.known.clone(),
+            instructions: self.instructions,
             growth: self.growth,
             page: self.page.clone(),
         }

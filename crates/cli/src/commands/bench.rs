@@ -5,7 +5,7 @@ use crate::console::answer::{complain, say};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
-use stickslip_bench::{BenchError, Known, ProblemError, TABLE, frames, growth, picture};
+use stickslip_bench::{BenchError, Known, ProblemError, TABLE, frames, growth, instructions, picture};
 use stickslip_drive::RunError;
 use stickslip_results::{Job, Refusal};
 use thiserror::Error;
@@ -42,6 +42,11 @@ fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
     }
     let request = arguments.request();
     let jobs = prepare(arguments)?;
+    if let Some(what) = arguments.counted {
+        let run = |job: &Job| instructions::counted(job, what);
+        let stopped = |source: RunError| BenchError::Stopped { name: String::new(), why: source.to_string() };
+        return Ok(jobs.iter().try_for_each(run).map_err(stopped)?);
+    }
     if arguments.realtime {
         return measure_frames(arguments, &jobs, &progress, &interrupt);
     }

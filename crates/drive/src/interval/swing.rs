@@ -105,14 +105,22 @@ pub(crate) struct PhasePoint {
 impl Swing {
     /// Room for the contacts of a model; places in parts of its natural length to a `tolerance`.
     pub(crate) fn of(model: &Model, tolerance: f64) -> Self {
+        Self::default().renewed(model, tolerance)
+    }
+
+    /// The same in the room there is.
+    pub(crate) fn renewed(self, model: &Model, tolerance: f64) -> Self {
+        let Self { mut laws, mut slips, .. } = self;
         let last = (0.1 * tolerance.cbrt()).clamp(EXACT, ROUGH);
         let near = (0.1 * tolerance.sqrt()).clamp(1e-7, 1e-2);
-        let laws = model.contacts.iter().map(|contact| match contact.press {
+        laws.clear();
+        laws.extend(model.contacts.iter().map(|contact| match contact.press {
             Press::Constant { d, .. } => contact.interface.profile().root_series(d),
             _ => None,
-        });
-        let slips = Vec::with_capacity(model.contacts.len());
-        Self { tolerance, last, near, laws: laws.collect(), slips, ..Self::default() }
+        }));
+        slips.clear();
+        slips.reserve(model.contacts.len());
+        Self { tolerance, last, near, laws, slips, ..Self::default() }
     }
 
     /// Takes up what an interval has become; false where it has no such form.

@@ -36,21 +36,26 @@ impl Model {
     /// the run.
     pub(crate) fn paces(&self) -> Paces {
         let (mut fastest, mut all) = (0.0_f64, Rates::default());
-        for part in self.parts(|d| d.most) {
-            let frequency = part.highest_frequency();
-            fastest = fastest.max(frequency);
-            // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
-            if part.damping.amax() == 0.0 {
-                all.add(&Complex { re: 0.0, im: frequency });
-                continue;
-            }
-            for rate in part.rates(if frequency > 0.0 { frequency } else { 1.0 }) {
-                fastest = fastest.max(rate.norm());
-                all.add(&rate);
+        if let Some(frequency) = self.only_frequency() {
+            fastest = frequency;
+            all.add(&Complex { re: 0.0, im: frequency });
+        } else {
+            for part in self.parts(|d| d.most) {
+                let frequency = part.highest_frequency();
+                fastest = fastest.max(frequency);
+                // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
+                if part.damping.amax() == 0.0 {
+                    all.add(&Complex { re: 0.0, im: frequency });
+                    continue;
+                }
+                for rate in part.rates(if frequency > 0.0 { frequency } else { 1.0 }) {
+                    fastest = fastest.max(rate.norm());
+                    all.add(&rate);
+                }
             }
         }
         self.block_eigenvalues().iter().for_each(|rate| all.add(rate));
-        Paces { fastest, stiff: all.fading > STIFF * all.pace(self) }
+        Paces { fastest, stiff: all.fading > 0.0 && all.fading > STIFF * all.pace(self) }
     }
 }
 

@@ -69,6 +69,13 @@ impl Tally {
         Self { methods: Default::default(), treatments: vec![Default::default(); contacts] }
     }
 
+    /// Nothing yet, in the room there is.
+    pub(crate) fn clear(&mut self, contacts: usize) {
+        self.methods = Default::default();
+        self.treatments.clear();
+        self.treatments.resize(contacts, Default::default());
+    }
+
     /// Adds what a part, of these contacts, has counted since before.
     pub(crate) fn add(&mut self, now: &Self, before: &Self, contacts: &[usize]) {
         let sum = |own: &mut [u64], now: &[u64], before: &[u64]| {

@@ -138,20 +138,20 @@ impl Model {
         self.balanced.iter().map(of).filter(|work| work.is_normal()).reduce(f64::min)
     }
 
-    /// The same with balanced coordinates along z where they are at t = 0.
-    pub(super) fn settled(mut self) -> Self {
-        if self.balanced.iter().any(|b| b.axis == Axis::Z) {
-            let state = self.rest();
-            let equations = Equations::on(&self, &state, self.layout(), false);
-            let at = Instant { t: 0.0, y: &|i| state.y[i] };
-            let places: Vec<f64> = (0..self.balanced.len()).map(|b| equations.place_value(b, &at)).collect();
-            for (balanced, place) in self.balanced.iter_mut().zip(places) {
-                if balanced.axis == Axis::Z && place.is_finite() {
-                    balanced.first = place;
-                }
+    /// Puts balanced coordinates along z where they are at t = 0.
+    pub(super) fn settle_balanced(&mut self) {
+        if self.balanced.iter().all(|b| b.axis != Axis::Z) {
+            return;
+        }
+        let state = self.rest();
+        let equations = Equations::on(self, &state, self.layout(), false);
+        let at = Instant { t: 0.0, y: &|i| state.y[i] };
+        let places: Vec<f64> = (0..self.balanced.len()).map(|b| equations.place_value(b, &at)).collect();
+        for (balanced, place) in self.balanced.iter_mut().zip(places) {
+            if balanced.axis == Axis::Z && place.is_finite() {
+                balanced.first = place;
             }
         }
-        self
     }
 }
 

@@ -6,13 +6,26 @@
 
 use super::contact::{self, Surroundings};
 use super::{
-    Balanced, Binding, Body, Free, Link, Load, Measure, Model, Signals, Spared, Stroke, balanced, block,
-    check, dampers, held, parts, reach, scale, used,
+    Binding, Body, Free, Link, Load, Measure, Model, Spared, Stroke, balanced, block, check, dampers, held,
+    parts, reach, scale, used,
 };
-use crate::contact::Contact;
 use crate::linearised::Paces;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
-use crate::{Field, Part, SceneError, SceneFault, Waveform};
+use crate::{Field, Part, SceneError, SceneFault};
+
+/// Numbers that a model is assembled with and does not keep: room that the next one of the same shape is assembled in.
+#[derive(Debug, Default)]
+pub(crate) struct Scaffold {
+    /// Of each contact its largest indentation, m.
+    deepest: Vec<f64>,
+    /// Of each free coordinate the largest force on it, N or N m.
+    pushes: Vec<f64>,
+    /// Names of contacts.
+    names: Vec<String>,
+    /// Whether each waveform is followed.
+    used: Vec<bool>,
+    scales: scale::Room,
+}
 
 impl Model {
     /// Checks a scene and assembles its constants.
@@ -21,130 +34,151 @@ impl Model {
     /// The first thing wrong, by part, field and fault: numbers out of their range, places that do not exist, coordinates that
     /// nothing holds, dampers that would have to follow a jump. Where these stand in a file is the file reader's to say.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        let mut model = Self::blank();
+        model.rebuild(scene, &mut Scaffold::default())?;
+        Ok(model)
+    }
+
+    /// Becomes the model of another scene, in the room that this one takes: of a scene of the same shape with a single free
+    /// coordinate nothing is allocated. After an error it is the model of no scene, and can become another one's.
+    pub(crate) fn rebuild(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         check::check(scene)?;
-        let mut waveforms: Vec<Waveform> = scene.waveforms.iter().map(|w| w.part.clone()).collect();
+        (self.fastest, self.stiff, self.growing) = (0.0, false, 0);
+        self.parts.clear();
+        self.take_waveforms(scene);
         balanced::check_company(scene)?;
-        let first = waveforms.len() + scene.blocks.len();
-        let Moving { bodies, mut free, mut balanced } = bodies(scene)?;
-        let mut links = links(scene, &bodies);
-        let loads = loads(scene, &bodies, &mut free);
-        balanced::load(scene, &bodies, (first, &mut balanced));
-        let stiffness = balanced::springs(&links, (first, &mut balanced));
-        let equilibrium = scene.start == Start::Equilibrium;
-        let blocks = block::wire(scene, &bodies)?;
-        let piled = reach::piled(scene, &free);
+        let first = scene.waveforms.len() + scene.blocks.len();
+        self.gather(scene)?;
+        gather_links(scene, &self.bodies, &mut self.links);
+        self.put_loads_on(scene);
+        balanced::load(scene, &self.bodies, (first, &mut self.balanced));
+        let stiffness = balanced::springs(&self.links, (first, &mut self.balanced));
+        self.equilibrium = scene.start == Start::Equilibrium;
+        self.blocks = block::wire(scene, &self.bodies)?;
+        self.put_contacts(scene, room)?;
+        dampers::check(scene, &self.links, &self.contacts, self.signals())?;
+        held::check(&self.free, &self.contacts, &self.links)?;
+        if !self.balanced.is_empty() {
+            balanced::check_dampers(scene, (&self.links, &self.contacts), first)?;
+            balanced::assign(&self.contacts, &stiffness, (first, &mut self.balanced))?;
+        }
+        self.spared = spared(scene, &self.bodies, &self.links);
+        self.links.retain(Link::acts);
+        for link in &self.links {
+            link.elongation.free.iter().for_each(|(i, _)| self.free[*i].travels = false);
+        }
+        used::hold_the_others(self, &mut room.used);
+        let Scaffold { deepest, pushes, scales, .. } = room;
+        let (contacts, free) = (&mut self.contacts, &mut self.free);
+        scale::assign(contacts, free, &self.links, &self.waveforms, (deepest, pushes), scales);
+        self.moment = balanced::moment(&self.waveforms);
+        self.settle_balanced();
+        Paces { fastest: self.fastest, stiff: self.stiff } = self.paces();
+        self.parts = parts::divide(scene, self);
+        Ok(())
+    }
+
+    fn take_waveforms(&mut self, scene: &Scene) {
+        self.waveforms.truncate(scene.waveforms.len());
+        let known = self.waveforms.len();
+        self.waveforms.iter_mut().zip(&scene.waveforms).for_each(|(own, named)| own.copy(&named.part));
+        self.waveforms.extend(scene.waveforms[known..].iter().map(|named| named.part.clone()));
+    }
+
+    /// The contacts, what they are expected to be pressed to, and what pushes the free coordinates.
+    fn put_contacts(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
+        let mut contacts = std::mem::take(&mut self.contacts);
+        room.names.clear();
+        room.names.reserve(scene.contacts.len());
+        room.names.extend(contacts.drain(..).rev().map(|contact| contact.name));
+        room.deepest.clear();
+        room.pushes.clear();
+        let piled = reach::piled(scene, &self.free);
         let around = Surroundings {
-            signals: Signals { waveforms: &waveforms, blocks: &blocks, balanced: &balanced },
-            bodies: &bodies,
-            free: &free,
-            links: &links,
-            loads: &loads,
+            signals: self.signals(),
+            bodies: &self.bodies,
+            free: &self.free,
+            links: &self.links,
+            loads: &self.loads,
             piled: &piled,
-            equilibrium,
+            equilibrium: self.equilibrium,
         };
-        let Touching { mut contacts, deepest, growing } = touching(scene, &around)?;
-        let pushes: Vec<f64> = (0..free.len()).map(|i| reach::pressing(i, &around)).collect();
-        dampers::check(scene, &links, &contacts, around.signals)?;
-        held::check(&free, &contacts, &links)?;
-        if !balanced.is_empty() {
-            balanced::check_dampers(scene, (&links, &contacts), first)?;
-            balanced::assign(&contacts, &stiffness, (first, &mut balanced))?;
+        let mut growing = 0;
+        for (place, named) in scene.contacts.iter().enumerate() {
+            let (mut contact, deepest) = contact::build(place, &named.part, &around)?;
+            contact.name = room.names.pop().unwrap_or_default();
+            contact.name.clone_from(&named.name);
+            if !contact.is_constant() && !contact.inert {
+                contact.slot = Some(growing);
+                growing += 1;
+            }
+            contacts.push(contact);
+            room.deepest.push(deepest);
         }
-        let mut spared = spared(scene, &bodies, &links);
-        links.retain(Link::acts);
-        for link in &links {
-            link.elongation.free.iter().for_each(|(i, _)| free[*i].travels = false);
-        }
-        spared.waveforms =
-            used::hold_the_others(&mut waveforms, (&bodies, &blocks), &contacts, &links, (&loads, &balanced));
-        scale::assign(&mut contacts, &mut free, &links, &waveforms, (&deepest, &pushes));
-        let moment = balanced::moment(&waveforms);
-        let constants = Self {
-            waveforms,
-            bodies,
-            free,
-            contacts,
-            blocks,
-            balanced,
-            links,
-            loads,
-            growing,
-            equilibrium,
-            spared,
-            moment,
-            fastest: 0.0,
-            stiff: false,
-            parts: Vec::new(),
-        };
-        let Paces { fastest, stiff } = constants.paces();
-        let whole = Self { fastest, stiff, ..constants.settled() };
-        Ok(Self { parts: parts::divide(scene, &whole), ..whole })
+        room.pushes.extend((0..self.free.len()).map(|i| reach::pressing(i, &around)));
+        (self.contacts, self.growing) = (contacts, growing);
+        Ok(())
     }
-}
 
-/// The contacts of a scene.
-struct Touching {
-    contacts: Vec<Contact>,
-    /// The largest indentation of each, m.
-    deepest: Vec<f64>,
-    /// Number of those whose force is a state while they grow.
-    growing: usize,
-}
-
-fn touching(scene: &Scene, around: &Surroundings<'_>) -> Result<Touching, SceneError> {
-    let count = scene.contacts.len();
-    let mut all =
-        Touching { contacts: Vec::with_capacity(count), deepest: Vec::with_capacity(count), growing: 0 };
-    for (place, named) in scene.contacts.iter().enumerate() {
-        let (mut contact, deepest) = contact::build(place, named, around)?;
-        if !contact.is_constant() && !contact.inert {
-            contact.slot = Some(all.growing);
-            all.growing += 1;
+    /// The bodies, their free coordinates, with the weight that gravity gives each, and their balanced ones.
+    ///
+    /// On an incline α gravity g pulls with -mg sin α along x and -mg cos α along z. Fails where a free
+    /// coordinate has no mass or moment of inertia.
+    fn gather(&mut self, scene: &Scene) -> Result<(), SceneError> {
+        let nowhere = || Body { name: String::new(), bindings: [Binding::Held(0.0); 3] };
+        self.bodies.resize_with(scene.bodies.len(), nowhere);
+        self.free.clear();
+        self.balanced.clear();
+        let signals = scene.waveforms.len() + scene.blocks.len();
+        let (along, normal) = scene.gravity.components();
+        for (body, Named { name, part }) in scene.bodies.iter().enumerate() {
+            let known = &mut self.bodies[body];
+            known.name.clone_from(name);
+            for (place, (axis, coordinate)) in known.bindings.iter_mut().zip(part.coordinates()) {
+                *place = match coordinate.freedom {
+                    Freedom::Fixed => Binding::Held(coordinate.position),
+                    Freedom::Follows(waveform) => Binding::Driven(waveform),
+                    Freedom::Balanced => balanced::bind((body, part), axis, (signals, &mut self.balanced))?,
+                    Freedom::Free => {
+                        let mass = inertia(body, part, axis)?;
+                        let force = match axis {
+                            Axis::X => -mass * along,
+                            Axis::Z => -mass * normal,
+                            Axis::Pitch => 0.0,
+                        };
+                        self.free.push(free_coordinate(body, axis, mass, force, coordinate));
+                        Binding::Free(self.free.len() - 1)
+                    }
+                };
+            }
         }
-        all.contacts.push(contact);
-        all.deepest.push(deepest);
+        Ok(())
     }
-    Ok(all)
-}
 
-/// Bodies and what of them moves by forces.
-struct Moving {
-    bodies: Vec<Body>,
-    free: Vec<Free>,
-    balanced: Vec<Balanced>,
-}
-
-/// The bodies, their free coordinates, with the weight that gravity gives each, and their balanced ones.
-///
-/// On an incline α gravity g pulls with -mg sin α along x and -mg cos α along z. Fails where a free
-/// coordinate has no mass or moment of inertia.
-fn bodies(scene: &Scene) -> Result<Moving, SceneError> {
-    let mut bodies = Vec::with_capacity(scene.bodies.len());
-    let (mut free, mut balanced) = (Vec::new(), Vec::new());
-    let signals = scene.waveforms.len() + scene.blocks.len();
-    let (along, normal) = scene.gravity.components();
-    for (body, Named { name, part }) in scene.bodies.iter().enumerate() {
-        let mut bindings = [Binding::Held(0.0); 3];
-        for (place, (axis, coordinate)) in bindings.iter_mut().zip(part.coordinates()) {
-            *place = match coordinate.freedom {
-                Freedom::Fixed => Binding::Held(coordinate.position),
-                Freedom::Follows(waveform) => Binding::Driven(waveform),
-                Freedom::Balanced => balanced::bind((body, part), axis, (signals, &mut balanced))?,
-                Freedom::Free => {
-                    let mass = inertia(body, part, axis)?;
-                    let force = match axis {
-                        Axis::X => -mass * along,
-                        Axis::Z => -mass * normal,
-                        Axis::Pitch => 0.0,
-                    };
-                    free.push(free_coordinate(body, axis, mass, force, coordinate));
-                    Binding::Free(free.len() - 1)
+    /// Adds the constant loads to the free coordinates and keeps the others. A load on a coordinate that does not move
+    /// freely is carried by its guide. A force at (X, Z) from the reference point turns with the moment X F_z - Z F_x.
+    fn put_loads_on(&mut self, scene: &Scene) {
+        self.loads.clear();
+        for load in &scene.loads {
+            let [x, z, pitch] = self.bodies[load.on].bindings;
+            let parts = [
+                (x, 1.0, load.x),
+                (z, 1.0, load.z),
+                (pitch, 1.0, load.pitch),
+                (pitch, -load.at.z, load.x),
+                (pitch, load.at.x, load.z),
+            ];
+            for (place, arm, value) in parts {
+                match (place, value) {
+                    (Binding::Free(i), Varying::Constant(force)) => self.free[i].force += arm * force,
+                    (Binding::Free(free), Varying::Follows(waveform)) if arm != 0.0 => {
+                        self.loads.push(Load { free, arm, waveform });
+                    }
+                    _ => {}
                 }
-            };
+            }
         }
-        bodies.push(Body { name: name.clone(), bindings });
     }
-    Ok(Moving { bodies, free, balanced })
 }
 
 /// A coordinate along x travels until a link is found on it; scales are assigned when contacts and links are
@@ -165,7 +199,7 @@ fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneErr
 
 /// Springs, then actuators. Their elongation is the displacement of the second side less that of the first; a
 /// spring is an actuator of no stroke.
-fn links(scene: &Scene, bodies: &[Body]) -> Vec<Link> {
+fn gather_links(scene: &Scene, bodies: &[Body], links: &mut Vec<Link>) {
     let elongation = |sides: [Side; 2], at: [Point; 2], direction: Direction| {
         Measure::between([(sides[1], at[1]), (sides[0], at[0])], direction, bodies)
     };
@@ -186,33 +220,8 @@ fn links(scene: &Scene, bodies: &[Body]) -> Vec<Link> {
             Varying::Follows(w) => Stroke::Driven(w),
         },
     });
-    springs.chain(actuators).collect()
-}
-
-/// Adds the constant loads to the free coordinates and returns the others. A load on a coordinate that does not move
-/// freely is carried by its guide. A force at (X, Z) from the reference point turns with the moment X F_z - Z F_x.
-fn loads(scene: &Scene, bodies: &[Body], free: &mut [Free]) -> Vec<Load> {
-    let mut varying = Vec::new();
-    for load in &scene.loads {
-        let [x, z, pitch] = bodies[load.on].bindings;
-        let parts = [
-            (x, 1.0, load.x),
-            (z, 1.0, load.z),
-            (pitch, 1.0, load.pitch),
-            (pitch, -load.at.z, load.x),
-            (pitch, load.at.x, load.z),
-        ];
-        for (place, arm, value) in parts {
-            match (place, value) {
-                (Binding::Free(i), Varying::Constant(force)) => free[i].force += arm * force,
-                (Binding::Free(free), Varying::Follows(waveform)) if arm != 0.0 => {
-                    varying.push(Load { free, arm, waveform });
-                }
-                _ => {}
-            }
-        }
-    }
-    varying
+    links.clear();
+    links.extend(springs.chain(actuators));
 }
 
 /// What acts on nobody, but for waveforms.

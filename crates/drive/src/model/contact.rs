@@ -9,7 +9,7 @@
 
 use super::{Body, Free, Link, Load, Measure, Signals, reach};
 use crate::contact::{Contact, Natural, Press};
-use crate::scene::{self, ContactStart, Direction, EngineChoice, Named, Normal, Varying};
+use crate::scene::{self, ContactStart, Direction, EngineChoice, Normal, Varying};
 use crate::{Field, Part, SceneError, SceneFault};
 use std::sync::Arc;
 use stickslip_contact::{
@@ -43,10 +43,10 @@ struct Pressed {
 /// What is wrong with which field of a contact.
 type Refused = (Field, SceneFault);
 
-/// A contact, without slot and scales, and its largest indentation.
+/// A contact, without name, slot and scales, and its largest indentation.
 pub(super) fn build(
     place: usize,
-    Named { name, part }: &Named<scene::Contact>,
+    part: &scene::Contact,
     around: &Surroundings<'_>,
 ) -> Result<(Contact, f64), SceneError> {
     let refused = |(field, fault): Refused| fault.of(Part::Contact(place), field);
@@ -66,7 +66,7 @@ pub(super) fn build(
     u.constant -= around.at_start(&u) - start;
     let balanced = around.is_balanced(&u) || matches!(&pressed, Press::Coupled(d) if around.is_balanced(d));
     let contact = Contact {
-        name: name.clone(),
+        name: String::new(),
         place,
         u,
         interface: law,

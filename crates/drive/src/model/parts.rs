@@ -11,7 +11,7 @@ mod members;
 use super::{Balanced, Binding, Body, Free, Model};
 use crate::component::Component;
 use crate::event::Source;
-use crate::scene::Scene;
+use crate::scene::{Scene, Side};
 use crate::{Part as Place, SceneError};
 use alone::{alone, read};
 use members::{Members, members};
@@ -73,7 +73,7 @@ impl Model {
 /// command belongs to the state of the whole, and blocks know each other by their places in the scene.
 pub(super) fn divide(scene: &Scene, whole: &Model) -> Vec<Part> {
     let commanded = |w: &crate::Waveform| w.interpolation().is_some() || w.generator().is_some();
-    if !scene.blocks.is_empty() || whole.waveforms.iter().any(commanded) {
+    if is_single(scene) || !scene.blocks.is_empty() || whole.waveforms.iter().any(commanded) {
         return Vec::new();
     }
     let members = members(scene);
@@ -87,6 +87,17 @@ pub(super) fn divide(scene: &Scene, whole: &Model) -> Vec<Part> {
     parts
         .filter(|parts| parts.iter().map(|part| part.free.len()).sum::<usize>() == whole.free.len())
         .unwrap_or_default()
+}
+
+/// Whether a single body moves and everything touches it, as in most drives: that is one part without a search.
+fn is_single(scene: &Scene) -> bool {
+    let mut moving =
+        scene.bodies.iter().enumerate().filter(|(_, b)| b.part.is_free() || b.part.is_balanced());
+    let (Some((only, _)), None) = (moving.next(), moving.next()) else { return false };
+    let touches = |between: [Side; 2]| between.contains(&Side::Body(only));
+    scene.contacts.iter().all(|c| touches(c.part.between))
+        && scene.springs.iter().all(|s| touches(s.part.between))
+        && scene.actuators.iter().all(|a| touches(a.part.between))
 }
 
 impl Body {

@@ -62,7 +62,11 @@ fn settled(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) 
 }
 
 /// Of each free coordinate along z those of all other bodies that coupled contacts join to its own, however many lie between.
+/// Empty where no contact is coupled: only those ask.
 pub(super) fn piled(scene: &Scene, free: &[Free]) -> Vec<Vec<usize>> {
+    if scene.contacts.iter().all(|named| named.part.normal != Normal::Coupled) {
+        return Vec::new();
+    }
     let mut pile: Vec<usize> = (0..scene.bodies.len()).collect();
     let joined = scene.contacts.iter().filter(|named| named.part.normal == Normal::Coupled);
     for between in joined.map(|named| named.part.between) {

@@ -5,6 +5,13 @@ use crate::Waveform;
 use crate::contact::{Contact, Natural};
 use crate::scene::Axis;
 
+/// Room that scales are found in.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    springs: Vec<(f64, f64)>,
+    frequency: Vec<f64>,
+}
+
 /// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and the velocities they
 /// make with the stuck stiffness.
 ///
@@ -19,13 +26,15 @@ pub(super) fn assign(
     links: &[Link],
     waveforms: &[Waveform],
     (deepest, pushes): (&[f64], &[f64]),
+    Room { springs, frequency }: &mut Room,
 ) {
-    let springs = springs(contacts, free.len(), links, deepest);
+    find_springs(contacts, links, deepest, (free.len(), springs));
     let (stroke, slow) = slowest(waveforms);
     // With high friction u_c lies far above anything that moves.
     let widest = waveforms.iter().map(|w| w.range().1 - w.range().0).fold(0.0, f64::max);
     let reach = if widest > 0.0 { widest } else { f64::INFINITY };
-    let mut frequency = vec![slow; free.len()];
+    frequency.clear();
+    frequency.resize(free.len(), slow);
     for (i, f) in free.iter_mut().enumerate() {
         let (stiffness, length) = springs[i];
         // Along x no motion wider than the widest waveform matters; a depth is its own measure.
@@ -58,8 +67,14 @@ pub(super) fn assign(
 /// of it that matters to a contact, m or rad; infinite without any.
 ///
 /// Σ arm²·k over contacts at their deepest and links; links set no length.
-fn springs(contacts: &[Contact], free: usize, links: &[Link], deepest: &[f64]) -> Vec<(f64, f64)> {
-    let mut springs = vec![(0.0, f64::INFINITY); free];
+fn find_springs(
+    contacts: &[Contact],
+    links: &[Link],
+    deepest: &[f64],
+    (free, springs): (usize, &mut Vec<(f64, f64)>),
+) {
+    springs.clear();
+    springs.resize(free, (0.0, f64::INFINITY));
     let mut add = |(i, arm): (usize, f64), stiffness: f64, length: f64| {
         springs[i].0 += arm * arm * stiffness;
         springs[i].1 = springs[i].1.min(if length > 0.0 { length / arm.abs() } else { f64::INFINITY });
@@ -77,7 +92,6 @@ fn springs(contacts: &[Contact], free: usize, links: &[Link], deepest: &[f64]) -
             add(*term, link.stiffness, 0.0);
         }
     }
-    springs
 }
 
 /// Smallest stroke (m; 1 µm without any) and highest angular frequency (rad/s; 1 without any) of the waveforms.

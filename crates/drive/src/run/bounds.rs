@@ -45,10 +45,11 @@ pub(super) struct Bounds {
 
 impl Bounds {
     /// A stride that makes looks at the clock about as frequent for rows of a million springs as for none.
-    pub(super) fn new(model: &Model, limits: Limits, period: f64) -> Self {
+    pub(super) fn new(model: &Model, limits: Limits, period: f64, mut windows: Vec<Window>) -> Self {
         let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();
-        let windows = vec![QUIET; Window::count(model)];
+        windows.clear();
+        windows.resize(Window::count(model), QUIET);
         let crawl = Crawl { since: 0.0, attempts: 0 };
         Self { limits, begun: Instant::now(), stride, windows, crawl, period }
     }

@@ -60,7 +60,7 @@ impl<'a> Chords<'a> {
             output: Output::new(plan.every, layout),
             // A contact that turns in a step has a path to where it does, and one from there.
             ledger: Ledger::new(model, model.contacts.len()),
-            bounds: Bounds::new(model, plan.limits, 0.0),
+            bounds: Bounds::new(model, plan.limits, 0.0, Vec::new()),
             senses: vec![0.0; model.contacts.len()],
             standings: vec![ContactState::Open; model.contacts.len()],
             watched: false,

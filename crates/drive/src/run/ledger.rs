@@ -34,6 +34,19 @@ pub(super) struct Ledger {
 impl Ledger {
     /// Room for a segment of every contact, and `more`.
     pub(super) fn new(model: &Model, more: usize) -> Self {
+        let blank = Self {
+            segments: Vec::new(),
+            touched: 0,
+            booked: Booked { last: Vec::new(), blocks: 0.0, books: Books::Current },
+            passages: Vec::new(),
+            led: Vec::new(),
+            told: None,
+        };
+        blank.renewed(model, more)
+    }
+
+    /// The same in the room there is.
+    pub(super) fn renewed(mut self, model: &Model, more: usize) -> Self {
         let passage = |wired: &Wired| Passage {
             t: 0.0,
             located: true,
@@ -42,14 +55,16 @@ impl Ledger {
             inputs: Vec::with_capacity(wired.wires.len()),
             states: Vec::with_capacity(wired.count()),
         };
-        Self {
-            segments: Vec::with_capacity(model.contacts.len() + more),
-            touched: 0,
-            booked: Booked { last: vec![0.0; model.contacts.len()], blocks: 0.0, books: Books::Current },
-            passages: model.blocks.iter().map(passage).collect(),
-            led: Vec::with_capacity(model.blocks.len()),
-            told: None,
-        }
+        self.segments.clear();
+        self.segments.reserve(model.contacts.len() + more);
+        self.booked.last.clear();
+        self.booked.last.resize(model.contacts.len(), 0.0);
+        (self.booked.blocks, self.booked.books) = (0.0, Books::Current);
+        self.led.clear();
+        self.led.reserve(model.blocks.len());
+        self.passages.clear();
+        self.passages.extend(model.blocks.iter().map(passage));
+        Self { touched: 0, told: None, ..self }
     }
 
     /// Keeps what is committed from here on for a record that wants to know.

@@ -22,6 +22,7 @@ mod leap;
 mod method;
 mod motion;
 mod path;
+mod room;
 mod search;
 mod shift;
 mod steady;
@@ -42,11 +43,12 @@ use crate::interval::{Interval, Swing};
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{Books, Detour, Gait, Layout, State, Underway, Whereabouts};
+use crate::state::{Books, Detour, Gait, Layout, LocatedWay, State, Underway, Whereabouts};
 use crate::{Limits, Plan, RunError};
-pub(super) use method::LocatedRun;
+pub(super) use method::{LocatedRun, Workspace};
 use motion::Motion;
 use path::MOST_PIECES;
+use room::Room;
 use stickslip_contact::Memory;
 use stickslip_stepper::{Attempt, StepControl, StepHistory, StepLimits};
 use turning::Turning;
@@ -97,6 +99,8 @@ pub(super) struct Located<'a, A> {
     turning: Turning,
     output: Output,
     bounds: Bounds,
+    /// Room for what is put down with a state that has none.
+    spare: Option<Box<LocatedWay>>,
 }
 
 impl<'a> Setting<'a> {
@@ -121,15 +125,22 @@ impl<'a> Setting<'a> {
 
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     /// `order` is that of the solver, for step control, and `limits` what its steps may do.
-    fn new(setting: Setting<'a>, plan: &Plan, solver: A, (order, limits): (u32, StepLimits)) -> Self {
+    fn new(setting: Setting<'a>, plan: &Plan, solver: A, control: (u32, StepLimits)) -> Self {
+        Self::within(Room::of(solver, setting.layout), setting, plan, control)
+    }
+
+    /// The same in the room of another run.
+    fn within(room: Room<A>, setting: Setting<'a>, plan: &Plan, (order, limits): (u32, StepLimits)) -> Self {
         let model = setting.model;
-        let motion = Motion::new(&setting, solver);
+        let motion = Motion::new(&setting, room.solver, room.scale);
         // No step leaps over a smooth wave.
         let limits = StepLimits { longest: motion.pace.longest, ..limits };
+        // Where nothing is free nothing swings, and a walk has no pace.
+        let period = if model.fastest > 0.0 { std::f64::consts::TAU / model.fastest } else { 0.0 };
         Self {
             horizon: Horizon::new(model, plan),
-            interval: Interval::of(model),
-            swing: Swing::of(model, motion.allowance.strict),
+            interval: room.interval.renewed(model),
+            swing: room.swing.renewed(model, motion.allowance.strict),
             takeoff: None,
             detour: None,
             last_detour: Detour::NONE,
@@ -137,16 +148,12 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             slides: model.contacts.iter().any(|contact| contact.interface.damping() > 0.0),
             motion,
             control: StepControl::new(order, limits),
-            watch: Watch::new(model, setting.tolerance),
-            ledger: Ledger::new(model, MOST_PIECES as usize),
-            turning: Turning::new(model),
-            output: Output::new(plan.every, setting.layout),
-            // Where nothing is free nothing swings, and a walk has no pace.
-            bounds: Bounds::new(
-                model,
-                plan.limits,
-                if model.fastest > 0.0 { std::f64::consts::TAU / model.fastest } else { 0.0 },
-            ),
+            watch: room.watch.renewed(model, setting.tolerance),
+            ledger: room.ledger.renewed(model, MOST_PIECES as usize),
+            turning: room.turning.renewed(model),
+            output: room.output.renewed(plan.every, setting.layout),
+            bounds: Bounds::new(model, plan.limits, period, room.windows),
+            spare: room.way,
             setting,
         }
     }

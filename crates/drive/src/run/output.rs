@@ -32,14 +32,26 @@ pub(super) struct Output {
 
 impl Output {
     pub(super) fn new(every: Option<f64>, layout: Layout) -> Self {
-        let (row, components) = (Vec::new(), vec![0.0; layout.total()]);
         let grid = Grid::new(None, 0.0, EVERYWHERE);
-        Self { every, grid, looks: Looks::NONE, marks: Marks::none(), row, components, evaluations: 0 }
+        let (row, components) = (Vec::new(), Vec::new());
+        let blank =
+            Self { every, grid, looks: Looks::NONE, marks: Marks::none(), row, components, evaluations: 0 };
+        blank.renewed(every, layout)
+    }
+
+    /// The same in the room there is.
+    pub(super) fn renewed(mut self, every: Option<f64>, layout: Layout) -> Self {
+        self.components.clear();
+        self.components.resize(layout.total(), 0.0);
+        let (grid, marks) =
+            (Grid { row: self.grid.row, ..Grid::new(None, 0.0, EVERYWHERE) }, self.marks.renewed());
+        Self { every, grid, looks: Looks::NONE, marks, evaluations: 0, ..self }
     }
 
     /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
     pub(super) fn set_out(&mut self, from: f64, record: &dyn Record) {
-        self.grid = Grid::new(self.every, from, record.rows_within());
+        let row = std::mem::take(&mut self.grid.row);
+        self.grid = Grid { row, ..Grid::new(self.every, from, record.rows_within()) };
     }
 
     /// Asks for the first look and the first mark, and takes them if they are at hand.

@@ -3,7 +3,7 @@
 //! The parts go on side by side in stretches of time. Between two stretches every part stands between two whole steps, at most
 //! one step before where the whole stands, and all up to there is written. The step that leads a part beyond a stretch is only
 //! glanced at, for what is to be read up to there, and taken again in the next: so where stretches end changes no bit, and a
-//! run that is put down there goes on as if it had never been. Where events are written a [`Scout`] runs ahead of each part,
+//! run that is put down there goes on as if it had never been. Where events are written the scouts of a [`Calendar`] run ahead of the parts,
 //! since the row of an event has the channels of all of them.
 
 mod calendar;
@@ -20,7 +20,7 @@ use super::output::Opening;
 use crate::record::Record;
 use crate::state::State;
 use crate::{Limits, Model, Plan, RunError};
-use calendar::Scout;
+use calendar::Calendar;
 use cores::side_by_side;
 use lane::Lane;
 use merged::Merged;
@@ -51,8 +51,7 @@ pub(super) struct Parted<'m> {
     /// Interval of the rows, s.
     every: Option<f64>,
     lanes: Vec<Lane<'m>>,
-    /// Ahead of each part, where events are written.
-    scouts: Vec<Scout<'m>>,
+    calendar: Calendar<'m>,
     /// The part whose steps may end the run.
     leader: Option<usize>,
     merged: Merged,
@@ -78,7 +77,7 @@ impl<'m> Parted<'m> {
             limits: plan.limits,
             every: plan.every,
             lanes,
-            scouts: Vec::new(),
+            calendar: Calendar::new(),
             leader,
             merged: Merged::new(model),
             begun: Instant::now(),
@@ -106,14 +105,11 @@ impl<'m> Parted<'m> {
         self.asked = self.work();
     }
 
-    /// Without a record of events nobody runs ahead. Every call may bring another record.
+    /// Every call may bring another record.
     fn send_scouts(&mut self, record: &dyn Record) {
         let wants_events = record.wants_events();
         self.lanes.iter_mut().for_each(|lane| lane.sheet.wants_events = wants_events);
-        if wants_events == self.scouts.is_empty() {
-            let scouts = self.lanes.iter().filter(|_| wants_events);
-            self.scouts = scouts.map(Lane::scout).collect();
-        }
+        self.calendar.send(&self.lanes, wants_events);
     }
 
     /// Goes as far as a goal says, and puts down in the state what its future depends on.
@@ -177,9 +173,7 @@ impl<'m> Parted<'m> {
 
     /// Attempts so far, each with what it has to go through.
     fn work(&self) -> f64 {
-        let lanes = self.lanes.iter().map(Lane::work).sum::<f64>();
-        let scouts = self.scouts.iter().zip(&self.lanes);
-        lanes + scouts.map(|(scout, lane)| lane.weight * scout.attempts() as f64).sum::<f64>()
+        self.lanes.iter().map(Lane::work).sum::<f64>() + self.calendar.work(&self.lanes)
     }
 
     /// One stretch of all parts: ahead for their events, on, and written up to its end.
@@ -198,55 +192,80 @@ impl<'m> Parted<'m> {
         self.put_down(whole, t);
         if let Goal::Moment(_) = stop {
             // The last steps were cut, and what follows has other bits than the scouts foresee.
-            self.scouts = self.scouts.iter().zip(&self.lanes).map(|(_, lane)| lane.scout()).collect();
+            self.calendar.call_back(&self.lanes);
         }
-        self.scouts.iter_mut().for_each(|scout| scout.forget(t));
+        self.calendar.forget(t);
         fault.map_or(Ok(()), Err)
     }
 
     /// Moves all parts on; gives the time up to which all of them can be read. Fails where the run is halted.
     fn move_on(&mut self, whole: &State, stop: Goal, record: &mut dyn Record) -> Result<f64, RunError> {
+        // Before an end the parts stop where they like: none knows up to when the others need its events.
+        self.calendar.choose(&self.lanes, matches!(stop, Goal::BeforeEnd(_)));
         self.look_ahead(whole, stop.moment(), record)?;
-        let first = if let Goal::Glance(t) = stop { Goal::Before(t) } else { stop };
-        let tried = whole.counts.steps + whole.counts.rejected;
-        let left = self.limits.steps.saturating_sub(tried);
-        let events = self.limits.events.saturating_sub(whole.counts.events);
-        for lane in &mut self.lanes {
-            lane.set_out(left, events);
+        let first = self.calendar.first;
+        if let Some(k) = first {
+            self.part_goes(|part| part == k, whole, stop, record)?;
+            self.calendar.note_events(&self.lanes[k], stop.moment());
         }
-        self.drive(|_| Some(first), whole.t, record)?;
-        if self.lanes.iter().map(Lane::tried).fold(0, u64::saturating_add) >= left {
+        self.part_goes(|part| Some(part) != first, whole, stop, record)?;
+        let tried = whole.counts.steps + whole.counts.rejected;
+        if self.lanes.iter().map(Lane::tried).fold(0, u64::saturating_add)
+            >= self.limits.steps.saturating_sub(tried)
+        {
             return Err(RunError::TooManySteps { t: whole.t, limit: self.limits.steps });
         }
-        let t = match stop {
-            Goal::BeforeEnd(_) => self.lanes.iter().map(|lane| lane.state.t).fold(whole.t, f64::max),
-            _ => stop.moment(),
-        };
-        if matches!(stop, Goal::BeforeEnd(_) | Goal::Glance(_)) {
-            self.lanes.iter_mut().for_each(|lane| lane.prepare_to_glance(t));
-            self.drive(|lane| lane.glances().then_some(Goal::Glance(t)), whole.t, record)?;
-        }
-        Ok(t)
+        Ok(self.reached(whole, stop))
     }
 
-    /// Tells every part when it is to be read: at the events of the others, and where the record says.
+    /// The time up to which all parts that have set out can be read.
+    fn reached(&self, whole: &State, stop: Goal) -> f64 {
+        match stop {
+            Goal::BeforeEnd(_) => self.lanes.iter().map(|lane| lane.state.t).fold(whole.t, f64::max),
+            _ => stop.moment(),
+        }
+    }
+
+    /// Moves some of the parts on.
+    fn part_goes(
+        &mut self,
+        goes: impl Fn(usize) -> bool + Sync,
+        whole: &State,
+        stop: Goal,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let tried = whole.counts.steps + whole.counts.rejected;
+        let steps = self.limits.steps.saturating_sub(tried);
+        let events = self.limits.events.saturating_sub(whole.counts.events);
+        for (k, lane) in self.lanes.iter_mut().enumerate().filter(|(k, _)| goes(*k)) {
+            self.merged.ask(lane, self.calendar.moments_of(k), (whole.t, stop.moment()));
+            lane.set_out(steps, events);
+        }
+        let first = if let Goal::Glance(t) = stop { Goal::Before(t) } else { stop };
+        self.drive(|k, _| goes(k).then_some(first), whole.t, record)?;
+        if matches!(stop, Goal::BeforeEnd(_) | Goal::Glance(_)) {
+            let t = self.reached(whole, stop);
+            let going = self.lanes.iter_mut().enumerate().filter(|(k, _)| goes(*k));
+            going.for_each(|(_, lane)| lane.prepare_to_glance(t));
+            self.drive(|k, lane| (goes(k) && lane.glances()).then_some(Goal::Glance(t)), whole.t, record)?;
+        }
+        Ok(())
+    }
+
+    /// Lets scouts find out when the events of a stretch are.
     fn look_ahead(&mut self, whole: &State, until: f64, record: &mut dyn Record) -> Result<(), RunError> {
         let threads = if self.is_busy { self.threads } else { 1 };
-        loop {
-            side_by_side(threads, &mut self.scouts, |scout| scout.pass(until, sheet::ASKS));
-            if self.scouts.iter().all(|scout| scout.has_passed(until)) {
-                break;
-            }
+        while !self.calendar.pass(threads, until) {
             halted(self.begun, self.limits, whole.t, record)?;
         }
-        self.merged.ask(&mut self.lanes, &self.scouts, (whole.t, until));
+        self.calendar.note((whole.t, until));
         Ok(())
     }
 
     /// Lets every part go where it is to go; each pauses now and then, so that whoever watches the run is asked in time.
     fn drive(
         &mut self,
-        goal: impl Fn(&Lane<'_>) -> Option<Goal> + Sync,
+        goal: impl Fn(usize, &Lane<'_>) -> Option<Goal> + Sync,
         t: f64,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
@@ -254,7 +273,7 @@ impl<'m> Parted<'m> {
         self.lanes.iter_mut().for_each(|lane| lane.arrived = false);
         loop {
             side_by_side(threads, &mut self.lanes, |lane| {
-                lane.arrived = lane.arrived || goal(lane).is_none_or(|goal| lane.go(goal));
+                lane.arrived = lane.arrived || goal(lane.place, lane).is_none_or(|goal| lane.go(goal));
             });
             if self.lanes.iter().all(|lane| lane.arrived) {
                 return Ok(());

@@ -49,6 +49,18 @@ impl Leg {
 }
 
 impl Corners {
+    /// Becomes another one's copy, in the room there is.
+    pub(super) fn copy(&mut self, from: &Self) {
+        let Self { period, per_period, origins, ways, carrier, lead, foot, first, last, start, stop } = from;
+        self.origins.clone_from(origins);
+        self.ways.clone_from(ways);
+        self.carrier.clone_from(carrier);
+        (self.period, self.per_period) = (*period, *per_period);
+        (self.lead, self.foot) = (*lead, *foot);
+        (self.first, self.last) = (*first, *last);
+        (self.start, self.stop) = (*start, *stop);
+    }
+
     /// Corners of a period that these ways fill from its start to its end.
     ///
     /// A way that ends where it starts is a jump: none is there. Where it is the first one the value from which it jumps is what is

@@ -32,3 +32,16 @@ pub(super) enum Chain {
     /// Pieces that a caller supplies while it runs; until then the value at the start.
     Supplied(Interpolation),
 }
+
+impl Course {
+    /// Becomes another one's copy, in the room there is.
+    pub(super) fn copy(&mut self, from: &Self) {
+        let Self { chain, ends, period, range, wave, has_jumps } = from;
+        match (&mut self.chain, chain) {
+            (Chain::Corners(own), Chain::Corners(from)) => own.copy(from),
+            (own, from) => own.clone_from(from),
+        }
+        (self.ends, self.period, self.range) = (*ends, *period, *range);
+        (self.wave, self.has_jumps) = (*wave, *has_jumps);
+    }
+}

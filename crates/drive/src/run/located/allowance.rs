@@ -47,13 +47,14 @@ impl Allowance {
     /// books close at the tolerance.
     ///
     /// `tolerance` is relative to natural scales: u_c, u_cω, μF_N and μF_N u_c.
-    pub(super) fn new(model: &Model, tolerance: f64) -> Self {
+    pub(super) fn new(model: &Model, tolerance: f64, mut scale: Vec<f64>) -> Self {
         let kinks = model.contacts.iter().any(|contact| {
             contact.interface.profile().has_kinks() || !contact.engine.branches() && !contact.is_constant()
         });
         let strict = if kinks { (KINKS * tolerance).max(f64::min(tolerance, FINEST)) } else { tolerance };
         let layout = model.layout();
-        let mut scale = vec![0.0; layout.total()];
+        scale.clear();
+        scale.resize(layout.total(), 0.0);
         for contact in &model.contacts {
             if let Some(slot) = contact.slot {
                 let limit = contact.friction_limit();
@@ -112,7 +113,7 @@ impl Allowance {
 
 /// How far a derivative moves each coupled component of a model.
 pub(super) fn differences(model: &Model) -> Vec<f64> {
-    let mut natural = Allowance::new(model, 1.0);
+    let mut natural = Allowance::new(model, 1.0, Vec::new());
     natural.set(model, &model.rest());
     let unit = DIFFERENCE / natural.strict;
     let coupled = model.layout().dimension();

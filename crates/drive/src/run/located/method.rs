@@ -1,13 +1,13 @@
 //! The solver of a run between located events.
 
 use super::allowance::differences;
-use super::{Located, Setting};
+use super::{Located, Room, Setting};
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
 use crate::record::Record;
 use crate::run::horizon::Goal;
 use crate::run::output::Opening;
-use crate::state::State;
+use crate::state::{Layout, LocatedWay, State};
 use crate::{Limits, Plan, RunError};
 use stickslip_stepper::{
     DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired, RADAU_ORDER, Radau, StepLimits,
@@ -30,30 +30,84 @@ pub(in crate::run) enum LocatedRun<'a> {
     Stiff(Box<Located<'a, Radau>>),
 }
 
+/// Order of a solver, for step control, and what its steps may do.
+type Steps = (u32, StepLimits);
+
+/// Of explicit methods.
+fn explicit(order: u32) -> Steps {
+    (order, StepLimits::default())
+}
+
+/// Of the implicit one.
+fn implicit() -> Steps {
+    (RADAU_ORDER, StepLimits { shrink: SHRINK, ..StepLimits::default() })
+}
+
+fn radau(model: &Model, layout: Layout) -> Radau {
+    Radau::new((layout.dimension(), layout.free), layout.total(), differences(model))
+}
+
 impl<'a> LocatedRun<'a> {
     pub(in crate::run) fn new(model: &'a Model, plan: &Plan, tolerance: f64) -> Self {
         let layout = model.layout();
         let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
-        let limits = StepLimits::default();
         match (setting.method, layout.free) {
             // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
             (Method::Nystrom, 1) => {
                 let solver = Paired::one(layout.total());
-                Self::One(Box::new(Located::new(setting, plan, solver, (NYSTROM_ORDER, limits))))
+                Self::One(Box::new(Located::new(setting, plan, solver, explicit(NYSTROM_ORDER))))
             }
             (Method::Nystrom, free) => {
                 let solver = Paired::new(free, 1, layout.total());
-                Self::Many(Box::new(Located::new(setting, plan, solver, (NYSTROM_ORDER, limits))))
+                Self::Many(Box::new(Located::new(setting, plan, solver, explicit(NYSTROM_ORDER))))
             }
-            (Method::Radau, free) => {
-                let coupled = (layout.dimension(), free);
-                let solver = Radau::new(coupled, layout.total(), differences(model));
-                let limits = StepLimits { shrink: SHRINK, ..limits };
-                Self::Stiff(Box::new(Located::new(setting, plan, solver, (RADAU_ORDER, limits))))
+            (Method::Radau, _) => {
+                Self::Stiff(Box::new(Located::new(setting, plan, radau(model, layout), implicit())))
             }
             _ => {
                 let solver = DormandPrince::new(layout.dimension(), layout.total());
-                Self::General(Box::new(Located::new(setting, plan, solver, (DOP853_ORDER, limits))))
+                Self::General(Box::new(Located::new(setting, plan, solver, explicit(DOP853_ORDER))))
+            }
+        }
+    }
+}
+
+/// Rooms of runs between located events, by the kind of their solver: runs of one shape take turns in one of them.
+#[derive(Default)]
+pub(in crate::run) struct Workspace {
+    one: Option<Room<Paired<One>>>,
+    many: Option<Room<Paired>>,
+    general: Option<Room<DormandPrince>>,
+}
+
+impl Workspace {
+    /// Moves a state that has begun to the end of its plan; `way` is room for what is put down with it.
+    pub(in crate::run) fn run(
+        &mut self,
+        (model, plan, tolerance): (&Model, &Plan, f64),
+        state: &mut State,
+        way: Option<Box<LocatedWay>>,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let layout = model.layout();
+        let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
+        let to = (state, way);
+        match (setting.method, layout.free) {
+            (Method::Nystrom, 1) => {
+                let solver = || Paired::one(layout.total());
+                Room::run(&mut self.one, (setting, plan, explicit(NYSTROM_ORDER)), solver, to, record)
+            }
+            (Method::Nystrom, free) => {
+                let solver = || Paired::new(free, 1, layout.total());
+                Room::run(&mut self.many, (setting, plan, explicit(NYSTROM_ORDER)), solver, to, record)
+            }
+            // Its solver holds differences of one model: no room is kept.
+            (Method::Radau, _) => {
+                Room::run(&mut None, (setting, plan, implicit()), || radau(model, layout), to, record)
+            }
+            _ => {
+                let solver = || DormandPrince::new(layout.dimension(), layout.total());
+                Room::run(&mut self.general, (setting, plan, explicit(DOP853_ORDER)), solver, to, record)
             }
         }
     }

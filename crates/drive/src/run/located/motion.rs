@@ -52,7 +52,7 @@ pub(super) struct Pace {
 
 impl<A> Motion<A> {
     /// Nothing is started yet: the solver is behind until it is told of a state.
-    pub(super) fn new(setting: &Setting<'_>, solver: A) -> Self {
+    pub(super) fn new(setting: &Setting<'_>, solver: A, scale: Vec<f64>) -> Self {
         let (model, tolerance) = (setting.model, setting.tolerance);
         let pace = Pace {
             longest: longest(model),
@@ -62,7 +62,8 @@ impl<A> Motion<A> {
             resolved: tolerance.powf(2.0 / 3.0),
             gait: Gait::FRESH,
         };
-        Self { solver, whereabouts: Whereabouts::Behind, allowance: Allowance::new(model, tolerance), pace }
+        let allowance = Allowance::new(model, tolerance, scale);
+        Self { solver, whereabouts: Whereabouts::Behind, allowance, pace }
     }
 }
 

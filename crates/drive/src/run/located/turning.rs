@@ -17,6 +17,7 @@ use stickslip_contact::Segment;
 use stickslip_stepper::Attempt;
 
 /// What waveforms do at a corner.
+#[derive(Debug, Default)]
 pub(super) struct Turning {
     jumps: Jumps,
     /// Modes before the corner.
@@ -26,21 +27,22 @@ pub(super) struct Turning {
 }
 
 /// Whether any waveform jumps: only then is the energy before a corner asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Jumps {
+    #[default]
     Never,
     Possible,
 }
 
 impl Turning {
-    pub(super) fn new(model: &Model) -> Self {
+    pub(super) fn renewed(mut self, model: &Model) -> Self {
         let jumps =
             if model.waveforms.iter().any(Waveform::has_jumps) { Jumps::Possible } else { Jumps::Never };
-        Self {
-            jumps,
-            before: Vec::with_capacity(model.contacts.len()),
-            turned: Vec::with_capacity(model.waveforms.len()),
-        }
+        self.before.clear();
+        self.before.reserve(model.contacts.len());
+        self.turned.clear();
+        self.turned.reserve(model.waveforms.len());
+        Self { jumps, ..self }
     }
 }
 

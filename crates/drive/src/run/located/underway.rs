@@ -19,11 +19,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // Into the room of the one before, where that was of this kind.
         let mut way = match state.underway.take() {
             Some(Underway::Located(way)) => way,
-            _ => Box::new(LocatedWay::BLANK),
+            _ => self.spare.take().unwrap_or_else(|| Box::new(LocatedWay::BLANK)),
         };
         way.tolerance = self.setting.tolerance;
         (way.whereabouts, way.hand) = (self.motion.whereabouts, solver.hand());
         way.slopes.clear();
+        // Whether there are any is another matter from run to run; the room is the same.
+        way.slopes.reserve(self.setting.layout.total());
         if way.whereabouts == Whereabouts::Here {
             solver.first_slopes(&mut way.slopes);
         }

@@ -51,6 +51,7 @@ impl Fallen {
 }
 
 /// The contacts at both ends of a step, and the guards that fell at its end.
+#[derive(Debug, Default)]
 pub(super) struct Watch {
     /// At its start.
     pub(super) from: Vec<Moving>,
@@ -63,10 +64,15 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    pub(super) fn new(model: &Model, tolerance: f64) -> Self {
-        let contacts = vec![Moving::default(); model.contacts.len()];
-        let fired = Vec::with_capacity(model.contacts.len() + model.blocks.len());
-        Self { from: contacts.clone(), to: contacts, fired, tolerance }
+    pub(super) fn renewed(mut self, model: &Model, tolerance: f64) -> Self {
+        let count = model.contacts.len();
+        for ends in [&mut self.from, &mut self.to] {
+            ends.clear();
+            ends.resize(count, Moving::default());
+        }
+        self.fired.clear();
+        self.fired.reserve(count + model.blocks.len());
+        Self { tolerance, ..self }
     }
 
     /// The contacts at the start of the next step, after anything that makes slopes jump.

@@ -40,6 +40,11 @@ impl Marks {
         Self { due: never, nearly: never, coordinate: None, inside: None, range: NOWHERE, row: Vec::new() }
     }
 
+    /// None, in the room there is.
+    pub(in crate::run) fn renewed(self) -> Self {
+        Self { row: self.row, ..Self::none() }
+    }
+
     /// Asks for the first moment after the state's, and takes one that is at hand. Of a run that is `resumed` that has been taken.
     pub(in crate::run) fn begin(
         &mut self,

@@ -22,7 +22,7 @@ const CONTACTS_PER_STEP: f64 = 10.0;
 pub(super) struct Lane<'m> {
     whole: &'m Model,
     /// Its place among the parts.
-    place: usize,
+    pub(super) place: usize,
     pub(super) part: &'m Part,
     plan: Plan,
     tolerance: f64,
@@ -109,7 +109,7 @@ impl<'m> Lane<'m> {
 
     /// One that runs ahead of it.
     pub(super) fn scout(&self) -> Scout<'m> {
-        Scout::new(self.part, &self.plan, self.tolerance, &self.state)
+        Scout::new((self.place, self.part), &self.plan, self.tolerance, &self.state)
     }
 
     /// Sets out into a stretch, within limits on what it may do there.

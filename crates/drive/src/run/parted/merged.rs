@@ -1,6 +1,5 @@
 //! What the parts have written, put together by time.
 
-use super::calendar::{Key, Scout};
 use super::lane::Lane;
 use super::sheet::{NOWHERE, key};
 use crate::event::{Event, Source};
@@ -18,8 +17,6 @@ pub(super) struct Merged {
     look: f64,
     mark: f64,
     row: Vec<f64>,
-    /// Moments of events, their first ones and their parts.
-    moments: Vec<(f64, Key, usize)>,
     /// Waveforms that have turned at the moment at hand.
     turned: (f64, Vec<usize>),
 }
@@ -33,7 +30,6 @@ impl Merged {
             look: never,
             mark: never,
             row: vec![0.0; model.channel_count()],
-            moments: Vec::new(),
             turned: (f64::NEG_INFINITY, Vec::with_capacity(model.waveforms.len())),
         }
     }
@@ -72,33 +68,25 @@ impl Merged {
         self.look.min(self.mark)
     }
 
-    /// Tells every part when it is to be read in a stretch: at events of other parts that are before its own there, and where
-    /// the record says.
-    pub(super) fn ask(&mut self, lanes: &mut [Lane<'_>], scouts: &[Scout<'_>], (t, until): (f64, f64)) {
-        self.moments.clear();
-        for (k, scout) in scouts.iter().enumerate() {
-            self.moments.extend(scout.moments(until).filter(|(at, _)| *at > t).map(|(at, key)| (at, key, k)));
+    /// Tells a part when it is to be read in a stretch: at moments of the calendar, and where the record says.
+    pub(super) fn ask(
+        &self,
+        lane: &mut Lane<'_>,
+        moments: impl Iterator<Item = f64>,
+        (t, until): (f64, f64),
+    ) {
+        // Where it is as good as there it would not be read again.
+        let behind = lane.state.t < t * (1.0 - SAME_MARK);
+        lane.sheet.ask_anew(behind && !self.opens);
+        if self.opens || lane.sheet.watches() && behind {
+            lane.sheet.ask(t);
         }
-        self.moments.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        for (k, lane) in lanes.iter_mut().enumerate() {
-            // Where it is as good as there it would not be read again.
-            let behind = lane.state.t < t * (1.0 - SAME_MARK);
-            lane.sheet.ask_anew(behind && !self.opens);
-            if self.opens || lane.sheet.watches() && behind {
-                lane.sheet.ask(t);
-            }
-            for moment in self.moments.chunk_by(|a, b| a.0 == b.0) {
-                let own = moment.iter().find(|(_, _, part)| *part == k);
-                if own.is_none_or(|own| own.1 > moment[0].1) {
-                    lane.sheet.ask(moment[0].0);
-                }
-            }
-            if self.mark <= until {
-                lane.sheet.ask_amid(self.mark);
-            }
-            if self.look <= until {
-                lane.sheet.look_at(self.look);
-            }
+        moments.for_each(|t| lane.sheet.ask(t));
+        if self.mark <= until {
+            lane.sheet.ask_amid(self.mark);
+        }
+        if self.look <= until {
+            lane.sheet.look_at(self.look);
         }
     }
 

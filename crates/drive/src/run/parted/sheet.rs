@@ -184,6 +184,11 @@ impl Sheet {
         self.events.get(self.next_event)
     }
 
+    /// The events of a stretch.
+    pub(super) fn events(&self) -> &[Event] {
+        &self.events
+    }
+
     /// Takes the next event.
     pub(super) fn pass_event(&mut self) {
         self.next_event += 1;

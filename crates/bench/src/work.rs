@@ -1,0 +1,102 @@
+//! What the event stepper takes at the tolerances that people ask for, in instructions where they can be counted.
+
+use crate::contestant::Stepping;
+use crate::family::{Family, Measured, Method};
+use crate::floor::Beside;
+use crate::instructions::Counted;
+use crate::problem::Problem;
+use crate::request::Request;
+use std::fmt::Write;
+use std::path::Path;
+
+/// The tolerances: what most people ask for, what the program takes by default, and a fine one.
+pub(crate) const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-9];
+
+/// Work of the event stepper on the exact contact, and of the least code where there is one.
+pub(crate) struct Work {
+    /// Simulated time, s.
+    pub(crate) duration: f64,
+    pub(crate) runs: Vec<Effort>,
+    pub(crate) floor: Vec<Beside>,
+}
+
+/// A run at one of the tolerances.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Effort {
+    pub(crate) tolerance: f64,
+    pub(crate) measured: Measured,
+    pub(crate) instructions: Option<u64>,
+}
+
+impl Work {
+    pub(crate) fn of(problem: &Problem, families: &[Family<'_>], file: &Path, request: &Request) -> Self {
+        let event = Method::Own { stepping: Stepping::Event, springs: None };
+        let runs = families.iter().filter(|family| family.method == event).flat_map(Family::measured);
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+        let runs = runs.filter_map(|(run, measured)| {
+            let tolerance = TOLERANCES.into_iter().find(|tolerance| near(*tolerance, run.value))?;
+            let count = || Counted::Event(tolerance).instructions(file, &request.set);
+            let instructions = request.instructions.then(count).flatten();
+            Some(Effort { tolerance, measured: *measured, instructions })
+        });
+        Self { duration: problem.duration, runs: runs.collect(), floor: Beside::all(problem, file, request) }
+    }
+
+    /// Instructions per simulated second at a tolerance, where they were counted.
+    pub(crate) fn pace(&self, tolerance: f64) -> Option<f64> {
+        let run = self.runs.iter().find(|run| run.tolerance == tolerance)?;
+        run.instructions.map(|count| count as f64 / self.duration)
+    }
+
+    /// Lines of the table of all scenes; `first` is the scene that others are compared with.
+    pub(crate) fn lines(&self, name: &str, first: Option<&Self>, digits: impl Fn(f64) -> String) -> String {
+        let mut lines = String::new();
+        for Effort { tolerance, measured, instructions } in &self.runs {
+            let millions = instructions.map_or("–".to_owned(), |count| digits(1e-6 * count as f64));
+            let times = self.pace(*tolerance).zip(first.and_then(|first| first.pace(*tolerance)));
+            let ratio = times.map_or("–".to_owned(), |(own, first)| digits(own / first));
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                lines,
+                "| `{name}` | {tolerance:e} | {:.1e} | {:.1e} | {millions} | {ratio} | {} | {} | {} |",
+                measured.errors.end,
+                measured.errors.trajectory,
+                digits(1e3 * measured.cost.processor / self.duration),
+                measured.counts.steps,
+                measured.counts.events,
+            );
+        }
+        lines
+    }
+
+    /// The least code beside the program, at the tolerances whose errors it has with so many nodes.
+    pub(crate) fn against_floor(&self, digits: impl Fn(f64) -> String) -> String {
+        if self.floor.is_empty() {
+            return String::new();
+        }
+        let mut text = FLOOR.to_owned();
+        for (Beside { nodes, error, time, instructions }, run) in self.floor.iter().zip(&self.runs) {
+            let counts = instructions.zip(run.instructions);
+            let by_count = counts.map_or("–".to_owned(), |(floor, own)| digits(own as f64 / floor as f64));
+            let millions = instructions.map_or("–".to_owned(), |count| digits(1e-6 * count as f64));
+            let _ = writeln!(
+                text,
+                "| {nodes} | {error:.1e} | {millions} | {} | {:e} | {:.1e} | {by_count} | {} |",
+                digits(1e3 * time / self.duration),
+                run.tolerance,
+                run.measured.errors.end,
+                digits(run.measured.cost.processor / time),
+            );
+        }
+        text
+    }
+}
+
+const FLOOR: &str = "
+How little it could cost: code for this drive alone, which goes from event to event by its energy and takes the time by Gauss and
+Legendre's rule with so many nodes; no memory beyond turning points, no work, no rows, no error estimate. Beside it the event
+stepper, and how many times as much it takes.
+
+| nodes | error at the end | million instructions | ms per simulated second | tolerance | error at the end | × instructions | × time |
+| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |
+";

@@ -1,0 +1,139 @@
+//! Contacts of a kernel.
+
+use super::length::{Length, Sums, dot, row};
+use crate::contact::{Contact, Mode, Motion, Press};
+use crate::equations::Equations;
+use crate::interval::Closed;
+use crate::model::Model;
+use crate::state::State;
+use stickslip_contact::{Branch, FixedDepthBranch, Profile};
+
+/// A contact at constant depth on one branch.
+#[derive(Debug, Clone)]
+pub(super) struct Steady<'a> {
+    u: Length<'a>,
+    count: f64,
+    branch: FixedDepthBranch,
+    profile: &'a Profile,
+}
+
+/// Any other contact.
+#[derive(Debug, Clone)]
+pub(super) struct Moving<'a> {
+    index: usize,
+    contact: &'a Contact,
+    u: Length<'a>,
+    depth: Depth<'a>,
+    law: Law,
+    /// Places of its friction work, its force and its elastic energy among the components, where it grows.
+    slot: Option<[usize; 3]>,
+}
+
+/// What presses it.
+#[derive(Debug, Clone)]
+enum Depth<'a> {
+    /// Constant d (m) with M(d) (m²).
+    Constant { d: f64, reduced_force: f64 },
+    /// The bodies.
+    Coupled(Length<'a>),
+}
+
+/// Its law.
+#[derive(Debug, Clone)]
+enum Law {
+    Slip(Branch),
+    Grow,
+}
+
+impl<'a> Steady<'a> {
+    pub(super) fn of(closed: &Closed<'a>) -> Self {
+        let u = Length { row: row(&closed.contact.u.free), followed: closed.followed };
+        let profile = closed.contact.interface.profile();
+        Self { u, count: closed.contact.count, branch: closed.branch, profile }
+    }
+
+    #[inline(always)]
+    pub(super) fn act<const N: usize>(&self, t: f64, x: &[f64; N], sums: &mut Sums<N>) {
+        let followed = self.u.followed.at(t);
+        let u = dot(&self.u.row, x) + followed.value;
+        sums.apply(&self.u.row, followed.rate, -self.count * self.branch.force(self.profile, u));
+    }
+}
+
+impl<'a> Moving<'a> {
+    pub(super) fn of(index: usize, model: &'a Model, state: &State) -> Option<Self> {
+        let contact = &model.contacts[index];
+        let depth = match &contact.press {
+            Press::Constant { d, reduced_force } => Depth::Constant { d: *d, reduced_force: *reduced_force },
+            Press::Coupled(measure) => Depth::Coupled(Length::of(measure, model, state)?),
+            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => return None,
+        };
+        let straight = contact.goes_straight(&state.pieces);
+        let layout = model.layout();
+        let slot = contact.slot.filter(|_| !straight);
+        let law = match &state.modes[index] {
+            Mode::Slip(branch) => Law::Slip(*branch),
+            // Elsewhere the memory is asked.
+            Mode::Grow if slot.is_some() => Law::Grow,
+            _ => return None,
+        };
+        let u = Length::of(&contact.u, model, state)?;
+        let slot = slot.map(|slot| [layout.friction(slot), layout.force(slot), layout.elastic(slot)]);
+        Some(Self { index, contact, u, depth, law, slot })
+    }
+
+    /// Normal: -count·E\*M(d) along d, where the bodies press it. Tangential: -count·(F_x + βG\*m u̇) along u, the second term of
+    /// the springs that stick.
+    #[inline(always)]
+    pub(super) fn act<const N: usize>(
+        &self,
+        (eq, y): (&Equations<'_>, &[f64]),
+        t: f64,
+        at: (&[f64; N], &[f64; N]),
+        (sums, extra): (&mut Sums<N>, &mut [f64]),
+    ) {
+        let (contact, u) = (self.contact, self.u.at(t, at));
+        let law = &contact.interface;
+        let (d, dd, reduced_force) = match &self.depth {
+            Depth::Constant { d, reduced_force } => (*d, 0.0, *reduced_force),
+            Depth::Coupled(length) => {
+                let d = length.at(t, at);
+                let reduced_force = law.reduced_force(d.value);
+                let press = contact.count * (law.normal_modulus() * reduced_force);
+                sums.apply(&length.row, d.driven, -press);
+                (d.value, d.rate, reduced_force)
+            }
+        };
+        let motion = Motion { d, u: u.value, dd, du: u.rate };
+        let mut force = match (&self.law, self.slot) {
+            (Law::Slip(branch), Some([friction, ..])) if branch.covers(d, u.value) => {
+                let [force, power] = branch.drag(law, &motion, reduced_force);
+                extra[friction - 2 * N] = power;
+                force
+            }
+            (Law::Slip(branch), None) if branch.covers(d, u.value) => {
+                branch.force(law, d, u.value, reduced_force)
+            }
+            // Growth, and beyond what the branch covers: the memory is asked.
+            (_, slot) => {
+                let grown = || slot.map_or(0.0, |[_, force, _]| y[force]);
+                let force = contact.force(eq.law(self.index), &motion, grown);
+                if let Some(places) = slot {
+                    let rates = contact.growth_rates(eq.law(self.index), &motion, force);
+                    for (place, rate) in places.into_iter().zip([rates.friction, rates.force, rates.elastic])
+                    {
+                        extra[place - 2 * N] = rate;
+                    }
+                }
+                force
+            }
+        };
+        if law.damping() > 0.0 {
+            let damping = contact.viscosity(eq.law(self.index), &motion);
+            // A power of its own, not friction: it is lost where springs stick.
+            sums.damping += contact.count * damping * motion.du * motion.du;
+            force += damping * motion.du;
+        }
+        sums.apply(&self.u.row, u.driven, -contact.count * force);
+    }
+}

@@ -1,0 +1,76 @@
+//! Lengths as rows of coefficients, and what forces along them add up to.
+
+use super::WIDTH;
+use crate::interval::Followed;
+use crate::model::{Measure, Model, Terms};
+use crate::state::State;
+
+/// Coefficients of all free coordinates.
+pub(super) type Row = [f64; WIDTH];
+
+/// A length: Σ coefficient · coordinate + what followers make of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Length<'a> {
+    pub(super) row: Row,
+    pub(super) followed: Followed<'a>,
+}
+
+/// A length and its rates at a moment.
+#[derive(Clone, Copy)]
+pub(super) struct Read {
+    pub(super) value: f64,
+    pub(super) rate: f64,
+    /// The part of the rate that followers make.
+    pub(super) driven: f64,
+}
+
+/// Forces on N free coordinates, and powers, as they add up.
+pub(super) struct Sums<const N: usize> {
+    pub(super) forces: [f64; N],
+    pub(super) input: f64,
+    pub(super) damping: f64,
+}
+
+/// The coefficients of a measure, by coordinate.
+pub(super) fn row(terms: &Terms) -> Row {
+    let mut row = [0.0; WIDTH];
+    for &(i, a) in terms {
+        row[i] = a;
+    }
+    row
+}
+
+/// Σ coefficient · coordinate.
+#[inline(always)]
+pub(super) fn dot<const N: usize>(row: &Row, x: &[f64; N]) -> f64 {
+    let mut sum = row[0] * x[0];
+    for (a, x) in row.iter().zip(x).skip(1) {
+        sum += a * x;
+    }
+    sum
+}
+
+impl<const N: usize> Sums<N> {
+    /// Adds a force along a length whose followers move at the rate `driven`: what drives them puts in -force · driven.
+    #[inline(always)]
+    pub(super) fn apply(&mut self, row: &Row, driven: f64, force: f64) {
+        for (sum, a) in self.forces.iter_mut().zip(row) {
+            *sum += a * force;
+        }
+        self.input -= force * driven;
+    }
+}
+
+impl<'a> Length<'a> {
+    pub(super) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
+        Some(Self { row: row(&measure.free), followed: Followed::of(measure, model, state)? })
+    }
+
+    /// Two bodies far from their start may be close to each other: their difference first.
+    #[inline(always)]
+    pub(super) fn at<const N: usize>(&self, t: f64, (x, v): (&[f64; N], &[f64; N])) -> Read {
+        let followed = self.followed.at(t);
+        let (value, rate) = (dot(&self.row, x) + followed.value, dot(&self.row, v) + followed.rate);
+        Read { value, rate, driven: followed.rate }
+    }
+}

@@ -1,0 +1,110 @@
+//! The room that a run between located events works in, kept for the next one.
+//!
+//! Nothing of a run is in it but lists that have grown: whoever takes it over fills them anew, so that a run does not depend on
+//! which others were there before.
+
+use super::turning::Turning;
+use super::watch::Watch;
+use super::{Located, Setting};
+use crate::equations::Equations;
+use crate::interval::{Interval, Swing};
+use crate::model::Model;
+use crate::record::Record;
+use crate::run::horizon::Goal;
+use crate::run::ledger::Ledger;
+use crate::run::output::{Opening, Output};
+use crate::state::{Layout, LocatedWay, State, Window};
+use crate::{Plan, RunError};
+use stickslip_stepper::{Attempt, Hand, StepLimits};
+
+/// Room of a run by one solver.
+pub(super) struct Room<A> {
+    /// What the solver has room for.
+    layout: Layout,
+    pub(super) solver: A,
+    /// Absolute errors allowed.
+    pub(super) scale: Vec<f64>,
+    pub(super) interval: Interval<'static>,
+    pub(super) swing: Swing,
+    pub(super) watch: Watch,
+    pub(super) ledger: Ledger,
+    pub(super) turning: Turning,
+    pub(super) output: Output,
+    pub(super) windows: Vec<Window>,
+    /// What is put down with the state at the end.
+    pub(super) way: Option<Box<LocatedWay>>,
+}
+
+impl<A> Room<A> {
+    /// Room that has yet to grow.
+    pub(super) fn of(solver: A, layout: Layout) -> Self {
+        let nothing = Model::blank();
+        Self {
+            layout,
+            solver,
+            scale: Vec::new(),
+            interval: Interval::of(&nothing).emptied(),
+            swing: Swing::default(),
+            watch: Watch::default(),
+            ledger: Ledger::new(&nothing, 0),
+            turning: Turning::default(),
+            output: Output::new(None, layout),
+            windows: Vec::new(),
+            way: None,
+        }
+    }
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
+    /// Moves a state that has begun to the end of its plan, in a room that may be there already.
+    pub(super) fn run(
+        room: &mut Option<Self>,
+        (setting, plan, control): (Setting<'_>, &Plan, (u32, StepLimits)),
+        solver: impl FnOnce() -> A,
+        (state, way): (&mut State, Option<Box<LocatedWay>>),
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let fits = |room: &Self| room.layout == setting.layout;
+        let own = room.take().filter(fits).unwrap_or_else(|| Self::of(solver(), setting.layout));
+        let mut run = Located::within(Self { way, ..own }, setting, plan, control);
+        let outcome = run.finish(state, plan, record);
+        *room = Some(run.leave());
+        outcome
+    }
+}
+
+impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+    /// Moves a state to the end of its plan.
+    fn finish(&mut self, state: &mut State, plan: &Plan, record: &mut dyn Record) -> Result<(), RunError> {
+        let model = self.setting.model;
+        state.check_inputs(model, plan.duration)?;
+        for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
+            memory.bound(&contact.interface, self.remembers());
+        }
+        self.set_out(state, Opening::Row, record);
+        let outcome = self.go(state, Goal::End(plan.duration), record);
+        if outcome.is_err() {
+            self.write_now(state, record);
+        }
+        self.settle_books(state);
+        outcome
+    }
+
+    /// Leaves its room to another run.
+    fn leave(mut self) -> Room<A> {
+        self.motion.solver.set_hand(Hand::default());
+        Room {
+            layout: self.setting.layout,
+            solver: self.motion.solver,
+            scale: self.motion.allowance.allowed.scale,
+            interval: self.interval.emptied(),
+            swing: self.swing,
+            watch: self.watch,
+            ledger: self.ledger,
+            turning: self.turning,
+            output: self.output,
+            windows: self.bounds.windows,
+            way: self.spare,
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! A moment of every period, and the numbers that a state has there.
+//!
+//! The map of a period leads a state at a [`Section`] to the one a period later. What the motion's future depends on are places,
+//! speeds, states of blocks, and what of the contacts' memories is left: of a contact that slips grossly at that moment
+//! nothing, else the heights of its knots and the slopes of pieces that grew. Places are counted along with the drift: what
+//! is left out is where the drive has got to. Memories of blocks, and of rows of springs, are carried along as they are.
+
+mod drift;
+mod legs;
+
+use crate::equations::Equations;
+use crate::model::Binding;
+use crate::scene::Axis;
+use crate::{Model, State};
+use drift::Drift;
+use stickslip_contact::Memory;
+
+/// Most numbers that memories have; where there are more, they are carried along.
+const MOST_OF_MEMORIES: usize = 24;
+
+impl Model {
+    /// Whether nothing is free: contacts are walked along a given path.
+    #[must_use]
+    pub fn is_walk(&self) -> bool {
+        self.free.is_empty()
+    }
+}
+
+impl State {
+    /// Whether a contact remembers nothing that its motion would not tell: it is apart, all its springs slip, or it has no
+    /// friction.
+    #[must_use]
+    pub fn has_given_way(&self, model: &Model, index: usize) -> bool {
+        let contact = model.contacts.get(index).zip(self.modes.get(index));
+        contact.is_none_or(|(contact, mode)| contact.inert || mode.has_given_way(contact))
+    }
+}
+
+/// A number of a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// Place of a free coordinate, m or rad.
+    Place(usize),
+    /// Its speed, m/s or rad/s.
+    Speed(usize),
+    /// State of a block, by its place among all of them, in its own unit.
+    Own(usize),
+    /// Height of a knot of a contact's memory, by its place from the centre, m.
+    Height(usize, usize),
+    /// Slope of a piece of a contact's memory that grew in full stick, by its place from the centre.
+    Slope(usize, usize),
+}
+
+/// A moment of every period.
+#[derive(Debug, Clone)]
+pub struct Section<'m> {
+    model: &'m Model,
+    /// A state there: its time, its pieces of waveforms, its place.
+    base: State,
+    drifts: Vec<Drift>,
+    unknowns: Vec<Unknown>,
+    carried: Vec<usize>,
+}
+
+impl<'m> Section<'m> {
+    /// The section at the time of a state, whose memories have come to where it stands ([`Run::stop`](crate::Run::stop)).
+    #[must_use]
+    pub fn new(model: &'m Model, mut base: State) -> Self {
+        base.come_back(model);
+        base.carry_over(model, model.layout());
+        base.underway = None;
+        let drifts = drift::drifts(model);
+        let mut section = Self { model, base, drifts, unknowns: Vec::new(), carried: Vec::new() };
+        section.count_unknowns();
+        section
+    }
+
+    fn count_unknowns(&mut self) {
+        let (model, layout) = (self.model, self.model.layout());
+        let places = (0..layout.free).filter(|i| self.drifts.iter().all(|drift| drift.pivot != *i));
+        let places = places.map(Unknown::Place);
+        let speeds = (0..layout.free).map(Unknown::Speed);
+        self.unknowns = places.chain(speeds).chain((0..layout.own).map(Unknown::Own)).collect();
+        let mut of_memories = Vec::new();
+        for (c, contact) in model.contacts.iter().enumerate() {
+            if contact.inert {
+                continue;
+            }
+            match &self.base.memories[c] {
+                Memory::Curve(curve) if !contact.balanced => {
+                    of_memories.extend(legs::unknowns(contact, c, &curve.legs()));
+                }
+                Memory::Curve(_) => self.carried.push(c),
+                Memory::Row(_) if self.base.modes[c].has_given_way(contact) => {}
+                Memory::Row(_) => self.carried.push(c),
+            }
+        }
+        if of_memories.len() <= MOST_OF_MEMORIES {
+            self.unknowns.extend(of_memories);
+        } else {
+            let all = of_memories.iter().map(|unknown| match unknown {
+                Unknown::Height(c, _) | Unknown::Slope(c, _) => *c,
+                Unknown::Place(_) | Unknown::Speed(_) | Unknown::Own(_) => 0,
+            });
+            self.carried.extend(all);
+            self.carried.sort_unstable();
+            self.carried.dedup();
+        }
+    }
+
+    /// The state that it was made of.
+    #[must_use]
+    pub fn base(&self) -> &State {
+        &self.base
+    }
+
+    /// The numbers that tell states apart.
+    #[must_use]
+    pub fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    /// Contacts whose memories are carried along, by their places in the scene: they are no numbers of the map.
+    #[must_use]
+    pub fn carried(&self) -> &[usize] {
+        &self.carried
+    }
+
+    /// Natural scale of each number, in its own unit.
+    #[must_use]
+    pub fn scales(&self) -> Vec<f64> {
+        let own: Vec<f64> = self.model.blocks.iter().flat_map(|block| block.states.scales.clone()).collect();
+        let scale = |unknown: &Unknown| match *unknown {
+            Unknown::Place(i) => self.model.free[i].scale.0,
+            Unknown::Speed(i) => self.model.free[i].scale.1,
+            Unknown::Own(k) => own[k],
+            Unknown::Height(c, _) => self.model.contacts[c].natural.depth,
+            Unknown::Slope(c, _) => self.model.contacts[c].interface.stick_slope(),
+        };
+        self.unknowns.iter().map(scale).collect()
+    }
+
+    /// How many ways there are along which nothing changes but the place.
+    #[must_use]
+    pub fn drifts(&self) -> usize {
+        self.drifts.len()
+    }
+
+    /// A body that may go on along z, or turn, for ever, and which of the two; none where nothing but x drifts.
+    #[must_use]
+    pub fn drifts_away(&self) -> Option<(String, &'static str)> {
+        let free = self.model.free.iter().enumerate().filter(|(_, free)| free.axis != Axis::X);
+        let mut away = free.filter(|(i, _)| self.drifts.iter().any(|drift| drift.shape[*i] != 0.0));
+        away.next().map(|(_, free)| {
+            let axis = if free.axis == Axis::Z { "z" } else { "pitch" };
+            (self.model.bodies[free.body].name.clone(), axis)
+        })
+    }
+
+    /// Of a way of all free coordinates that of a body along an axis, m or rad; none where that is not free.
+    #[must_use]
+    pub fn of_body(&self, way: &[f64], index: usize, axis: Axis) -> Option<f64> {
+        match self.model.bodies.get(index)?.bindings[axis as usize] {
+            Binding::Free(i) => way.get(i).copied(),
+            Binding::Held(_) | Binding::Driven(_) => None,
+        }
+    }
+
+    /// Name of a number: that of its coordinate, its block or its contact.
+    #[must_use]
+    pub fn name(&self, unknown: Unknown) -> String {
+        let free = |i: usize| {
+            let free = &self.model.free[i];
+            let axis = match free.axis {
+                Axis::X => "x",
+                Axis::Z => "z",
+                Axis::Pitch => "pitch",
+            };
+            format!("{}.{axis}", self.model.bodies[free.body].name)
+        };
+        let of_contact = |c: usize| self.model.contacts[c].name.clone();
+        match unknown {
+            Unknown::Place(i) => free(i),
+            Unknown::Speed(i) => format!("{} speed", free(i)),
+            Unknown::Own(k) => {
+                let owner = self.model.blocks.iter().rfind(|block| block.first <= k && block.count() > 0);
+                owner.map_or_else(String::new, |block| format!("{} {}", block.name, k - block.first))
+            }
+            Unknown::Height(c, k) => format!("{} knot {k}", of_contact(c)),
+            Unknown::Slope(c, k) => format!("{} slope {k}", of_contact(c)),
+        }
+    }
+
+    /// A state of a period later, as if it stood at the section, and how far each free coordinate has drifted, m or rad.
+    ///
+    /// The drive stands where the section's own state does; anchors have come along.
+    #[must_use]
+    pub fn back(&self, mut end: State) -> (State, Vec<f64>) {
+        end.come_back(self.model);
+        end.carry_over(self.model, self.model.layout());
+        let mut way = vec![0.0; self.model.free.len()];
+        for drift in &self.drifts {
+            let gone = end.y[drift.pivot] - self.base.y[drift.pivot];
+            way.iter_mut().zip(&drift.shape).for_each(|(way, share)| *way += gone * share);
+        }
+        end.y.iter_mut().zip(&way).for_each(|(x, way)| *x -= way);
+        for (memory, contact) in end.memories.iter_mut().zip(&self.model.contacts) {
+            let moved: f64 = contact.u.free.iter().map(|(i, a)| a * way[*i]).sum();
+            memory.shift(-moved);
+        }
+        let Self { base, .. } = self;
+        (end.t, end.step, end.stuck_step, end.underway) = (base.t, base.step, base.stuck_step, None);
+        end.pieces.clone_from(&base.pieces);
+        end.generators.clone_from(&base.generators);
+        (end, way)
+    }
+
+    /// The numbers of a state less those of another one, each in its own unit; none where their memories have other
+    /// knots.
+    #[must_use]
+    pub fn difference(&self, of: &State, less: &State) -> Option<Vec<f64>> {
+        let layout = self.model.layout();
+        let at = |place: usize| of.y[place] - less.y[place];
+        let number = |unknown: &Unknown| match *unknown {
+            Unknown::Place(i) => Some(at(i)),
+            Unknown::Speed(i) => Some(at(layout.velocity(i))),
+            Unknown::Own(k) => Some(at(layout.block(k))),
+            Unknown::Height(c, _) | Unknown::Slope(c, _) => {
+                legs::difference(*unknown, [&of.memories[c], &less.memories[c]], &self.model.contacts[c])
+            }
+        };
+        self.unknowns.iter().map(number).collect()
+    }
+
+    /// A state at the section with other numbers, each moved by as much in its own unit; none where a memory has no such form.
+    #[must_use]
+    pub fn moved(&self, state: &State, by: &[f64]) -> Option<State> {
+        let (model, layout) = (self.model, self.model.layout());
+        let mut moved = state.clone();
+        for (unknown, by) in self.unknowns.iter().zip(by) {
+            match *unknown {
+                Unknown::Place(i) => moved.y[i] += by,
+                Unknown::Speed(i) => moved.y[layout.velocity(i)] += by,
+                Unknown::Own(k) => moved.y[layout.block(k)] += by,
+                Unknown::Height(..) | Unknown::Slope(..) => {}
+            }
+        }
+        for (c, contact) in model.contacts.iter().enumerate() {
+            let before = Equations::on(model, state, layout, false).motion(contact, state.t, |i| state.y[i]);
+            let after = Equations::on(model, &moved, layout, false).motion(contact, state.t, |i| moved.y[i]);
+            let numbers = self.unknowns.iter().zip(by).map(|(unknown, by)| (*unknown, *by));
+            let gone = (after.d - before.d, after.u - before.u);
+            moved.memories[c] = legs::moved(contact, &state.memories[c], gone, numbers)?;
+        }
+        Some(moved)
+    }
+}

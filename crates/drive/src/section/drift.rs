@@ -1,0 +1,77 @@
+//! Motions along which nothing changes but the place.
+//!
+//! A coordinate that no link, no pressing contact and no block measures may be counted from anywhere, if the anchors of its
+//! contacts are counted from there, too: after a period a drive stands where it stood, but for its step. Several bodies that
+//! are tied to each other and to nothing else travel together.
+
+use crate::Model;
+use crate::model::{Measure, Wire};
+
+/// What an entry of a row is cleared to, as a part of the row's largest.
+const NOTHING: f64 = 1e-12;
+
+/// A motion along which the drive may have gone on after a period.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Drift {
+    /// The coordinate by which it is counted.
+    pub(super) pivot: usize,
+    /// How far each free coordinate goes with 1 m, or 1 rad, of that.
+    pub(super) shape: Vec<f64>,
+}
+
+/// All of them, each by a coordinate of its own.
+pub(super) fn drifts(model: &Model) -> Vec<Drift> {
+    let count = model.free.len();
+    let mut rows: Vec<Vec<f64>> = measures(model).map(|measure| row(measure, count)).collect();
+    // Reduced from the last coordinate on, so that drifts are counted by the first of those that go together.
+    let mut leading: Vec<(usize, usize)> = Vec::new();
+    let mut next = 0;
+    for column in (0..count).rev() {
+        let largest =
+            (next..rows.len()).max_by(|a, b| rows[*a][column].abs().total_cmp(&rows[*b][column].abs()));
+        let Some(pivot) = largest.filter(|r| rows[*r][column].abs() > NOTHING) else { continue };
+        rows.swap(next, pivot);
+        let head = rows[next][column];
+        rows[next].iter_mut().for_each(|entry| *entry /= head);
+        let own = rows[next].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != next) {
+            let factor = row[column];
+            row.iter_mut().zip(&own).for_each(|(entry, own)| *entry -= factor * own);
+        }
+        leading.push((column, next));
+        next += 1;
+    }
+    let is_free = |i: &usize| leading.iter().all(|(column, _)| column != i);
+    let shape = |i: usize| {
+        let mut shape = vec![0.0; count];
+        shape[i] = 1.0;
+        for (column, r) in &leading {
+            shape[*column] = -rows[*r][i];
+        }
+        Drift { pivot: i, shape }
+    };
+    (0..count).filter(is_free).map(shape).collect()
+}
+
+/// What depends on places themselves.
+fn measures(model: &Model) -> impl Iterator<Item = &Measure> {
+    let links = model.links.iter().map(|link| &link.elongation);
+    let pulls = model.balanced.iter().flat_map(|b| b.pull.links.iter().chain(&b.own.links));
+    let pressing = model.contacts.iter().filter_map(|contact| contact.coupling());
+    let lengths = model.blocks.iter().flat_map(|block| &block.wires).filter_map(|wire| match wire {
+        Wire::Length(measure) => Some(measure),
+        Wire::Signal(_) => None,
+    });
+    links.chain(pulls.map(|(link, _)| &link.elongation)).chain(pressing).chain(lengths)
+}
+
+fn row(measure: &Measure, count: usize) -> Vec<f64> {
+    let mut row = vec![0.0; count];
+    measure.free.iter().for_each(|(i, a)| row[*i] += a);
+    // Arms of a pitch are lengths: by the largest entry all rows count alike.
+    let largest = row.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+    if largest > 0.0 {
+        row.iter_mut().for_each(|a| *a /= largest);
+    }
+    row
+}

@@ -1,0 +1,59 @@
+//! What of a contact's memory is a number of a state.
+
+use super::Unknown;
+use crate::contact::Contact;
+use stickslip_contact::{Apex, Legs, Memory, Segment};
+
+/// The numbers of a form: heights of its knots, and slopes of pieces that no edge has made.
+pub(super) fn unknowns(contact: &Contact, c: usize, legs: &Legs) -> Vec<Unknown> {
+    let heights = (0..legs.heights.len()).map(|k| Unknown::Height(c, k));
+    let grown = (0..legs.slopes.len()).filter(|k| legs.sense(&contact.interface, *k).is_none());
+    heights.chain(grown.map(|k| Unknown::Slope(c, k))).collect()
+}
+
+/// A number of one memory less that of another; none where they have other knots.
+pub(super) fn difference(unknown: Unknown, of: [&Memory; 2], contact: &Contact) -> Option<f64> {
+    let [Memory::Curve(one), Memory::Curve(other)] = of else { return None };
+    let (one, other) = (one.legs(), other.legs());
+    let law = &contact.interface;
+    let alike = one.slopes.len() == other.slopes.len()
+        && (0..one.slopes.len()).all(|k| one.sense(law, k) == other.sense(law, k));
+    match unknown {
+        _ if !alike => None,
+        Unknown::Height(_, k) => Some(one.heights.get(k)? - other.heights.get(k)?),
+        Unknown::Slope(_, k) => Some(one.slopes.get(k)? - other.slopes.get(k)?),
+        Unknown::Place(_) | Unknown::Speed(_) | Unknown::Own(_) => None,
+    }
+}
+
+/// The memory of a contact that stands elsewhere, d and u gone on by `gone`, m, and whose form is another one.
+///
+/// Anchors come along with u: what of a memory is its own is how it lies below its apex. A row of springs comes along,
+/// too, and follows d by a path that is straight.
+pub(super) fn moved(
+    contact: &Contact,
+    memory: &Memory,
+    gone: (f64, f64),
+    numbers: impl Iterator<Item = (Unknown, f64)>,
+) -> Option<Memory> {
+    let mut memory = memory.clone();
+    let to = Apex { d: memory.apex().d + gone.0, u: memory.apex().u + gone.1 };
+    if let Memory::Curve(curve) = &memory
+        && !contact.balanced
+    {
+        let mut legs = curve.legs();
+        for (unknown, by) in numbers {
+            match unknown {
+                Unknown::Height(c, k) if c == contact.place => *legs.heights.get_mut(k)? += by,
+                Unknown::Slope(c, k) if c == contact.place => *legs.slopes.get_mut(k)? += by,
+                _ => {}
+            }
+        }
+        return curve.standing(&contact.interface, to, &legs).map(Memory::Curve);
+    }
+    memory.shift(gone.1);
+    if gone.0 != 0.0 {
+        memory.commit(&contact.interface, Segment::Straight(to)).ok()?;
+    }
+    Some(memory)
+}

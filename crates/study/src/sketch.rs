@@ -1,0 +1,120 @@
+//! A waveform whose numbers are set one by one before it is drawn: on the way from one set to the next they need not fit.
+
+use stickslip_drive::{Shape, Timing, Waveform, WaveformError};
+
+/// A number of a waveform, under the key that it has in a scenario file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Peak to peak.
+    Stroke,
+    /// Half of peak to peak.
+    Amplitude,
+    /// Mean value of a sine.
+    Offset,
+    /// Phase of a sine, rad.
+    Phase,
+    /// Time of the way back, s.
+    Flyback,
+    /// Period, s.
+    Period,
+}
+
+/// Shape and timing of a waveform, not checked yet.
+#[derive(Debug, Clone)]
+pub(crate) struct Sketch {
+    shape: Shape,
+    timing: Timing,
+}
+
+impl Quantity {
+    const ALL: [Self; 6] =
+        [Self::Stroke, Self::Amplitude, Self::Offset, Self::Phase, Self::Flyback, Self::Period];
+
+    /// Its key in a scenario file.
+    pub(crate) fn key(self) -> &'static str {
+        match self {
+            Self::Stroke => "stroke",
+            Self::Amplitude => "amplitude",
+            Self::Offset => "offset",
+            Self::Phase => "phase",
+            Self::Flyback => "flyback",
+            Self::Period => "period",
+        }
+    }
+}
+
+impl Sketch {
+    pub(crate) fn of(waveform: &Waveform) -> Self {
+        Self { shape: waveform.shape().clone(), timing: *waveform.timing() }
+    }
+
+    /// The number under a key of this waveform's kind.
+    pub(crate) fn named(&self, kind: &str, key: &str) -> Option<Quantity> {
+        let own = match self.shape {
+            Shape::Sawtooth { .. } => "sawtooth",
+            Shape::Triangle { .. } => "triangle",
+            Shape::Sine { .. } => "sine",
+            Shape::Cycloid { .. } => "cycloid",
+            Shape::Parabola { .. } => "parabola",
+            Shape::Trapezoid { .. } => "trapezoid",
+            Shape::SCurve { .. } => "s_curve",
+            Shape::Limited { .. } => "limited",
+            _ => return None,
+        };
+        let named = Quantity::ALL.into_iter().find(|quantity| quantity.key() == key)?;
+        (kind == own && self.get(named).is_some()).then_some(named)
+    }
+
+    pub(crate) fn get(&self, quantity: Quantity) -> Option<f64> {
+        let mut copy = self.clone();
+        copy.number(quantity).map(|number| *number)
+    }
+
+    /// Sets a number; whether it was another one.
+    pub(crate) fn set(&mut self, quantity: Quantity, value: f64) -> bool {
+        let Some(number) = self.number(quantity) else { return false };
+        std::mem::replace(number, value).to_bits() != value.to_bits()
+    }
+
+    /// The waveform.
+    pub(crate) fn draw(&self) -> Result<Waveform, WaveformError> {
+        Waveform::new(self.shape.clone(), self.timing)
+    }
+
+    fn number(&mut self, quantity: Quantity) -> Option<&mut f64> {
+        match (quantity, &mut self.shape) {
+            (
+                Quantity::Stroke,
+                Shape::Sawtooth { stroke, .. }
+                | Shape::Triangle { stroke }
+                | Shape::Cycloid { stroke, .. }
+                | Shape::Parabola { stroke, .. }
+                | Shape::Trapezoid { stroke, .. }
+                | Shape::SCurve { stroke, .. }
+                | Shape::Limited { stroke, .. },
+            ) => Some(stroke),
+            (
+                Quantity::Flyback,
+                Shape::Sawtooth { flyback, .. }
+                | Shape::Cycloid { flyback, .. }
+                | Shape::SCurve { flyback, .. }
+                | Shape::Limited { flyback, .. },
+            ) => Some(flyback),
+            (Quantity::Amplitude, Shape::Sine { amplitude, .. }) => Some(amplitude),
+            (Quantity::Offset, Shape::Sine { offset, .. }) => Some(offset),
+            (Quantity::Phase, Shape::Sine { phase, .. }) => Some(phase),
+            (
+                Quantity::Period,
+                Shape::Sawtooth { .. }
+                | Shape::Triangle { .. }
+                | Shape::Sine { .. }
+                | Shape::Cycloid { .. }
+                | Shape::Parabola { .. }
+                | Shape::Trapezoid { .. }
+                | Shape::SCurve { .. }
+                | Shape::Limited { .. },
+            ) => Some(&mut self.timing.period),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Steady motion, found without waiting for it.
+//!
+//! A drive is steady where one period of its waveform brings it back to the same state, one step further. That state is the
+//! fixed point of the map of a period, P(s) = s: a few plain periods lead near it, Newton's method on the defect P(s) - s leads
+//! into it, whether or not a run would ever stay there. The eigenvalues of P's gradient, its Floquet multipliers, say how a
+//! disturbance comes back after a period: it fades, grows, beats.
+//!
+//! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
+//! period the map is taken; `map`, the map and its gradient by differences; `newton`, its fixed point; `multiplier`, what the
+//! gradient means; `bound`, how far the step may be off.
+
+mod bound;
+mod endless;
+mod error;
+mod map;
+mod moment;
+mod multiplier;
+mod newton;
+
+pub use error::SteadyError;
+pub use multiplier::{Kind, Multiplier};
+pub use newton::{Defect, Way};
+
+use endless::Endless;
+use map::Map;
+use stickslip_drive::scene::Axis;
+use stickslip_drive::section::Section;
+use stickslip_drive::{Model, State};
+use stickslip_results::Job;
+
+/// How steady motion is looked for.
+#[derive(Clone, Copy)]
+pub struct Options<'a> {
+    /// Local error per step, relative to natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6; default 1e-12.
+    pub tolerance: f64,
+    /// Plain periods before the map is looked at, at least 2; default 4.
+    pub settling: u32,
+    /// Most periods altogether; default 4 000.
+    pub periods: u32,
+    /// Asked before every period; `false` gives up.
+    pub goes_on: &'a dyn Fn() -> bool,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self { tolerance: 1e-12, settling: 4, periods: 4_000, goes_on: &|| true }
+    }
+}
+
+/// A motion that repeats itself every period.
+#[derive(Debug, Clone)]
+pub struct Steady {
+    /// Period, s: common to all waveforms.
+    pub period: f64,
+    /// Way of the figures' body along x in a period, m; none where no body is named or it is not free.
+    pub step: Option<f64>,
+    /// By how much the step may be off, m: an estimate of first order, doubled, that knows nothing of rounding.
+    pub bound: f64,
+    /// The drive, its waveforms without end.
+    pub model: Model,
+    /// The fixed point: a run from here repeats itself.
+    pub state: State,
+    /// Floquet multipliers, the largest first. Drifts have none.
+    pub multipliers: Vec<Multiplier>,
+    /// Ways along which nothing changes but the place: each would have a multiplier of 1.
+    pub drifts: usize,
+    /// Names of the numbers that the map is of.
+    pub unknowns: Vec<String>,
+    /// Contacts whose memories are no numbers of the map, but are carried along: multipliers do not know of them.
+    pub carried: Vec<usize>,
+    /// Contacts that never slip grossly in a period: what their springs near the centre hold, they hold for ever. Of such
+    /// motions there is a whole family, and this one is the one that was nearest: a shakedown.
+    pub shaken_down: Vec<usize>,
+    /// Largest defect of every period on the way, in natural scales, and how the one before was left.
+    pub defects: Vec<Defect>,
+    /// Periods that were computed.
+    pub work: u32,
+}
+
+impl Steady {
+    /// Speed, m/s: step over period.
+    #[must_use]
+    pub fn speed(&self) -> Option<f64> {
+        self.step.map(|step| step / self.period)
+    }
+
+    /// Largest magnitude of a multiplier; 0 without any.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.multipliers.first().map_or(0.0, Multiplier::modulus)
+    }
+
+    /// Whether a run that is disturbed a little comes back. A multiplier of 1 of a shakedown neither fades nor grows.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.multipliers.iter().all(|multiplier| multiplier.kind() != Kind::Grows)
+    }
+}
+
+/// Finds the steady motion of a job's drive, as it would be if its waveforms never ended.
+///
+/// What drivers and materials remember (blocks) is carried along and no number of the map: of `driven_stage` no fixed point was
+/// found in 4 000 periods, of `piezo_hysteresis` there was no answer in a minute. Bound [`Options::periods`] there.
+///
+/// # Errors
+///
+/// A scene without a period or without free bodies, waveforms that a caller commands or that have no common period, a run that
+/// stops itself, and no fixed point within the periods allowed, with the best that was found.
+pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
+    let endless = Endless::of(job)?;
+    let model = endless.model;
+    let figures = job.scenario.figures.body;
+    let mut map = Map::new(&model, endless.period, job, options);
+    let settled = moment::settle(&mut map, endless.begins, endless.start, options.settling)?;
+    let section = Section::new(&model, settled.state);
+    if let Some((body, axis)) = section.drifts_away() {
+        return Err(SteadyError::Drifts { body, axis });
+    }
+    let from = section.base().clone();
+    map.set(section);
+    let fixed = newton::fixed_point(&mut map, &from)?;
+    let bound = bound::bound(&mut map, &fixed, figures)?;
+    let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
+    let found = Steady {
+        period: endless.period,
+        step: figures.and_then(|body| section.of_body(&fixed.image.way, body, Axis::X)),
+        bound: bound.step,
+        multipliers: multiplier::of(&bound.gradient.numbers),
+        drifts: section.drifts(),
+        unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),
+        carried: section.carried().to_vec(),
+        shaken_down: settled.never_gave_way,
+        defects: fixed.defects,
+        work: map.work(),
+        model: model.clone(),
+        state: fixed.state,
+    };
+    Ok(found)
+}

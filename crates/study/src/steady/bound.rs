@@ -1,0 +1,47 @@
+//! How far the step of a fixed point may be off.
+//!
+//! A state that misses the fixed point by e comes back with the defect r = (A - 1) e, so e = -(1 - A)⁻¹ r: what a geometric
+//! series of plain periods would add up to, r/(1 - ρ) along a single direction. The step misses by its gradient times that.
+//! What the run itself misses in a period, by its tolerance, is a defect, too: the same period by a tenth of the tolerance
+//! tells. Both are taken without regard to sign, and twice.
+
+use super::SteadyError;
+use super::map::{Gradient, Map};
+use super::newton::{Fixed, solve};
+use nalgebra::{DMatrix, DVector};
+use stickslip_drive::scene::Axis;
+
+/// Tightest tolerance there is.
+const TIGHTEST: f64 = 1e-13;
+/// Safety: the gradient is one of first order.
+const SAFETY: f64 = 2.0;
+
+pub(super) struct Bound {
+    /// Of the step, m.
+    pub(super) step: f64,
+    /// At the fixed point.
+    pub(super) gradient: Gradient,
+}
+
+/// Bound of the step of a body, by the gradient at the fixed point.
+pub(super) fn bound(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Result<Bound, SteadyError> {
+    let gradient = map.fine_gradient(&fixed.state, &fixed.image)?;
+    let finer = (0.1_f64).max(TIGHTEST / map.tolerance()).min(1.0);
+    let exact = map.image(&fixed.state, finer)?;
+    let of_body = |way: &[f64]| {
+        let section = map.section()?;
+        section.of_body(way, body?, Axis::X)
+    };
+    let along = (0..gradient.way.ncols()).map(|j| of_body(gradient.way.column(j).as_slice()).unwrap_or(0.0));
+    let along = DVector::from_iterator(gradient.way.ncols(), along);
+    let count = fixed.defect.len();
+    let left = DMatrix::identity(count, count) - &gradient.numbers;
+    let missed = |defect: &DVector<f64>| {
+        let off = solve(left.clone(), defect).unwrap_or_else(|| DVector::zeros(count));
+        along.iter().zip(off.iter()).map(|(a, off)| (a * off).abs()).sum::<f64>()
+    };
+    let run = map.difference(&exact.state, &fixed.image.state).unwrap_or_else(|| DVector::zeros(count));
+    let way = of_body(&exact.way).unwrap_or(0.0) - of_body(&fixed.image.way).unwrap_or(0.0);
+    let step = SAFETY * (missed(&fixed.defect) + missed(&run) + way.abs());
+    Ok(Bound { step, gradient })
+}

@@ -1,0 +1,112 @@
+//! A drive whose waveforms never end, and its period.
+
+use super::SteadyError;
+use stickslip_drive::scene::{Named, Scene};
+use stickslip_drive::{Model, Timing, Waveform};
+use stickslip_results::Job;
+
+/// Longest common period that is looked for, in the longest period.
+const MOST: u32 = 64;
+/// How far a ratio of periods may be from a whole number, relative to it: rounding of what was read.
+const WHOLE: f64 = 1e-12;
+
+/// A drive whose waveforms never end.
+pub(super) struct Endless {
+    pub(super) model: Model,
+    /// The state at t = 0.
+    pub(super) start: stickslip_drive::State,
+    /// Period, s.
+    pub(super) period: f64,
+    /// From when on everything repeats itself, s.
+    pub(super) begins: f64,
+}
+
+impl Endless {
+    /// The drive of a job.
+    pub(super) fn of(job: &Job) -> Result<Self, SteadyError> {
+        let figures = job.scenario.figures.waveform;
+        let mut scene = job.scenario.scene.clone();
+        let idle = &job.model.spared().waveforms;
+        let mut periods: Vec<(String, f64)> = Vec::new();
+        let mut begins = 0.0_f64;
+        for (w, Named { name, part }) in scene.waveforms.iter_mut().enumerate() {
+            if idle.contains(&w) {
+                continue;
+            }
+            if part.generator().is_some() || part.interpolation().is_some() {
+                return Err(SteadyError::Commanded(name.clone()));
+            }
+            let once = figures != Some(w) && part.timing().cycles.is_some_and(|cycles| cycles <= 1.0);
+            match part.period().filter(|_| !once) {
+                Some(period) => {
+                    *part = endless(part);
+                    periods.push((name.clone(), period));
+                    begins = begins.max(part.timing().delay);
+                }
+                None if part.window().1 == f64::INFINITY => return Err(SteadyError::Endless(name.clone())),
+                None => begins = begins.max(part.window().1),
+            }
+        }
+        let period = common(&periods)?;
+        Self::build(job, &scene, period, begins)
+    }
+
+    fn build(job: &Job, scene: &Scene, period: f64, begins: f64) -> Result<Self, SteadyError> {
+        let mut model = Model::new(scene)?;
+        model.keep_together();
+        if model.is_walk() {
+            return Err(SteadyError::NothingFree);
+        }
+        let start = model.start(&job.scenario.plan)?;
+        Ok(Self { model, start, period, begins })
+    }
+}
+
+/// The same waveform without an end.
+fn endless(waveform: &Waveform) -> Waveform {
+    let timing = Timing { cycles: None, ..*waveform.timing() };
+    Waveform::new(waveform.shape().clone(), timing).unwrap_or_else(|_| waveform.clone())
+}
+
+/// The shortest time that is a whole number of every period.
+fn common(periods: &[(String, f64)]) -> Result<f64, SteadyError> {
+    let longest = periods.iter().max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(SteadyError::NoPeriod)?;
+    let fits = |count: u32, period: f64| {
+        let ratio = f64::from(count) * longest.1 / period;
+        (ratio - ratio.round()).abs() <= WHOLE * ratio
+    };
+    let all = |count: &u32| periods.iter().all(|(_, period)| fits(*count, *period));
+    if let Some(count) = (1..=MOST).find(all) {
+        return Ok(f64::from(count) * longest.1);
+    }
+    let other = periods.iter().find(|(_, period)| !(1..=MOST).any(|count| fits(count, *period)));
+    let other = other.unwrap_or(longest);
+    Err(SteadyError::Incommensurate {
+        first: longest.0.clone(),
+        second: other.0.clone(),
+        periods: [longest.1, other.1],
+        most: MOST,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(periods: &[f64]) -> Vec<(String, f64)> {
+        periods.iter().enumerate().map(|(i, period)| (i.to_string(), *period)).collect()
+    }
+
+    #[test]
+    fn the_common_period_is_the_least_common_multiple() {
+        assert_eq!(common(&named(&[2e-3, 3e-3])).ok(), Some(6e-3));
+        assert_eq!(common(&named(&[1e-3, 0.25e-3])).ok(), Some(1e-3));
+        assert_eq!(common(&[]).err(), Some(SteadyError::NoPeriod));
+    }
+
+    #[test]
+    fn periods_in_the_ratio_of_a_root_have_none() {
+        let refused = common(&named(&[1.0, std::f64::consts::SQRT_2]));
+        assert!(matches!(refused, Err(SteadyError::Incommensurate { .. })));
+    }
+}

@@ -1,0 +1,68 @@
+//! Why no steady motion is found.
+
+use stickslip_drive::{RunError, SceneError};
+use thiserror::Error;
+
+/// Why no steady motion is found.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SteadyError {
+    /// No waveform repeats itself.
+    #[error("no waveform of the scene has a period: there is nothing to be steady with")]
+    NoPeriod,
+    /// A waveform that comes once and never ends.
+    #[error("the waveform \"{0}\" neither has a period nor comes to an end")]
+    Endless(String),
+    /// A waveform that is whatever a caller says.
+    #[error(
+        "the waveform \"{0}\" follows what a caller commands: it has no period of its own\n   help: put a waveform with a period in its place"
+    )]
+    Commanded(String),
+    /// Two waveforms whose periods have no common multiple worth the name.
+    #[error(
+        "the waveforms \"{first}\" and \"{second}\" have periods of {periods:?} s and no common period below {most} of the longer\n   help: give them periods in the ratio of small whole numbers"
+    )]
+    Incommensurate {
+        /// Name of one.
+        first: String,
+        /// Name of the other.
+        second: String,
+        /// Their periods, s.
+        periods: [f64; 2],
+        /// Longest common period that is looked for, in the longer one.
+        most: u32,
+    },
+    /// All bodies are led or held.
+    #[error(
+        "nothing is free in this scene: its motion is what it is told, and steady from the second period on"
+    )]
+    NothingFree,
+    /// A body may go on along z, or turn, for ever.
+    #[error(
+        "nothing holds the {axis} of \"{body}\": its motion goes on and on\n   help: let a contact press on it, or fix it"
+    )]
+    Drifts {
+        /// Name of the body.
+        body: String,
+        /// z or pitch.
+        axis: &'static str,
+    },
+    /// The scene with waveforms that never end is none.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A run stopped itself.
+    #[error("a period could not be computed: {0}")]
+    Run(#[from] RunError),
+    /// The iteration did not end.
+    #[error(
+        "no steady motion found in {periods} periods: the best state comes back {best:e} natural lengths off\n   help: look at a plain run: it may repeat itself every second period, or never; start nearer, with a smaller stroke, or allow more periods"
+    )]
+    NoConvergence {
+        /// Smallest defect, in natural scales.
+        best: f64,
+        /// Periods that were computed.
+        periods: u32,
+    },
+    /// Its caller has had enough.
+    #[error("interrupted after {0} periods")]
+    Interrupted(u32),
+}

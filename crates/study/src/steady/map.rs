@@ -1,0 +1,224 @@
+//! The map of a period, and its gradient by differences.
+//!
+//! Numbers are counted in natural scales: u_c of a coordinate's contacts, u_c ω of its speed.
+
+use super::{Options, SteadyError};
+use nalgebra::{DMatrix, DVector};
+use stickslip_drive::section::Section;
+use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
+use stickslip_results::Job;
+
+/// Differences on the way, in natural scales: steps of 1e-12 leave an error of 1e-6, and so does a bend of 1.
+const NEAR: f64 = 1e-6;
+/// Differences to both sides at the end: an error of 1e-7 from steps, and of 1e-10 from a bend of 1.
+const FINE: f64 = 1e-5;
+
+/// The map of a period.
+pub(super) struct Map<'m> {
+    model: &'m Model,
+    period: f64,
+    plan: Plan,
+    section: Option<Section<'m>>,
+    scales: DVector<f64>,
+    options: &'m Options<'m>,
+    work: u32,
+}
+
+/// Where a state has got to in a period.
+#[derive(Clone)]
+pub(super) struct Image {
+    /// As if it stood at the section.
+    pub(super) state: State,
+    /// Way of the free coordinates, m or rad.
+    pub(super) way: Vec<f64>,
+}
+
+/// The gradient of a map.
+#[derive(Clone)]
+pub(super) struct Gradient {
+    /// Of the numbers, in natural scales.
+    pub(super) numbers: DMatrix<f64>,
+    /// Of the way of each free coordinate, m or rad per natural scale.
+    pub(super) way: DMatrix<f64>,
+}
+
+/// Passes on whether its caller has had enough.
+struct Asked<'a> {
+    record: &'a mut dyn Record,
+    goes_on: &'a dyn Fn() -> bool,
+}
+
+impl Record for Asked<'_> {
+    fn row(&mut self, values: &[f64]) {
+        self.record.row(values);
+    }
+    fn event(&mut self, event: &stickslip_drive::Event, values: &[f64]) {
+        self.record.event(event, values);
+    }
+    fn wants_events(&self) -> bool {
+        self.record.wants_events()
+    }
+    fn wants_event_rows(&self) -> bool {
+        self.record.wants_event_rows()
+    }
+    fn goes_on(&mut self, _: f64) -> bool {
+        (self.goes_on)()
+    }
+}
+
+impl<'m> Map<'m> {
+    /// The map of a model at no moment yet.
+    pub(super) fn new(model: &'m Model, period: f64, job: &Job, options: &'m Options<'m>) -> Self {
+        let limits = Limits { wall: None, ..job.scenario.plan.limits };
+        let stepper = Stepper::Event { tolerance: options.tolerance };
+        let plan = Plan { duration: f64::MAX, stepper, limits, every: None, until_steady: None };
+        Self { model, period, plan, section: None, scales: DVector::zeros(0), options, work: 0 }
+    }
+
+    /// The map at a section.
+    pub(super) fn set(&mut self, section: Section<'m>) {
+        self.scales = DVector::from_vec(section.scales());
+        self.section = Some(section);
+    }
+
+    /// Its section; it has one from the first [`Self::set`] on.
+    pub(super) fn section(&self) -> Option<&Section<'m>> {
+        self.section.as_ref()
+    }
+
+    pub(super) fn model(&self) -> &'m Model {
+        self.model
+    }
+
+    /// Period, s.
+    pub(super) fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// Periods that were computed so far.
+    pub(super) fn work(&self) -> u32 {
+        self.work
+    }
+
+    /// Whether more may be computed.
+    pub(super) fn may_go_on(&self) -> bool {
+        self.work < self.options.periods
+    }
+
+    /// How many numbers a state has.
+    pub(super) fn unknowns(&self) -> usize {
+        self.scales.len()
+    }
+
+    /// Local error per step.
+    pub(super) fn tolerance(&self) -> f64 {
+        self.options.tolerance
+    }
+
+    /// A state led on to a time, s, its memories where it stands.
+    pub(super) fn lead(
+        &mut self,
+        state: State,
+        until: f64,
+        record: &mut dyn Record,
+    ) -> Result<State, SteadyError> {
+        let periods = ((until - state.time()) / self.period).ceil();
+        self.work += if periods > 0.0 { periods as u32 } else { 0 };
+        self.run(state, until, self.plan, record)
+    }
+
+    fn run(
+        &self,
+        state: State,
+        until: f64,
+        plan: Plan,
+        record: &mut dyn Record,
+    ) -> Result<State, SteadyError> {
+        let interrupted = |error: RunError| match error {
+            RunError::Interrupted { .. } => SteadyError::Interrupted(self.work),
+            error => error.into(),
+        };
+        // A cheap period is over before its run asks.
+        if !(self.options.goes_on)() {
+            return Err(SteadyError::Interrupted(self.work));
+        }
+        let mut asked = Asked { record, goes_on: self.options.goes_on };
+        let mut run = Run::new(self.model, &plan, state).map_err(interrupted)?;
+        run.advance(until, &mut asked).map_err(interrupted)?;
+        run.stop(&mut ());
+        Ok(run.into_state())
+    }
+
+    /// Where a state of the section gets to in a period, by the tolerance times `finer`.
+    pub(super) fn image(&mut self, state: &State, finer: f64) -> Result<Image, SteadyError> {
+        let until = state.time() + self.period;
+        let stepper = Stepper::Event { tolerance: self.options.tolerance * finer };
+        self.work += 1;
+        let end = self.run(state.clone(), until, Plan { stepper, ..self.plan }, &mut ())?;
+        let (state, way) = match &self.section {
+            Some(section) => section.back(end),
+            None => (end, Vec::new()),
+        };
+        Ok(Image { state, way })
+    }
+
+    /// Numbers of one state less those of another, in natural scales; none where their memories have other knots.
+    pub(super) fn difference(&self, of: &State, less: &State) -> Option<DVector<f64>> {
+        let numbers = DVector::from_vec(self.section.as_ref()?.difference(of, less)?);
+        Some(numbers.component_div(&self.scales))
+    }
+
+    /// A state with other numbers, each moved by as much, in natural scales.
+    pub(super) fn moved(&self, state: &State, by: &DVector<f64>) -> Option<State> {
+        self.section.as_ref()?.moved(state, by.component_mul(&self.scales).as_slice())
+    }
+
+    /// The gradient at a state whose image is known, by one difference for each number.
+    pub(super) fn near_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
+        self.gradient(image, |map, j| {
+            Ok(map.beside(state, (j, NEAR))?.map(|beside| (beside, image.clone(), NEAR)))
+        })
+    }
+
+    /// The gradient by differences to both sides, or to one where the other is of another kind.
+    pub(super) fn fine_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
+        self.gradient(image, |map, j| {
+            let [ahead, behind] = [map.beside(state, (j, FINE))?, map.beside(state, (j, -FINE))?];
+            Ok(match (ahead, behind) {
+                (Some(ahead), Some(behind)) => Some((ahead, behind, 2.0 * FINE)),
+                (Some(ahead), None) => Some((ahead, image.clone(), FINE)),
+                (None, Some(behind)) => Some((image.clone(), behind, FINE)),
+                (None, None) => None,
+            })
+        })
+    }
+
+    /// A gradient from pairs of images and how far apart their states were. A number that cannot be moved leaves nothing behind.
+    fn gradient(
+        &mut self,
+        image: &Image,
+        mut pair: impl FnMut(&mut Self, usize) -> Result<Option<(Image, Image, f64)>, SteadyError>,
+    ) -> Result<Gradient, SteadyError> {
+        let count = self.scales.len();
+        let mut gradient =
+            Gradient { numbers: DMatrix::zeros(count, count), way: DMatrix::zeros(image.way.len(), count) };
+        for j in 0..count {
+            let Some((ahead, behind, apart)) = pair(self, j)? else { continue };
+            let Some(difference) = self.difference(&ahead.state, &behind.state) else { continue };
+            gradient.numbers.set_column(j, &(difference / apart));
+            let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
+            gradient.way.set_column(j, &DVector::from_vec(way.collect()));
+        }
+        Ok(gradient)
+    }
+
+    /// The image of a state with one number moved, if both have the knots of the others.
+    fn beside(&mut self, state: &State, (j, by): (usize, f64)) -> Result<Option<Image>, SteadyError> {
+        let mut along = DVector::zeros(self.scales.len());
+        along[j] = by;
+        let Some(moved) = self.moved(state, &along) else { return Ok(None) };
+        let image = self.image(&moved, 1.0)?;
+        let alike = self.difference(&image.state, state).is_some();
+        Ok(alike.then_some(image))
+    }
+}

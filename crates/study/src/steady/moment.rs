@@ -1,0 +1,107 @@
+//! At which moment of the period the map is taken.
+//!
+//! Where all contacts slip grossly or are apart their memories are wiped, and a state is places and speeds and nothing else. A
+//! few plain periods show when that is: in the last of them but one events are noted, in the last the middle of each stretch
+//! between two of them is looked at.
+
+use super::SteadyError;
+use super::map::Map;
+use stickslip_drive::{Event, EventKind, Model, Record, Source, State};
+
+/// Stretches that are looked at, the longest first.
+const MOST: usize = 256;
+/// Shorter ones are too near to an event on either side, as a part of the period.
+const SHORTEST: f64 = 1e-4;
+
+/// Where a few plain periods have led.
+pub(super) struct Settled {
+    /// The state at the moment that was chosen.
+    pub(super) state: State,
+    /// Contacts that have not slipped grossly, nor been apart, in the last period.
+    pub(super) never_gave_way: Vec<usize>,
+}
+
+/// Moments of events, s, and the contacts that gave way.
+struct Moments {
+    times: Vec<f64>,
+    gave_way: Vec<bool>,
+}
+
+impl Record for Moments {
+    fn row(&mut self, _: &[f64]) {}
+    fn event(&mut self, event: &Event, _: &[f64]) {
+        self.times.push(event.t);
+        if let (Source::Contact(c), EventKind::GrossSlip | EventKind::LiftOff) = (event.source, event.kind) {
+            self.gave_way[c] = true;
+        }
+    }
+    fn wants_event_rows(&self) -> bool {
+        false
+    }
+}
+
+/// Goes a few plain periods, at least two, from where everything repeats itself, and stands at the moment of the period at which
+/// memories are shortest.
+pub(super) fn settle(
+    map: &mut Map<'_>,
+    begins: f64,
+    start: State,
+    periods: u32,
+) -> Result<Settled, SteadyError> {
+    let period = map.period();
+    let first = (begins / period).ceil() * period;
+    let end = |count: u32| first + f64::from(count) * period;
+    let state = map.lead(start, end(periods.max(2) - 2), &mut ())?;
+    let model = map.model();
+    let contacts = model.contacts().count();
+    let gave_way = (0..contacts).map(|c| state.has_given_way(model, c)).collect();
+    let mut moments = Moments { times: Vec::new(), gave_way };
+    let from = end(periods.max(2) - 2);
+    let state = map.lead(state, from + period, &mut moments)?;
+    let stretches = stretches(&moments.times, (from, from + period));
+    let chosen = choose(map, &state, &stretches)?;
+    let never_gave_way = (0..contacts).filter(|c| !moments.gave_way[*c]).collect();
+    Ok(Settled { state: chosen, never_gave_way })
+}
+
+/// Stretches between two events as (middle, length), s, by their middle; those that are too short are left out.
+fn stretches(times: &[f64], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
+    let mut times: Vec<f64> = times.iter().copied().filter(|t| (from..to).contains(t)).collect();
+    times.insert(0, from);
+    times.push(to);
+    times.sort_by(f64::total_cmp);
+    let pairs = times.windows(2).map(|pair| (0.5 * (pair[0] + pair[1]), pair[1] - pair[0]));
+    let mut stretches: Vec<_> = pairs.filter(|(_, length)| *length > SHORTEST * (to - from)).collect();
+    stretches.sort_by(|a, b| b.1.total_cmp(&a.1));
+    stretches.truncate(MOST);
+    stretches.sort_by(|a, b| a.0.total_cmp(&b.0));
+    stretches
+}
+
+/// The state in the middle of the stretch with the shortest memories, the longest of those, a period after it was found.
+fn choose(map: &mut Map<'_>, state: &State, stretches: &[(f64, f64)]) -> Result<State, SteadyError> {
+    let period = map.period();
+    let mut best: Option<((usize, f64), State)> = None;
+    let mut state = state.clone();
+    for (middle, length) in stretches {
+        state = map.lead(state, middle + period, &mut ())?;
+        let worth = (remembered(map.model(), &state), -length);
+        let better = best
+            .as_ref()
+            .is_none_or(|(least, _)| worth.0 < least.0 || worth.0 == least.0 && worth.1 < least.1);
+        if better {
+            best = Some((worth, state.clone()));
+        }
+    }
+    Ok(best.map_or(state, |(_, state)| state))
+}
+
+/// How much the contacts remember: knots of those that have not given way; a row of springs more than any knots.
+fn remembered(model: &Model, state: &State) -> usize {
+    let of = |(c, memory): (usize, &stickslip_contact::Memory)| match memory.knot_count() {
+        _ if state.has_given_way(model, c) => 0,
+        0 => stickslip_contact::Memory::DEFAULT_CAPACITY,
+        count => count,
+    };
+    state.memories().iter().enumerate().map(of).sum()
+}

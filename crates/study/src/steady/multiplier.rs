@@ -1,0 +1,160 @@
+//! Floquet multipliers, and what they mean.
+//!
+//! A disturbance along an eigenvector of the gradient of a period's map comes back λ times as large. |λ| says how it fades or
+//! grows, the angle of λ how it turns: a beat of 2π/|arg λ| periods, or a change of sides every period where λ < 0.
+
+use nalgebra::{Complex, DMatrix, Schur};
+use std::f64::consts::TAU;
+
+/// Sweeps of the eigenvalue iteration per row.
+const SWEEPS: usize = 100;
+/// A modulus this near to 1 neither fades nor grows: what the gradient is exact to.
+const NEUTRAL: f64 = 1e-6;
+/// A multiplier below is forgotten within the period.
+const FORGOTTEN: f64 = 1e-3;
+/// An angle this small, or this near to π, is none but for rounding.
+const ANGLE: f64 = 1e-6;
+
+/// An eigenvalue of the gradient of a period's map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Multiplier {
+    /// Real part.
+    pub re: f64,
+    /// Imaginary part, at least 0: of a pair, the one above.
+    pub im: f64,
+}
+
+/// What becomes of a disturbance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// It is gone after a period.
+    Forgotten,
+    /// It fades.
+    Fades,
+    /// It stays as it is.
+    Stays,
+    /// It grows: a run leaves this motion.
+    Grows,
+}
+
+impl Multiplier {
+    /// |λ|.
+    #[must_use]
+    pub fn modulus(&self) -> f64 {
+        self.re.hypot(self.im)
+    }
+
+    /// What becomes of a disturbance along it.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        match self.modulus() {
+            modulus if modulus < FORGOTTEN => Kind::Forgotten,
+            modulus if modulus < 1.0 - NEUTRAL => Kind::Fades,
+            modulus if modulus <= 1.0 + NEUTRAL => Kind::Stays,
+            _ => Kind::Grows,
+        }
+    }
+
+    /// Periods of a beat, more than 2; none where a disturbance does not turn, or changes sides every period.
+    #[must_use]
+    pub fn beat(&self) -> Option<f64> {
+        let angle = self.im.atan2(self.re).abs();
+        (angle > ANGLE && angle < 0.5 * TAU - ANGLE).then(|| TAU / angle)
+    }
+
+    /// Whether a disturbance changes sides every period.
+    #[must_use]
+    pub fn alternates(&self) -> bool {
+        self.beat().is_none() && self.re < 0.0
+    }
+
+    /// Periods after which a disturbance is e times smaller, or larger where it grows; none where it stays, or is forgotten.
+    #[must_use]
+    pub fn periods(&self) -> Option<f64> {
+        match self.kind() {
+            Kind::Fades | Kind::Grows => Some(1.0 / self.modulus().ln().abs()),
+            Kind::Forgotten | Kind::Stays => None,
+        }
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let turns = match self.beat() {
+            _ if self.kind() == Kind::Forgotten => String::new(),
+            Some(beat) => format!("beats every {} periods and ", digits(beat)),
+            None if self.alternates() => "changes sides every period and ".to_owned(),
+            None => String::new(),
+        };
+        let change = digits(100.0 * (self.modulus() - 1.0).abs());
+        let periods = self.periods().map_or_else(String::new, digits);
+        let becomes = match self.kind() {
+            Kind::Forgotten => "is gone after a period".to_owned(),
+            Kind::Fades => format!("fades by {change} % a period (1/e after {periods} periods)"),
+            Kind::Stays => "stays as it is".to_owned(),
+            Kind::Grows => format!(
+                "grows by {change} % a period (e-fold in {periods} periods): a run leaves this motion"
+            ),
+        };
+        turns + &becomes
+    }
+}
+
+/// Three digits that count.
+fn digits(x: f64) -> String {
+    if !x.is_finite() || x == 0.0 {
+        return x.to_string();
+    }
+    // Rounded first: 0.09996 has the places of 0.1.
+    let x: f64 = format!("{x:.2e}").parse().unwrap_or(x);
+    let places = (2 - x.abs().log10().floor() as i32).clamp(0, 12);
+    format!("{x:.*}", usize::try_from(places).unwrap_or(0))
+}
+
+/// The multipliers of a gradient, the largest first; of a pair one stands for both. None where its numbers are not finite.
+pub(super) fn of(gradient: &DMatrix<f64>) -> Vec<Multiplier> {
+    let mut all: Vec<Multiplier> = eigenvalues(gradient)
+        .into_iter()
+        .filter(|value| value.im >= 0.0)
+        .map(|value| Multiplier { re: value.re, im: value.im })
+        .collect();
+    all.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
+    all
+}
+
+fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
+    if matrix.is_empty() || !matrix.iter().all(|entry| entry.is_finite()) {
+        return Vec::new();
+    }
+    let schur = Schur::try_new(matrix.clone(), f64::EPSILON, matrix.nrows() * SWEEPS);
+    schur.map_or_else(Vec::new, |schur| schur.complex_eigenvalues().iter().copied().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_that_shrinks_beats_and_fades() {
+        let (modulus, angle) = (0.9967_f64, TAU / 12.3);
+        let turn = DMatrix::from_row_slice(2, 2, &[angle.cos(), -angle.sin(), angle.sin(), angle.cos()]);
+        let multipliers = of(&(turn * modulus));
+        assert_eq!(multipliers.len(), 1);
+        let words = multipliers[0].words();
+        assert_eq!(words, "beats every 12.3 periods and fades by 0.330 % a period (1/e after 303 periods)");
+    }
+
+    #[test]
+    fn what_grows_and_what_changes_sides_is_told() {
+        let words = |re: f64| Multiplier { re, im: 0.0 }.words();
+        assert_eq!(
+            words(1.001),
+            "grows by 0.100 % a period (e-fold in 1000 periods): a run leaves this motion"
+        );
+        assert_eq!(
+            words(-0.5),
+            "changes sides every period and fades by 50.0 % a period (1/e after 1.44 periods)"
+        );
+        assert_eq!((words(1.0).as_str(), words(1e-4).as_str()), ("stays as it is", "is gone after a period"));
+    }
+}

@@ -1,0 +1,233 @@
+//! The fixed point of the map of a period.
+//!
+//! Plain periods as long as they come nearer by themselves; else Newton's method on the defect, its gradient by differences and
+//! mended by Broyden's rule from period to period, made anew where that no longer helps. Where a step leads away it is halved.
+//! Directions along which nothing changes, as in a shakedown, are left alone: the nearest fixed point is the one.
+
+use super::SteadyError;
+use super::map::{Gradient, Map};
+use nalgebra::{DMatrix, DVector};
+use stickslip_drive::State;
+use stickslip_drive::section::Section;
+
+/// A defect this many times the tolerance is none.
+const GOAL: f64 = 10.0;
+/// A defect below this, in natural scales, that gets no smaller is one of rounding.
+const ROUNDING: f64 = 1e-8;
+/// Plain periods that come nearer by this are let go on.
+const BY_ITSELF: f64 = 0.05;
+/// A gradient that brings less than this is made anew.
+const WORN: f64 = 0.1;
+/// Halvings of a step.
+const HALVINGS: u32 = 4;
+/// Plain periods after a step that nothing has helped.
+const PLAIN: u32 = 8;
+/// Singular values below this, as a part of the largest, are directions of no change.
+const FLAT: f64 = 1e-7;
+
+/// How a period's state was found from the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// It is where that one got to.
+    Plain,
+    /// By Newton's method.
+    Newton,
+}
+
+/// What a period left to be wished for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Defect {
+    /// Largest change of a number in the period, in natural scales.
+    pub size: f64,
+    /// How its state was found.
+    pub way: Way,
+}
+
+/// A fixed point.
+pub(super) struct Fixed {
+    pub(super) state: State,
+    pub(super) image: super::map::Image,
+    /// P(s) - s, in natural scales.
+    pub(super) defect: DVector<f64>,
+    /// On the way.
+    pub(super) defects: Vec<Defect>,
+}
+
+/// Finds the fixed point of a map, from where its section was taken.
+pub(super) fn fixed_point(map: &mut Map<'_>, from: &State) -> Result<Fixed, SteadyError> {
+    let mut search = Search::new(map, from)?;
+    loop {
+        let size = search.size();
+        if search.is_done() {
+            return Ok(search.end());
+        }
+        if !map.may_go_on() {
+            return Err(SteadyError::NoConvergence { best: search.least(), periods: map.work() });
+        }
+        let by_itself =
+            search.gradient.is_none() && search.before.is_some_and(|before| size < BY_ITSELF * before);
+        let never = search.before.is_none();
+        if by_itself || never || map.unknowns() == 0 || !search.newton(map)? {
+            let count = if by_itself || never { 1 } else { PLAIN };
+            for _ in 0..count {
+                search.plain(map)?;
+            }
+        }
+    }
+}
+
+/// A search under way.
+struct Search {
+    state: State,
+    image: super::map::Image,
+    /// None where the image has other knots.
+    defect: Option<DVector<f64>>,
+    /// Of the state before.
+    before: Option<f64>,
+    gradient: Option<Gradient>,
+    goal: f64,
+    defects: Vec<Defect>,
+    /// Whether the last Newton step has brought nothing.
+    stalled: bool,
+}
+
+impl Search {
+    fn new(map: &mut Map<'_>, from: &State) -> Result<Self, SteadyError> {
+        let image = map.image(from, 1.0)?;
+        let defect = map.difference(&image.state, from);
+        let goal = GOAL * map.tolerance();
+        let mut search = Self {
+            state: from.clone(),
+            image,
+            defect,
+            before: None,
+            gradient: None,
+            goal,
+            defects: Vec::new(),
+            stalled: false,
+        };
+        search.note(Way::Plain);
+        Ok(search)
+    }
+
+    fn size(&self) -> f64 {
+        self.defect.as_ref().map_or(f64::INFINITY, DVector::amax)
+    }
+
+    fn least(&self) -> f64 {
+        self.defects.iter().map(|defect| defect.size).fold(f64::INFINITY, f64::min)
+    }
+
+    fn note(&mut self, way: Way) {
+        self.defects.push(Defect { size: self.size(), way });
+    }
+
+    fn is_done(&self) -> bool {
+        let size = self.size();
+        size <= self.goal || self.stalled && size <= ROUNDING
+    }
+
+    fn end(self) -> Fixed {
+        let Self { state, image, defect, defects, .. } = self;
+        let defect = defect.unwrap_or_else(|| DVector::zeros(0));
+        Fixed { state, image, defect, defects }
+    }
+
+    /// A plain period: the state is where the last one got to. Where that has other knots, the map has other numbers.
+    fn plain(&mut self, map: &mut Map<'_>) -> Result<(), SteadyError> {
+        self.before = Some(self.size());
+        if self.defect.is_none() {
+            let section = Section::new(map.model(), self.image.state.clone());
+            map.set(section);
+        }
+        self.gradient = None;
+        self.state = self.image.state.clone();
+        self.image = map.image(&self.state, 1.0)?;
+        self.defect = map.difference(&self.image.state, &self.state);
+        self.note(Way::Plain);
+        Ok(())
+    }
+
+    /// A step of Newton's method, halved until it brings something; false where it does not.
+    fn newton(&mut self, map: &mut Map<'_>) -> Result<bool, SteadyError> {
+        let Some(defect) = self.defect.clone() else { return Ok(false) };
+        let fresh = self.gradient.is_none();
+        let gradient = match self.gradient.take() {
+            Some(gradient) => gradient,
+            None => map.near_gradient(&self.state, &self.image)?,
+        };
+        let Some(step) = step(&gradient.numbers, &defect) else { return Ok(false) };
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            if self.try_step(map, (&gradient, &step), (&defect, share))? {
+                return Ok(true);
+            }
+            // A gradient that has been mended may be at fault, and not the length.
+            if !fresh {
+                return self.newton(map);
+            }
+            share *= 0.5;
+        }
+        self.stalled = true;
+        Ok(self.size() <= ROUNDING)
+    }
+
+    /// Tries a part of a step; taken if the defect gets smaller by a part of that.
+    fn try_step(
+        &mut self,
+        map: &mut Map<'_>,
+        (gradient, step): (&Gradient, &DVector<f64>),
+        (defect, share): (&DVector<f64>, f64),
+    ) -> Result<bool, SteadyError> {
+        // What is carried along comes from the image: it is newer.
+        let along = step * share;
+        let Some(state) = map.moved(&self.image.state, &(&along - defect)) else { return Ok(false) };
+        let image = match map.image(&state, 1.0) {
+            Ok(image) => image,
+            Err(SteadyError::Run(_)) => return Ok(false),
+            Err(error) => return Err(error),
+        };
+        let Some(after) = map.difference(&image.state, &state) else { return Ok(false) };
+        let (size, before) = (after.amax(), defect.amax());
+        if size.is_nan() || size > (1.0 - 0.25 * share) * before {
+            return Ok(false);
+        }
+        self.gradient = (size <= WORN * before).then(|| mended(gradient, (&along, defect, &after)));
+        (self.state, self.image, self.defect) = (state, image, Some(after));
+        self.before = Some(before);
+        self.note(Way::Newton);
+        Ok(true)
+    }
+}
+
+/// (1 - A)⁻¹ r, the smallest where there are several.
+fn step(gradient: &DMatrix<f64>, defect: &DVector<f64>) -> Option<DVector<f64>> {
+    let count = defect.len();
+    let matrix = DMatrix::identity(count, count) - gradient;
+    let step = solve(matrix, defect)?;
+    step.iter().all(|x| x.is_finite()).then_some(step)
+}
+
+/// The smallest solution of a linear system, its flat directions left out.
+pub(super) fn solve(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    if !matrix.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let svd = matrix.svd(true, true);
+    let flat = FLAT * svd.singular_values.max();
+    svd.solve(right, flat).ok()
+}
+
+/// Broyden's rule: the gradient that agrees with the last step and changes least. A of P, r = P - s: Δr = (A - 1)Δs.
+fn mended(
+    gradient: &Gradient,
+    (along, before, after): (&DVector<f64>, &DVector<f64>, &DVector<f64>),
+) -> Gradient {
+    let mut mended = gradient.clone();
+    let length = along.norm_squared();
+    if length > 0.0 {
+        let missed = after - before - (&gradient.numbers * along - along);
+        mended.numbers += missed * along.transpose() / length;
+    }
+    mended
+}

@@ -1,0 +1,129 @@
+//! Steady motion found directly, against plain runs that wait for it.
+
+use std::error::Error;
+use std::path::Path;
+use stickslip_drive::{Model, Plan, Run, State, Stepper};
+use stickslip_results::Job;
+use stickslip_study::steady::{self, Kind, Options, Steady, SteadyError};
+
+type Checked = Result<(), Box<dyn Error>>;
+
+fn job(name: &str, set: &[(&str, &str)]) -> Result<Job, Box<dyn Error>> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name);
+    let set: Vec<(String, String)> =
+        set.iter().map(|(path, value)| ((*path).into(), (*value).into())).collect();
+    Ok(Job::prepare(&file, &set, Path::new(""))?)
+}
+
+fn plan(job: &Job) -> Plan {
+    let stepper = Stepper::Event { tolerance: 1e-12 };
+    Plan { duration: f64::MAX, stepper, every: None, until_steady: None, ..job.scenario.plan }
+}
+
+fn x(model: &Model, state: &State, body: usize) -> Result<f64, Box<dyn Error>> {
+    Ok(state.body(model, body).ok_or("a body")?.0)
+}
+
+/// The last of so many plain steps from a state on, m.
+fn last_step(job: &Job, found: &Steady, from: State, periods: u32) -> Result<f64, Box<dyn Error>> {
+    let body = job.scenario.figures.body.ok_or("a body")?;
+    let start = from.time();
+    let mut run = Run::new(&found.model, &plan(job), from)?;
+    let end = |count: u32| start + f64::from(count) * found.period;
+    run.advance(end(periods - 1), &mut ())?;
+    let before = x(&found.model, run.state(), body)?;
+    run.advance(end(periods), &mut ())?;
+    Ok(x(&found.model, run.state(), body)? - before)
+}
+
+/// The plain runs start at t = 0 and know nothing of the search.
+fn settles_on(name: &str, periods: u32) -> Checked {
+    let job = job(name, &[])?;
+    let found = steady::find(&job, &Options::default())?;
+    let waited = last_step(&job, &found, found.model.start(&plan(&job))?, periods)?;
+    let off = (found.step.ok_or("a step")? - waited).abs() / job.contact_scale(0).0;
+    assert!(off <= 1e-10, "{name}: {off:e} u_c");
+    Ok(())
+}
+
+#[test]
+fn p1_settles_on_the_step_after_ten_thousand_periods() -> Checked {
+    settles_on("p1.json", 10_000)
+}
+
+#[test]
+fn the_piezo_stack_settles_on_the_step() -> Checked {
+    settles_on("piezo_stack.json", 1_000)
+}
+
+/// Sum of |x - x of the fixed point| over a window of plain periods, m: what beats averages out over whole beats.
+fn strayed(job: &Job, found: &Steady, z: usize, (first, count): (u32, u32)) -> Result<f64, Box<dyn Error>> {
+    let section = stickslip_drive::section::Section::new(&found.model, found.state.clone());
+    let numbers = section.unknowns().len();
+    let mut by = vec![0.0; numbers];
+    by[z] = 1e-6 * section.scales()[z];
+    let mut state = section.moved(&found.state, &by).ok_or("a state beside")?;
+    let mut sum = 0.0;
+    for period in 0..first + count {
+        let until = state.time() + found.period;
+        let mut run = Run::new(&found.model, &plan(job), state)?;
+        run.advance(until, &mut ())?;
+        run.stop(&mut ());
+        state = section.back(run.into_state()).0;
+        if period >= first {
+            let off = section.difference(&state, &found.state).ok_or("the same knots")?;
+            sum += off[z].powi(2);
+        }
+    }
+    Ok(sum.sqrt())
+}
+
+/// Over `beats` whole beats a plain run that starts 1e-6 off fades or grows as the largest multiplier says, to 1 %.
+fn turns_as_told(name: &str, stable: bool, beats: f64) -> Checked {
+    let job = job(name, &[])?;
+    let found = steady::find(&job, &Options::default())?;
+    let largest = found.multipliers.first().ok_or("a multiplier")?;
+    assert_eq!((found.is_stable(), largest.kind() == Kind::Grows), (stable, !stable), "{name}");
+    let window = (beats * largest.beat().ok_or("a beat")?).round() as u32;
+    // The others are gone by then.
+    let (early, late) =
+        (strayed(&job, &found, 0, (60, window))?, strayed(&job, &found, 0, (60 + window, window))?);
+    let (measured, told) = ((late / early).ln() / f64::from(window), largest.modulus().ln());
+    assert!((measured / told - 1.0).abs() < 1e-2, "{name}: {measured:e} a period, told {told:e}");
+    Ok(())
+}
+
+#[test]
+fn the_impact_drive_fades_as_its_multiplier_says() -> Checked {
+    turns_as_told("impact_drive.json", true, 25.0)
+}
+
+#[test]
+fn the_climber_grows_as_its_multiplier_says() -> Checked {
+    turns_as_told("vertical_climber.json", false, 40.0)
+}
+
+#[test]
+fn what_has_no_period_or_is_commanded_is_refused() -> Checked {
+    let refused = |name| Ok::<_, Box<dyn Error>>(steady::find(&job(name, &[])?, &Options::default()).err());
+    assert_eq!(refused("bouncing_ball.json")?, Some(SteadyError::NoPeriod));
+    assert_eq!(refused("commanded.json")?, Some(SteadyError::Commanded("drive".to_owned())));
+    assert_eq!(refused("worn_ball.json")?, Some(SteadyError::NothingFree));
+    Ok(())
+}
+
+#[test]
+fn too_few_periods_are_told_with_the_best_defect() -> Checked {
+    let options = Options { periods: 1, ..Options::default() };
+    let refused = steady::find(&job("impact_drive.json", &[])?, &options).err();
+    assert!(matches!(refused, Some(SteadyError::NoConvergence { best, .. }) if best.is_finite()));
+    Ok(())
+}
+
+#[test]
+fn a_search_can_be_interrupted() -> Checked {
+    let options = Options { goes_on: &|| false, ..Options::default() };
+    let refused = steady::find(&job("p1.json", &[])?, &options).err();
+    assert!(matches!(refused, Some(SteadyError::Interrupted(_))), "{refused:?}");
+    Ok(())
+}
