@@ -129,6 +129,11 @@ impl Model {
         eigenvalue.is_finite().then(|| eigenvalue.sqrt())
     }
 
+    /// Whether something settles so much faster than all else goes on that the stepper `event` goes by implicit steps over it.
+    pub fn is_stiff(&self) -> bool {
+        self.stiff
+    }
+
     /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get, and of what the
     /// states of blocks do of themselves; infinite where nothing swings or settles. None for steppers that choose their steps.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
