@@ -34,8 +34,8 @@ impl Radau {
             if size == 0.0 || (round == 0 || decay < 1.0) && left <= LEFT {
                 return true;
             }
-            // Not a number is no progress, either.
-            if round > 0 && (decay.is_nan() || decay > 0.5) {
+            // The first ratio tells of the start more than of the iteration. Not a number is no progress, either.
+            if decay.is_nan() || round > 1 && decay > 0.5 {
                 return size <= ROUNDING;
             }
             before = size;
