@@ -39,10 +39,6 @@ impl Table {
         self.amplitude * (TAU * t / PERIOD).sin()
     }
 
-    fn velocity(self, t: f64) -> f64 {
-        self.amplitude * TAU / PERIOD * (TAU * t / PERIOD).cos()
-    }
-
     /// In the air, `s` after a place.
     fn flown(from: Place, s: f64) -> Place {
         let tau = MASS / DAMPING;
@@ -87,7 +83,11 @@ impl Table {
         let (mut low, mut high) = (after - step, after);
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
-            if apart(middle) * sense < 0.0 { high = middle } else { low = middle }
+            if apart(middle) * sense < 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
         }
         Some(way(0.5 * (low + high)))
     }
@@ -228,9 +228,9 @@ fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box
         let table = Table { amplitude: 0.5 * (low + high) };
         at = table.fixed(at).ok_or("a bounce")?;
         if table.doubles(at).ok_or("a gradient")? > 0.0 {
-            low = table.amplitude
+            low = table.amplitude;
         } else {
-            high = table.amplitude
+            high = table.amplitude;
         }
     }
     let own = 0.5 * (low + high);
