@@ -1,7 +1,7 @@
 //! The pictures of results, drawn alike from a run that has just ended and from its folder: the table of their kinds, each
 //! in a file of its own.
 
-mod alike;
+pub(crate) mod alike;
 mod drive;
 mod energy;
 mod events;
@@ -15,7 +15,7 @@ mod period;
 mod phase;
 mod state;
 mod substitute;
-mod trajectory;
+pub(crate) mod trajectory;
 mod waveform;
 
 use crate::look::{Look, Pen, Picture};
