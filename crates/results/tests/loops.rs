@@ -110,6 +110,57 @@ fn check_paraboloid(job: &Job, c: usize, amplitude: f64, found: &CycleFigures) {
     }
 }
 
+/// Whether all of a contact slides is what its state says, row by row, and not what A, B and D are compared with: worn profiles whose
+/// small loops have a B above its threshold, rows of few springs that begin to slip elsewhere, and a contact without friction.
+#[test]
+fn a_loop_is_gross_where_its_contact_slides() {
+    let worn = [
+        r#"{"truncated_cone": {"flat": "30 um", "slope": 0.02}}"#,
+        r#"{"truncated_paraboloid": {"flat": "60 um", "radius": "5 mm"}}"#,
+    ];
+    let sphere = r#"{"sphere": {"radius": "5 mm"}}"#;
+    let rows = [1, 2, 3, 4, 16].map(|count| format!(r#"{{"springs": {{"count": {count}}}}}"#));
+    let curve = |profile| [("profile", profile), ("engine", "\"curve\""), ("friction", "0.6")];
+    let row = |engine| [("profile", sphere), ("engine", engine), ("friction", "0.6")];
+    let slippery = [("profile", sphere), ("engine", "\"curve\""), ("friction", "0")];
+    let cases = worn.map(curve).into_iter().chain(rows.each_ref().map(|engine| row(engine.as_str())));
+    let mut found = Vec::new();
+    for case in cases.chain([slippery]) {
+        for amplitude in ["60 nm", "100 nm", "250 nm", "400 nm", "550 nm", "700 nm", "1500 nm"] {
+            let set = case.map(|(key, value)| (format!("contacts.200 nm.{key}"), value));
+            let mut set: Vec<(&str, &str)> = set.iter().map(|(key, value)| (key.as_str(), *value)).collect();
+            set.extend([("waveforms.sine 200.sine.amplitude", amplitude), ("output.every", "1 ms")]);
+            set.push(("plots", "[]"));
+            let job = example("fretting_sphere", &set);
+            let regime = job.run(&()).cycles(0).last().unwrap().regime;
+            let states = last_period(&job, "200 nm.state");
+            let most = states.iter().copied().fold(0.0, f64::max);
+            let slides = stickslip_drive::state_name(most) == "slip" || case[2].1 == "0";
+            assert_eq!(regime == Some("gross"), slides, "{case:?} {amplitude}: {regime:?}, state {most}");
+            found.extend(regime);
+        }
+    }
+    ["partial", "gross"].into_iter().for_each(|regime| assert!(found.contains(&regime), "{regime}"));
+    assert!(!found.contains(&"mixed"));
+}
+
+/// A column of the rows of the third second of a run.
+fn last_period(job: &Job, name: &str) -> Vec<f64> {
+    struct Column(usize, Vec<f64>);
+    impl stickslip_drive::Record for Column {
+        fn row(&mut self, values: &[f64]) {
+            if values[0] >= 2.0 {
+                self.1.push(values[self.0]);
+            }
+        }
+        fn event(&mut self, _: &stickslip_drive::Event, _: &[f64]) {}
+    }
+    let place = job.model.channels().iter().position(|channel| channel.name == name).unwrap();
+    let mut column = Column(place, Vec::new());
+    stickslip_drive::run(&job.model, &job.scenario.plan, &mut job.start.clone(), &mut column).unwrap();
+    column.1
+}
+
 /// E_d of the table is the difference of the friction work that a run with a row at either end of the cycle writes down.
 #[test]
 fn friction_work_of_a_cycle_is_the_difference_of_the_runs_own() {

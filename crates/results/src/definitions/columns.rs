@@ -179,7 +179,11 @@ pub(super) const COLUMNS: &[Definition] = &[
     of("cycles.csv", "dissipated_J", "E_d, friction work of the cycle"),
     of("cycles.csv", "mean_normal_force_N", "P, mean of F_N over the cycle"),
     of("cycles.csv", "energy_ratio", "A = E_d/(4Q*δ*): 0 elastic, 1 a parallelogram as wide as the stroke"),
-    of("cycles.csv", "system_free_ratio", "B = E_d/(4Q*δ₀), which no compliance of the rig enters"),
+    of(
+        "cycles.csv",
+        "system_free_ratio",
+        "B = E_d/(4Q*δ₀), which no compliance of the rig enters; empty where δ₀ is rounding, as in full stick",
+    ),
     of("cycles.csv", "slip_ratio", "D = δ₀/δ*"),
     of("cycles.csv", "energy_coefficient_of_friction", "μ_e = E_d/(4Pδ₀)"),
     of(
@@ -197,7 +201,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "cycles.csv",
         "regime",
-        "`stick`, `partial`, `gross` or `mixed`, by A, B and D against the thresholds of summary.json",
+        "`gross` where F_x comes both ways to the limit of friction, `stick` where A is below 5e-4, else `partial`; of a loop under a constant load without damping",
     ),
     of("steps.csv", "period", "number of the period, from 1"),
     of("steps.csv", "start_s", "time at its start"),

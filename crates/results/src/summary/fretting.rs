@@ -54,7 +54,7 @@ pub struct Fretting {
     /// without damping.
     #[serde(skip_serializing_if = "Option::is_none")]
     thresholds: Option<Limits>,
-    /// Against these.
+    /// "gross" where its force comes both ways to the limit of friction, "stick" or "partial".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub regime: Option<&'static str>,
 }
