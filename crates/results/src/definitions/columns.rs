@@ -27,7 +27,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "trace.csv",
         "CONTACT.fx_N",
-        "tangential force on the second body, of all count contacts: count · 2∫₀^∞ q_x(x) dx of the springs",
+        "tangential force on the second body, of all count contacts: count · 2∫₀^∞ q_x(x) dx of the springs; with damping those that stick bear βG*ṡ beside G*s, and F_x may exceed μF_N",
     ),
     of("trace.csv", "CONTACT.fn_N", "normal force of all count contacts: count · 2E*∫₀^a (d - g(x)) dx"),
     of("trace.csv", "CONTACT.a_m", "contact radius a, where g(a) = d"),
@@ -176,8 +176,17 @@ pub(super) const COLUMNS: &[Definition] = &[
         "half_opening_m",
         "δ₀, half of the way between the places where F_x passes the middle of its range",
     ),
-    of("cycles.csv", "dissipated_J", "E_d, friction work of the cycle"),
-    of("cycles.csv", "mean_normal_force_N", "P, mean of F_N over the cycle"),
+    of(
+        "cycles.csv",
+        "dissipated_J",
+        "E_d, all that the contact loses in the cycle, to friction and to its damping; empty where other parts lose energy as well as its damping",
+    ),
+    of("cycles.csv", "damping_J", "damping's part of E_d; friction's is the rest"),
+    of(
+        "cycles.csv",
+        "mean_normal_force_N",
+        "P, mean of F_N over the cycle: the integral of a waveform that presses, of other loads from moment to moment",
+    ),
     of("cycles.csv", "energy_ratio", "A = E_d/(4Q*δ*): 0 elastic, 1 a parallelogram as wide as the stroke"),
     of(
         "cycles.csv",

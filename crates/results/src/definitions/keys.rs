@@ -83,7 +83,12 @@ pub(super) const KEYS: &[Definition] = &[
         "contacts.CONTACT.fretting.half_opening_m",
         "δ₀, half of the way between the places where F_x passes the middle of its range",
     ),
-    of("contacts.CONTACT.fretting.dissipated_J", "E_d, friction work of the cycle"),
+    of(
+        "contacts.CONTACT.fretting.dissipated_J",
+        "E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; not told where other parts lose energy as well, for their share is not told apart",
+    ),
+    of("contacts.CONTACT.fretting.friction_J", "friction's part of E_d, of a damped contact"),
+    of("contacts.CONTACT.fretting.damping_J", "damping's part of E_d, of a damped contact"),
     of("contacts.CONTACT.fretting.energy_ratio", "A = E_d/(4Q*δ*)"),
     of(
         "contacts.CONTACT.fretting.system_free_ratio",
@@ -92,7 +97,7 @@ pub(super) const KEYS: &[Definition] = &[
     of("contacts.CONTACT.fretting.slip_ratio", "D = δ₀/δ*"),
     of(
         "contacts.CONTACT.fretting.energy_coefficient_of_friction",
-        "μ_e = E_d/(4Pδ₀), P the mean normal force",
+        "μ_e = E_d/(4Pδ₀), P the mean normal force; not told where δ₀ is rounding",
     ),
     of(
         "contacts.CONTACT.fretting.stiffness_after_maximum_N_m",
