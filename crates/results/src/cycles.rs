@@ -110,6 +110,8 @@ struct Setup<'a> {
     load: Option<&'a Load>,
     /// Whether moments are so dense that extremes between them are those of parabolas.
     is_dense: bool,
+    /// Whether its force never jumps at an event.
+    is_continuous: bool,
     /// Whether what its own damping takes is known.
     knows_damping: bool,
 }
@@ -183,7 +185,11 @@ impl Track {
         // What moves in the last digits has no loop.
         let moves = most - least > ROUNDING * law.friction() * normal;
         let amplitude = |values: &[f64]| {
-            let (low, high) = if setup.is_dense { self.peaks(span, values) } else { range(&values[a..=b]) };
+            let (low, high) = if setup.is_dense {
+                self.peaks(span, values, setup.is_continuous)
+            } else {
+                range(&values[a..=b])
+            };
             0.5 * (high - low)
         };
         let damping = setup.knows_damping.then(|| self.damping[b] - self.damping[a]);

@@ -167,6 +167,11 @@ impl Job {
         self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.interface.damping() > 0.0)
     }
 
+    /// Whether a waveform of its scene jumps.
+    pub(crate) fn has_jumps(&self) -> bool {
+        self.scenario.scene.waveforms.iter().any(|waveform| waveform.part.has_jumps())
+    }
+
     /// Whether nothing but friction loses energy beside contact `c`: no other damped contact, no damper, and no block.
     pub(crate) fn loses_nothing_beside(&self, c: usize) -> bool {
         let scene = &self.scenario.scene;

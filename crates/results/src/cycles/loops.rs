@@ -27,6 +27,8 @@ pub(crate) struct Loops {
     load: Option<Load>,
     /// Whether it is looked at in parts of a period.
     is_dense: bool,
+    /// Whether its force never jumps: nothing that drives the scene does, and no springs of it are damped.
+    is_continuous: bool,
     cut: Cutting,
     track: Track,
     walk: Option<Walk>,
@@ -74,6 +76,7 @@ impl Loops {
             knows_damping: damps_alone || !is_damped,
             load: Load::of(job, c),
             is_dense: marks::are_dense(job, c),
+            is_continuous: !is_damped && !job.has_jumps(),
             cut,
             track: Track::default(),
             walk: memory.map(|memory| Walk::new(memory.clone())),
@@ -175,9 +178,10 @@ impl Loops {
 
     /// Moments, what figures are taken with, and the contact led along them.
     fn parts<'a>(&'a mut self, law: &'a Interface) -> (&'a Track, Setup<'a>, &'a mut Option<Walk>) {
-        let Self { track, walk, load, count, is_dense, knows_damping, .. } = self;
-        let (count, is_dense, knows_damping) = (*count, *is_dense, *knows_damping);
-        (track, Setup { law, count, load: load.as_ref(), is_dense, knows_damping }, walk)
+        let Self { track, walk, load, count, .. } = self;
+        let (is_dense, is_continuous) = (self.is_dense, self.is_continuous);
+        let (load, knows_damping) = (load.as_ref(), self.knows_damping);
+        (track, Setup { law, count: *count, load, is_dense, is_continuous, knows_damping }, walk)
     }
 
     /// Begins a cycle where the one before has ended, with the last moment of the track.

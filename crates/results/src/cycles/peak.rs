@@ -8,15 +8,22 @@ const NEAR: f64 = 0.01;
 
 impl Track {
     /// Least and largest value over a cycle: where an extreme is no event, those of the parabola through the moment and its
-    /// neighbours, whose error is of the fourth order in the time between them. A cycle that comes back goes on where it began.
-    pub(super) fn peaks(&self, span: &Range<usize>, values: &[f64]) -> (f64, f64) {
+    /// neighbours, whose error is of the fourth order in the time between them. A cycle that comes back goes on where it began. Where
+    /// values may jump at events, one next to an event is an extreme as it is.
+    pub(super) fn peaks(&self, span: &Range<usize>, values: &[f64], is_continuous: bool) -> (f64, f64) {
         let (low, high) = range(&values[span.start..=span.end]);
-        let vertex = |extreme: f64| self.vertex((span.start, span.end), values, (extreme, high - low));
+        let of = (values, high - low, is_continuous);
+        let vertex = |extreme: f64| self.vertex((span.start, span.end), of, extreme);
         (vertex(low), vertex(high))
     }
 
     /// The extreme of the parabola about the moment at which `extreme` is met; the extreme itself where there is none.
-    fn vertex(&self, (first, last): (usize, usize), values: &[f64], (extreme, range): (f64, f64)) -> f64 {
+    fn vertex(
+        &self,
+        (first, last): (usize, usize),
+        (values, range, is_continuous): (&[f64], f64, bool),
+        extreme: f64,
+    ) -> f64 {
         let Some(i) = (first..=last).find(|i| values[*i] == extreme) else { return extreme };
         // Only moments of a motion without bends are on one parabola.
         if self.bends[i] {
@@ -28,6 +35,9 @@ impl Track {
         ) else {
             return extreme;
         };
+        if !is_continuous && (self.bends[before] || self.bends[after]) {
+            return extreme;
+        }
         // A cycle that comes back goes on where it began, to the last digits; others end there.
         let apart = (values[last] - values[first]).abs();
         if (i == first || i == last) && apart > ROUNDING * range {
@@ -91,7 +101,7 @@ mod tests {
             let track = track(64, 0.1 * h * f64::from(k) + 1.0, false);
             let missed = |(low, high): (f64, f64)| (low + 1.0).abs().max((high - 1.0).abs());
             worst[0] = worst[0].max(missed(range(&track.force)));
-            worst[1] = worst[1].max(missed(track.peaks(&(0..64), &track.force)));
+            worst[1] = worst[1].max(missed(track.peaks(&(0..64), &track.force, true)));
         }
         assert!(worst[0] > 1e-3 && worst[1] < h.powi(4) / 24.0, "{worst:?}");
     }
@@ -99,7 +109,14 @@ mod tests {
     /// An event is where something bends: its own value is the extreme.
     #[test]
     fn an_extreme_that_is_an_event_stays() {
-        let track = track(64, 1.0, true);
-        assert_eq!(track.peaks(&(0..64), &track.force), range(&track.force));
+        let bent = track(64, 1.0, true);
+        assert_eq!(bent.peaks(&(0..64), &bent.force, true), range(&bent.force));
+        // Up straight to 1, and at an event down at once: no parabola goes above.
+        let mut jumping = Track::default();
+        for (t, force, bends) in [(0.0, 0.0, false), (0.5, 0.5, false), (1.0, 1.0, false), (1.5, -9.0, true)]
+        {
+            jumping.push(t, Moment { u: t, d: 0.0, force, normal: 0.0, friction: 0.0, damping: 0.0, bends });
+        }
+        assert_eq!(jumping.peaks(&(0..3), &jumping.force, false).1, 1.0);
     }
 }
