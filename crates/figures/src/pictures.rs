@@ -61,11 +61,13 @@ pub enum FigureError {
         /// Which picture.
         plot: &'static str,
     },
-    /// Panels of other kinds.
-    #[error("{plot} was not drawn: these results do not have the same panels")]
+    /// Panels of other kinds, or no curves.
+    #[error("{plot} was not drawn: {unlike}")]
     Unlike {
         /// Which picture.
         plot: &'static str,
+        /// Which results do not have the same panels, and which each has.
+        unlike: String,
     },
     /// A table that the run did not write.
     #[error("{plot} was not drawn: it needs {file}, which the run did not write")]
