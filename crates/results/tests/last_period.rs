@@ -260,3 +260,30 @@ fn no_swing_is_more_than_its_limit() {
         }
     }
 }
+
+/// 0.2 N against 50 N s/m: 4 mm/s once friction is overcome on the mean, ten times the stroke in a period.
+#[test]
+fn what_is_pulled_along_drifts() {
+    let (steps, _) = account("pulled_along", &[("output.every", "\"1 ms\"")]);
+    assert_eq!(steps["settling"]["state"], "drifts", "{steps}");
+    assert!(steps.get("steady").is_none() && number(&steps, "/last_m").abs() > 2.0 * 200e-9);
+}
+
+/// Set down 50 µm too deep it flies off for good: no step, however even.
+#[test]
+fn what_flies_off_has_no_steps() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/thrown_off.json");
+    let job = Job::prepare(&file, &[], Path::new("")).unwrap();
+    let outcome = job.run(&());
+    let summary = serde_json::to_value(Summary::new(&job, &outcome)).unwrap();
+    assert_eq!(summary["steps"]["settling"]["state"], "drifts");
+    let flight = |it: &&Value| it["kind"] == "flight";
+    assert!(summary["warnings"].as_array().unwrap().iter().any(|it| flight(&it)), "{}", summary["warnings"]);
+    // At rest on its foot it is told nothing of the kind.
+    let set =
+        [("bodies.s", r#"{"mass": "20 g", "x": "free", "z": "free"}"#), ("run.start", "\"equilibrium\"")];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let job = Job::prepare(&file, &set, Path::new("")).unwrap();
+    let summary = serde_json::to_value(Summary::new(&job, &job.run(&()))).unwrap();
+    assert!(!summary["warnings"].as_array().unwrap().iter().any(|it| flight(&it)), "{}", summary["warnings"]);
+}

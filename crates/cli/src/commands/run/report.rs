@@ -13,6 +13,8 @@ use stickslip_results::summary::{DriveSummary, SettlingSummary, Status, Summary}
 
 /// An error below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
+/// Steps that change by less than this share are even.
+const EVEN: f64 = 1e-3;
 
 /// What is to be printed of one scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -152,6 +154,9 @@ fn settling(steps: &DriveSummary) -> String {
         }
         (SettlingSummary::Irregular { spread_m }, _) => {
             format!("not settled: steps vary by ± {} without a pattern", length(*spread_m))
+        }
+        (SettlingSummary::Drifts { change_m }, _) if change_m.0.abs() <= EVEN * steps.last().0.abs() => {
+            format!("drifts: the body is carried away, by {last} per period")
         }
         (SettlingSummary::Drifts { change_m }, _) => {
             format!("drifts: the step of {last} changes by {} per period", length(*change_m))
