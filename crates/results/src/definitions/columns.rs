@@ -49,7 +49,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "trace.csv",
         "CONTACT.friction_J",
-        "work of friction since the start, the force of every slipping spring along its slip; never falls",
+        "work of friction since the start, the force of every slipping spring along its slip; never falls but by the error of the steps: about a tolerance of μF_N u_c of a contact whose indentation varies, such as on touching again, where u_c is small beside what it becomes",
     ),
     of(
         "trace.csv",
