@@ -19,11 +19,15 @@ use std::ops::Range;
 use stickslip_analysis::Cycle;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 use stickslip_drive::Waveform;
+use stickslip_drive::scene::Side;
 
 /// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
 const CLOSED: f64 = 0.01;
 /// Change of a force below this share of the limit of friction is rounding.
 const ROUNDING: f64 = 1e-9;
+/// Amplitude of u in natural displacements that rounding alone makes; what a fixed step may make of rest.
+const STILL: f64 = 1e-12;
+const FIXED: f64 = 1e-9;
 /// Share of the displacement range over which a secant is taken.
 const WINDOW: f64 = stickslip_analysis::fretting::STIFFNESS_WINDOW;
 /// Halvings of an interval in which the force changes sign: to the last place.
@@ -44,6 +48,8 @@ pub struct CycleFigures {
     pub normal: f64,
     /// Indentation at its start, m.
     pub depth: f64,
+    /// Whether u moves by less than what can be told from rest: then there is no loop, however its ends lie.
+    pub is_still: bool,
 }
 
 /// The moments of a contact, from the start of the cycle under way or, where cycles are told only at the end, from the first.
@@ -86,23 +92,25 @@ impl Track {
         });
     }
 
-    fn comes_back(&self, span: &Range<usize>) -> bool {
+    /// Whether u comes back; what is still does. `still` is the range of u up to which that is so, m.
+    fn comes_back(&self, span: &Range<usize>, still: f64) -> bool {
         let u = &self.u[span.start..=span.end];
         let (low, high) = range(u);
-        high > low && (u[u.len() - 1] - u[0]).abs() <= CLOSED * (high - low)
+        high - low <= still || (u[u.len() - 1] - u[0]).abs() <= CLOSED * (high - low)
     }
 
     fn figures(
         &self,
         span: &Range<usize>,
-        (law, count): (&Interface, f64),
+        (law, count, still): (&Interface, f64, f64),
         walk: Option<&mut Walk>,
     ) -> CycleFigures {
         let (a, b) = (span.start, span.end);
         let (u, force) = (&self.u[a..=b], &self.force[a..=b]);
         let ((low, high), (least, most)) = (range(u), range(force));
         let middle = least + 0.5 * (most - least);
-        let mut questions = self.questions(span, (low, high), middle);
+        let is_still = high - low <= still;
+        let mut questions = if is_still { Vec::new() } else { self.questions(span, (low, high), middle) };
         match walk {
             Some(walk) => walk.answer((self, law), span, (count, middle), &mut questions),
             None => questions.iter_mut().for_each(|question| question.answer = self.chord(question, middle)),
@@ -116,7 +124,7 @@ impl Track {
         let tangent = |extreme: f64| {
             self.at_extreme(span, extreme)
                 .map(|i| count * law.stick_stiffness(self.d[i]))
-                .filter(|k| *k > 0.0)
+                .filter(|k| *k > 0.0 && !is_still)
         };
         let normal = mean_over_time(&self.t[a..=b], &self.normal[a..=b]);
         // What moves in the last digits has no loop.
@@ -131,11 +139,12 @@ impl Track {
         };
         CycleFigures {
             time: [self.t[a], self.t[b]],
-            is_closed: (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
+            is_closed: !is_still && (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
             cycle,
             secants: [secant(high), secant(low)],
             normal,
             depth: self.d[a],
+            is_still,
         }
     }
 
@@ -263,6 +272,29 @@ fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
         if (force(middle) < 0.0) == falls { to = middle } else { from = middle }
     }
     to
+}
+
+/// Whether a body of contact `c` moves as forces say.
+fn is_integrated(job: &Job, c: usize) -> bool {
+    let scene = &job.scenario.scene;
+    let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between);
+    let mut bodies = sides.filter_map(|side| match side {
+        Side::Body(body) => scene.bodies.get(body),
+        Side::Ground => None,
+    });
+    bodies.any(|body| body.part.is_free() || body.part.is_balanced())
+}
+
+/// Range of u up to which contact `c` stands still, m: twice the amplitude that rounding may leave, and, where its bodies are
+/// integrated, what the stepper promises, both of the natural displacement.
+fn still(job: &Job, c: usize) -> f64 {
+    let natural = job.model.contact_natural(c).map_or(0.0, |natural| natural.displacement);
+    let promised = match job.stepper() {
+        _ if !is_integrated(job, c) => 0.0,
+        (_, "tolerance", tolerance) => tolerance,
+        _ => FIXED,
+    };
+    2.0 * natural * promised.max(STILL)
 }
 
 /// The waveform without a period that a body of a contact follows.

@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-12;
 pub struct JudgedCycle {
     /// Its quantities.
     pub figures: CycleFigures,
-    /// "stick", "partial", "mixed" or "gross".
+    /// "still" of one that moves by no more than can be told from rest, "stick", "partial", "mixed" or "gross".
     pub regime: Option<&'static str>,
 }
 
@@ -43,8 +43,8 @@ impl ContactCycles {
             self.thresholds = limits.filter(|_| job.has_law_without_time(c));
         }
         let limits = self.thresholds.filter(|_| figures.is_closed);
-        let judged =
-            JudgedCycle { figures, regime: limits.map(|limits| word(limits.regime(&figures.cycle))) };
+        let of_loop = limits.map(|limits| word(limits.regime(&figures.cycle)));
+        let judged = JudgedCycle { figures, regime: if figures.is_still { Some("still") } else { of_loop } };
         (self.count, self.last) = (self.count + 1, Some(judged));
         judged
     }

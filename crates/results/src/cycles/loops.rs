@@ -1,6 +1,6 @@
 //! The cycles of a contact as its run goes on.
 
-use super::{CLOSED, CycleFigures, Track, Walk, range, table_of};
+use super::{CLOSED, CycleFigures, Track, Walk, range, still, table_of};
 use crate::contact_path::is_walked;
 use crate::job::Job;
 use crate::periods::{Periods, Tracker};
@@ -24,6 +24,8 @@ pub(crate) struct Loops {
     walk: Option<Walk>,
     /// Number of identical contacts.
     count: f64,
+    /// Range of u up to which it stands still, m.
+    still: f64,
     /// Most moments of its track.
     most: usize,
     /// Moments for which there was no room.
@@ -63,6 +65,7 @@ impl Loops {
             track: Track::default(),
             walk: memory.map(|memory| Walk::new(memory.clone())),
             count: f64::from(job.count(c)),
+            still: still(job, c),
             most,
             left_out: 0,
             is_torn: false,
@@ -113,9 +116,9 @@ impl Loops {
         let cut = Cut::Reversals { least: CLOSED * (high - low) };
         let spans = split_cycles(&self.track.t, &self.track.u, &self.track.force, cut).unwrap_or_default();
         let spans = spans.into_iter().map(|span| span.start..span.end - 1);
-        let Self { track, walk, count, .. } = self;
-        let back = spans.filter(|span| track.comes_back(span));
-        back.map(|span| track.figures(&span, (law, *count), walk.as_mut())).collect()
+        let Self { track, walk, count, still, .. } = self;
+        let back = spans.filter(|span| track.comes_back(span, *still));
+        back.map(|span| track.figures(&span, (law, *count, *still), walk.as_mut())).collect()
     }
 
     fn push(&mut self, law: &Interface, t: f64, moment: [f64; 5]) {
@@ -150,8 +153,9 @@ impl Loops {
     fn end_cycle(&mut self, law: &Interface) -> Option<CycleFigures> {
         let span = 0..self.track.t.len().checked_sub(1)?;
         let is_whole = !self.is_torn;
-        let Self { track, walk, count, .. } = self;
-        (is_whole && track.comes_back(&span)).then(|| track.figures(&span, (law, *count), walk.as_mut()))
+        let Self { track, walk, count, still, .. } = self;
+        (is_whole && track.comes_back(&span, *still))
+            .then(|| track.figures(&span, (law, *count, *still), walk.as_mut()))
     }
 
     /// Begins a cycle where the one before has ended, with the last moment of the track.

@@ -197,7 +197,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "cycles.csv",
         "regime",
-        "`stick`, `partial`, `gross` or `mixed`, by A, B and D against the thresholds of summary.json",
+        "`still`, `stick`, `partial`, `gross` or `mixed`, by A, B and D against the thresholds of summary.json",
     ),
     of("steps.csv", "period", "number of the period, from 1"),
     of("steps.csv", "start_s", "time at its start"),

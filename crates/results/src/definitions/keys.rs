@@ -109,7 +109,7 @@ pub(super) const KEYS: &[Definition] = &[
     of("contacts.CONTACT.fretting.thresholds.slip_ratio", "D there"),
     of(
         "contacts.CONTACT.fretting.regime",
-        "`stick`, `partial` (below all three thresholds), `gross` (above all) or `mixed`",
+        "`still` (u moves by no more than can be told from rest), `stick`, `partial` (below all three thresholds), `gross` (above all) or `mixed`",
     ),
     of("steps.waveform", "the waveform whose periods make the steps"),
     of("steps.body", "the body that steps"),

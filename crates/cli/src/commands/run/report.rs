@@ -189,6 +189,10 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     }
     for (name, contact) in &summary.contacts.0 {
         if let Some(fretting) = &contact.fretting {
+            if fretting.regime == Some("still") {
+                lines.push(format!("  {name}: stands still"));
+                continue;
+            }
             if !fretting.closed {
                 let lost = quantity(fretting.dissipated, "J");
                 lines.push(format!("  {name}: the last cycle is not closed; friction took {lost} in it"));
