@@ -287,3 +287,29 @@ fn what_flies_off_has_no_steps() {
     let summary = serde_json::to_value(Summary::new(&job, &job.run(&()))).unwrap();
     assert!(!summary["warnings"].as_array().unwrap().iter().any(|it| flight(&it)), "{}", summary["warnings"]);
 }
+
+/// Without friction nothing holds: it slides all the time, and its foot leaves it where it is.
+#[test]
+fn a_contact_without_friction_slides() {
+    let (steps, series) = account("without_friction", &[("run.cycles", "3")]);
+    for way in ["forth", "back"] {
+        let share = number(&steps, &format!("/last_period/contacts/c/slip_share_{way}"));
+        near(share, 1.0, 1e-12, "slip");
+    }
+    assert!(series.column("c.state").iter().all(|state| *state == 3.0));
+}
+
+/// Steps of a body that follows a waveform are none, and a note says so where another body is free.
+#[test]
+fn the_body_of_figures_must_be_free() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/without_friction.json");
+    let set = [("figures", r#"{"body": "foot", "waveform": "w"}"#), ("run.cycles", "2")];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let job = Job::prepare(&file, &set, Path::new("")).unwrap();
+    let summary = serde_json::to_value(Summary::new(&job, &job.run(&()))).unwrap();
+    let notes = summary["notes"].to_string();
+    assert!(
+        summary.get("steps").is_none() && notes.contains("\\\"foot\\\", the body of figures, is not free"),
+        "{notes}"
+    );
+}

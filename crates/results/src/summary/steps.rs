@@ -148,6 +148,13 @@ pub(super) fn of(
     let waveform = scene.waveforms.get(figures.waveform?)?;
     let period = waveform.part.period()?;
     if body.part.x.freedom != Freedom::Free {
+        // Where no body is free nobody asked for steps.
+        if let Some(free) = scene.bodies.iter().find(|body| body.part.x.freedom == Freedom::Free) {
+            notes.push(format!(
+                "no steps: x of \"{}\", the body of figures, is not free; \"{}\" is one that is",
+                body.name, free.name
+            ));
+        }
         return None;
     }
     if Periods::until(&waveform.part, outcome.state.time()).is_none() {
@@ -175,13 +182,6 @@ pub(super) fn of(
     Some(summary)
 }
 
-/// What is known of a step before any is made.
-///
-/// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke
-/// without being carried away; each may be off by the error that the stepper promises.
-fn bounds(job: &Job) -> Bounds {
-    let natural = (0..job.scenario.scene.contacts.len()).filter_map(|c| job.model.contact_natural(c));
-    let natural = natural.map(|natural| natural.displacement).fold(0.0, f64::max);
 /// Since when all contacts of the body of the figures are open, s, where that is a whole period of their waveform and more.
 pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
     let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
@@ -194,6 +194,13 @@ pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
     (since <= last).then_some(since)
 }
 
+/// What is known of a step before any is made.
+///
+/// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke
+/// without being carried away; each may be off by the error that the stepper promises.
+fn bounds(job: &Job) -> Bounds {
+    let natural = (0..job.scenario.scene.contacts.len()).filter_map(|c| job.model.contact_natural(c));
+    let natural = natural.map(|natural| natural.displacement).fold(0.0, f64::max);
     let promised = match job.stepper() {
         (_, "tolerance", tolerance) => GLOBAL * tolerance,
         _ => FIXED,
