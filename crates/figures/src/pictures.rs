@@ -197,11 +197,16 @@ fn of_all(title: &str, which: &str, (shown, all): (usize, usize)) -> String {
     if shown < all { format!("{title} ({which}{shown} of {all} in the table)") } else { title.to_owned() }
 }
 
-/// The title of what is drawn from events while they are whole: until when that is, where it is not all the way.
+/// The title of what is drawn from events while they are whole: from when until when that is, where it is not all the way.
 fn whole_title(job: &Job, kept: &Kept) -> String {
     let time = |t: f64| quantity(Real(t), "s");
     let (title, until, end) = (job.title(), kept.whole_until(), kept.end());
-    if until < end {
+    let [from, to] = job.scenario.written.window;
+    if from > 0.0 || to < end {
+        let (from, until) = (time(from), time(to.min(until)));
+        let thinned = if kept.whole_until() < to.min(end) { ", events are thinned" } else { "" };
+        format!("{title}, {from} to {until} of {} (output.window{thinned})", time(end))
+    } else if until < end {
         format!("{title}, until {} of {} (events are thinned)", time(until), time(end))
     } else {
         title.to_owned()

@@ -23,11 +23,15 @@ use std::ops::Range;
 use stickslip_analysis::Cycle;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 use stickslip_drive::Waveform;
+use stickslip_drive::scene::Side;
 
 /// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
 const CLOSED: f64 = 0.01;
 /// Change of a force below this share of the limit of friction is rounding.
 const ROUNDING: f64 = 1e-9;
+/// Amplitude of u in natural displacements that rounding alone makes; what a fixed step may make of rest.
+const STILL: f64 = 1e-12;
+const FIXED: f64 = 1e-9;
 /// Share of the displacement range over which a secant is taken.
 const WINDOW: f64 = stickslip_analysis::fretting::STIFFNESS_WINDOW;
 /// Halvings of an interval in which the force changes sign: to the last place.
@@ -52,6 +56,8 @@ pub struct CycleFigures {
     pub normal: f64,
     /// Indentation at its start, m.
     pub depth: f64,
+    /// Whether u moves by less than what can be told from rest: then there is no loop, however its ends lie.
+    pub is_still: bool,
 }
 
 impl CycleFigures {
@@ -107,6 +113,8 @@ struct Setup<'a> {
     law: &'a Interface,
     /// Number of identical contacts.
     count: f64,
+    /// Range of u up to which it stands still, m.
+    still: f64,
     load: Option<&'a Load>,
     /// Whether moments are so dense that extremes between them are those of parabolas.
     is_dense: bool,
@@ -150,18 +158,20 @@ impl Track {
         self.bends.drain(..gone);
     }
 
-    fn comes_back(&self, span: &Range<usize>) -> bool {
+    /// Whether u comes back; what is still does. `still` is the range of u up to which that is so, m.
+    fn comes_back(&self, span: &Range<usize>, still: f64) -> bool {
         let u = &self.u[span.start..=span.end];
         let (low, high) = range(u);
-        high > low && (u[u.len() - 1] - u[0]).abs() <= CLOSED * (high - low)
+        high - low <= still || (u[u.len() - 1] - u[0]).abs() <= CLOSED * (high - low)
     }
 
     fn figures(&self, span: &Range<usize>, setup: &Setup<'_>, walk: Option<&mut Walk>) -> CycleFigures {
-        let (a, b, Setup { law, count, .. }) = (span.start, span.end, setup);
+        let (a, b, Setup { law, count, still, .. }) = (span.start, span.end, setup);
         let (u, force) = (&self.u[a..=b], &self.force[a..=b]);
         let ((low, high), (least, most)) = (range(u), range(force));
         let middle = least + 0.5 * (most - least);
-        let mut questions = self.questions(span, (low, high), middle);
+        let is_still = high - low <= *still;
+        let mut questions = if is_still { Vec::new() } else { self.questions(span, (low, high), middle) };
         match walk {
             Some(walk) => walk.answer((self, law), span, (*count, middle), &mut questions),
             None => questions.iter_mut().for_each(|question| question.answer = self.chord(question, middle)),
@@ -175,7 +185,7 @@ impl Track {
         let tangent = |extreme: f64| {
             self.at_extreme(span, extreme)
                 .map(|i| count * law.stick_stiffness(self.d[i]))
-                .filter(|k| *k > 0.0)
+                .filter(|k| *k > 0.0 && !is_still)
         };
         let time = [self.t[a], self.t[b]];
         let normal = match setup.load.filter(|_| time[1] > time[0]) {
@@ -203,12 +213,13 @@ impl Track {
         };
         CycleFigures {
             time,
-            is_closed: (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
+            is_closed: !is_still && (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
             cycle,
             damping,
             secants: [secant(high), secant(low)],
             normal,
             depth: self.d[a],
+            is_still,
         }
     }
 
@@ -336,6 +347,29 @@ fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
         if (force(middle) < 0.0) == falls { to = middle } else { from = middle }
     }
     to
+}
+
+/// Whether a body of contact `c` moves as forces say.
+fn is_integrated(job: &Job, c: usize) -> bool {
+    let scene = &job.scenario.scene;
+    let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between);
+    let mut bodies = sides.filter_map(|side| match side {
+        Side::Body(body) => scene.bodies.get(body),
+        Side::Ground => None,
+    });
+    bodies.any(|body| body.part.is_free() || body.part.is_balanced())
+}
+
+/// Range of u up to which contact `c` stands still, m: twice the amplitude that rounding may leave, and, where its bodies are
+/// integrated, what the stepper promises, both of the natural displacement.
+fn still(job: &Job, c: usize) -> f64 {
+    let natural = job.model.contact_natural(c).map_or(0.0, |natural| natural.displacement);
+    let promised = match job.stepper() {
+        _ if !is_integrated(job, c) => 0.0,
+        (_, "tolerance", tolerance) => tolerance,
+        _ => FIXED,
+    };
+    2.0 * natural * promised.max(STILL)
 }
 
 /// The waveform without a period that a body of a contact follows.

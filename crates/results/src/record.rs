@@ -20,7 +20,7 @@ use crate::watcher::Watcher;
 use std::fs::File;
 use std::io;
 use stickslip_contact::{Memory, Segment};
-use stickslip_drive::{Event, Record, Source};
+use stickslip_drive::{Event, EventKind, Record, Source};
 use tempfile::NamedTempFile;
 
 /// Most tables of a run that are written as it goes on.
@@ -184,6 +184,10 @@ impl<'a> Recorder<'a> {
 
     /// Takes an event whose kind is given by its word.
     pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) {
+        if kind == EventKind::Turn.name() {
+            // No law ends there: for the account of a period alone.
+            return self.recorded.tally.account(Some((source, kind)), values);
+        }
         self.recorded.books.read_event(values);
         self.recorded.tally.row(values);
         self.recorded.tally.account(Some((source, kind)), values);

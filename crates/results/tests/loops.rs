@@ -299,3 +299,22 @@ fn figures_do_not_depend_on_the_rows() {
     let sphere = |every| figures("fretting_sphere", r#"{"event": {"tolerance": 1e-8}}"#, every);
     assert_eq!(sphere("\"7 ms\""), sphere("1e3"));
 }
+
+/// The contact that holds the vibrated slider never moves: its amplitude, 8e-25 m of a u_c of 6e-8 m, was rounding, and how many
+/// of its cycles came back hung on the tolerance.
+#[test]
+fn a_contact_at_rest_has_no_loop() {
+    let told = |tolerance: &str| {
+        let set = [("run.stepper.event.tolerance", tolerance), ("plots", "[]"), ("run.cycles", "8")];
+        let job = example("vibrated_slider", &set);
+        let summary = Summary::new(&job, &job.run(&()));
+        serde_json::to_value(&summary).unwrap()["contacts"]["still"]["fretting"].clone()
+    };
+    let all = ["1e-5", "1e-6", "1e-8"].map(told);
+    for fretting in &all {
+        assert_eq!(fretting["regime"], "still", "{fretting}");
+        assert_eq!(fretting["cycles"], all[0]["cycles"]);
+        let ratios = ["energy_ratio", "slip_ratio", "half_opening_m", "stiffness_after_maximum_N_m"];
+        assert!(ratios.iter().all(|ratio| fretting.get(ratio).is_none()), "{fretting}");
+    }
+}

@@ -16,7 +16,7 @@ const AT_LIMIT: f64 = 1e-9;
 pub struct JudgedCycle {
     /// Its quantities.
     pub figures: CycleFigures,
-    /// "stick", "partial" or "gross".
+    /// "still" of one that moves by no more than can be told from rest, "stick", "partial" or "gross".
     pub regime: Option<&'static str>,
 }
 
@@ -46,7 +46,10 @@ impl ContactCycles {
             self.thresholds = limits.filter(|_| job.has_law_without_time(c));
         }
         let is_loop = self.thresholds.is_some() && figures.is_closed;
-        let regime = is_loop.then(|| regime(&figures, law.friction() * figures.normal));
+        let regime = match figures.is_still {
+            true => Some("still"),
+            false => is_loop.then(|| regime(&figures, law.friction() * figures.normal)),
+        };
         let judged = JudgedCycle { figures, regime };
         (self.count, self.last) = (self.count + 1, Some(judged));
         judged

@@ -1,7 +1,7 @@
 //! The cycles of a contact as its run goes on.
 
 use super::load::Load;
-use super::{CLOSED, CycleFigures, Moment, Setup, Track, Walk, range, table_of};
+use super::{CLOSED, CycleFigures, Moment, Setup, Track, Walk, range, still, table_of};
 use crate::contact_path::is_walked;
 use crate::job::Job;
 use crate::marks;
@@ -34,6 +34,8 @@ pub(crate) struct Loops {
     walk: Option<Walk>,
     /// Number of identical contacts.
     count: f64,
+    /// Range of u up to which it stands still, m.
+    still: f64,
     /// Most moments of its track.
     most: usize,
     /// Moments for which there was no room.
@@ -81,6 +83,7 @@ impl Loops {
             track: Track::default(),
             walk: memory.map(|memory| Walk::new(memory.clone())),
             count: f64::from(job.count(c)),
+            still: still(job, c),
             most,
             left_out: 0,
             is_torn: false,
@@ -135,7 +138,7 @@ impl Loops {
         let spans = split_cycles(&self.track.t, &self.track.u, &self.track.force, cut).unwrap_or_default();
         let spans = spans.into_iter().map(|span| span.start..span.end - 1);
         let (track, setup, walk) = self.parts(law);
-        let back = spans.filter(|span| track.comes_back(span));
+        let back = spans.filter(|span| track.comes_back(span, setup.still));
         let mut walk = walk.as_mut();
         back.map(|span| track.figures(&span, &setup, walk.as_deref_mut())).collect()
     }
@@ -173,15 +176,17 @@ impl Loops {
         let span = 0..self.track.t.len().checked_sub(1)?;
         let is_whole = !self.is_torn;
         let (track, setup, walk) = self.parts(law);
-        (is_whole && track.comes_back(&span)).then(|| track.figures(&span, &setup, walk.as_mut()))
+        let comes_back = is_whole && track.comes_back(&span, setup.still);
+        comes_back.then(|| track.figures(&span, &setup, walk.as_mut()))
     }
 
     /// Moments, what figures are taken with, and the contact led along them.
     fn parts<'a>(&'a mut self, law: &'a Interface) -> (&'a Track, Setup<'a>, &'a mut Option<Walk>) {
-        let Self { track, walk, load, count, .. } = self;
+        let Self { track, walk, load, count, still, .. } = self;
         let (is_dense, is_continuous) = (self.is_dense, self.is_continuous);
         let (load, knows_damping) = (load.as_ref(), self.knows_damping);
-        (track, Setup { law, count: *count, load, is_dense, is_continuous, knows_damping }, walk)
+        let setup = Setup { law, count: *count, still: *still, load, is_dense, is_continuous, knows_damping };
+        (track, setup, walk)
     }
 
     /// Begins a cycle where the one before has ended, with the last moment of the track.

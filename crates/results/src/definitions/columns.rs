@@ -49,7 +49,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "trace.csv",
         "CONTACT.friction_J",
-        "work of friction since the start, the force of every slipping spring along its slip; never falls",
+        "work of friction since the start, the force of every slipping spring along its slip; never falls but by the error of the steps: about a tolerance of μF_N u_c of a contact whose indentation varies, such as on touching again, where u_c is small beside what it becomes",
     ),
     of(
         "trace.csv",
@@ -111,7 +111,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "events.csv",
         "kind",
-        "`reversal` (u turns), `loop closed` (a turning point is forgotten), `gross slip`, `gross slip ends`, `full stick` (grows without slip), `slip begins`, `touch`, `lift-off`, `corner` and `jump` of a waveform, `input turns`, `play taken up` and `lag turns` of hysteresis",
+        "`reversal` (u turns; where the indentation varies the edge of slip that drags does, a little after u, and none where the contact grows in full stick), `loop closed` (a turning point is forgotten), `gross slip`, `gross slip ends`, `full stick` (grows without slip), `slip begins`, `touch`, `lift-off`, `corner` and `jump` of a waveform, `input turns`, `play taken up` and `lag turns` of hysteresis",
     ),
     of("springs.csv", "time_s", "the moment"),
     of("springs.csv", "contact", "the contact; forces are those of one of its count"),
@@ -210,7 +210,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "cycles.csv",
         "regime",
-        "`gross` where F_x comes both ways to the limit of friction, `stick` where A is below 5e-4, else `partial`; of a loop under a constant load without damping",
+        "`still` where u moves by no more than can be told from rest, `gross` where F_x comes both ways to the limit of friction, `stick` where A is below 5e-4, else `partial`; but for `still` of a loop under a constant load without damping",
     ),
     of("steps.csv", "period", "number of the period, from 1"),
     of("steps.csv", "start_s", "time at its start"),

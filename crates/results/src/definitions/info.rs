@@ -143,7 +143,7 @@ pub(super) const INFO: &[Definition] = &[
     of("expected.events.corners", "corners of waveforms, counted"),
     of(
         "expected.events.contacts_estimate",
-        "events of contacts and blocks, estimated to a factor of two on the examples",
+        "events of contacts and blocks, estimated: to a factor of two on the examples, elsewhere a guess",
     ),
     of("expected.events.per_period.waveform", "the waveform of `figures`"),
     of("expected.events.per_period.estimate", "all events in a period of it, on the average"),

@@ -120,7 +120,7 @@ pub(super) const KEYS: &[Definition] = &[
     of("contacts.CONTACT.fretting.thresholds.slip_ratio", "D there"),
     of(
         "contacts.CONTACT.fretting.regime",
-        "`gross` where F_x comes both ways to the limit of friction, `stick` where A is below 5e-4, else `partial`; of a loop under a constant load without damping",
+        "`still` where u moves by no more than can be told from rest, `gross` where F_x comes both ways to the limit of friction, `stick` where A is below 5e-4, else `partial`; but for `still` of a loop under a constant load without damping",
     ),
     of("steps.waveform", "the waveform whose periods make the steps"),
     of("steps.body", "the body that steps"),
@@ -181,14 +181,17 @@ pub(super) const KEYS: &[Definition] = &[
         "share of the way forth in which the contact slips as a whole",
     ),
     of("steps.last_period.contacts.CONTACT.slip_share_back", "the same of the way back"),
-    of("steps.last_period.contacts.CONTACT.reversals_forth", "how often its sliding turns on the way forth"),
+    of(
+        "steps.last_period.contacts.CONTACT.reversals_forth",
+        "how often u turns on the way forth, in full stick, too; out of gross slip it does not count",
+    ),
     of(
         "steps.last_period.contacts.CONTACT.settling_s",
         "from when the waveform turns forth until the force's last swing beyond 5 % of the limit of friction; left out where it swings on",
     ),
     of(
         "steps.last_period.contacts.CONTACT.ringing_left",
-        "last swing of the force on the way forth, half of peak to peak, over the limit of friction",
+        "last swing of the force on the way forth, half of peak to peak, over the limit of friction, the mean of that at both turns of u",
     ),
     of("steps.why", "why the last step is as long as it is, in sentences"),
     of(

@@ -13,6 +13,8 @@ use stickslip_results::summary::{DriveSummary, Fretting, SettlingSummary, Status
 
 /// An error below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
+/// Steps that change by less than this share are even.
+const EVEN: f64 = 1e-3;
 
 /// What is to be printed of one scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -153,6 +155,9 @@ fn settling(steps: &DriveSummary) -> String {
         (SettlingSummary::Irregular { spread_m }, _) => {
             format!("not settled: steps vary by ± {} without a pattern", length(*spread_m))
         }
+        (SettlingSummary::Drifts { change_m }, _) if change_m.0.abs() <= EVEN * steps.last().0.abs() => {
+            format!("drifts: the body is carried away, by {last} per period")
+        }
         (SettlingSummary::Drifts { change_m }, _) => {
             format!("drifts: the step of {last} changes by {} per period", length(*change_m))
         }
@@ -175,6 +180,9 @@ fn settling(steps: &DriveSummary) -> String {
 /// What the last cycle of a contact has come to.
 fn cycle(fretting: &Fretting) -> String {
     let energy = |energy: Real| quantity(energy, "J");
+    if fretting.regime == Some("still") {
+        return "stands still".to_owned();
+    }
     if !fretting.closed {
         let friction = energy(fretting.friction_work());
         return format!("the last cycle is not closed; friction took {friction} in it");
