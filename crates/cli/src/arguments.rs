@@ -8,6 +8,7 @@ mod pictures;
 pub(crate) mod realtime;
 pub(crate) mod run;
 pub(crate) mod soak;
+pub(crate) mod steady;
 pub(crate) mod validate;
 
 use crate::commands::new;
@@ -22,6 +23,7 @@ pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 pub(crate) use realtime::RealtimeArguments;
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
 pub(crate) use soak::SoakArguments;
+pub(crate) use steady::SteadyArguments;
 pub(crate) use validate::ValidateArguments;
 
 /// Exit codes, as every command keeps them.
@@ -88,6 +90,9 @@ pub(crate) enum Command {
     /// Answer for one contact of a scenario, without a run: constants, curves, first loadings, fields
     #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
     Contact(ContactArguments),
+    /// Find the steady motion of a drive without waiting for it: step, speed, how disturbances fade or grow
+    #[command(long_about = steady::ABOUT, after_long_help = steady::EXAMPLES)]
+    Steady(SteadyArguments),
     /// Write a scenario that runs at once, from a template, with the schema by which editors complete it
     ///
     /// Writes NAME.json and, beside it, schema/scenario-1.json, which the scenario names as its "$schema": editors that

@@ -25,6 +25,8 @@ pub const STEPS: &str = "steps.csv";
 pub const SCENARIO: &str = "scenario.json";
 /// What the run came to.
 pub const SUMMARY: &str = "summary.json";
+/// The steady motion of a drive, found without a run.
+pub const STEADY: &str = "steady.json";
 
 /// Columns of [`SPRINGS`].
 pub(crate) const SPRING_HEAD: &[&str] =
