@@ -242,6 +242,9 @@ fn figures_are_compared_each_by_its_name() {
         assert!(pair.text(&[]).ends_with("a difference, in what has no time\n"));
         pair.edit_summary(pointer, |_| original);
     }
+    // Sentences say in words what figures are, to four digits.
+    pair.edit_summary("/steps/why/0", |_| json!("the drive went forth and back"));
+    assert_eq!(pair.compare(&[]).0, 0);
     pair.edit("steps.csv", |lines| {
         let length: f64 = lines[2][3].parse().unwrap();
         lines[2][3] = format!("{:?}", length * (1.0 + 1e-9));

@@ -60,7 +60,7 @@ pub enum Settling {
         /// Half of what lies between the largest and the least value of the last half.
         spread: f64,
     },
-    /// It goes on in one direction, to no limit that could be told.
+    /// It goes on in one direction, to no limit that could be told, or is larger than what is on its way to one.
     Drifts {
         /// The last change from one value to the next.
         change: f64,
@@ -105,6 +105,18 @@ pub struct Settled {
 impl Settling {
     /// Judges values.
     pub fn of<S: Sequence + ?Sized>(values: &S, bounds: Bounds) -> Self {
+        match Self::judged(values, bounds) {
+            // However even they are: what goes that far in one period is carried away.
+            Self::Settled(settled) if settled.value.abs() > bounds.most => {
+                let change = ending(values, 0).zip(ending(values, 1)).map(|(last, before)| last - before);
+                Self::Drifts { change: change.unwrap_or(0.0) }
+            }
+            other => other,
+        }
+    }
+
+    /// The same without a look at how large they are.
+    fn judged<S: Sequence + ?Sized>(values: &S, bounds: Bounds) -> Self {
         let (Bounds { least, .. }, count) = (bounds, values.count());
         let Some(last) = ending(values, 0).filter(|_| values.part(0..count).all(f64::is_finite)) else {
             return Self::NotSettled { change: None, limit: None };
@@ -372,6 +384,15 @@ mod tests {
         let of = |k: f64| 1000.0 * (1.0 - 0.99_f64.powf(k));
         let found = Settling::of(&values(60, of), Bounds { most: 10.0, ..BOUNDS });
         assert!(matches!(found, Settling::Drifts { .. }), "{found:?}");
+    }
+
+    #[test]
+    fn even_steps_beyond_what_any_step_can_be_drift() {
+        // A body pulled at a constant velocity: 2 µm a period, ten times the stroke of 200 nm.
+        let bounds = Bounds { most: 4e-7, ..BOUNDS };
+        let found = Settling::of(&values(40, |k| 2e-6 + 1e-6 * 0.1_f64.powf(k)), bounds);
+        assert!(matches!(found, Settling::Drifts { .. }), "{found:?}");
+        assert!(matches!(Settling::of(&values(40, |_| -3e-7), bounds), Settling::Settled(_)));
     }
 
     #[test]

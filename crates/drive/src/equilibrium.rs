@@ -251,6 +251,8 @@ impl<'m> Settling<'m> {
         let unbalanced = without(place, &gone.y).residual[place];
         let Free { body, axis, .. } = self.model.free[place];
         let body = self.model.bodies[body].name.clone();
-        SceneFault::NoEquilibrium { body, axis, unbalanced }.of(Place::Run, Field::Start)
+        // Alone along its axis it bears nothing but its own.
+        let shared = along.len() > 1;
+        SceneFault::NoEquilibrium { body, axis, unbalanced, shared }.of(Place::Run, Field::Start)
     }
 }

@@ -28,8 +28,11 @@ pub enum Source {
 /// What happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum EventKind {
-    /// The sense of sliding turns.
+    /// The sense of sliding turns. Where the indentation varies that of the edge that drags, and not u.
     Reversal,
+    /// u turns without a law that ends, or not when one does: told of the contacts of a body that the record watches, and only
+    /// where [`Model::tells_turns`](crate::Model::tells_turns). No run counts it among its events.
+    Turn,
     /// A piece of the memory is used up: a hysteresis loop closes.
     LoopClosed,
     /// Gross slip begins.
@@ -57,6 +60,7 @@ impl EventKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Reversal => "reversal",
+            Self::Turn => "turn",
             Self::LoopClosed => "loop closed",
             Self::GrossSlip => "gross slip",
             Self::GrossSlipEnds => "gross slip ends",

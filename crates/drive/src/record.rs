@@ -292,6 +292,10 @@ fn contact_columns(
         },
         _ => equations.memories[c].preview(&contact.interface, motion.apex()),
     };
+    if contact.interface.friction() == 0.0 && outcome.state == ContactState::Stick {
+        // At a limit of nothing is every spring: it slides, and remembers nothing of it.
+        (outcome.state, outcome.stick_radius) = (ContactState::Slip, 0.0);
+    }
     if let Some(slot) = slot {
         // By the whole law and on a straight path nothing is integrated: the chord from the apex has its own.
         let chord = straight || matches!(state.modes[c], Mode::Whole { .. });

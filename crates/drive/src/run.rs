@@ -19,6 +19,7 @@ mod variants;
 pub use held::Run;
 pub use variants::{VariantError, Variants};
 
+use crate::contact::Contact;
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper, UntilSteady};
 
@@ -49,6 +50,12 @@ impl Model {
             }
             asked => asked,
         }
+    }
+
+    /// Whether a run by this stepper tells turns of u of contact `index` as [`EventKind::Turn`](crate::EventKind::Turn): between
+    /// located events, under a normal that varies, slip on the curve. Everywhere else they are its reversals and ends of gross slip.
+    pub fn tells_turns(&self, asked: Stepper, index: usize) -> bool {
+        self.effective(asked).locates_events() && self.contacts.get(index).is_some_and(Contact::turns_unseen)
     }
 
     /// The tolerance of a run between located events.

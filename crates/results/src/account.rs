@@ -15,7 +15,8 @@ use stickslip_drive::{EventKind, Source};
 
 /// A swing of the force below this share of the limit of friction is no ringing any more.
 pub(crate) const RINGING: f64 = 0.05;
-/// Code of gross slip in a row.
+/// Codes of an open contact and of gross slip in a row.
+const OPEN: f64 = 0.0;
 const SLIP: f64 = 3.0;
 
 /// Keeps the accounts of a run.
@@ -42,9 +43,11 @@ struct Watched {
     c: usize,
     places: [usize; 3],
     friction: f64,
+    /// The word of the events at which its u turns.
+    turn: &'static str,
     slips: bool,
-    /// Force at its last reversal, N.
-    extreme: Option<f64>,
+    /// Force at its last turn, and the limit of friction there, N.
+    extreme: Option<[f64; 2]>,
 }
 
 /// What happened in a period. Of two values the first is of the rising waveform, the second of the falling one.
@@ -68,11 +71,11 @@ pub(crate) struct ContactAccount {
     pub(crate) c: usize,
     /// Time in gross slip, s.
     pub(crate) slip: [f64; 2],
-    /// Reversals.
+    /// Turns of u, but for those out of gross slip.
     pub(crate) reversals: [u32; 2],
     /// From when the waveform turned, until the last swing of the force beyond [`RINGING`], s; none without such a swing.
     pub(crate) rings: [Option<f64>; 2],
-    /// The last swing, half of peak to peak, as a share of the limit of friction.
+    /// The last swing, half of peak to peak, as a share of the limit of friction: the mean of that at both turns.
     pub(crate) swing: [f64; 2],
 }
 
@@ -99,7 +102,13 @@ impl Accounts {
             let [force, normal, state] =
                 ["fx_N", "fn_N", "state"].map(|column| place(format!("{name}.{column}")));
             let places = [force?, normal?, state?];
-            Some(Watched { c, places, friction: law.friction(), slips: false, extreme: None })
+            let turn = if job.model.tells_turns(job.scenario.plan.stepper, c) {
+                EventKind::Turn
+            } else {
+                EventKind::Reversal
+            };
+            let (friction, turn) = (law.friction(), turn.name());
+            Some(Watched { c, places, friction, turn, slips: false, extreme: None })
         });
         Some(Self {
             phases: Phases::of(waveform)?,
@@ -130,7 +139,13 @@ impl Accounts {
                     self.turned = t;
                 }
             }
-            None => self.turned = t,
+            None => {
+                self.turned = t;
+                // Of one that slides all the way no event tells.
+                for contact in &mut self.contacts {
+                    contact.slips = values.get(contact.places[2]) == Some(&SLIP);
+                }
+            }
         }
         self.last = Some((t, x, sense));
         match self.tracker.pass(t) {
@@ -191,17 +206,21 @@ impl Accounts {
         let Some(k) = self.contacts.iter().position(|it| it.c == c) else { return };
         let contact = &mut self.contacts[k];
         let [force, normal, state] = contact.places.map(|place| values.get(place).copied().unwrap_or(0.0));
-        let [begins, ends, opens, turns] =
-            [EventKind::GrossSlip, EventKind::GrossSlipEnds, EventKind::LiftOff, EventKind::Reversal]
-                .map(|other| kind == other.name());
-        // Where gross slip begins or ends the row is of either side.
-        contact.slips = begins || !ends && !opens && state == SLIP;
-        if !(begins || ends || opens || turns) {
+        let [begins, ends, opens] = [EventKind::GrossSlip, EventKind::GrossSlipEnds, EventKind::LiftOff]
+            .map(|other| kind == other.name());
+        // In the air its way is nobody's; out of gross slip the turn is the end of that, where the normal varies a little before.
+        let has_turned = kind == contact.turn && state != OPEN;
+        let turns = has_turned && !contact.slips;
+        // Where gross slip begins or ends the row is of either side; a turn that ends no law changes nothing of it.
+        if kind != EventKind::Turn.name() {
+            contact.slips = begins || !ends && !opens && state == SLIP;
+        }
+        if !(begins || ends || opens || has_turned) {
             return;
         }
         // The force turns where slip begins or ends, too.
-        let before = contact.extreme.replace(force);
         let limit = contact.friction * normal;
+        let before = contact.extreme.replace([force, limit]);
         let (Some(account), Some(side)) =
             (self.now.as_mut().and_then(|it| it.contacts.get_mut(k)), side(sense))
         else {
@@ -209,8 +228,7 @@ impl Accounts {
         };
         if turns {
             account.reversals[side] += 1;
-            let swing = before.map_or(0.0, |before| 0.5 * (force - before).abs());
-            account.swing[side] = if limit > 0.0 { swing / limit } else { 0.0 };
+            account.swing[side] = before.map_or(0.0, |before| swing(before, [force, limit]));
             if account.swing[side] > RINGING {
                 account.rings[side] = Some(t - self.turned);
             }
@@ -225,4 +243,11 @@ impl Accounts {
     pub(crate) fn phases(&self) -> &Phases {
         &self.phases
     }
+}
+
+/// Half of what lies between two forces, as a share of the limit of friction: the mean of both moments, above which no swing of
+/// springs comes, however little presses at either of them.
+fn swing([force, limit]: [f64; 2], [to, limit_there]: [f64; 2]) -> f64 {
+    let limit = 0.5 * (limit + limit_there);
+    if limit > 0.0 { 0.5 * (to - force).abs() / limit } else { 0.0 }
 }

@@ -59,7 +59,14 @@ impl Definition {
         let Some((symbol, _)) = self.text.split_once([' ', ',']) else { return false };
         let rest = &self.text[symbol.len()..];
         let plain: String = symbol.chars().map(|c| lowered(c).unwrap_or(c)).collect();
-        (rest.starts_with(',') || rest.starts_with(" = ")) && (symbol == asked || plain == asked)
+        // Amplitudes, as in Q*, are asked for without their stars as well.
+        let is = |symbol: &str| symbol == asked || symbol.strip_suffix('*') == Some(asked);
+        (rest.starts_with(',') || rest.starts_with(" = ")) && (is(symbol) || is(&plain))
+    }
+
+    /// Whether a word is one of those that it may say, such as `partial` of a state.
+    pub fn says(&self, asked: &str) -> bool {
+        self.text.split('`').skip(1).step_by(2).any(|word| word == asked)
     }
 
     /// Whether it is the definition of this column or key of its file, written out.
@@ -117,6 +124,18 @@ mod tests {
         assert!(found("nothing").is_empty() && found("BODY").is_empty() && found("").is_empty());
     }
 
+    /// States and regimes were called by nothing.
+    #[test]
+    fn words_of_states_are_found() {
+        for (word, name) in [("slip", "CONTACT.state"), ("gross", "regime"), ("gross slip", "kind")] {
+            assert!(
+                definitions().any(|definition| definition.says(word) && definition.name == name),
+                "{word}"
+            );
+        }
+        assert!(!definitions().any(|definition| definition.says("") || definition.says("no word")));
+    }
+
     #[test]
     fn symbols_are_found_where_a_text_begins_with_them() {
         let found = |asked: &str| definitions().filter(|definition| definition.has_symbol(asked)).count();
@@ -124,6 +143,8 @@ mod tests {
         {
             assert!(found(symbol) > 0, "{symbol}");
         }
+        let q = definitions().filter(|definition| definition.has_symbol("Q"));
+        assert!(q.map(|definition| definition.name).any(|name| name.ends_with("force_amplitude_N")));
         // Words of sentences are none.
         for word in ["time", "displacement", "the", "₀", ""] {
             assert_eq!(found(word), 0, "{word}");

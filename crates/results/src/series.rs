@@ -109,6 +109,26 @@ impl Series {
         Self { columns: self.columns.iter().map(cut).collect(), places: self.places.clone() }
     }
 
+    /// The same for drawing, where rows are only within a window, s: between it and the first and the last row of the run, which are
+    /// there anyway, a row of what is not known, so that no line leads over.
+    #[must_use]
+    pub fn broken(&self, [from, to]: [f64; 2]) -> Self {
+        let time = self.time();
+        let inside = [
+            time.partition_point(|t| *t < from * (1.0 - SAME)),
+            time.partition_point(|t| *t <= to * (1.0 + SAME)),
+        ];
+        let gaps = inside.map(|place| Some(place).filter(|place| (1..time.len()).contains(place)));
+        let split = |column: &Column| {
+            let mut values = column.values.clone();
+            for place in gaps.into_iter().flatten().rev() {
+                values.insert(place, f64::NAN);
+            }
+            Column { place: column.place, values }
+        };
+        Self { columns: self.columns.iter().map(split).collect(), places: self.places.clone() }
+    }
+
     /// The same with these quantities of all parts less what they are in the first row.
     #[must_use]
     pub fn counted_from_start(mut self, quantities: &[&str]) -> Self {
@@ -152,6 +172,24 @@ mod tests {
         assert_eq!((series.time(), series.column("ball", "u_m")), (&[0.0][..], &[2.0][..]));
         assert_eq!((series.column("ball 2", "u_m"), series.column("ball", "state")), (&[3.0][..], &[][..]));
         assert_eq!(series.size(), 3);
+    }
+
+    #[test]
+    fn no_line_leads_to_a_window() {
+        let channels = ["time_s", "ball.u_m"].map(|name| Channel { name: name.to_owned(), is_state: false });
+        let mut series = Series::new(&channels, &[]);
+        [0.0, 3.0, 4.0, 5.0, 9.0].iter().for_each(|t| series.push(&[*t, 10.0 * t]));
+        let gaps = |window| {
+            let broken = series.broken(window);
+            assert_eq!(broken.time().len(), broken.column("ball", "u_m").len());
+            let gaps = broken.time().iter().enumerate().filter(|(_, t)| t.is_nan());
+            gaps.map(|(place, _)| place).collect::<Vec<_>>()
+        };
+        assert_eq!(gaps([3.0, 5.0]), [1, 5]);
+        assert_eq!(gaps([3.0, f64::INFINITY]), [1]);
+        // The first row and the last are those of the window.
+        assert_eq!((gaps([0.0, 4.0]), gaps([0.0, f64::INFINITY])), (vec![3], vec![]));
+        assert_eq!(series.broken([0.0, 9.0]), series);
     }
 
     #[test]

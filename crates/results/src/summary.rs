@@ -31,6 +31,7 @@ pub use contacts::ContactSummary;
 pub use drivers::DriverSummary;
 pub use fretting::Fretting;
 pub use period::{ContactPeriod, LastPeriod, PeriodWork, Way};
+pub(crate) use steps::flight;
 pub use steps::{DriveSummary, SettlingSummary, Steady};
 
 /// Most numbers that are not finite of which a note gives the names.

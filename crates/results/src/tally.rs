@@ -32,6 +32,8 @@ pub(crate) struct ContactTally {
     pub(crate) ranges: [[f64; 2]; 2],
     /// Time in which it was open, s.
     pub(crate) open: f64,
+    /// Since when it has been open, s; none while it is closed.
+    pub(crate) open_since: Option<f64>,
     /// The first moment and the last, s, and the indentation at the last, m.
     first: f64,
     last: Option<[f64; 2]>,
@@ -81,11 +83,16 @@ impl Tally {
         }
     }
 
-    /// Takes a moment that figures are taken at: after an event, or a mark.
-    pub(crate) fn moment(&mut self, job: &Job, values: &[f64], ended: &mut Vec<(usize, CycleFigures)>) {
+    /// Takes a moment that figures are taken at: a mark, or after an event, where something `bends`.
+    pub(crate) fn moment(
+        &mut self,
+        job: &Job,
+        (values, bends): (&[f64], bool),
+        ended: &mut Vec<(usize, CycleFigures)>,
+    ) {
         for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(job.model.contacts()).enumerate() {
             let Some(loops) = &mut contact.loops else { continue };
-            ended.extend(loops.take(law, values).map(|figures| (c, figures)));
+            ended.extend(loops.take(law, values, bends).map(|figures| (c, figures)));
         }
         if let Some(walker) = &mut self.walker {
             walker.moment(values);
@@ -171,6 +178,7 @@ impl ContactTally {
             peaks: [0.0; 2],
             ranges: [NOWHERE; 2],
             open: 0.0,
+            open_since: None,
             first: 0.0,
             last: None,
             loops: Loops::of(job, c, places),
@@ -194,6 +202,7 @@ impl ContactTally {
             Some([before, depth]) if depth + d <= 0.0 => self.open += t - before,
             Some(_) => {}
         }
+        self.open_since = Some(self.open_since.unwrap_or(t)).filter(|_| d <= 0.0);
         self.last = Some([t, d]);
     }
 
@@ -251,6 +260,7 @@ mod tests {
             peaks: [0.0; 2],
             ranges: [NOWHERE; 2],
             open: 0.0,
+            open_since: None,
             first: 0.0,
             last: None,
             loops: None,
@@ -259,7 +269,10 @@ mod tests {
         // Falls, touches at 2, rests until 3, lifts off, flies until 8, touches.
         let rows =
             [[0.0, -1.0, 0.0], [2.0, 1e-20, 0.0], [2.5, 3.0, 7.0], [3.0, -1e-20, 0.0], [5.0, -9.0, 0.0]];
-        rows.iter().chain(&[[8.0, 1e-20, 0.0], [10.0, 2.0, 4.0]]).for_each(|row| tally.row(row));
+        rows.iter().for_each(|row| tally.row(row));
+        assert_eq!(tally.open_since, Some(3.0));
+        [[8.0, 1e-20, 0.0], [10.0, 2.0, 4.0]].iter().for_each(|row| tally.row(row));
+        assert_eq!(tally.open_since, None);
         assert_eq!((tally.open_share(), tally.ranges), (Some(0.7), [[0.0, 7.0], [-9.0, 3.0]]));
         assert_eq!(tally.peaks, [7.0, 7.0]);
     }

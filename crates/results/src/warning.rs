@@ -6,6 +6,9 @@
 use crate::books;
 use crate::job::Job;
 use crate::outcome::Outcome;
+use crate::quantity::quantity;
+use crate::real::Real;
+use crate::summary::flight;
 use serde::Serialize;
 use std::fmt;
 
@@ -83,6 +86,16 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
             Warning::new("error_estimate", message)
                 .help("compare with a run at another tolerance, or with less contact damping"),
         );
+    }
+    if let Some(since) = flight(job, outcome) {
+        let since = quantity(Real(since), "s");
+        let message = format!(
+            "the body of figures has been in the air since {since}, a period and more: all its contacts are open, and how far it \
+             flies in a period is no step"
+        );
+        let help =
+            "press it on: by its weight, by a spring or a load along z; did it start too high, or too deep?";
+        warnings.push(Warning::new("flight", message).help(help));
     }
     warnings
 }

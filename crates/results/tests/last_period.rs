@@ -31,10 +31,11 @@ impl Rows {
 
 /// An example with its account, and its rows.
 fn account(name: &str, set: &[(&str, &str)]) -> (Value, Rows) {
-    let file =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name).with_extension("json");
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = ["../../scenarios", "tests/data"].map(|it| crates.join(it).join(name).with_extension("json"));
+    let file = files.iter().find(|file| file.exists()).unwrap();
     let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    let job = Job::prepare(&file, &set, Path::new("")).unwrap();
+    let job = Job::prepare(file, &set, Path::new("")).unwrap();
     let outcome = job.run(&());
     assert!(outcome.error.is_none());
     let summary = serde_json::to_value(Summary::new(&job, &outcome)).unwrap();
@@ -194,4 +195,121 @@ fn a_stroke_below_the_zero_step_stroke_is_called_that() {
     let why = steps["why"].to_string();
     // S₀ = 2u_c[1 - (1/2)^{2/3}] = 0.74008 u_c = 29.377 nm.
     assert!(why.contains("no step") && why.contains("below the zero-step stroke of 29.38 nm"), "{why}");
+}
+
+/// Turns of u on the way forth by rows, and half of the last swing of the force between two of them over the mean limit of friction.
+fn turns(series: &Rows, steps: &Value, contact: &str, friction: f64) -> (f64, f64) {
+    let rows = series.last_period(steps);
+    let column = |quantity: &str| series.column(&format!("{contact}.{quantity}"));
+    let (t, u, force, normal) = (series.column("time_s"), column("u_m"), column("fx_N"), column("fn_N"));
+    let rate = |t: f64| series.waveform.sample(&series.waveform.piece_at(t), t).rate;
+    let is_turn = |i: &usize| (u[*i] - u[i - 1]) * (u[i + 1] - u[*i]) < 0.0;
+    let all: Vec<usize> = (1..rows.end).filter(is_turn).collect();
+    let forth: Vec<usize> = all.iter().copied().filter(|i| *i >= rows.start && rate(t[*i]) > 0.0).collect();
+    let last = *forth.last().unwrap();
+    let before = all[all.iter().position(|i| *i == last).unwrap() - 1];
+    let limit = 0.5 * friction * (normal[before] + normal[last]);
+    (forth.len() as f64, 0.5 * (force[last] - force[before]).abs() / limit)
+}
+
+/// A slider pressed by a foot that moves up and down turns half of its swings in full stick, where there is no event: it was said
+/// not to ring at all. A row of springs has a reversal at each.
+#[test]
+fn turns_in_full_stick_are_turns() {
+    let name = "swings_under_a_moving_foot";
+    let springs = r#"{"springs": {"count": 400}}"#;
+    for engine in [r#""curve""#, springs] {
+        // At 1e-5 two turns lie in one step, which sees neither.
+        for tolerance in ["1e-7", "1e-8", "1e-10"] {
+            let set = [
+                ("contacts.c.engine", engine),
+                ("run.stepper.event.tolerance", tolerance),
+                ("output.every", "\"0.5 us\""),
+            ];
+            let (steps, series) = account(name, &set);
+            let (count, swing) = turns(&series, &steps, "c", 0.25);
+            let of = |key: &str| number(&steps, &format!("/last_period/contacts/c/{key}"));
+            assert!(count >= 2.0 && of("reversals_forth") == count, "{engine}: {steps}");
+            // Half a row from a turn the force is off by its square.
+            near(of("ringing_left"), swing, 1e-3 * swing, "swing");
+            assert!(steps.pointer("/last_period/contacts/c/settling_s").is_none(), "{steps}");
+        }
+    }
+}
+
+/// Turns of all swings of the run, at steps of a given length as well.
+#[test]
+fn a_fixed_step_counts_the_same_turns() {
+    let set = [("run.stepper", r#"{"rk4": {"step": "0.2 us"}}"#), ("output.every", "\"1 us\"")];
+    let (steps, series) = account("swings_under_a_moving_foot", &set);
+    let (count, swing) = turns(&series, &steps, "c", 0.25);
+    let of = |key: &str| number(&steps, &format!("/last_period/contacts/c/{key}"));
+    assert_eq!(of("reversals_forth"), count);
+    near(of("ringing_left"), swing, 1e-2 * swing, "swing");
+}
+
+/// |F_x| ≤ μF_N at both ends of a swing bounds it by their mean. By the limit at its end alone it came to 856 %, where that was
+/// nearly nothing.
+#[test]
+fn no_swing_is_more_than_its_limit() {
+    for cycles in ["2", "3", "4"] {
+        let (steps, _) = account("rocks_and_lifts", &[("run.duration", &format!("\"{cycles} ms\""))]);
+        for contact in ["l", "r", "tl"] {
+            let left = number(&steps, &format!("/last_period/contacts/{contact}/ringing_left"));
+            assert!(left <= 1.0 + 1e-6, "{contact}: {left}");
+        }
+    }
+}
+
+/// 0.2 N against 50 N s/m: 4 mm/s once friction is overcome on the mean, ten times the stroke in a period.
+#[test]
+fn what_is_pulled_along_drifts() {
+    let (steps, _) = account("pulled_along", &[("output.every", "\"1 ms\"")]);
+    assert_eq!(steps["settling"]["state"], "drifts", "{steps}");
+    assert!(steps.get("steady").is_none() && number(&steps, "/last_m").abs() > 2.0 * 200e-9);
+}
+
+/// Set down 50 µm too deep it flies off for good: no step, however even.
+#[test]
+fn what_flies_off_has_no_steps() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/thrown_off.json");
+    let job = Job::prepare(&file, &[], Path::new("")).unwrap();
+    let outcome = job.run(&());
+    let summary = serde_json::to_value(Summary::new(&job, &outcome)).unwrap();
+    assert_eq!(summary["steps"]["settling"]["state"], "drifts");
+    let flight = |it: &&Value| it["kind"] == "flight";
+    assert!(summary["warnings"].as_array().unwrap().iter().any(|it| flight(&it)), "{}", summary["warnings"]);
+    // At rest on its foot it is told nothing of the kind.
+    let set =
+        [("bodies.s", r#"{"mass": "20 g", "x": "free", "z": "free"}"#), ("run.start", "\"equilibrium\"")];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let job = Job::prepare(&file, &set, Path::new("")).unwrap();
+    let summary = serde_json::to_value(Summary::new(&job, &job.run(&()))).unwrap();
+    assert!(!summary["warnings"].as_array().unwrap().iter().any(|it| flight(&it)), "{}", summary["warnings"]);
+}
+
+/// Without friction nothing holds: it slides all the time, and its foot leaves it where it is.
+#[test]
+fn a_contact_without_friction_slides() {
+    let (steps, series) = account("without_friction", &[("run.cycles", "3")]);
+    for way in ["forth", "back"] {
+        let share = number(&steps, &format!("/last_period/contacts/c/slip_share_{way}"));
+        near(share, 1.0, 1e-12, "slip");
+    }
+    assert!(series.column("c.state").iter().all(|state| *state == 3.0));
+}
+
+/// Steps of a body that follows a waveform are none, and a note says so where another body is free.
+#[test]
+fn the_body_of_figures_must_be_free() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/without_friction.json");
+    let set = [("figures", r#"{"body": "foot", "waveform": "w"}"#), ("run.cycles", "2")];
+    let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let job = Job::prepare(&file, &set, Path::new("")).unwrap();
+    let summary = serde_json::to_value(Summary::new(&job, &job.run(&()))).unwrap();
+    let notes = summary["notes"].to_string();
+    assert!(
+        summary.get("steps").is_none() && notes.contains("\\\"foot\\\", the body of figures, is not free"),
+        "{notes}"
+    );
 }

@@ -125,7 +125,10 @@ pub enum SceneFault {
     #[error("in static equilibrium {0}")]
     Settling(ContactError),
     /// Nothing balances what acts at t = 0.
-    #[error("`{body}` has no static equilibrium {}: {unbalanced:.3e} {} stay unbalanced", way(*.axis), unit(*.axis))]
+    #[error(
+        "`{body}` has no static equilibrium {}: {unbalanced:.3e} {} stay unbalanced{}",
+        way(*.axis), unit(*.axis), if *.shared { ", what other bodies put on it included" } else { "" }
+    )]
     NoEquilibrium {
         /// Name of the body.
         body: String,
@@ -133,6 +136,8 @@ pub enum SceneFault {
         axis: Axis,
         /// Force or moment that nothing balances, N or N m.
         unbalanced: f64,
+        /// Whether other bodies push and pull at it, too: held, it bears what they cannot hold either.
+        shared: bool,
     },
 }
 
@@ -185,6 +190,10 @@ impl SceneFault {
             }
             Self::TooManyFree { .. } | Self::BlockInEquilibrium => "give the bodies where they start",
             Self::Settling(_) => "give the row a longer span, or use the engine \"curve\"",
+            Self::NoEquilibrium { axis: Axis::Z, .. } => {
+                "lower the load, press harder, or start from rest instead; of a coupled contact the lower body is the first in \
+                 \"between\""
+            }
             Self::NoEquilibrium { .. } => "lower the load, press harder, or start from rest instead",
             Self::NotFinite(_)
             | Self::BelowZero(_)

@@ -2,12 +2,16 @@
 //!
 //! A contact reverses with the ringing of the modes that move it, for as long as damping lets them ring after each corner, and
 //! with the turns of what drives it; bodies that fly land once per flight. Each kind brings a number of events of its own,
-//! counted once on the examples. Meant to a factor of two: for the size of a table and the length of a wait.
+//! counted once on the examples. Meant to a factor of two there, and elsewhere as a guess: for the size of a table and the length
+//! of a wait.
 
 use super::Setup;
+use crate::equations::Equations;
 use crate::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
+
 use crate::{Linearised, NormalMode, Plan, Waveform};
 use std::f64::consts::TAU;
+use stickslip_stepper::System;
 
 /// Events of a contact in a period of ringing: two reversals, and about one loop closes; where bodies press it by their
 /// own motion it reverses, grows in full stick and slips again, and one loop closes.
@@ -26,6 +30,10 @@ const DECAY: f64 = 3.0;
 const MOVED: f64 = 0.05;
 /// Kinks that a block puts into a period of what it reads, at least: limits begin and end, hysteresis turns twice.
 const KINKS: f64 = 2.0;
+/// A ringing from the start below this share of u_c is none: an equilibrium is found to some last places.
+const SEEN: f64 = 1e-6;
+/// One above this share of it slips as a whole in no time, and is soon over.
+const LOST: f64 = 0.5;
 /// A corner this near to the end of a period, in periods, belongs to it.
 const SAME: f64 = 1e-9;
 
@@ -48,7 +56,7 @@ impl Pace {
 pub struct ExpectedEvents {
     /// Corners of waveforms, counted.
     pub corners: f64,
-    /// Events of contacts and blocks, estimated: within a factor of two on the examples.
+    /// Events of contacts and blocks, estimated: within a factor of two on the examples, a guess elsewhere.
     pub contacts: f64,
 }
 
@@ -147,16 +155,41 @@ fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
     }
 }
 
+/// Whether a contact begins to ring in a mode at the start, by what is out of balance there: whether its ringing, of amplitude
+/// a = [(u̇/ω)² + (ü/ω²)²]^½ with the rate and the second derivative that u begins with, turns u against what a stuck contact gives
+/// way to a foot that moves by a sine, x̂(ω'/ω)² at ω'.
+///
+/// Of one that swings far below u_c friction takes little; one near to it is over before its dampers say so.
+fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequency: f64) -> bool {
+    let (contact, layout) = (&model.contacts[c], model.layout());
+    let eq = Equations::on(model, start, layout, false);
+    let mut slopes = vec![0.0; layout.total()];
+    eq.slopes(0.0, &start.y[..layout.dimension()], &mut slopes);
+    let rate = eq.motion(contact, 0.0, |i| start.y[i]).du;
+    let free: f64 = contact.u.free.iter().map(|(i, a)| a * slopes[layout.velocity(*i)]).sum();
+    let driven: f64 = contact.u.driven.iter().map(|(w, a)| a * model.signals().first(*w).acceleration).sum();
+    let amplitude = (rate / frequency).hypot((free + driven) / (frequency * frequency));
+    let given = |w: usize| {
+        let Some(waveform) = scene.waveforms.get(w).map(|named| &named.part) else { return 0.0 };
+        let (low, high) = waveform.range();
+        let turn = waveform.period().map_or(0.0, |period| TAU / period / frequency);
+        0.5 * (high - low) * turn.powi(3)
+    };
+    let given: f64 = drivers(scene, c).into_iter().map(|(w, _)| given(w)).sum();
+    amplitude > given && (SEEN..LOST).contains(&(amplitude / contact.natural.displacement))
+}
+
 /// Estimate for contact `c` over the whole run.
 ///
-/// Turns by every waveform that reaches it, ringing by the one that keeps it up longest, and landings. 0 for
+/// Turns by every waveform that reaches it, ringing by the one that keeps it up longest or by the start, and landings. 0 for
 /// a contact without friction or never pressed.
 fn of_contact(
-    Setup { scene, model, start }: Setup<'_>,
+    setup: Setup<'_>,
     c: usize,
     duration: f64,
     (linear, modes): (&Linearised, &[NormalMode]),
 ) -> f64 {
+    let Setup { scene, model, start } = setup;
     let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
     let Some(d) = model.indentations(start, c) else { return 0.0 };
     // Never pressed, or nothing to remember: no event is its own.
@@ -196,6 +229,9 @@ fn of_contact(
         // Several waveforms do not make a body ring faster.
         most = most.max(ringing);
     }
+    // What corners keep up has begun anyway.
+    let from_start = ringing.filter(|mode| rings_from_start(setup, c, mode.frequency));
+    most = most.max(from_start.map_or(0.0, |_| rings(duration, 1.0)));
     turns + most + PER_LANDING * landings(scene, (-d.start, closing(scene, contact)), duration)
 }
 

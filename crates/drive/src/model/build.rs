@@ -96,6 +96,7 @@ impl Model {
         let piled = reach::piled(scene, &self.free);
         let around = Surroundings {
             signals: self.signals(),
+            contacts: &scene.contacts,
             bodies: &self.bodies,
             free: &self.free,
             links: &self.links,

@@ -7,9 +7,10 @@
 //! number is checked where it is used first, once. Slots and natural scales follow when all contacts are
 //! known.
 
-use super::{Body, Free, Link, Load, Measure, Signals, reach};
+use super::reach::{self, Pile};
+use super::{Body, Free, Link, Load, Measure, Signals};
 use crate::contact::{Contact, Natural, Press};
-use crate::scene::{self, ContactStart, Direction, EngineChoice, Normal, Varying};
+use crate::scene::{self, ContactStart, Direction, EngineChoice, Named, Normal, Varying};
 use crate::{Field, Part, SceneError, SceneFault};
 use std::sync::Arc;
 use stickslip_contact::{
@@ -19,6 +20,7 @@ use stickslip_contact::{
 /// What a contact is built among.
 pub(super) struct Surroundings<'a> {
     pub(super) signals: Signals<'a>,
+    pub(super) contacts: &'a [Named<scene::Contact>],
     pub(super) bodies: &'a [Body],
     pub(super) free: &'a [Free],
     pub(super) links: &'a [Link],
@@ -54,7 +56,7 @@ pub(super) fn build(
     let mut law = part.interface.clone();
     let (mut pressed, mut known) = press(part, &law, around).map_err(refused)?;
     let inert = law.friction() == 0.0 || known.deepest <= 0.0;
-    let engine = engine(part, known).map_err(refused)?;
+    let engine = engine(part, &pressed, known, around).map_err(refused)?;
     if let Engine::Row(springs) = &engine {
         // The row's own force presses it. Natural scales stay those of the profile, which has no cells.
         law = law.on_springs(Arc::clone(springs));
@@ -89,22 +91,42 @@ impl Surroundings<'_> {
         measure.driven.iter().any(|(signal, _)| self.signals.balanced(*signal).is_some())
     }
 
+    /// The coupled contacts of the scene: law, number and what presses them.
+    fn pressed(&self) -> impl Iterator<Item = (&Interface, f64, Measure)> {
+        let coupled = self.contacts.iter().map(|named| &named.part);
+        coupled
+            .filter(|part| part.normal == Normal::Coupled)
+            .map(|part| (&part.interface, f64::from(part.count.max(1)), indentation(part, self.bodies)))
+    }
+
     /// A measure at t = 0.
     pub(super) fn at_start(&self, measure: &Measure) -> f64 {
         measure.value(|i| self.free[i].start.0, |w| self.signals.first(w).value)
     }
 }
 
-/// The curve, or a row over the asked span; without one over the width of the largest indentation. Fails
-/// where the row has no springs, or is too narrow for the start.
-fn engine(part: &scene::Contact, known: Pressed) -> Result<Engine, Refused> {
+/// The curve, or a row over the asked span; without one over the width of the largest indentation, of a coupled contact of
+/// the deepest that the start can press. Fails where the row has no springs, or is too narrow for the start.
+fn engine(
+    part: &scene::Contact,
+    press: &Press,
+    known: Pressed,
+    around: &Surroundings<'_>,
+) -> Result<Engine, Refused> {
     let (law, deepest) = (&part.interface, known.deepest);
     match part.engine {
         EngineChoice::Curve => Ok(Engine::Curve),
         // Never pressed: there is nothing for a row to span.
         EngineChoice::Springs { .. } if deepest <= 0.0 => Ok(Engine::Curve),
         EngineChoice::Springs { count, span } => {
-            let span = span.unwrap_or_else(|| 2.0 * law.profile().radius(deepest));
+            let reach = || match press {
+                Press::Coupled(d) => {
+                    let pile = Pile::of(d, around.pressed(), around);
+                    reach::widest((law, f64::from(part.count.max(1))), d, deepest, (&pile, around))
+                }
+                _ => deepest,
+            };
+            let span = span.unwrap_or_else(|| 2.0 * law.profile().radius(reach()));
             Ok(Engine::Row(Arc::new(row(law, (count, span), known.first)?)))
         }
     }
@@ -187,6 +209,14 @@ fn press(
     Ok((press, Pressed { deepest: depth(high), first: d, force }))
 }
 
+/// d of a coupled contact as its bodies' motion sets it, m.
+fn indentation(part: &scene::Contact, bodies: &[Body]) -> Measure {
+    let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
+    let mut d = Measure::between(ends, Direction::Z, bodies);
+    d.constant -= part.gap;
+    d
+}
+
 /// A contact pressed by the bodies' motion.
 ///
 /// d = z(first) - z(second) - gap at the contact point. Fails where the bodies cannot move against each
@@ -196,9 +226,7 @@ fn coupled(
     law: &Interface,
     around: &Surroundings<'_>,
 ) -> Result<(Press, Pressed), Refused> {
-    let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
-    let mut d = Measure::between(ends, Direction::Z, around.bodies);
-    d.constant -= part.gap;
+    let d = indentation(part, around.bodies);
     // Its indentation would be a number that the scene could have given.
     if d.is_constant() {
         return Err((Field::Normal, SceneFault::Unmoved));

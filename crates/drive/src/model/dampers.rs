@@ -7,8 +7,8 @@ use crate::{Field, Part, SceneError, SceneFault};
 
 /// Refuses dampers of links and contacts whose length jumps.
 ///
-/// Fails with the first part, springs before actuators before contacts, and the name of the waveform
-/// or of the block that passes its jumps on.
+/// Fails with the first part, springs before actuators before contacts, and the name of the waveform,
+/// whether it comes by itself or through blocks that pass its jumps on.
 pub(super) fn check(
     scene: &Scene,
     links: &[Link],
@@ -17,9 +17,10 @@ pub(super) fn check(
 ) -> Result<(), SceneError> {
     let jumps = |w: &usize| signals.has_jumps(*w);
     let driven = |length: &Measure| length.driven.iter().map(|(w, _)| *w).find(jumps);
-    let name = |w: usize| match w.checked_sub(scene.waveforms.len()) {
-        None => scene.waveforms[w].name.clone(),
-        Some(k) => scene.blocks[k].name.clone(),
+    // Of a block, which has no name in the scene's own words, that of the waveform whose jumps it passes on.
+    let name = |signal: usize| match scene.waveform_of(signal) {
+        Some(w) => scene.waveforms[w].name.clone(),
+        None => scene.blocks[signal - scene.waveforms.len()].name.clone(),
     };
     let refused = |part: Part, w: usize| Err(SceneFault::DampedJump(name(w)).of(part, Field::Damping));
     for (i, link) in links.iter().enumerate().filter(|(_, link)| link.damping > 0.0) {

@@ -15,6 +15,9 @@ const HALVINGS: u32 = 50;
 // evaluations at 1e-9.
 const MARGIN: f64 = 1.2;
 
+/// Part of a profile's reach up to which a row is as wide as it need be.
+const NEARLY: f64 = 0.9;
+
 /// Largest indentation to be expected of one of `count` contacts, m.
 ///
 /// Energy sets it: what moves at the start, ½mḋ², and the work of the loads on the way, F(g + d) with the gap g, are
@@ -48,6 +51,81 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     }
     let deepest = MARGIN * dynamic.max(driven).max(first).max(settled);
     if deepest > 0.0 { deepest } else { SHALLOW }
+}
+
+/// How deep a row that is to be wide enough must reach for one of `count` contacts, m: at least `deepest`, and what all that its
+/// pile has at the start could press into it alone.
+///
+/// E\*N(d) ≤ E\*N(d₀) + F(g + d - d₀) + T + V: d₀ its indentation at the start, F what pulls at all bodies of its pile, g the gaps of
+/// all their contacts, T their energy of motion along z and in pitch against what carries them, V what their springs along z and
+/// their other contacts have stored. Motion along x is left out: little of it is ever turned downwards. Bodies that start in
+/// equilibrium have none of these.
+pub(super) fn widest(
+    (law, count): (&Interface, f64),
+    d: &Measure,
+    deepest: f64,
+    (pile, around): (&Pile, &Surroundings<'_>),
+) -> f64 {
+    if around.equilibrium || d.free.is_empty() || deepest <= 0.0 {
+        return deepest;
+    }
+    let first = around.at_start(d).max(0.0);
+    // Its own store is part of that of the pile.
+    let reached = |d: f64| count * law.normal_energy(d) >= pile.energy + pile.force * (pile.gaps + d - first);
+    let most = law.profile().reach().map_or(f64::INFINITY, |reach| NEARLY * reach);
+    // Below where it starts nothing is asked.
+    deepest.max((MARGIN * bracket(|d| d >= first && reached(d))).min(most))
+}
+
+/// What the bodies of a pile have at the start.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Pile {
+    /// Of motion along z and in pitch, of springs along z and of contacts, J.
+    energy: f64,
+    /// Gaps of its contacts, m.
+    gaps: f64,
+    /// Largest forces on its bodies along z, N.
+    force: f64,
+}
+
+impl Pile {
+    /// That of a coupled contact: its bodies, and those piled up with them. `pressed` are the coupled contacts of the scene, each
+    /// with its law and its number.
+    pub(super) fn of<'c>(
+        d: &Measure,
+        pressed: impl Iterator<Item = (&'c Interface, f64, Measure)>,
+        around: &Surroundings<'_>,
+    ) -> Self {
+        let own = d.free.iter().map(|(i, _)| *i);
+        let bodies: Vec<usize> = own
+            .flat_map(|i| std::iter::once(i).chain(around.piled[i].iter().copied()))
+            .map(|i| around.free[i].body)
+            .collect();
+        let is_member = |i: usize| around.free[i].axis != Axis::X && bodies.contains(&around.free[i].body);
+        let mut pile = Self::default();
+        let mut carried = 0.0_f64;
+        for (law, count, d) in pressed.filter(|(_, _, d)| d.free.iter().any(|(i, _)| is_member(*i))) {
+            let first = around.at_start(&d);
+            pile.energy += count * law.normal_energy(first.max(0.0));
+            pile.gaps += (-first).max(0.0);
+            let rate: f64 = d.driven.iter().map(|(w, a)| a * around.signals.first(*w).rate).sum();
+            carried = carried.max(rate.abs());
+        }
+        for (i, free) in around.free.iter().enumerate().filter(|(i, _)| is_member(*i)) {
+            let carried = if free.axis == Axis::Z { carried } else { 0.0 };
+            pile.energy += 0.5 * free.mass * (free.start.1.abs() + carried).powi(2);
+            pile.force += if free.axis == Axis::Z { pressing(i, around) } else { 0.0 };
+        }
+        for link in around.links.iter().filter(|link| link.elongation.free.iter().any(|(i, _)| is_member(*i)))
+        {
+            let stroke = match link.stroke {
+                Stroke::Constant(s) => s,
+                Stroke::Driven(w) => around.signals.first(w).value,
+            };
+            pile.energy += 0.5 * link.stiffness * (stroke - around.at_start(&link.elongation)).powi(2);
+        }
+        pile
+    }
 }
 
 /// Indentation at which one of `count` contacts alone carries all that pulls at balanced coordinates along its normal, m; 0

@@ -293,10 +293,14 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         if is_corner {
+            self.output.turns.near_corner(&self.setting.plain(state), state.t, &state.y);
             self.turn_corners(state, record)?;
             self.turned(state);
         }
         self.handle_fallen(state, is_corner, record)?;
+        if is_corner && self.output.turns.watches() {
+            self.tell_corner_turns(state, record);
+        }
         if !self.setting.model.balanced.is_empty() {
             self.check_balance(state)?;
         }

@@ -5,15 +5,17 @@
 //! are counted apart.
 
 mod marks;
+mod turns;
 
 use crate::equations::Equations;
-use crate::event::Event;
+use crate::event::{Event, EventKind, Source};
 use crate::record::{self, Record};
 use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
 
 pub(super) use marks::{Marks, SAME as SAME_MARK};
+pub(super) use turns::Turns;
 
 /// What a run hands to its record. It reads states and dense outputs and changes neither: with it and without it a run has
 /// the same bits.
@@ -23,6 +25,7 @@ pub(super) struct Output {
     pub(super) grid: Grid,
     pub(super) looks: Looks,
     pub(super) marks: Marks,
+    pub(super) turns: Turns,
     row: Vec<f64>,
     /// Scratch: components of a moment, or their slopes.
     pub(super) components: Vec<f64>,
@@ -34,8 +37,8 @@ impl Output {
     pub(super) fn new(every: Option<f64>, layout: Layout) -> Self {
         let grid = Grid::new(None, 0.0, EVERYWHERE);
         let (row, components) = (Vec::new(), Vec::new());
-        let blank =
-            Self { every, grid, looks: Looks::NONE, marks: Marks::none(), row, components, evaluations: 0 };
+        let (looks, marks, turns) = (Looks::NONE, Marks::none(), Turns::default());
+        let blank = Self { every, grid, looks, marks, turns, row, components, evaluations: 0 };
         blank.renewed(every, layout)
     }
 
@@ -43,9 +46,9 @@ impl Output {
     pub(super) fn renewed(mut self, every: Option<f64>, layout: Layout) -> Self {
         self.components.clear();
         self.components.resize(layout.total(), 0.0);
-        let (grid, marks) =
-            (Grid { row: self.grid.row, ..Grid::new(None, 0.0, EVERYWHERE) }, self.marks.renewed());
-        Self { every, grid, looks: Looks::NONE, marks, evaluations: 0, ..self }
+        let grid = Grid { row: self.grid.row, ..Grid::new(None, 0.0, EVERYWHERE) };
+        let (marks, turns) = (self.marks.renewed(), self.turns.renewed());
+        Self { every, grid, looks: Looks::NONE, marks, turns, evaluations: 0, ..self }
     }
 
     /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
@@ -63,6 +66,7 @@ impl Output {
         record: &mut dyn Record,
     ) {
         self.looks = Looks::begin(at, opening, record);
+        self.turns.begin(at.0, record.watched().filter(|_| record.wants_events()));
         self.marks.begin(equations, at, opening == Opening::Resumed, record);
     }
 
@@ -100,6 +104,21 @@ impl Output {
     ) {
         record::fill(equations, state, state.t, &|i| state.y[i], &mut self.row);
         record.event(event, &self.row);
+    }
+
+    /// Tells turns of u up to a moment, s, of the present step; `y` reads a component at a moment.
+    pub(super) fn tell_turns(
+        &mut self,
+        equations: &Equations<'_>,
+        state: &State,
+        until: f64,
+        y: impl Fn(usize, f64) -> f64,
+        record: &mut dyn Record,
+    ) {
+        while let Some((t, c)) = self.turns.take(until) {
+            record::fill(equations, state, t, &|i| y(i, t), &mut self.row);
+            record.event(&Event { t, source: Source::Contact(c), kind: EventKind::Turn }, &self.row);
+        }
     }
 }
 

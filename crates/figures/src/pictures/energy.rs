@@ -19,7 +19,8 @@ const COLUMNS: [&str; 6] = ["input_J", "kinetic_J", "elastic_J", "friction_J", "
 /// Where the work that went in has gone; of a long run the last period stands beside it, counted from its start.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
-    let figure = energy_figure(job.title(), &book(&kept.series));
+    let broken = kept.series.broken(job.scenario.written.window);
+    let figure = energy_figure(job.title(), &book(&broken));
     let Some((period, rows)) = LastPeriod::with_rows(job, kept) else {
         return Ok(pen.draw(PlotName::Energy, figure)?);
     };

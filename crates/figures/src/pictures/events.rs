@@ -25,9 +25,10 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         times: times.clone(),
     });
     let tracks: Vec<EventTrack<'_>> = tracks.collect();
-    let start = kept.series.time().first().copied().unwrap_or(0.0);
+    let [from, to] = job.scenario.written.window;
+    let start = kept.series.time().first().copied().unwrap_or(0.0).max(from);
     // Beyond, events are missing, and what is left of them would look like a calm.
-    let (title, end) = (whole_title(job, kept), kept.whole_until());
+    let (title, end) = (whole_title(job, kept), kept.whole_until().min(to));
     let figure = events_figure(&title, (start, end), &tracks);
     let Some(LastPeriod { number, span }) = LastPeriod::of_many(job, kept) else {
         return Ok(pen.draw(PlotName::Events, figure)?);

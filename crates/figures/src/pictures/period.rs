@@ -45,7 +45,12 @@ impl LastPeriod {
     fn of(job: &Job, kept: &Kept) -> Option<Self> {
         let waveform = job.scenario.scene.waveforms.get(job.scenario.figures.waveform?)?;
         let periods = Periods::until(&waveform.part, kept.whole_until())?;
-        Some(Self { number: periods.count, span: periods.last() })
+        let (start, end) = periods.last();
+        // Of what was not written there is nothing to enlarge.
+        let [from, to] = job.scenario.written.window;
+        let hair = 1e-9 * (end - start);
+        (from <= start + hair && to >= end - hair)
+            .then_some(Self { number: periods.count, span: (start, end) })
     }
 }
 

@@ -30,7 +30,8 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let names: Vec<String> = groups.iter().map(named).collect();
     let relative: Vec<(&str, &str)> =
         groups.iter().zip(&names).map(|(group, name)| (contacts[group[0]], name.as_str())).collect();
-    let whole = motion(job, series, &relative);
+    let broken = series.broken(job.scenario.written.window);
+    let whole = motion(job, &broken, &relative);
     let whole = Trajectory { gross_slip: gross_slip(job, kept), ..whole };
     let figure = trajectory_figure(job.title(), &whole);
     let Some((period, rows)) = LastPeriod::with_rows(job, kept) else {

@@ -61,6 +61,7 @@ pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> Figure
         let is_told = allowance.is_same_run || !is_judgement(name);
         let is_written = has_same_rows || !hangs_on_rows(name);
         !allowance.ignores(name)
+            && !is_sentence(name)
             && (has_same_span || is_of_part)
             && is_written
             && is_told
@@ -113,6 +114,11 @@ fn is_judgement(name: &str) -> bool {
     const OF_STEADY: [&str; 4] = ["from_period", "periods", "error_m", "repeatability_m"];
     name.starts_with("steps.settling.")
         || name.strip_prefix("steps.steady.").is_some_and(|rest| OF_STEADY.contains(&rest))
+}
+
+/// Sentences, which say in words what other figures are.
+fn is_sentence(name: &str) -> bool {
+    name.starts_with("steps.why[")
 }
 
 /// Figures of the start, which are there however long the run is.

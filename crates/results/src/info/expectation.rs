@@ -64,7 +64,7 @@ pub struct Expectation {
 pub struct Events {
     /// Corners of waveforms, counted.
     pub corners: Real,
-    /// Events of contacts, estimated: within a factor of two on the examples.
+    /// Events of contacts, estimated: within a factor of two on the examples, a guess elsewhere.
     pub contacts_estimate: Real,
     /// All in a period of the waveform of `figures`, on the average.
     #[serde(skip_serializing_if = "Option::is_none")]

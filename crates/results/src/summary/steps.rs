@@ -9,7 +9,7 @@ use crate::periods::Periods;
 use crate::real::Real;
 use serde::Serialize;
 use stickslip_analysis::{Bounds, Settling, Steps, Strides};
-use stickslip_drive::scene::{Freedom, Varying};
+use stickslip_drive::scene::{Freedom, Side, Varying};
 
 /// A step below this share of the natural displacement counts as nothing.
 const NOTHING: f64 = 1e-2;
@@ -148,6 +148,13 @@ pub(super) fn of(
     let waveform = scene.waveforms.get(figures.waveform?)?;
     let period = waveform.part.period()?;
     if body.part.x.freedom != Freedom::Free {
+        // Where no body is free nobody asked for steps.
+        if let Some(free) = scene.bodies.iter().find(|body| body.part.x.freedom == Freedom::Free) {
+            notes.push(format!(
+                "no steps: x of \"{}\", the body of figures, is not free; \"{}\" is one that is",
+                body.name, free.name
+            ));
+        }
         return None;
     }
     if Periods::until(&waveform.part, outcome.state.time()).is_none() {
@@ -162,12 +169,29 @@ pub(super) fn of(
         notes.push("no steps: the ends of the periods were not recorded".to_owned());
         return None;
     };
-    let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds(job));
+    let bounds = match flight(job, outcome) {
+        // Nothing holds it any more: whatever it does in a period is no step.
+        Some(_) => Bounds { most: 0.0, ..bounds(job) },
+        None => bounds(job),
+    };
+    let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds);
     let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
     let mut summary = summary(&steps, ends, (&body.name, &waveform.name, period));
     summary.last_period = period::of(job, outcome, stroke(job).is_some());
     summary.why = summary.last_period.as_ref().map(|last| why::of(job, drivers, last)).unwrap_or_default();
     Some(summary)
+}
+
+/// Since when all contacts of the body of the figures are open, s, where that is a whole period of their waveform and more.
+pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
+    let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
+    let (body, waveform) = (figures.body?, scene.waveforms.get(figures.waveform?)?);
+    let (last, _) = Periods::until(&waveform.part, outcome.state.time())?.last();
+    let touching = scene.contacts.iter().enumerate();
+    let own = touching.filter(|(_, contact)| contact.part.between.contains(&Side::Body(body)));
+    let opened = own.map(|(c, _)| outcome.tally.contact(c)?.open_since);
+    let since = opened.reduce(|a, b| Some(f64::max(a?, b?)))??;
+    (since <= last).then_some(since)
 }
 
 /// What is known of a step before any is made.

@@ -82,6 +82,9 @@ fn contact_line(name: &str, contact: &ContactPeriod) -> String {
             "turned {times} on the way forth and still swings by {} of the limit of friction when the drive turns: the step hangs on the period",
             percent(contact.ringing_left.0)
         ),
+        Some(settling) if settling.0 == 0.0 => {
+            format!("turned {times} on the way forth, with swings below 5 % of the limit of friction")
+        }
         Some(settling) => format!(
             "turned {times} on the way forth and swung by more than 5 % of the limit of friction for {}",
             quantity(settling, "s")

@@ -93,9 +93,12 @@ const LINEAR: &str = "make the input \"linear\": held, it jumps wherever it is g
 
 /// Whether what jumps among the waveforms of these names are inputs, which have no flyback.
 fn jumps_as_input(scene: &Scene, named: impl Fn(&str) -> bool) -> bool {
-    let mut jumping =
-        scene.waveforms.iter().filter(|waveform| named(&waveform.name) && waveform.part.has_jumps());
-    jumping.all(|waveform| waveform.part.interpolation().is_some())
+    let mut jumping = scene
+        .waveforms
+        .iter()
+        .filter(|waveform| named(&waveform.name) && waveform.part.has_jumps())
+        .peekable();
+    jumping.peek().is_some() && jumping.all(|waveform| waveform.part.interpolation().is_some())
 }
 
 /// In the words of the scene.

@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use crate::form::{Form, LimitsForm, StepperForm};
 use crate::path::At;
 use stickslip_drive::scene::Freedom;
-use stickslip_drive::{Accuracy, Limits, Plan, Stepper, UntilSteady};
+use stickslip_drive::{Accuracy, Limits, Plan, Shape, Stepper, UntilSteady};
 
 /// Tolerances that the steppers take.
 const TOLERANCE: (f64, f64) = (1e-13, 1e-2);
@@ -61,10 +61,12 @@ impl Builder<'_> {
         if waveform.period().is_some() {
             return Ok(index);
         }
-        let which = match (waveform.interpolation(), waveform.generator()) {
-            (_, Some(_)) => "a generator that rests until it is commanded",
-            (Some(_), None) => "an input",
-            (None, None) => "a table",
+        let which = match (waveform.interpolation(), waveform.generator(), waveform.shape()) {
+            (_, Some(_), _) => "a generator that rests until it is commanded",
+            (Some(_), None, _) => "an input",
+            (None, None, Shape::Chirp(_)) => "a chirp, whose frequency changes,",
+            (None, None, Shape::Step { .. }) => "a step",
+            (None, None, _) => "a table",
         };
         let fault = at.expected("a waveform with a period");
         Err(fault

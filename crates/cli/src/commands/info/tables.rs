@@ -153,7 +153,7 @@ impl Info {
             ("stable fixed step, verlet", stable(stepping.longest_verlet)),
             ("stable fixed step, rk4", stable(stepping.longest_rk4)),
             (
-                "events, estimated to a factor of 2",
+                "events, estimate from the examples",
                 Some(format!("about {}{}", two_digits(events.total()), per_period.unwrap_or_default())),
             ),
             ("rows × columns", Some(format!("{} × {}", whole(expected.rows.0), expected.columns))),

@@ -258,7 +258,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Whether anything is read of a half that ends at t before its end.
     fn is_read_inside(&self, t: f64) -> bool {
-        self.output.reads(t) || t > self.horizon.end || self.horizon.steps.due(t).is_some()
+        let watches = self.output.turns.watches();
+        watches || self.output.reads(t) || t > self.horizon.end || self.horizon.steps.due(t).is_some()
     }
 
     /// The slopes at both ends of a half, whose memories are those of its start.
@@ -283,9 +284,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         while let Some(due) = self.output.grid.due(t) {
             self.output.grid.write(&eq, state, due, &|i| half.value(i, due), record);
         }
+        let at = |i: usize, t: f64| half.value(i, t);
+        let ends: [(f64, &dyn Fn(usize) -> f64); 2] = [(state.t, &|i| state.y[i]), (t, &y)];
+        if self.output.turns.notice(&eq, ends, self.setting.tolerance) {
+            self.output.turns.locate(&eq, [state.t, t], at);
+        }
         while let Some(due) = self.output.marks.due(t) {
+            self.output.tell_turns(&eq, state, due, at, record);
             self.output.marks.write(&eq, state, due, &|i| half.value(i, due), record);
         }
+        self.output.tell_turns(&eq, state, t, at, record);
         if let Some(i) = self.output.marks.watches() {
             let to = [t, state.shifts[i] + y(i), y(self.setting.layout.velocity(i))];
             self.output.marks.pass(state, to);

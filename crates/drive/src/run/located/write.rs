@@ -21,7 +21,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
         // By the general law: a row shows every contact, those of closed form, too.
         let eq = self.setting.plain(state);
-        if self.output.reads(t) {
+        let turns = self.output.turns.watches() && self.turns_by(&eq, state, t);
+        if turns || self.output.reads(t) {
             self.read(&eq, state, t, record);
         }
         if let Some(i) = self.output.marks.watches() {
@@ -30,6 +31,21 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.output.marks.pass(state, to);
             self.output.marks.end_step();
         }
+    }
+
+    /// Turns of u at the corner just passed.
+    #[inline(never)]
+    pub(super) fn tell_corner_turns(&mut self, state: &State, record: &mut dyn Record) {
+        let eq = self.setting.plain(state);
+        self.output.turns.pass_corner(&eq, (state.t, &state.y), self.setting.tolerance);
+        self.output.tell_turns(&eq, state, state.t, |i, _| state.y[i], record);
+    }
+
+    /// Whether some u turns in the step.
+    fn turns_by(&mut self, eq: &Equations<'_>, state: &State, t: f64) -> bool {
+        let end = self.motion.solver.span().end;
+        let ends: [(f64, &dyn Fn(usize) -> f64); 2] = [(state.t, &|i| state.y[i]), (t, &|i| end[i])];
+        self.output.turns.notice(eq, ends, self.setting.tolerance)
     }
 
     /// What is due inside the step.
@@ -42,10 +58,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let y = |i: usize| if i < known { self.motion.solver.value(i, due) } else { state.y[i] };
             self.output.grid.write(eq, state, due, &y, record);
         }
+        let at = |i: usize, t: f64| if i < known { self.motion.solver.value(i, t) } else { state.y[i] };
+        self.output.turns.locate(eq, [state.t, t], at);
         while let Some(due) = self.output.marks.due(t) {
-            let y = |i: usize| if i < known { self.motion.solver.value(i, due) } else { state.y[i] };
-            self.output.marks.write(eq, state, due, &y, record);
+            self.output.tell_turns(eq, state, due, at, record);
+            self.output.marks.write(eq, state, due, &|i| at(i, due), record);
         }
+        self.output.tell_turns(eq, state, t, at, record);
         while let Some(due) = self.output.looks.due(t) {
             let memories = self.memories_at(eq, state, due, |i| self.motion.component(i, due));
             self.output.looks.show(memories.as_deref().ok(), record);

@@ -3,7 +3,7 @@
 use super::cores::side_by_side;
 use super::lane::Lane;
 use super::sheet::{ASKS, key};
-use crate::event::Event;
+use crate::event::{Event, EventKind};
 use crate::model::Part;
 use crate::record::Record;
 use crate::run::horizon::Goal;
@@ -88,7 +88,9 @@ impl<'m> Calendar<'m> {
     /// Notes the events that a part has had itself.
     pub(super) fn note_events(&mut self, lane: &Lane<'_>, until: f64) {
         let mut last = f64::NEG_INFINITY;
-        for event in lane.sheet.events().iter().filter(|event| event.t <= until) {
+        // Turns are told with no row of the other parts.
+        let told = |event: &&Event| event.t <= until && event.kind != EventKind::Turn;
+        for event in lane.sheet.events().iter().filter(told) {
             if event.t > last {
                 self.moments.push((event.t, key(lane.part, event.source), lane.place));
                 last = event.t;
