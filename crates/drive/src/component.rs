@@ -190,6 +190,18 @@ pub trait Block:
         1
     }
 
+    /// Whether what it makes from here on depends on a state, by its place among its own: not where that only counts, as work done
+    /// does, nor where this law puts something else in its place. A motion may be steady though such states go on.
+    fn depends(&self, law: usize, state: usize) -> bool {
+        let _ = (law, state);
+        true
+    }
+
+    /// Begins anew, at time `t` (s), whatever it only counts. What it makes stays the same.
+    fn count_from(&self, t: f64, states: &mut [f64], memory: &mut [f64]) {
+        let _ = (t, states, memory);
+    }
+
     /// Adds the values of its columns to a row.
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>);
 }

@@ -81,7 +81,11 @@ impl<'m> Section<'m> {
         let places = (0..layout.free).filter(|i| self.drifts.iter().all(|drift| drift.pivot != *i));
         let places = places.map(Unknown::Place);
         let speeds = (0..layout.free).map(Unknown::Speed);
-        self.unknowns = places.chain(speeds).chain((0..layout.own).map(Unknown::Own)).collect();
+        let own = model.blocks.iter().zip(&self.base.blocks).flat_map(|(block, standing)| {
+            let depends = |k: &usize| block.block().depends(standing.law, *k);
+            (0..block.count()).filter(depends).map(|k| Unknown::Own(block.first + k))
+        });
+        self.unknowns = places.chain(speeds).chain(own).collect();
         let mut of_memories = Vec::new();
         for (c, contact) in model.contacts.iter().enumerate() {
             if contact.inert {
@@ -223,6 +227,12 @@ impl<'m> Section<'m> {
         (begun.step, begun.stuck_step, begun.underway) = (0.0, f64::INFINITY, None);
         begun.counts = Counts::default();
         begun.tally.clear(model.contacts.len());
+        let (layout, t) = (model.layout(), begun.t);
+        for (block, standing) in model.blocks.iter().zip(&mut begun.blocks) {
+            let from = layout.block(block.first);
+            let states = &mut begun.y[from..from + block.count()];
+            block.block().count_from(t, states, &mut standing.memory);
+        }
         model.open_books(&mut begun, &mut Vec::new());
         begun
     }

@@ -110,8 +110,9 @@ impl Steady {
 
 /// Finds the steady motion of a job's drive, as it would be if its waveforms never ended.
 ///
-/// What drivers and materials remember (blocks) is carried along and no number of the map: of `driven_stage` no fixed point was
-/// found in 4 000 periods, of `piezo_hysteresis` there was no answer in a minute. Bound [`Options::periods`] there.
+/// What drivers and materials remember beside their states is led along and no number of the map: the plays of a ceramic are wiped by
+/// the largest stroke of a period. Of `piezo_hysteresis`, whose slider never slips grossly, there was no answer in a minute. Bound
+/// [`Options::periods`] there.
 ///
 /// # Errors
 ///

@@ -8,12 +8,13 @@ use stickslip_results::{Job, Real, quantity};
 use stickslip_study::steady::{self, Options};
 
 /// Examples with a steady motion.
-const EXAMPLES: [&str; 11] = [
+const EXAMPLES: [&str; 12] = [
     "p1",
     "quickstart",
     "ruby_drive",
     "sine_drive",
     "piezo_stack",
+    "driven_stage",
     "three_ball_stage",
     "vibrated_slider",
     "walking_drive",

@@ -271,6 +271,25 @@ impl Block for Driver {
         (up.max(down) / (CHATTER * self.span)).max(slow).max(self.spec.omega())
     }
 
+    /// Works only count, and without a resistance a voltage that is free is what it follows.
+    fn depends(&self, law: usize, state: usize) -> bool {
+        match state {
+            VOLTAGE => self.spec.resistance.is_some() || Course::of(law).output != Output::Free,
+            WORK | LOST => false,
+            _ => Some(state) != self.worked(),
+        }
+    }
+
+    fn count_from(&self, t: f64, states: &mut [f64], memory: &mut [f64]) {
+        (states[WORK], states[LOST]) = (0.0, 0.0);
+        if let Some(worked) = self.worked() {
+            states[worked] = 0.0;
+        }
+        if let Some(Kept { offset, last, elongation, .. }) = Kept::read(memory) {
+            memory.copy_from_slice(&Kept { offset, last, elongation, at: t, ..Kept::default() }.numbers());
+        }
+    }
+
     fn fill(&self, standing: Now<'_>, at: &At<'_>, row: &mut Vec<f64>) {
         let (_, _, voltage) = self.now(standing, at);
         let volts = voltage.value / self.spec.gain;

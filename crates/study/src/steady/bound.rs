@@ -3,7 +3,8 @@
 //! A state that misses the fixed point by e comes back with the defect r = (A - 1) e, so e = -(1 - A)⁻¹ r: what a geometric
 //! series of plain periods would add up to, r/(1 - ρ) along a single direction. The step misses by its gradient times that.
 //! What the run itself misses in a period, by its tolerance, is a defect, too: the same period by a tenth of the tolerance
-//! tells. Both are taken without regard to sign, and twice.
+//! tells. Last, every number is rounded in every step: N steps and events leave N ε of a natural scale, and of the way gone. All are
+//! taken without regard to sign, and twice.
 
 use super::SteadyError;
 use super::map::{Gradient, Map};
@@ -40,8 +41,15 @@ pub(super) fn bound(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Re
         let off = solve(left.clone(), defect).unwrap_or_else(|| DVector::zeros(count));
         along.iter().zip(off.iter()).map(|(a, off)| (a * off).abs()).sum::<f64>()
     };
+    // What rounding leaves of any number may have any sign.
+    let anything: f64 =
+        (0..count).map(|j| missed(&DVector::from_fn(count, |i, _| if i == j { 1.0 } else { 0.0 }))).sum();
+    let rounded = map.steps() as f64 * f64::EPSILON;
+    let gone = of_body(&fixed.image.way).unwrap_or(0.0).abs();
     let run = map.difference(&exact.state, &fixed.image.state).unwrap_or_else(|| DVector::zeros(count));
     let way = of_body(&exact.way).unwrap_or(0.0) - of_body(&fixed.image.way).unwrap_or(0.0);
-    let step = SAFETY * (missed(&fixed.defect) + missed(&run) + way.abs());
+    let reach = 1.0 + map.natural(gone);
+    let rounding = rounded * (anything * reach + gone);
+    let step = SAFETY * (missed(&fixed.defect) + missed(&run) + way.abs() + rounding);
     Ok(Bound { step, gradient })
 }

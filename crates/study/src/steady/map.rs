@@ -4,7 +4,7 @@
 
 use super::{Options, SteadyError};
 use nalgebra::{DMatrix, DVector};
-use stickslip_drive::section::Section;
+use stickslip_drive::section::{Section, Unknown};
 use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
 use stickslip_results::Job;
 
@@ -26,6 +26,8 @@ pub(super) struct Map<'m> {
     options: &'m Options<'m>,
     /// In periods.
     work: f64,
+    /// Steps and events of the last period.
+    steps: u64,
 }
 
 /// Where a state has got to in a period.
@@ -76,7 +78,7 @@ impl<'m> Map<'m> {
         let limits = Limits { wall: None, ..job.scenario.plan.limits };
         let stepper = Stepper::Event { tolerance: options.tolerance };
         let plan = Plan { duration: f64::MAX, stepper, limits, every: None, until_steady: None };
-        Self { model, period, plan, section: None, scales: DVector::zeros(0), options, work: 0.0 }
+        Self { model, period, plan, section: None, scales: DVector::zeros(0), options, work: 0.0, steps: 0 }
     }
 
     /// The map at a section.
@@ -118,6 +120,19 @@ impl<'m> Map<'m> {
     /// Local error per step.
     pub(super) fn tolerance(&self) -> f64 {
         self.options.tolerance
+    }
+
+    /// Steps and events of the last period whose image was computed.
+    pub(super) fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// A way, m, in the smallest natural scale of a place; 0 where none is a number.
+    pub(super) fn natural(&self, way: f64) -> f64 {
+        let Some(section) = &self.section else { return 0.0 };
+        let places = section.unknowns().iter().zip(self.scales.iter());
+        let of_places = places.filter(|(unknown, _)| matches!(unknown, Unknown::Place(_)));
+        of_places.map(|(_, scale)| way / scale).fold(0.0, f64::max)
     }
 
     /// A state led on to a time, s, its memories where it stands.
@@ -164,6 +179,8 @@ impl<'m> Map<'m> {
         let stepper = Stepper::Event { tolerance: self.options.tolerance * finer };
         self.count(1.0);
         let end = self.run(state.clone(), until, Plan { stepper, ..self.plan }, &mut ())?;
+        let counts = [state, &end].map(|state| state.counts().steps + state.counts().events);
+        self.steps = counts[1].saturating_sub(counts[0]);
         let (state, way) = match &self.section {
             Some(section) => section.back(end),
             None => (end, Vec::new()),

@@ -16,7 +16,7 @@ const GOAL: f64 = 10.0;
 const ROUNDING: f64 = 1e-8;
 /// Plain periods that come nearer by this are let go on.
 const BY_ITSELF: f64 = 0.05;
-/// A gradient that brings less than this is made anew.
+/// A gradient that brings less than this is made anew, unless it takes fewer periods to the end than that.
 const WORN: f64 = 0.1;
 /// Halvings of a step.
 const HALVINGS: u32 = 4;
@@ -172,6 +172,11 @@ impl Search {
         Ok(self.size() <= ROUNDING)
     }
 
+    /// How many more periods it takes where each leaves so much of a defect; a gradient made anew takes one for each number.
+    fn lasts(&self, rate: f64, size: f64) -> f64 {
+        (size / self.goal).ln().max(0.0) / -rate.ln()
+    }
+
     /// Tries a part of a step; taken if the defect gets smaller by a part of that.
     fn try_step(
         &mut self,
@@ -192,7 +197,8 @@ impl Search {
         if size.is_nan() || size > (1.0 - 0.25 * share) * before {
             return Ok(false);
         }
-        self.gradient = (size <= WORN * before).then(|| mended(gradient, (&along, defect, &after)));
+        let pays = size <= WORN * before || self.lasts(size / before, size) <= defect.len() as f64;
+        self.gradient = pays.then(|| mended(gradient, (&along, defect, &after)));
         (self.state, self.image, self.defect) = (state, image, Some(after));
         self.before = Some(before);
         self.note(Way::Newton);

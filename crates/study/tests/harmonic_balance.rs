@@ -1,0 +1,132 @@
+//! One mass on a spring and a Jenkins element, an elastic spring that slips at a limit, under a sine: the flat punch is one, of
+//! stiffness 2 G* a and limit μF_N.
+//!
+//! Against harmonic balance, written here: alternately in frequency and time (Cameron and Griffin, J. Appl. Mech. 56 (1989) 149),
+//! the element marched through two periods from rest, its force of the second taken apart into harmonics.
+
+use nalgebra::{DMatrix, DVector};
+use std::error::Error;
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+use stickslip_results::Job;
+use stickslip_scenario::Scenario;
+use stickslip_study::steady::{self, Options};
+
+const MASS: f64 = 1.0;
+const SPRING: f64 = 1.9e6;
+const DAMPING: f64 = 60.0;
+const PUSH: f64 = 6.0;
+const PERIOD: f64 = 4.5e-3;
+const LIMIT: f64 = 0.5 * 10.0;
+/// 2 G* a of a punch of 10 µm, steel on steel: 1/G* = (2 - ν)/(2 G), G = E/(2(1 + ν)).
+const ELEMENT: f64 = 2.0 * 10e-6 * 2.0 * 210e9 / (2.0 * (1.0 + 0.3) * (2.0 - 0.3));
+/// Moments of a period at which the element is looked at.
+const MOMENTS: usize = 2048;
+
+/// 1, cos ωt, sin ωt, cos 2ωt … at a moment.
+fn basis(harmonics: usize, t: f64) -> DVector<f64> {
+    DVector::from_fn(2 * harmonics + 1, |i, _| {
+        let angle = i.div_ceil(2) as f64 * TAU * t / PERIOD;
+        if i % 2 == 0 { if i == 0 { 1.0 } else { angle.sin() } } else { angle.cos() }
+    })
+}
+
+struct Balance {
+    harmonics: usize,
+    /// The basis at each moment, row by row.
+    moments: DMatrix<f64>,
+}
+
+impl Balance {
+    fn new(harmonics: usize) -> Self {
+        let at = |k: usize| basis(harmonics, PERIOD * k as f64 / MOMENTS as f64).transpose();
+        Self { harmonics, moments: DMatrix::from_rows(&(0..MOMENTS).map(at).collect::<Vec<_>>()) }
+    }
+
+    /// Harmonics of the element's force.
+    fn element(&self, x: &DVector<f64>) -> DVector<f64> {
+        let place = &self.moments * x;
+        let (mut force, mut last) = (0.0_f64, place[0]);
+        let mut forces = DVector::zeros(MOMENTS);
+        for k in 0..2 * MOMENTS {
+            let here = place[k % MOMENTS];
+            force = (force + ELEMENT * (here - last)).clamp(-LIMIT, LIMIT);
+            (last, forces[k % MOMENTS]) = (here, force);
+        }
+        let mut harmonics = self.moments.transpose() * forces * (2.0 / MOMENTS as f64);
+        harmonics[0] *= 0.5;
+        harmonics
+    }
+
+    /// What is left over of the balance of each harmonic, N.
+    fn left(&self, x: &DVector<f64>) -> DVector<f64> {
+        let mut left = self.element(x);
+        left[0] += SPRING * x[0];
+        for h in 1..=self.harmonics {
+            let omega = h as f64 * TAU / PERIOD;
+            let (stiff, damped) = (SPRING - MASS * omega * omega, DAMPING * omega);
+            let (cos, sin) = (x[2 * h - 1], x[2 * h]);
+            left[2 * h - 1] += stiff * cos + damped * sin;
+            left[2 * h] += stiff * sin - damped * cos;
+        }
+        left[2] -= PUSH;
+        left
+    }
+
+    /// The motion, by Newton's method from that of a mass without the element.
+    fn solve(&self) -> Option<DVector<f64>> {
+        let count = 2 * self.harmonics + 1;
+        let mut x = DVector::zeros(count);
+        x[2] = PUSH / SPRING;
+        for _ in 0..60 {
+            let left = self.left(&x);
+            let mut gradient = DMatrix::zeros(count, count);
+            for j in 0..count {
+                let mut beside = x.clone();
+                let by = 1e-12;
+                beside[j] += by;
+                gradient.set_column(j, &((self.left(&beside) - &left) / by));
+            }
+            let step = gradient.lu().solve(&left)?;
+            x -= &step;
+            if step.amax() < 1e-15 {
+                return Some(x);
+            }
+        }
+        None
+    }
+}
+
+fn job() -> Result<Job, Box<dyn Error>> {
+    let text = format!(
+        r#"{{ "stickslip": 1,
+          "materials": {{ "steel": {{ "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 }} }},
+          "waveforms": {{ "push": {{ "sine": {{ "amplitude": "{PUSH} N", "period": {PERIOD:e} }} }} }},
+          "bodies": {{ "mass": {{ "mass": {MASS:e}, "x": "free" }} }},
+          "contacts": {{ "element": {{ "between": ["ground", "mass"], "materials": ["steel", "steel"],
+              "profile": {{ "flat": {{ "radius": "10 um" }} }}, "friction": 0.5, "normal": {{ "force": "10 N" }} }} }},
+          "springs": {{ "link": {{ "between": ["ground", "mass"], "stiffness": {SPRING:e}, "damping": {DAMPING:e} }} }},
+          "loads": [{{ "on": "mass", "x": {{ "follows": "push" }} }}],
+          "run": {{ "duration": "1 s" }} }}"#
+    );
+    Ok(Job::new(Scenario::from_str_alone(&text, "mass")?, "mass".to_owned(), PathBuf::new())?)
+}
+
+#[test]
+fn harmonic_balance_converges_to_the_steady_motion() -> Result<(), Box<dyn Error>> {
+    let job = job()?;
+    let found = steady::find(&job, &Options::default())?;
+    // It slips, or there would be nothing to compare.
+    assert!(found.shaken_down.is_empty() && found.is_stable());
+    let orbit = found.orbit(&job, 256)?;
+    let (time, place) = (orbit.series.time(), orbit.series.column("mass", "x_m"));
+    let amplitude = place.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let mut errors = Vec::new();
+    for harmonics in [3, 9, 27, 51] {
+        let x = Balance::new(harmonics).solve().ok_or("no balance")?;
+        let off = |(t, place): (&f64, &f64)| (basis(harmonics, *t).dot(&x) - place).abs();
+        errors.push(time.iter().zip(place).map(off).fold(0.0, f64::max) / amplitude);
+    }
+    assert!(errors.windows(2).all(|pair| pair[1] < 0.5 * pair[0]) && errors[3] < 1e-4, "{errors:?}");
+    Ok(())
+}

@@ -1,0 +1,268 @@
+//! A ball with a flat end, which is a spring that only pushes, on a vibrating table, damped against the ground: its motion of one
+//! bounce a period and where that doubles its period, against equations of its own.
+//!
+//! In the air m z̈ = -m g - c ż, on the table m z̈ = -m g - c ż + k (A sin ωt - z), k = 2 E* a (4.13 and the flat punch of the
+//! Handbook of Contact Mechanics). Both have closed forms; touch and lift-off are roots of these, found here.
+
+use std::error::Error;
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+use stickslip_drive::scene::Axis;
+use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
+use stickslip_results::Job;
+use stickslip_scenario::Scenario;
+use stickslip_study::steady::{self, Multiplier, Options, Steady};
+
+const MASS: f64 = 4e-3;
+const DAMPING: f64 = 0.8;
+const GRAVITY: f64 = 9.81;
+const PERIOD: f64 = 5e-3;
+/// Of a punch of 1 µm, steel on steel.
+const STIFFNESS: f64 = 2.0 * 210e9 / (2.0 * (1.0 - 0.3 * 0.3)) * 1e-6;
+
+/// The table's amplitude, m.
+#[derive(Clone, Copy)]
+struct Table {
+    amplitude: f64,
+}
+
+/// Time, place and velocity of the ball.
+#[derive(Clone, Copy)]
+struct Place {
+    t: f64,
+    z: f64,
+    v: f64,
+}
+
+impl Table {
+    fn height(self, t: f64) -> f64 {
+        self.amplitude * (TAU * t / PERIOD).sin()
+    }
+
+    /// In the air, `s` after a place.
+    fn flown(from: Place, s: f64) -> Place {
+        let tau = MASS / DAMPING;
+        let (falls, left) = (-GRAVITY * tau, (-s / tau).exp());
+        let beyond = from.v - falls;
+        let z = from.z + falls * s - beyond * tau * (-s / tau).exp_m1();
+        Place { t: from.t + s, z, v: falls + beyond * left }
+    }
+
+    /// On the table.
+    fn pressed(self, from: Place, s: f64) -> Place {
+        let omega = TAU / PERIOD;
+        let (stiff, damped) = (STIFFNESS - MASS * omega * omega, DAMPING * omega);
+        let scale = STIFFNESS * self.amplitude / (stiff * stiff + damped * damped);
+        let (p, q) = (scale * stiff, -scale * damped);
+        let led = |t: f64| {
+            let (sin, cos) = (omega * t).sin_cos();
+            (p * sin + q * cos - MASS * GRAVITY / STIFFNESS, omega * (p * cos - q * sin))
+        };
+        let gamma = DAMPING / (2.0 * MASS);
+        let own = (STIFFNESS / MASS - gamma * gamma).sqrt();
+        let (z0, v0) = led(from.t);
+        let a = from.z - z0;
+        let b = (from.v - v0 + gamma * a) / own;
+        let (sin, cos) = (own * s).sin_cos();
+        let left = (-gamma * s).exp();
+        let (z1, v1) = led(from.t + s);
+        let swings = left * (a * cos + b * sin);
+        let rate = left * own * (b * cos - a * sin) - gamma * swings;
+        Place { t: from.t + s, z: z1 + swings, v: v1 + rate }
+    }
+
+    /// The first moment after a meeting at which ball and table meet again.
+    fn meets(self, way: impl Fn(f64) -> Place) -> Option<Place> {
+        let apart = |s: f64| {
+            let place = way(s);
+            place.z - self.height(place.t)
+        };
+        let step = 1e-6;
+        let sense = apart(step).signum();
+        let after = (2..20_000_u32).map(|k| f64::from(k) * step).find(|s| apart(*s) * sense < 0.0)?;
+        let (mut low, mut high) = (after - step, after);
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if apart(middle) * sense < 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Some(way(0.5 * (low + high)))
+    }
+
+    /// From touch to touch: time, less a period, and velocity.
+    fn map(self, [t, v]: [f64; 2]) -> Option<[f64; 2]> {
+        let touch = Place { t, z: self.height(t), v };
+        let lifts = self.meets(|s| self.pressed(touch, s))?;
+        let lifts = Place { z: self.height(lifts.t), ..lifts };
+        let again = self.meets(|s| Self::flown(lifts, s))?;
+        Some([again.t - PERIOD, again.v])
+    }
+
+    /// The gradient of that, by differences to both sides.
+    fn gradient(self, at: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        let steps = [1e-5 * PERIOD, 1e-5 * at[1].abs()];
+        let mut gradient = [[0.0; 2]; 2];
+        for (j, step) in steps.into_iter().enumerate() {
+            let moved = |by: f64| {
+                let mut moved = at;
+                moved[j] += by;
+                self.map(moved)
+            };
+            // Of fourth order: the error is that of rounding.
+            let [a, b, c, d] = [moved(step)?, moved(-step)?, moved(2.0 * step)?, moved(-2.0 * step)?];
+            for i in 0..2 {
+                gradient[i][j] = (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * step);
+            }
+        }
+        Some(gradient)
+    }
+
+    /// The bounce that repeats itself, near a guess.
+    fn fixed(self, mut at: [f64; 2]) -> Option<[f64; 2]> {
+        for _ in 0..30 {
+            let (image, [[a, b], [c, d]]) = (self.map(at)?, self.gradient(at)?);
+            let (r, s) = (image[0] - at[0], image[1] - at[1]);
+            let (a, d) = (1.0 - a, 1.0 - d);
+            let determinant = a * d - b * c;
+            let by = [(r * d + b * s) / determinant, (a * s + c * r) / determinant];
+            at = [at[0] + by[0], at[1] + by[1]];
+            if by[0].abs() < 1e-15 * PERIOD && by[1].abs() < 1e-15 {
+                break;
+            }
+        }
+        Some(at)
+    }
+
+    /// det(A + 1), which is 0 where a multiplier is -1.
+    fn doubles(self, at: [f64; 2]) -> Option<f64> {
+        let [[a, b], [c, d]] = self.gradient(at)?;
+        Some((a + 1.0) * (d + 1.0) - b * c)
+    }
+}
+
+fn job(table: Table) -> Result<Job, Box<dyn Error>> {
+    let text = format!(
+        r#"{{ "stickslip": 1,
+          "materials": {{ "steel": {{ "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 }} }},
+          "waveforms": {{ "shake": {{ "sine": {{ "amplitude": {amplitude:e}, "period": {PERIOD:e} }} }} }},
+          "bodies": {{ "table": {{ "z": {{ "follows": "shake" }} }},
+                       "ball": {{ "mass": {MASS:e}, "z": "free", "start": {{ "z": "1 um" }} }} }},
+          "contacts": {{ "end": {{ "between": ["table", "ball"], "materials": ["steel", "steel"],
+              "profile": {{ "flat": {{ "radius": "1 um" }} }}, "friction": 0, "normal": "coupled" }} }},
+          "springs": {{ "air": {{ "between": ["ground", "ball"], "direction": "z", "stiffness": 0, "damping": {DAMPING:e} }} }},
+          "gravity": {{ "acceleration": {GRAVITY:e} }},
+          "run": {{ "duration": "1 s" }} }}"#,
+        amplitude = table.amplitude,
+    );
+    Ok(Job::new(Scenario::from_str_alone(&text, "table")?, "table".to_owned(), PathBuf::new())?)
+}
+
+/// When contacts touch and lift off.
+#[derive(Default)]
+struct Meetings {
+    touch: Vec<f64>,
+    lift: Vec<f64>,
+}
+
+impl Record for Meetings {
+    fn row(&mut self, _: &[f64]) {}
+    fn event(&mut self, event: &Event, _: &[f64]) {
+        match event.kind {
+            EventKind::Touch => self.touch.push(event.t),
+            EventKind::LiftOff => self.lift.push(event.t),
+            _ => {}
+        }
+    }
+}
+
+/// Touch of the motion that was found, as time in the period and velocity; one bounce a period.
+fn touch(job: &Job, found: &Steady) -> Result<[f64; 2], Box<dyn Error>> {
+    let stepper = Stepper::Event { tolerance: 1e-13 };
+    let plan = Plan { duration: f64::MAX, stepper, every: None, ..job.scenario.plan };
+    let (start, mut meetings) = (found.state.time(), Meetings::default());
+    let mut run = Run::new(&found.model, &plan, found.state.clone())?;
+    run.advance(start + found.period, &mut meetings)?;
+    assert_eq!((meetings.touch.len(), meetings.lift.len()), (1, 1), "one bounce a period");
+    let t = meetings.touch[0];
+    let mut run = Run::new(&found.model, &plan, found.state.clone())?;
+    run.advance(t, &mut ())?;
+    let (_, v) = run.state().coordinate(&found.model, 1, Axis::Z).ok_or("the ball")?;
+    Ok([t % PERIOD, v])
+}
+
+/// Once a period, and back to it when disturbed.
+const QUIET: Table = Table { amplitude: 7e-6 };
+
+/// (1 + λ₁)(1 + λ₂) of a motion that was found.
+fn doubles(found: &Steady) -> f64 {
+    let of = |multiplier: &Multiplier| match multiplier.im {
+        0.0 => 1.0 + multiplier.re,
+        im => (1.0 + multiplier.re).powi(2) + im * im,
+    };
+    found.multipliers.iter().map(of).product()
+}
+
+/// A ball that stays on the table swings on its spring: both multipliers are those of that swing.
+#[test]
+fn a_ball_that_never_lifts_has_the_multipliers_of_its_spring() -> Result<(), Box<dyn Error>> {
+    let found = steady::find(&job(Table { amplitude: 3e-6 })?, &Options::default())?;
+    let gamma = DAMPING / (2.0 * MASS);
+    let angle = (STIFFNESS / MASS - gamma * gamma).sqrt() * PERIOD;
+    let modulus = (-gamma * PERIOD).exp();
+    let [largest] = found.multipliers[..] else { return Err("one pair".into()) };
+    let off = [largest.re - modulus * angle.cos(), largest.im - (modulus * angle.sin()).abs()];
+    assert!(off.iter().all(|off| off.abs() < 1e-8), "{off:?}");
+    Ok(())
+}
+
+/// Where the bounce doubles its period, by bisection of the equations above and by a parabola through what the search says of
+/// three amplitudes about there.
+#[test]
+fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box<dyn Error>> {
+    let first = touch(&job(QUIET)?, &steady::find(&job(QUIET)?, &Options::default())?)?;
+    let (mut low, mut high, mut at) = (7.25e-6, 7.5e-6, first);
+    for _ in 0..50 {
+        let table = Table { amplitude: 0.5 * (low + high) };
+        at = table.fixed(at).ok_or("a bounce")?;
+        if table.doubles(at).ok_or("a gradient")? > 0.0 {
+            low = table.amplitude;
+        } else {
+            high = table.amplitude;
+        }
+    }
+    let own = 0.5 * (low + high);
+    // Newton's form through three points, solved for its root from the middle one.
+    let apart = 1e-3;
+    let at = |share: f64| -> Result<f64, Box<dyn Error>> {
+        Ok(doubles(&steady::find(&job(Table { amplitude: own * (1.0 + share) })?, &Options::default())?))
+    };
+    let [before, there, after] = [at(-apart)?, at(0.0)?, at(apart)?];
+    let (slope, bend) = ((after - before) / (2.0 * apart), (after - 2.0 * there + before) / (apart * apart));
+    let off = -there / (slope - 0.5 * bend * there / slope);
+    assert!(before > 0.0 && after < 0.0 && off.abs() < 1e-8, "{off:e} of {own:e} m");
+    Ok(())
+}
+
+#[test]
+fn a_ball_bounces_once_a_period_as_its_own_equations_say() -> Result<(), Box<dyn Error>> {
+    let job = job(QUIET)?;
+    let found = steady::find(&job, &Options::default())?;
+    let told = touch(&job, &found)?;
+    let own = QUIET.fixed(told).ok_or("a bounce")?;
+    let off = [(told[0] - own[0]) / PERIOD, (told[1] - own[1]) / own[1]];
+    assert!(off.iter().all(|off| off.abs() < 1e-8), "{off:?}");
+    // Trace and determinant of the gradient are those of any section.
+    let [[a, b], [c, d]] = QUIET.gradient(own).ok_or("a gradient")?;
+    let (mut trace, mut product) = (0.0, 1.0);
+    for multiplier in &found.multipliers {
+        let pair = multiplier.im != 0.0;
+        trace += if pair { 2.0 * multiplier.re } else { multiplier.re };
+        product *= if pair { multiplier.modulus().powi(2) } else { multiplier.re };
+    }
+    let off = [trace - (a + d), product - (a * d - b * c)];
+    assert!(off.iter().all(|off| off.abs() < 1e-6), "{off:?}");
+    Ok(())
+}
