@@ -4,9 +4,10 @@
 //! what a picture comes from; [`gallery`] draws all pictures of a scenario, and the page that shows them.
 //!
 //! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
-//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop.
+//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop; [`curve`], those of a machine.
 
 pub mod comparison;
+pub mod curve;
 pub mod gallery;
 pub mod look;
 mod origin;

@@ -4,6 +4,7 @@
 mod check;
 mod columns;
 mod contact;
+mod curve;
 mod info;
 mod keys;
 
@@ -26,7 +27,8 @@ const PLACEHOLDERS: [&str; 10] =
 
 /// Everything that is defined, file by file.
 pub fn definitions() -> impl Iterator<Item = &'static Definition> {
-    columns::COLUMNS.iter().chain(keys::KEYS).chain(info::INFO).chain(contact::CONTACT).chain(check::CHECK)
+    let rest = contact::CONTACT.iter().chain(check::CHECK).chain(curve::CURVE);
+    columns::COLUMNS.iter().chain(keys::KEYS).chain(info::INFO).chain(rest)
 }
 
 impl Definition {
@@ -77,8 +79,8 @@ fn lowered(below: char) -> Option<char> {
 /// The page, in Markdown.
 pub fn definitions_page() -> String {
     let mut page = String::from(
-        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `check` and `validate` \
-         print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
+        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `check`, `validate` and \
+         `characterise` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
          entry. Names end\nwith their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is `start`, \
          or `least` and\n`most` of a load that varies. How the figures of steps and loops are found, and how exact they are, is told on \
          [their\npage](figures.md); what the contacts obey, on [the page of the physics](physics.md). Numbers in brackets such as (4.26) are \
