@@ -6,10 +6,12 @@
 
 mod blocks;
 mod frame;
+mod paces;
 mod parts;
 mod reach;
 
 pub(crate) use blocks::eigenvalues as block_eigenvalues;
+pub(crate) use paces::Paces;
 pub(crate) use reach::Reach;
 
 use crate::model::Terms;
@@ -98,16 +100,6 @@ impl Model {
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
     }
 
-    /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
-    pub(super) fn largest_rate(&self) -> f64 {
-        if let Some(frequency) = self.only_frequency() {
-            return frequency;
-        }
-        // As deep as they get: stiffness grows with the indentation, and a bound must hold throughout the
-        // run.
-        self.parts(|d| d.most).iter().map(Linearised::largest_rate).fold(0.0, f64::max)
-    }
-
     /// ω of a single coordinate without dampers, rad/s, as deep as its contacts get: the root of k/m, without a matrix.
     fn only_frequency(&self) -> Option<f64> {
         let [free] = &self.free[..] else { return None };
@@ -135,6 +127,11 @@ impl Model {
         let root = free.mass.sqrt();
         let eigenvalue = stiffness / (root * root);
         eigenvalue.is_finite().then(|| eigenvalue.sqrt())
+    }
+
+    /// Whether something settles so much faster than all else goes on that the stepper `event` goes by implicit steps over it.
+    pub fn is_stiff(&self) -> bool {
+        self.stiff
     }
 
     /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get, and of what the
@@ -216,17 +213,6 @@ impl Linearised {
     fn by_mass(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let root = self.mass.map(f64::sqrt);
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
-    }
-
-    /// Largest |λ|, 1/s, of the motions e^{λt}.
-    fn largest_rate(&self) -> f64 {
-        let frequency = self.highest_frequency();
-        // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
-        if self.damping.amax() == 0.0 {
-            return frequency;
-        }
-        let rates = self.rates(if frequency > 0.0 { frequency } else { 1.0 });
-        rates.iter().map(|rate| rate.norm()).fold(frequency, f64::max)
     }
 
     /// ω of the fastest mode, rad/s; 0 without any.

@@ -10,6 +10,7 @@
 //! | [`Method::Parabola`] | any | constant until the next event |
 //! | [`Method::Swing`] | one | closed forms of u under straight followers |
 //! | [`Method::Nystrom`] | any | without velocities |
+//! | [`Method::Radau`] | any | of what settles far faster than all else goes on |
 //! | [`Method::DormandPrince`] | any | all others |
 //!
 //! At tolerances down to [`TIGHTEST_BRIEF`] a step of the last of these that an event will end soon goes by the pair of order
@@ -43,6 +44,8 @@ pub enum Method {
     DormandPrince,
     /// Steps of their pair of order 5(4), of half the stages, where an event is near and the tolerance allows.
     Brief,
+    /// Steps of the implicit method Radau IIA of order 9: what settles within a step need not be followed.
+    Radau,
     /// A step of order 8(5,3) whose stages crowd towards a singular moment at one of its ends.
     Graded,
     /// Runge–Kutta steps by the whole law of the contacts, against their halves, where events accumulate.
@@ -76,6 +79,8 @@ pub(crate) struct SceneTraits {
     pub(crate) free: usize,
     /// Whether places without mass are solved for.
     pub(crate) balanced: bool,
+    /// Whether something settles far faster than all else goes on.
+    pub(crate) stiff: bool,
     /// Why forces depend on velocities, if they do.
     pub(crate) velocities: Option<Why>,
     /// Whether springs, dampers or actuators act.
@@ -104,6 +109,7 @@ impl SceneTraits {
         Self {
             free: model.free.len(),
             balanced: !model.balanced.is_empty(),
+            stiff: model.stiff,
             velocities: velocities(model),
             links: !model.links.is_empty(),
             loads: !model.loads.is_empty(),
@@ -162,6 +168,8 @@ pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     match scene.velocities {
         // Only time goes on: steps then go from event to event of the contacts.
         _ if scene.balanced => (Method::Walk, Why::Balanced),
+        // States of blocks may be stiff where nothing is free.
+        _ if scene.stiff => (Method::Radau, Why::Stiff),
         _ if scene.free == 0 => (Method::Walk, Why::NothingFree),
         None => (Method::Nystrom, Why::NoVelocities),
         Some(why) => (Method::DormandPrince, why),

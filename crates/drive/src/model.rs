@@ -58,6 +58,8 @@ pub struct Model {
     pub(crate) moment: f64,
     /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
     pub(crate) fastest: f64,
+    /// Whether something settles so much faster than all else goes on that explicit steps would only follow it.
+    pub(crate) stiff: bool,
     /// What feels nothing of each other; empty where all of it is one.
     pub(crate) parts: Vec<Part>,
 }
@@ -160,6 +162,7 @@ impl Model {
             spared: Spared::default(),
             moment: 0.0,
             fastest: 0.0,
+            stiff: false,
             parts: Vec::new(),
         }
     }

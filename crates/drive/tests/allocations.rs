@@ -10,7 +10,7 @@
 #[allow(dead_code, reason = "shared with the tests of drives")]
 mod parts;
 
-use parts::{FOOT_SLIDER, contact, event, foot_and_slider, free, named, p1, plan, sine, wave};
+use parts::{FOOT_SLIDER, contact, damped, event, foot_and_slider, free, named, p1, plan, sine, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Normal, Scene, Side, Varying};
 use stickslip_drive::{Command, Cycle, Generator, Heading, Model, Plan, Run, Shape, Stepper, Steps, run};
@@ -31,10 +31,17 @@ fn shaken() -> Scene {
     scene
 }
 
+/// P1 with a contact damped by a second, stepped over what settles.
+fn stiff() -> Scene {
+    let mut scene = p1();
+    scene.contacts[0].part = damped(&scene.contacts[0].part, 1.0);
+    scene
+}
+
 /// Ten times as long a run allocates no more: all of it is the workspace, made at the start.
 #[test]
 fn stepping_allocates_nothing() {
-    for (name, scene) in [("P1", p1()), ("shaken", shaken())] {
+    for (name, scene) in [("P1", p1()), ("shaken", shaken()), ("stiff", stiff())] {
         for tolerance in [1e-3, 1e-8] {
             let [short, long] =
                 [20e-3, 200e-3].map(|duration| allocations(&scene, &event(tolerance, duration)));

@@ -64,6 +64,20 @@ fn examples_do_what_is_told_of_them() {
     }
 }
 
+/// P1 with a damped contact, below what is stepped over and above it.
+#[test]
+fn what_is_stepped_over_is_told() {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
+    for (damping, stepped_over) in [("1 ms", false), ("1 s", true)] {
+        assert!(compare(&file, &[("contacts.ball.damping".to_owned(), damping.to_owned())], 1.0));
+        let scenario = Scenario::load_with(&file, &[("contacts.ball.damping", damping)]).unwrap();
+        let model = Model::new(&scenario.scene).unwrap();
+        let expected = model.expected(&model.start(&scenario.plan).unwrap(), scenario.plan.stepper);
+        let told = (expected.takes(Method::Radau), model.is_stiff());
+        assert_eq!(told, (stepped_over, stepped_over), "{expected:?}");
+    }
+}
+
 #[test]
 fn drawn_variants_do_what_is_told_of_them() {
     let files = scenarios();

@@ -10,6 +10,10 @@ pub trait Method {
     fn stability_limit(&self) -> f64;
     /// Whether the coming steps are exact and free at any length.
     fn coasts(&self) -> bool;
+    /// Whether it knows steps whose stages crowd towards an end; otherwise all are even.
+    fn grades(&self) -> bool {
+        true
+    }
     /// Evaluations of the slopes since construction.
     fn evaluations(&self) -> u64;
     /// Where the motion stands among the methods of a pair.
@@ -71,12 +75,13 @@ pub trait Attempt<S: ?Sized>: Method + Step {
     fn complete(&mut self, system: &S, what: Completion);
 }
 
-/// Which of two methods carries a motion. It belongs to the state of a run: both evaluate one law, in another order.
+/// Which of two methods carries a motion, and what is known where it stands. It belongs to the state of a run: both methods
+/// evaluate one law, in another order, and what is known is not counted again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Hand {
     /// Whether the last attempt was one with graded stages.
     pub graded: bool,
-    /// Whether the other method is there, too.
+    /// Whether the other method is there, too; of an implicit one whether its derivatives are.
     pub both: bool,
 }
 

@@ -11,6 +11,7 @@
 //! * [`DormandPrince`]: order 8(5,3) with dense output.
 //! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities.
 //! * [`Paired`]: both, for conservative systems with singular moments.
+//! * [`Radau`]: implicit, order 9, for stiff systems.
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`narrow`], [`Cubic`]: where inside a step a guard crosses zero.
 //! * [`FixedStep`], [`Rk4`], [`Verlet`]: steps of a given length.
@@ -58,6 +59,8 @@ mod nystrom;
 pub use nystrom::{Conservative, Many, Nystrom, ORDER as NYSTROM_ORDER, One, Storage, Track, Values};
 mod paired;
 pub use paired::Paired;
+mod radau;
+pub use radau::{ORDER as RADAU_ORDER, Radau};
 mod control;
 pub use control::{Rejection, StepControl, StepHistory, StepLimits, Verdict};
 mod root;

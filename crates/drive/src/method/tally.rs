@@ -28,13 +28,14 @@ impl Clone for Tally {
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Walk,
         Self::Swing,
         Self::Parabola,
         Self::Nystrom,
         Self::DormandPrince,
         Self::Brief,
+        Self::Radau,
         Self::Graded,
         Self::Whole,
         Self::AskedFor,
@@ -49,6 +50,7 @@ impl Method {
             Self::Nystrom => "Runge–Kutta–Nyström 8(6)",
             Self::DormandPrince => "Dormand–Prince 8(5,3)",
             Self::Brief => "Dormand–Prince 5(4)",
+            Self::Radau => "Radau IIA 9, implicit",
             Self::Graded => "Dormand–Prince 8(5,3) with crowded stages",
             Self::Whole => "the whole law, by halved steps",
             Self::AskedFor => "the stepper asked for",

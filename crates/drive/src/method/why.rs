@@ -27,6 +27,8 @@ pub enum Why {
     VaryingLoad,
     /// The force of a contact that grows in full stick depends on its path.
     Growth,
+    /// A damper, damped springs or a block settle far faster than all else goes on.
+    Stiff,
     /// A block has states of its own.
     Block,
     /// An event is near.
@@ -70,6 +72,9 @@ impl fmt::Display for Why {
             Self::ContactDamping => "the force of damped stuck springs depends on a velocity",
             Self::VaryingLoad => "the power of a load that varies depends on a velocity",
             Self::Growth => "the force of a contact that grows in full stick depends on its path",
+            Self::Stiff => {
+                "a damper, damped springs or a driver settle far faster than all else goes on: explicit steps would have to follow them all the time"
+            }
             Self::Block => "a block has states of its own beside the motion",
             Self::NearEvent => "where an event is near: it would cut a longer step",
             Self::SingularMoment => {

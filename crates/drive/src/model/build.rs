@@ -9,6 +9,7 @@ use super::{
     Binding, Body, Free, Link, Load, Measure, Model, Spared, Stroke, balanced, block, check, dampers, held,
     parts, reach, scale, used,
 };
+use crate::linearised::Paces;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{Field, Part, SceneError, SceneFault};
 
@@ -42,7 +43,7 @@ impl Model {
     /// coordinate nothing is allocated. After an error it is the model of no scene, and can become another one's.
     pub(crate) fn rebuild(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         check::check(scene)?;
-        (self.fastest, self.growing) = (0.0, 0);
+        (self.fastest, self.stiff, self.growing) = (0.0, false, 0);
         self.parts.clear();
         self.take_waveforms(scene);
         balanced::check_company(scene)?;
@@ -72,7 +73,7 @@ impl Model {
         scale::assign(contacts, free, &self.links, &self.waveforms, (deepest, pushes), scales);
         self.moment = balanced::moment(&self.waveforms);
         self.settle_balanced();
-        self.fastest = self.largest_rate();
+        Paces { fastest: self.fastest, stiff: self.stiff } = self.paces();
         self.parts = parts::divide(scene, self);
         Ok(())
     }

@@ -124,17 +124,17 @@ impl<'a> Setting<'a> {
 }
 
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
-    /// `order` is that of the solver, for step control.
-    fn new(setting: Setting<'a>, plan: &Plan, solver: A, order: u32) -> Self {
-        Self::within(Room::of(solver, setting.layout), setting, plan, order)
+    /// `order` is that of the solver, for step control, and `limits` what its steps may do.
+    fn new(setting: Setting<'a>, plan: &Plan, solver: A, control: (u32, StepLimits)) -> Self {
+        Self::within(Room::of(solver, setting.layout), setting, plan, control)
     }
 
     /// The same in the room of another run.
-    fn within(room: Room<A>, setting: Setting<'a>, plan: &Plan, order: u32) -> Self {
+    fn within(room: Room<A>, setting: Setting<'a>, plan: &Plan, (order, limits): (u32, StepLimits)) -> Self {
         let model = setting.model;
         let motion = Motion::new(&setting, room.solver, room.scale);
         // No step leaps over a smooth wave.
-        let limits = StepLimits { longest: motion.pace.longest, ..StepLimits::default() };
+        let limits = StepLimits { longest: motion.pace.longest, ..limits };
         // Where nothing is free nothing swings, and a walk has no pace.
         let period = if model.fastest > 0.0 { std::f64::consts::TAU / model.fastest } else { 0.0 };
         Self {

@@ -22,8 +22,9 @@ use stickslip_contact::Words;
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"stickslp";
-/// Version of the format: 2 counts the steps whose estimate missed, 3 has parts, one method more, and a driver's charge of strain.
-const VERSION: u64 = 3;
+/// Version of the format: 2 counts the steps whose estimate missed, 3 has parts, one method more, and a driver's charge of strain,
+/// 4 an implicit method.
+const VERSION: u64 = 4;
 /// Steppers at fixed step, by their number.
 const FIXED: [&str; 3] = ["rk4", "verlet", "frames"];
 /// Bytes before the words.

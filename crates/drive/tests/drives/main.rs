@@ -44,6 +44,7 @@ mod stack_rows;
 mod stages;
 mod statics;
 mod steady;
+mod stiff;
 mod straight_walks;
 mod swings;
 mod unfed_inputs;

@@ -1,7 +1,8 @@
 //! Resistance and bandwidth: step and ramp responses.
 
-use crate::parts::{FARADS, event, ideal, low, ran, scene, table};
-use std::f64::consts::TAU;
+use crate::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
+use std::f64::consts::{SQRT_2, TAU};
+use stickslip_drive::{Method, Shape};
 use stickslip_piezo::driver::Spec;
 
 /// 100 V from 1 ms on.
@@ -66,4 +67,26 @@ fn a_ramp_within_a_bandwidth_lags_by_two_damping_ratios() {
     };
     let worst = ran.worst(exact);
     assert!(worst < 1e-9 * 40.0, "{worst}");
+}
+
+/// Behind 0.1 mΩ (RC = 0.1 ns) and within 1 GHz a saw lags by RC, or by 2ζ/ω, but for a layer after its corners. Explicit steps,
+/// of twelve evaluations for some six times these, would need 18 million evaluations for it.
+#[test]
+fn drivers_of_nanoseconds_are_stepped_over() {
+    let cases = [(through(1e-4), 1e-4 * FARADS), (low(1e9, 0.5_f64.sqrt()), SQRT_2 / (TAU * 1e9))];
+    for (spec, lag) in cases {
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let saw = every(Shape::Sawtooth { stroke: GAIN * 100.0, flyback: 0.1e-3 });
+            let ran = ran(&scene(saw, spec.clone()), &event(tolerance, 0.97e-3), 37e-6);
+            let exact = |t: f64| match t % 1e-3 - lag {
+                _ if t == 0.0 => 0.0,
+                s if s < 0.9e-3 => 100.0 / 0.9e-3 * s,
+                s => 100.0 - 1e6 * (s - 0.9e-3),
+            };
+            let (worst, evaluations) = (ran.worst(exact), ran.state.counts().evaluations);
+            let told = format!("{spec:?} at {tolerance:e}: {worst:e} V, {evaluations} evaluations");
+            assert!(worst < tolerance * 100.0 && evaluations < 10_000, "{told}");
+            assert!(ran.state.tally().steps(Method::Radau) > 0, "{told}");
+        }
+    }
 }

@@ -146,6 +146,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             &self.setting.model.contacts[end.contact],
             self.watch.motion_at_start(&self.interval, end.contact, &self.motion.solver),
         );
+        if !self.motion.solver.grades() {
+            return false;
+        }
         let left = end.guard.value(contact, state.law(end.contact), &motion);
         let tells = |unit: f64| left > unit * self.motion.pace.resolved;
         match &state.modes[end.contact] {
@@ -168,7 +171,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 && matches!(state.modes[c], Mode::Grow | Mode::Slip(_))
                 && motion.d <= self.motion.pace.closeness * motion.dd * step
         };
-        if self.setting.model.contacts.iter().enumerate().any(touched) { Grade::Start } else { Grade::Even }
+        if self.motion.solver.grades() && self.setting.model.contacts.iter().enumerate().any(touched) {
+            Grade::Start
+        } else {
+            Grade::Even
+        }
     }
 
     /// About when the first piece of memory will be used up: a step much longer would only be thrown away.

@@ -26,6 +26,10 @@ const FINEST: f64 = 1e-13;
 // 0.001 that period takes 59 600 steps in all, with 0.01 to 8 46 300; with 1 or more a stack at 1e-12 ends in other last digits.
 const RUSH: f64 = 0.1;
 
+/// Differences over which derivatives are taken, in natural scales: far below what bends a contact's force, which is a tenth of
+/// u_c and more, and far above rounding.
+const DIFFERENCE: f64 = 1e-7;
+
 /// Absolute errors allowed of a step.
 pub(super) struct Allowance {
     /// As they are now.
@@ -105,6 +109,15 @@ impl Allowance {
             allow_rush(model, state, scale);
         }
     }
+}
+
+/// How far a derivative moves each coupled component of a model.
+pub(super) fn differences(model: &Model) -> Vec<f64> {
+    let mut natural = Allowance::new(model, 1.0, Vec::new());
+    natural.set(model, &model.rest());
+    let unit = DIFFERENCE / natural.strict;
+    let coupled = model.layout().dimension();
+    natural.allowed.scale[..coupled].iter().map(|scale| unit * scale).collect()
 }
 
 /// Raises what is allowed to what rounding of time leaves of the forces of fast strokes.

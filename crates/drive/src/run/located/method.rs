@@ -1,14 +1,21 @@
 //! The solver of a run between located events.
 
+use super::allowance::differences;
 use super::{Located, Room, Setting};
 use crate::method::{Method, SceneTraits, stepping};
 use crate::model::Model;
 use crate::record::Record;
 use crate::run::horizon::Goal;
 use crate::run::output::Opening;
-use crate::state::{LocatedWay, State};
+use crate::state::{Layout, LocatedWay, State};
 use crate::{Limits, Plan, RunError};
-use stickslip_stepper::{DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired};
+use stickslip_stepper::{
+    DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired, RADAU_ORDER, Radau, StepLimits,
+};
+
+/// Strongest shortening of an implicit step at once.
+// Where a follower turns, the first step that sees what settles there is a millionth of the one before.
+const SHRINK: f64 = 0.1;
 
 /// A run between located events, by the method of the scene's intervals without a closed form: where no force depends on a
 /// velocity, one that spares a third of the evaluations.
@@ -19,6 +26,25 @@ pub(in crate::run) enum LocatedRun<'a> {
     Many(Box<Located<'a, Paired>>),
     /// With dampers, varying loads or growth.
     General(Box<Located<'a, DormandPrince>>),
+    /// With something stiff among them.
+    Stiff(Box<Located<'a, Radau>>),
+}
+
+/// Order of a solver, for step control, and what its steps may do.
+type Steps = (u32, StepLimits);
+
+/// Of explicit methods.
+fn explicit(order: u32) -> Steps {
+    (order, StepLimits::default())
+}
+
+/// Of the implicit one.
+fn implicit() -> Steps {
+    (RADAU_ORDER, StepLimits { shrink: SHRINK, ..StepLimits::default() })
+}
+
+fn radau(model: &Model, layout: Layout) -> Radau {
+    Radau::new((layout.dimension(), layout.free), layout.total(), differences(model))
 }
 
 impl<'a> LocatedRun<'a> {
@@ -29,15 +55,18 @@ impl<'a> LocatedRun<'a> {
             // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
             (Method::Nystrom, 1) => {
                 let solver = Paired::one(layout.total());
-                Self::One(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
+                Self::One(Box::new(Located::new(setting, plan, solver, explicit(NYSTROM_ORDER))))
             }
             (Method::Nystrom, free) => {
                 let solver = Paired::new(free, 1, layout.total());
-                Self::Many(Box::new(Located::new(setting, plan, solver, NYSTROM_ORDER)))
+                Self::Many(Box::new(Located::new(setting, plan, solver, explicit(NYSTROM_ORDER))))
+            }
+            (Method::Radau, _) => {
+                Self::Stiff(Box::new(Located::new(setting, plan, radau(model, layout), implicit())))
             }
             _ => {
                 let solver = DormandPrince::new(layout.dimension(), layout.total());
-                Self::General(Box::new(Located::new(setting, plan, solver, DOP853_ORDER)))
+                Self::General(Box::new(Located::new(setting, plan, solver, explicit(DOP853_ORDER))))
             }
         }
     }
@@ -66,15 +95,19 @@ impl Workspace {
         match (setting.method, layout.free) {
             (Method::Nystrom, 1) => {
                 let solver = || Paired::one(layout.total());
-                Room::run(&mut self.one, (setting, plan, NYSTROM_ORDER), solver, to, record)
+                Room::run(&mut self.one, (setting, plan, explicit(NYSTROM_ORDER)), solver, to, record)
             }
             (Method::Nystrom, free) => {
                 let solver = || Paired::new(free, 1, layout.total());
-                Room::run(&mut self.many, (setting, plan, NYSTROM_ORDER), solver, to, record)
+                Room::run(&mut self.many, (setting, plan, explicit(NYSTROM_ORDER)), solver, to, record)
+            }
+            // Its solver holds differences of one model: no room is kept.
+            (Method::Radau, _) => {
+                Room::run(&mut None, (setting, plan, implicit()), || radau(model, layout), to, record)
             }
             _ => {
                 let solver = || DormandPrince::new(layout.dimension(), layout.total());
-                Room::run(&mut self.general, (setting, plan, DOP853_ORDER), solver, to, record)
+                Room::run(&mut self.general, (setting, plan, explicit(DOP853_ORDER)), solver, to, record)
             }
         }
     }
@@ -87,6 +120,7 @@ macro_rules! each {
             Self::One($run) => $call,
             Self::Many($run) => $call,
             Self::General($run) => $call,
+            Self::Stiff($run) => $call,
         }
     };
 }

@@ -15,7 +15,7 @@ use crate::run::ledger::Ledger;
 use crate::run::output::{Opening, Output};
 use crate::state::{Layout, LocatedWay, State, Window};
 use crate::{Plan, RunError};
-use stickslip_stepper::{Attempt, Hand};
+use stickslip_stepper::{Attempt, Hand, StepLimits};
 
 /// Room of a run by one solver.
 pub(super) struct Room<A> {
@@ -59,14 +59,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
     /// Moves a state that has begun to the end of its plan, in a room that may be there already.
     pub(super) fn run(
         room: &mut Option<Self>,
-        (setting, plan, order): (Setting<'_>, &Plan, u32),
+        (setting, plan, control): (Setting<'_>, &Plan, (u32, StepLimits)),
         solver: impl FnOnce() -> A,
         (state, way): (&mut State, Option<Box<LocatedWay>>),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         let fits = |room: &Self| room.layout == setting.layout;
         let own = room.take().filter(fits).unwrap_or_else(|| Self::of(solver(), setting.layout));
-        let mut run = Located::within(Self { way, ..own }, setting, plan, order);
+        let mut run = Located::within(Self { way, ..own }, setting, plan, control);
         let outcome = run.finish(state, plan, record);
         *room = Some(run.leave());
         outcome
