@@ -33,6 +33,7 @@ mod reproducibility;
 mod results;
 mod scenarios;
 mod soak;
+mod steady;
 mod strangers;
 mod validation;
 mod warnings;

@@ -4,6 +4,8 @@ use crate::series::{SeriesError, check, check_lengths, extent, mean, sum};
 
 /// Share of the displacement range after a reversal over which the tangential stiffness is fitted.
 pub const STIFFNESS_WINDOW: f64 = 0.1;
+/// Share of δ\* below which an opening is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// The quantities of one fretting cycle, from its loop (u, Q).
 ///
@@ -61,9 +63,9 @@ impl Cycle {
         quotient(self.dissipated, self.enclosing_energy())
     }
 
-    /// B = `E_d/(4Q*δ₀)`: independent of a compliance in series; none without opening.
+    /// B = `E_d/(4Q*δ₀)`: independent of a compliance in series; none without opening, which a billionth of δ\* is not.
     pub fn system_free_ratio(&self) -> Option<f64> {
-        quotient(self.dissipated, 4.0 * self.force_amplitude * self.half_opening?)
+        quotient(self.dissipated, 4.0 * self.force_amplitude * self.opening()?)
     }
 
     /// D = δ₀/δ\*: the slip ratio; none for a loop without extent.
@@ -74,7 +76,12 @@ impl Cycle {
     /// Energy coefficient of friction `μ_e` = `E_d/(4Pδ₀)` under a mean normal force P, N; none without opening or
     /// normal force. Equals Coulomb's μ for a rectangular loop.
     pub fn friction_coefficient(&self, normal_force: f64) -> Option<f64> {
-        quotient(self.dissipated, 4.0 * normal_force * self.half_opening?)
+        quotient(self.dissipated, 4.0 * normal_force * self.opening()?)
+    }
+
+    /// δ₀ where it is more than rounding: a quotient of two roundings may be anything.
+    fn opening(&self) -> Option<f64> {
+        self.half_opening.filter(|opening| opening.abs() > ROUNDING * self.displacement_amplitude)
     }
 }
 
@@ -217,6 +224,11 @@ mod tests {
             (Some(0.0), None, Some(0.0))
         );
         assert_relative_eq!(line.stiffness_after_maximum.unwrap(), 2.0, max_relative = 1e-15);
+        // An elastic line as a computer adds it up: E_d and δ₀ are rounding, and their quotient was told as B.
+        let (u, q) = ([-1.0, 0.1, 1.0, -0.1], [-0.3, 0.1 * 0.3 + 1e-17, 0.3, -0.1 * 0.3 + 2e-17]);
+        let elastic = Cycle { dissipated: 3e-17, ..Cycle::of_loop(&u, &q).unwrap() };
+        assert!(elastic.half_opening.is_some_and(|opening| opening.abs() < 1e-15));
+        assert_eq!((elastic.system_free_ratio(), elastic.friction_coefficient(1.0)), (None, None));
         let point = Cycle::of_loop(&[1.0; 3], &[1.0; 3]).unwrap();
         assert_eq!(
             (point.energy_ratio(), point.slip_ratio(), point.stiffness_after_maximum),

@@ -9,6 +9,7 @@ mod pictures;
 pub(crate) mod realtime;
 pub(crate) mod run;
 pub(crate) mod soak;
+pub(crate) mod steady;
 pub(crate) mod validate;
 
 use crate::commands::new;
@@ -24,6 +25,7 @@ pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 pub(crate) use realtime::RealtimeArguments;
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
 pub(crate) use soak::SoakArguments;
+pub(crate) use steady::SteadyArguments;
 pub(crate) use validate::ValidateArguments;
 
 /// Exit codes, as every command keeps them.
@@ -93,6 +95,9 @@ pub(crate) enum Command {
     /// Trace a curve of a drive: step over amplitude, speed over frequency, speed against a load
     #[command(long_about = characterise::ABOUT, after_long_help = characterise::EXAMPLES)]
     Characterise(CharacteriseArguments),
+    /// Find the steady motion of a drive without waiting for it: step, speed, how disturbances fade or grow
+    #[command(long_about = steady::ABOUT, after_long_help = steady::EXAMPLES)]
+    Steady(SteadyArguments),
     /// Write a scenario that runs at once, from a template, with the schema by which editors complete it
     ///
     /// Writes NAME.json and, beside it, schema/scenario-1.json, which the scenario names as its "$schema": editors that

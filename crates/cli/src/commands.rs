@@ -18,4 +18,5 @@ pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod soak;
+pub(crate) mod steady;
 pub(crate) mod validate;

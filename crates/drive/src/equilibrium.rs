@@ -12,6 +12,7 @@ mod balanced;
 mod elimination;
 mod statics;
 
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::model::{Free, Model, Part};
 use crate::record;
@@ -81,16 +82,28 @@ impl Model {
             state.memories.iter_mut().for_each(Memory::make_room);
         }
         self.balance_first(state)?;
+        self.open_books(state, row);
+        Ok(())
+    }
+
+    /// Begins the books of energies with a state: nothing has been put in or lost before it.
+    pub(crate) fn open_books(&self, state: &mut State, row: &mut Vec<f64>) {
+        let layout = state.layout(self);
+        (state.y[layout.input()], state.y[layout.damping()]) = (0.0, 0.0);
+        (0..layout.growing).for_each(|slot| state.y[layout.friction(slot)] = 0.0);
+        state.friction.fill(0.0);
+        (state.lost, state.origin) = (0.0, 0.0);
         // What pressed and lifted before the start is no work of the run: it is read off the present state,
         // and taken off here.
         let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());
-        state.jumps = -varying.map(|c| c.count * c.interface.normal_energy(self.indentation(c))).sum::<f64>()
-            - self.lifted(|i| state.y[i]);
-        // By the row itself: whatever it counts as stored, the books close on it at t = 0.
-        record::fill(&self.equations(state), state, 0.0, &|i| state.y[i], row);
-        // The books' error at t = 0 is minus what is stored: that is where they start.
+        let equations = self.equations(state);
+        let pressed = |c: &Contact| c.interface.normal_energy(equations.pressed(c, state.t).0);
+        state.jumps = -varying.map(|c| c.count * pressed(c)).sum::<f64>()
+            - self.lifted(|i| state.shifts[i] + state.y[i]);
+        // By the row itself: whatever it counts as stored, the books close on it at the start.
+        record::fill(&self.equations(state), state, state.t, &|i| state.y[i], row);
+        // The books' error there is minus what is stored: that is where they start.
         state.origin = -row.last().copied().unwrap_or(0.0);
-        Ok(())
     }
 
     /// Refuses a fixed step with which the stiffest motion grows.

@@ -11,6 +11,7 @@ mod legs;
 use crate::equations::Equations;
 use crate::model::Binding;
 use crate::scene::Axis;
+use crate::state::Counts;
 use crate::{Model, State};
 use drift::Drift;
 use stickslip_contact::Memory;
@@ -213,6 +214,17 @@ impl<'m> Section<'m> {
         end.pieces.clone_from(&base.pieces);
         end.generators.clone_from(&base.generators);
         (end, way)
+    }
+
+    /// A state at the section as the start of a run: its books of energies and its counts begin there.
+    #[must_use]
+    pub fn begun(&self, state: &State) -> State {
+        let (model, mut begun) = (self.model, state.clone());
+        (begun.step, begun.stuck_step, begun.underway) = (0.0, f64::INFINITY, None);
+        begun.counts = Counts::default();
+        begun.tally.clear(model.contacts.len());
+        model.open_books(&mut begun, &mut Vec::new());
+        begun
     }
 
     /// The numbers of a state less those of another one, each in its own unit; none where their memories have other

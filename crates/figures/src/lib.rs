@@ -4,7 +4,8 @@
 //! what a picture comes from; [`gallery`] draws all pictures of a scenario, and the page that shows them.
 //!
 //! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
-//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop; [`curve`], those of a machine.
+//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop;
+//! [`steady`], the picture of a motion that repeats itself; [`curve`], those of a machine.
 
 pub mod comparison;
 pub mod curve;
@@ -14,6 +15,7 @@ mod origin;
 pub mod overlay;
 mod pictures;
 pub mod realtime;
+pub mod steady;
 pub mod theory;
 
 pub use look::{Colours, Format, Look, Picture};

@@ -3,7 +3,7 @@
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::{self, FigureError, Sources};
 use std::sync::Mutex;
-use stickslip_plot::{Figure, overlaid};
+use stickslip_plot::{Axis, Figure, Panel, overlaid};
 use stickslip_results::program::this_program;
 use stickslip_results::provenance::{HASH, PROGRAM, TITLE};
 use stickslip_scenario::PlotName;
@@ -41,12 +41,36 @@ pub fn draw(
     let pen = Pen { look, provenance: provenance(results), kept: None };
     let mut drawn = Vec::new();
     for (kind, figures) in kinds {
-        let unlike = FigureError::Unlike { plot: plot.name() };
-        let figure = overlaid(&title(results), &figures).ok_or(unlike)?;
+        let unlike = || FigureError::Unlike { plot: plot.name(), unlike: unlike(&figures) };
+        let figure = overlaid(&title(results), &figures).ok_or_else(unlike)?;
         let failed = |source| FigureError::Plot { plot: plot.name(), source };
         drawn.extend(pen.draw_as(&name(&kind), figure).map_err(failed)?);
     }
     Ok(drawn)
+}
+
+/// Which figure has other panels than the first, and which both have.
+fn unlike(figures: &[(String, Figure<'_>)]) -> String {
+    let told = |(name, figure): &(String, Figure<'_>)| format!("{name} has {}", panels(figure));
+    let first = figures.first();
+    let other =
+        figures.iter().find(|(_, figure)| first.is_some_and(|(_, first)| panels(figure) != panels(first)));
+    match first.zip(other) {
+        Some((first, other)) => {
+            format!("these results do not have the same panels: {}, {}", told(first), told(other))
+        }
+        None => "none of these results has curves in it".to_owned(),
+    }
+}
+
+/// The panels of a figure in words: what is drawn over what.
+fn panels(figure: &Figure<'_>) -> String {
+    let axis = |axis: &Axis| match axis.unit.as_str() {
+        "" => axis.label.text().to_owned(),
+        unit => format!("{} ({unit})", axis.label.text()),
+    };
+    let panel = |panel: &Panel<'_>| format!("{} over {}", axis(&panel.y), axis(&panel.x));
+    figure.panels.iter().map(panel).collect::<Vec<_>>().join(" and ")
 }
 
 /// The title that all have, or else their names.
@@ -65,4 +89,28 @@ fn provenance(results: &[(String, Sources<'_>)]) -> Vec<(String, String)> {
         texts.push((format!("{HASH} of {number}"), sources.job.hash.clone()));
     }
     texts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_plot::{HysteresisLoop, loop_figure};
+
+    /// It was said that panels are not the same, and not which.
+    #[test]
+    fn panels_that_differ_are_named() {
+        let of = |limit: Option<f64>| HysteresisLoop {
+            name: "ball",
+            u: &[0.0, 1e-7],
+            force: &[0.0, 1.0],
+            gross_slip: limit.map(|_| 1e-7),
+            limit,
+        };
+        // Two limits need a panel of their own.
+        let one = ("one".to_owned(), loop_figure("", &[of(Some(1.0))]));
+        let two = ("two".to_owned(), loop_figure("", &[of(Some(1.0)), of(Some(2.0))]));
+        let said = unlike(&[one.clone(), two]);
+        assert!(said.contains("one has tangential force") && said.contains(" and F"), "{said}");
+        assert!(unlike(&[one.clone(), one]).contains("curves"));
+    }
 }

@@ -1,7 +1,7 @@
 //! The pictures of results, drawn alike from a run that has just ended and from its folder: the table of their kinds, each
 //! in a file of its own.
 
-mod alike;
+pub(crate) mod alike;
 mod drive;
 mod energy;
 mod events;
@@ -15,7 +15,7 @@ mod period;
 mod phase;
 mod state;
 mod substitute;
-mod trajectory;
+pub(crate) mod trajectory;
 mod waveform;
 
 use crate::look::{Look, Pen, Picture};
@@ -61,11 +61,13 @@ pub enum FigureError {
         /// Which picture.
         plot: &'static str,
     },
-    /// Panels of other kinds.
-    #[error("{plot} was not drawn: these results do not have the same panels")]
+    /// Panels of other kinds, or no curves.
+    #[error("{plot} was not drawn: {unlike}")]
     Unlike {
         /// Which picture.
         plot: &'static str,
+        /// Which results do not have the same panels, and which each has.
+        unlike: String,
     },
     /// A table that the run did not write.
     #[error("{plot} was not drawn: it needs {file}, which the run did not write")]
@@ -189,6 +191,12 @@ fn written<'a>(table: &'a SealedTable, file: &'static str) -> Result<&'a SealedT
     if table.path.exists() { Ok(table) } else { Err(Undrawn::Absent(file)) }
 }
 
+/// The title of a picture with room for so many of all contacts and moments: which those are, where they are not all.
+fn of_all(title: &str, which: &str, (shown, all): (usize, usize)) -> String {
+    let which = if which.is_empty() { String::new() } else { format!("the {which} ") };
+    if shown < all { format!("{title} ({which}{shown} of {all} in the table)") } else { title.to_owned() }
+}
+
 /// The title of what is drawn from events while they are whole: until when that is, where it is not all the way.
 fn whole_title(job: &Job, kept: &Kept) -> String {
     let time = |t: f64| quantity(Real(t), "s");
@@ -204,4 +212,17 @@ fn whole_title(job: &Job, kept: &Kept) -> String {
 fn of_contacts(job: &Job, quantities: &[&str]) -> Vec<String> {
     let names = job.model.contacts().map(|(name, _)| name);
     names.flat_map(|name| quantities.iter().map(move |quantity| format!("{name}.{quantity}"))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nine were told as six, and nothing said so.
+    #[test]
+    fn what_is_left_out_is_said() {
+        assert_eq!(of_all("Ball", "last", (6, 9)), "Ball (the last 6 of 9 in the table)");
+        assert_eq!(of_all("Ball", "", (6, 15)), "Ball (6 of 15 in the table)");
+        assert_eq!(of_all("Ball", "last", (6, 6)), "Ball");
+    }
 }

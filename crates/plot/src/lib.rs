@@ -12,7 +12,8 @@
 //!   over displacement), [`energy`] (the energy book), [`drive`] (what is commanded and what moves), [`events`] (what happened when), [`state`] (springs over time),
 //!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
 //!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
-//!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`curve`] (what a machine does over something that is varied), [`work_precision`] (what an error costs), [`growth`] (what more of something costs);
+//!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs), [`orbit`] (a motion that repeats itself),
+//!   [`curve`] (what a machine does over something that is varied);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
@@ -49,6 +50,7 @@ mod legend;
 pub mod memory;
 mod mosaic;
 mod notes;
+pub mod orbit;
 pub mod over;
 mod paint;
 mod palette;
@@ -88,6 +90,7 @@ pub use growth::{GrowthCurve, growth_figure};
 pub use hysteresis::{HysteresisLoop, loop_figure, marked_loop_figure};
 pub use label::Label;
 pub use memory::{MemoryMoment, memory_figure};
+pub use orbit::{OrbitCourse, orbit_figure};
 pub use over::overlaid;
 pub use panel::{Axis, Band, Lane, Mark, Mosaic, Note, Panel, Reference, Rescaled, Series, Shape};
 pub use phase::{PhasePath, phase_figure};

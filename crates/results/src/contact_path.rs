@@ -7,7 +7,6 @@ use crate::series::Series;
 use crate::trail::Trail;
 use motion::Motion;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
-use stickslip_drive::Waveform;
 
 /// Samples between the limit forces of one sign and the other.
 const FINENESS: f64 = 128.0;
@@ -55,8 +54,7 @@ pub(crate) fn is_walked(job: &Job, c: usize) -> bool {
 
 /// Whether all turning points of a run are events, and nothing jumps.
 fn knows_turns(job: &Job) -> bool {
-    let jumps = job.scenario.scene.waveforms.iter().any(|w| Waveform::has_jumps(&w.part));
-    !jumps && job.model.effective(job.scenario.plan.stepper).locates_events()
+    !job.has_jumps() && job.model.effective(job.scenario.plan.stepper).locates_events()
 }
 
 /// The way with points between its samples where the load varies: the contact is walked along the motion of its bodies. None

@@ -49,6 +49,14 @@ pub fn read(table: &SealedTable, most: usize) -> Result<Vec<MemoryCurve>, FrameE
     Ok(curves)
 }
 
+/// How many curves the table has.
+///
+/// # Errors
+/// As [`read`].
+pub fn count(table: &SealedTable) -> Result<usize, FrameError> {
+    Ok(survey(table)?.1)
+}
+
 /// All moments, s, and the number of curves.
 fn survey(table: &SealedTable) -> Result<(Vec<f64>, usize), FrameError> {
     let mut corners = Corners::open(table)?;

@@ -4,10 +4,13 @@
 //! reversals of a table, which has no periods, are told at the end of the run.
 //!
 //! Nothing here is read off rows. Ends of cycles are marks, turning points are events; where the contact's law has no time in
-//! it, the way from one to the next is walked once more, and what lies between is asked of the law.
+//! it, the way from one to the next is walked once more, and what lies between is asked of the law. Elsewhere moments are dense:
+//! peaks between them are those of parabolas, and the mean of a prescribed load is an integral of its waveform.
 
 mod judged;
+mod load;
 mod loops;
+mod peak;
 
 pub(crate) use judged::ContactCycles;
 pub use judged::JudgedCycle;
@@ -15,6 +18,7 @@ pub(crate) use loops::Loops;
 
 use crate::job::Job;
 use crate::periods::followed;
+use load::Load;
 use std::ops::Range;
 use stickslip_analysis::Cycle;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
@@ -36,14 +40,40 @@ pub struct CycleFigures {
     pub time: [f64; 2],
     /// Whether the force comes back as well; otherwise there is no loop, and ratios say nothing.
     pub is_closed: bool,
-    /// Amplitudes, opening, and as E_d the friction work; stiffnesses are the contact's own, of full stick.
+    /// Amplitudes, opening, and as E_d what is lost, to friction and, as far as it is known, to damping; stiffnesses are the contact's
+    /// own, of full stick.
     pub cycle: Cycle,
+    /// What the contact's own damping has taken, J, 0 without any; none where other parts lose energy as well, from whose share it
+    /// is not told apart.
+    pub damping: Option<f64>,
     /// Secants of the first tenth of the way back, after the maximum and after the minimum of u, N/m.
     pub secants: [Option<f64>; 2],
     /// Mean normal force, N.
     pub normal: f64,
     /// Indentation at its start, m.
     pub depth: f64,
+}
+
+impl CycleFigures {
+    /// Friction work, J.
+    pub fn friction(&self) -> f64 {
+        self.cycle.dissipated - self.damping.unwrap_or(0.0)
+    }
+
+    /// `E_d`, J: all that is lost; none where damping's part is not known.
+    pub fn dissipated(&self) -> Option<f64> {
+        self.damping.map(|_| self.cycle.dissipated)
+    }
+
+    /// A quantity that only a loop has.
+    pub(crate) fn of_loop(&self, value: Option<f64>) -> Option<f64> {
+        value.filter(|_| self.is_closed)
+    }
+
+    /// A quotient with `E_d`: only a loop has it, and one all of whose losses are known.
+    pub(crate) fn ratio(&self, value: Option<f64>) -> Option<f64> {
+        self.of_loop(value).filter(|_| self.damping.is_some())
+    }
 }
 
 /// The moments of a contact, from the start of the cycle under way or, where cycles are told only at the end, from the first.
@@ -55,6 +85,35 @@ struct Track {
     force: Vec<f64>,
     normal: Vec<f64>,
     friction: Vec<f64>,
+    damping: Vec<f64>,
+    /// Whether something bends there: an event.
+    bends: Vec<bool>,
+}
+
+/// A moment of a contact: u and d, m, forces, N, and what friction and damping have taken so far, J.
+#[derive(Debug, Clone, Copy)]
+struct Moment {
+    u: f64,
+    d: f64,
+    force: f64,
+    normal: f64,
+    friction: f64,
+    damping: f64,
+    bends: bool,
+}
+
+/// What a contact's figures are taken with, beside its moments.
+struct Setup<'a> {
+    law: &'a Interface,
+    /// Number of identical contacts.
+    count: f64,
+    load: Option<&'a Load>,
+    /// Whether moments are so dense that extremes between them are those of parabolas.
+    is_dense: bool,
+    /// Whether its force never jumps at an event.
+    is_continuous: bool,
+    /// Whether what its own damping takes is known.
+    knows_damping: bool,
 }
 
 /// What the law is asked for in a cycle: between which moment and the next, and at which u; without one, where F_x passes the
@@ -69,21 +128,26 @@ struct Question {
 }
 
 impl Track {
-    fn push(&mut self, t: f64, [u, d, force, normal, friction]: [f64; 5]) {
+    fn push(&mut self, t: f64, moment: Moment) {
+        let Moment { u, d, force, normal, friction, damping, bends } = moment;
         self.t.push(t);
-        let columns = [&mut self.u, &mut self.d, &mut self.force, &mut self.normal, &mut self.friction];
-        columns
-            .into_iter()
-            .zip([u, d, force, normal, friction])
-            .for_each(|(column, value)| column.push(value));
+        self.bends.push(bends);
+        let values = [u, d, force, normal, friction, damping];
+        self.columns().into_iter().zip(values).for_each(|(column, value)| column.push(value));
+    }
+
+    /// All but time, in the order of a moment.
+    fn columns(&mut self) -> [&mut Vec<f64>; 6] {
+        let Self { u, d, force, normal, friction, damping, .. } = self;
+        [u, d, force, normal, friction, damping]
     }
 
     /// Forgets all but the last moment.
     fn keep_last(&mut self) {
-        let Self { t, u, d, force, normal, friction } = self;
-        [t, u, d, force, normal, friction].into_iter().for_each(|column| {
-            column.drain(..column.len().saturating_sub(1));
-        });
+        let gone = self.t.len().saturating_sub(1);
+        self.columns().into_iter().for_each(|column| drop(column.drain(..gone)));
+        self.t.drain(..gone);
+        self.bends.drain(..gone);
     }
 
     fn comes_back(&self, span: &Range<usize>) -> bool {
@@ -92,19 +156,14 @@ impl Track {
         high > low && (u[u.len() - 1] - u[0]).abs() <= CLOSED * (high - low)
     }
 
-    fn figures(
-        &self,
-        span: &Range<usize>,
-        (law, count): (&Interface, f64),
-        walk: Option<&mut Walk>,
-    ) -> CycleFigures {
-        let (a, b) = (span.start, span.end);
+    fn figures(&self, span: &Range<usize>, setup: &Setup<'_>, walk: Option<&mut Walk>) -> CycleFigures {
+        let (a, b, Setup { law, count, .. }) = (span.start, span.end, setup);
         let (u, force) = (&self.u[a..=b], &self.force[a..=b]);
         let ((low, high), (least, most)) = (range(u), range(force));
         let middle = least + 0.5 * (most - least);
         let mut questions = self.questions(span, (low, high), middle);
         match walk {
-            Some(walk) => walk.answer((self, law), span, (count, middle), &mut questions),
+            Some(walk) => walk.answer((self, law), span, (*count, middle), &mut questions),
             None => questions.iter_mut().for_each(|question| question.answer = self.chord(question, middle)),
         }
         let secant = |extreme: f64| {
@@ -118,21 +177,35 @@ impl Track {
                 .map(|i| count * law.stick_stiffness(self.d[i]))
                 .filter(|k| *k > 0.0)
         };
-        let normal = mean_over_time(&self.t[a..=b], &self.normal[a..=b]);
+        let time = [self.t[a], self.t[b]];
+        let normal = match setup.load.filter(|_| time[1] > time[0]) {
+            Some(load) => load.mean(law, time),
+            None => mean_over_time(&self.t[a..=b], &self.normal[a..=b]),
+        };
         // What moves in the last digits has no loop.
         let moves = most - least > ROUNDING * law.friction() * normal;
+        let amplitude = |values: &[f64]| {
+            let (low, high) = if setup.is_dense {
+                self.peaks(span, values, setup.is_continuous)
+            } else {
+                range(&values[a..=b])
+            };
+            0.5 * (high - low)
+        };
+        let damping = setup.knows_damping.then(|| self.damping[b] - self.damping[a]);
         let cycle = Cycle {
-            displacement_amplitude: 0.5 * (high - low),
-            force_amplitude: 0.5 * (most - least),
+            displacement_amplitude: amplitude(&self.u),
+            force_amplitude: amplitude(&self.force),
             half_opening: self.half_opening(&questions, middle).filter(|_| moves),
-            dissipated: self.friction[b] - self.friction[a],
+            dissipated: self.friction[b] - self.friction[a] + damping.unwrap_or(0.0),
             stiffness_after_maximum: tangent(high),
             stiffness_after_minimum: tangent(low),
         };
         CycleFigures {
-            time: [self.t[a], self.t[b]],
+            time,
             is_closed: (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
             cycle,
+            damping,
             secants: [secant(high), secant(low)],
             normal,
             depth: self.d[a],

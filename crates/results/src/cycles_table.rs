@@ -8,7 +8,7 @@ use tempfile::NamedTempFile;
 /// Place of `closed` among the values, after both times.
 const CLOSED: usize = 2;
 /// Names of the columns.
-pub(crate) const HEAD: [&str; 19] = [
+pub(crate) const HEAD: [&str; 20] = [
     "contact",
     "cycle",
     "start_s",
@@ -18,6 +18,7 @@ pub(crate) const HEAD: [&str; 19] = [
     "force_amplitude_N",
     "half_opening_m",
     "dissipated_J",
+    "damping_J",
     "mean_normal_force_N",
     "energy_ratio",
     "system_free_ratio",
@@ -70,25 +71,25 @@ impl CyclesTable {
 }
 
 /// The numbers of a cycle, in the order of the columns; in the place of `closed` none.
-fn values(JudgedCycle { figures, .. }: &JudgedCycle) -> [Option<f64>; 16] {
+fn values(JudgedCycle { figures, .. }: &JudgedCycle) -> [Option<f64>; 17] {
     let cycle = figures.cycle;
-    let if_closed = |value: Option<f64>| value.filter(|_| figures.is_closed);
     [
         Some(figures.time[0]),
         Some(figures.time[1]),
         None,
         Some(cycle.displacement_amplitude),
         Some(cycle.force_amplitude),
-        if_closed(cycle.half_opening),
-        Some(cycle.dissipated),
+        figures.of_loop(cycle.half_opening),
+        figures.dissipated(),
+        figures.damping,
         Some(figures.normal),
-        if_closed(cycle.energy_ratio()),
-        if_closed(cycle.system_free_ratio()),
-        if_closed(cycle.slip_ratio()),
-        if_closed(cycle.friction_coefficient(figures.normal)),
+        figures.ratio(cycle.energy_ratio()),
+        figures.ratio(cycle.system_free_ratio()),
+        figures.of_loop(cycle.slip_ratio()),
+        figures.ratio(cycle.friction_coefficient(figures.normal)),
         cycle.stiffness_after_maximum,
         cycle.stiffness_after_minimum,
-        if_closed(figures.secants[0]),
-        if_closed(figures.secants[1]),
+        figures.of_loop(figures.secants[0]),
+        figures.of_loop(figures.secants[1]),
     ]
 }

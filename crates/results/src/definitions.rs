@@ -7,6 +7,7 @@ mod contact;
 mod curve;
 mod info;
 mod keys;
+mod steady;
 
 use std::fmt::Write;
 
@@ -27,8 +28,8 @@ const PLACEHOLDERS: [&str; 10] =
 
 /// Everything that is defined, file by file.
 pub fn definitions() -> impl Iterator<Item = &'static Definition> {
-    let rest = contact::CONTACT.iter().chain(check::CHECK).chain(curve::CURVE);
-    columns::COLUMNS.iter().chain(keys::KEYS).chain(info::INFO).chain(rest)
+    let tables = columns::COLUMNS.iter().chain(keys::KEYS).chain(info::INFO);
+    tables.chain(contact::CONTACT).chain(steady::STEADY).chain(check::CHECK).chain(curve::CURVE)
 }
 
 impl Definition {
@@ -59,7 +60,14 @@ impl Definition {
         let Some((symbol, _)) = self.text.split_once([' ', ',']) else { return false };
         let rest = &self.text[symbol.len()..];
         let plain: String = symbol.chars().map(|c| lowered(c).unwrap_or(c)).collect();
-        (rest.starts_with(',') || rest.starts_with(" = ")) && (symbol == asked || plain == asked)
+        // Amplitudes, as in Q*, are asked for without their stars as well.
+        let is = |symbol: &str| symbol == asked || symbol.strip_suffix('*') == Some(asked);
+        (rest.starts_with(',') || rest.starts_with(" = ")) && (is(symbol) || is(&plain))
+    }
+
+    /// Whether a word is one of those that it may say, such as `partial` of a state.
+    pub fn says(&self, asked: &str) -> bool {
+        self.text.split('`').skip(1).step_by(2).any(|word| word == asked)
     }
 
     /// Whether it is the definition of this column or key of its file, written out.
@@ -79,8 +87,7 @@ fn lowered(below: char) -> Option<char> {
 /// The page, in Markdown.
 pub fn definitions_page() -> String {
     let mut page = String::from(
-        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `check`, `validate` and \
-         `characterise` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
+        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,\n`validate` and `characterise` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
          entry. Names end\nwith their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is `start`, \
          or `least` and\n`most` of a load that varies. How the figures of steps and loops are found, and how exact they are, is told on \
          [their\npage](figures.md); what the contacts obey, on [the page of the physics](physics.md). Numbers in brackets such as (4.26) are \
@@ -118,6 +125,18 @@ mod tests {
         assert!(found("nothing").is_empty() && found("BODY").is_empty() && found("").is_empty());
     }
 
+    /// States and regimes were called by nothing.
+    #[test]
+    fn words_of_states_are_found() {
+        for (word, name) in [("slip", "CONTACT.state"), ("gross", "regime"), ("gross slip", "kind")] {
+            assert!(
+                definitions().any(|definition| definition.says(word) && definition.name == name),
+                "{word}"
+            );
+        }
+        assert!(!definitions().any(|definition| definition.says("") || definition.says("no word")));
+    }
+
     #[test]
     fn symbols_are_found_where_a_text_begins_with_them() {
         let found = |asked: &str| definitions().filter(|definition| definition.has_symbol(asked)).count();
@@ -125,6 +144,8 @@ mod tests {
         {
             assert!(found(symbol) > 0, "{symbol}");
         }
+        let q = definitions().filter(|definition| definition.has_symbol("Q"));
+        assert!(q.map(|definition| definition.name).any(|name| name.ends_with("force_amplitude_N")));
         // Words of sentences are none.
         for word in ["time", "displacement", "the", "₀", ""] {
             assert_eq!(found(word), 0, "{word}");

@@ -159,9 +159,26 @@ impl Job {
 
     /// Whether the force of contact `c` follows from the way of its bodies along the slide alone.
     pub fn has_law_without_time(&self, c: usize) -> bool {
-        let damping =
-            self.scenario.scene.contacts.get(c).map_or(0.0, |contact| contact.part.interface.damping());
-        self.has_constant_load(c) && damping == 0.0
+        self.has_constant_load(c) && !self.is_damped(c)
+    }
+
+    /// Whether contact `c` has damping of its own.
+    pub fn is_damped(&self, c: usize) -> bool {
+        self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.interface.damping() > 0.0)
+    }
+
+    /// Whether a waveform of its scene jumps.
+    pub(crate) fn has_jumps(&self) -> bool {
+        self.scenario.scene.waveforms.iter().any(|waveform| waveform.part.has_jumps())
+    }
+
+    /// Whether nothing but friction loses energy beside contact `c`: no other damped contact, no damper, and no block.
+    pub(crate) fn loses_nothing_beside(&self, c: usize) -> bool {
+        let scene = &self.scenario.scene;
+        let mut others = (0..scene.contacts.len()).filter(|other| *other != c);
+        let dampers = scene.springs.iter().map(|it| it.part.damping);
+        let mut dampers = dampers.chain(scene.actuators.iter().map(|it| it.part.damping));
+        scene.blocks.is_empty() && !others.any(|other| self.is_damped(other)) && dampers.all(|it| it == 0.0)
     }
 
     /// Whether the bodies' motion presses contact `c`.

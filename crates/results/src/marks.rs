@@ -6,11 +6,16 @@ use crate::cycles::table_of;
 use crate::job::Job;
 use crate::periods::Periods;
 use stickslip_drive::Waveform;
-use stickslip_drive::scene::{Freedom, Side};
+use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 
 /// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
 /// extremes and corners that are no events. Those of the body that steps have no loops.
 const PARTS: f64 = 512.0;
+/// The same of a period of a load that is shorter, where the contact's body goes to and fro in many of them: parabolas through moments
+/// so near find the extremes of a sine to 4e-6 of it.
+const LOAD_PARTS: f64 = 64.0;
+/// Most parts of a period in all: a cycle of more moments than there is room for would not be told.
+const MOST_PARTS: f64 = 65_536.0;
 /// The same of a table, all of it.
 const TABLE_PARTS: f64 = 4096.0;
 /// A moment this near to an end, in periods, is the end.
@@ -52,19 +57,18 @@ impl Marks {
         let of_figures = || Periods::until(&scene.waveforms.get(figures.waveform?)?.part, for_ever);
         let figures = body.and_then(|_| of_figures());
         let mut grids: Vec<Grid> = figures.iter().map(|periods| Grid::of(periods, 1.0)).collect();
-        let mut are_dense = false;
+        let mut any_dense = false;
         for c in 0..scene.contacts.len() {
+            let is_dense = are_dense(job, c);
+            any_dense |= is_dense;
             let grids_of_contact = match (Periods::of_contact(job, c, for_ever), table_of(job, c)) {
                 (Some(periods), _) => {
-                    let steps = body.is_some_and(|body| touches(job, c, body));
-                    let whole = steps || is_walked(job, c);
-                    are_dense |= !whole;
-                    vec![Grid::of(&periods, if whole { 1.0 } else { PARTS })]
+                    let load = load_of(job, c).filter(|_| is_dense);
+                    let parts = if is_dense { parts_of(&periods, load) } else { 1.0 };
+                    let of_load = load.into_iter().flat_map(peaks_of_load);
+                    [Grid::of(&periods, parts)].into_iter().chain(of_load).collect()
                 }
-                (None, Some(table)) => {
-                    are_dense |= !is_walked(job, c);
-                    Grid::along(table, is_walked(job, c), end)
-                }
+                (None, Some(table)) => Grid::along(table, !is_dense, end),
                 (None, None) => Vec::new(),
             };
             for grid in grids_of_contact {
@@ -75,7 +79,7 @@ impl Marks {
         }
         let common = grids.len();
         grids.extend(figures.iter().flat_map(|periods| turns(job, periods)));
-        Self { grids, common, are_dense, body: body.filter(|_| figures.is_some()), figures, end }
+        Self { grids, common, are_dense: any_dense, body: body.filter(|_| figures.is_some()), figures, end }
     }
 
     /// Whether a moment is one for all figures, and not for the account of a period alone.
@@ -111,6 +115,46 @@ impl Marks {
         let same = SAME.max(4.0 * f64::EPSILON * place.abs());
         ((place - place.round()).abs() <= same && place > -0.5).then(|| place.round() as u64)
     }
+}
+
+/// Whether a contact is looked at in parts of a period, or of a table: its force does not follow from the way alone, and its body is not
+/// the one that steps.
+pub(crate) fn are_dense(job: &Job, c: usize) -> bool {
+    if is_walked(job, c) {
+        return false;
+    }
+    let is_free = |body: &usize| {
+        job.scenario.scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free)
+    };
+    let steps = job.scenario.figures.body.filter(is_free).is_some_and(|body| touches(job, c, body));
+    match Periods::of_contact(job, c, f64::INFINITY) {
+        Some(_) => !steps,
+        None => table_of(job, c).is_some(),
+    }
+}
+
+/// The waveform that presses a contact.
+fn load_of(job: &Job, c: usize) -> Option<&Waveform> {
+    match job.scenario.scene.contacts.get(c)?.part.normal {
+        Normal::Force(Varying::Follows(w))
+        | Normal::Indentation(Varying::Follows(w))
+        | Normal::Radius(Varying::Follows(w)) => Some(&job.scenario.scene.waveforms.get(w)?.part),
+        _ => None,
+    }
+}
+
+/// Parts of a period at whose ends a contact is looked at that moves in it under a load that may be faster.
+fn parts_of(periods: &Periods, load: Option<&Waveform>) -> f64 {
+    let loads = load.and_then(Waveform::period).map_or(0.0, |period| periods.length / period);
+    (LOAD_PARTS * loads).ceil().clamp(PARTS, MOST_PARTS)
+}
+
+/// Where a load turns: there the limit of friction has its extremes, and so has the force of a contact that slides.
+fn peaks_of_load(load: &Waveform) -> Vec<Grid> {
+    let Some(periods) = Periods::until(load, f64::INFINITY) else { return Vec::new() };
+    let Some(phases) = Phases::of(load).filter(|_| !load.is_straight()) else { return Vec::new() };
+    let grid = |turn: f64| Grid { start: periods.start + turn, ..Grid::of(&periods, 1.0) };
+    std::iter::once(0.0).chain(phases.turns()).map(grid).collect()
 }
 
 /// Where the waveform of the figures turns without a corner, which would be an event.

@@ -187,7 +187,7 @@ impl<'a> Recorder<'a> {
         self.recorded.books.read_event(values);
         self.recorded.tally.row(values);
         self.recorded.tally.account(Some((source, kind)), values);
-        self.moment(values);
+        self.moment(values, true);
         if !self.selection.takes(source, kind, values.first().copied().unwrap_or(0.0)) {
             return;
         }
@@ -206,8 +206,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// Takes a moment that figures are taken at, and tells the cycles that it ends.
-    fn moment(&mut self, values: &[f64]) {
-        self.recorded.tally.moment(self.job, values, &mut self.ended);
+    fn moment(&mut self, values: &[f64], bends: bool) {
+        self.recorded.tally.moment(self.job, (values, bends), &mut self.ended);
         if !self.ended.is_empty() {
             self.tell_cycles();
         }
@@ -372,7 +372,7 @@ impl Record for Recorder<'_> {
         self.recorded.tally.account(None, values);
         let t = values.first().copied().unwrap_or(0.0);
         if self.marks.is_common(t) {
-            self.moment(values);
+            self.moment(values, false);
         }
         match self.marks.period_ended(t) {
             Some(0) => self.recorded.tally.begin_range(),

@@ -81,11 +81,16 @@ impl Tally {
         }
     }
 
-    /// Takes a moment that figures are taken at: after an event, or a mark.
-    pub(crate) fn moment(&mut self, job: &Job, values: &[f64], ended: &mut Vec<(usize, CycleFigures)>) {
+    /// Takes a moment that figures are taken at: a mark, or after an event, where something `bends`.
+    pub(crate) fn moment(
+        &mut self,
+        job: &Job,
+        (values, bends): (&[f64], bool),
+        ended: &mut Vec<(usize, CycleFigures)>,
+    ) {
         for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(job.model.contacts()).enumerate() {
             let Some(loops) = &mut contact.loops else { continue };
-            ended.extend(loops.take(law, values).map(|figures| (c, figures)));
+            ended.extend(loops.take(law, values, bends).map(|figures| (c, figures)));
         }
         if let Some(walker) = &mut self.walker {
             walker.moment(values);

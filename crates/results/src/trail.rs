@@ -50,6 +50,17 @@ impl Trail {
         part
     }
 
+    /// The points of a stretch of time alone, both ends included: nothing is known of what lies between them and others.
+    pub fn within(&self, [from, to]: [f64; 2]) -> Self {
+        let mut points = Self::default();
+        for ((&t, &x), &y) in self.t.iter().zip(&self.x).zip(&self.y) {
+            if (from..=to).contains(&t) {
+                points.push(t, x, y);
+            }
+        }
+        points
+    }
+
     /// Whether it comes back to where this part began.
     pub fn is_closed(&self) -> bool {
         match (self.x.first(), self.x.last()) {

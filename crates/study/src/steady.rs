@@ -7,7 +7,8 @@
 //!
 //! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
 //! period the map is taken; `map`, the map and its gradient by differences; `newton`, its fixed point; `multiplier`, what the
-//! gradient means; `bound`, how far the step may be off.
+//! gradient means; `bound`, how far the step may be off; `orbit`, the motion from the beginning of a period on, from which a run
+//! goes on; `report`, what is told of it.
 
 mod bound;
 mod endless;
@@ -16,10 +17,14 @@ mod map;
 mod moment;
 mod multiplier;
 mod newton;
+mod orbit;
+mod report;
 
 pub use error::SteadyError;
 pub use multiplier::{Kind, Multiplier};
 pub use newton::{Defect, Way};
+pub use orbit::Orbit;
+pub use report::Report;
 
 use endless::Endless;
 use map::Map;
@@ -39,11 +44,13 @@ pub struct Options<'a> {
     pub periods: u32,
     /// Asked before every period; `false` gives up.
     pub goes_on: &'a dyn Fn() -> bool,
+    /// Told how many periods have been computed, the one that begins included.
+    pub told: &'a dyn Fn(u32),
 }
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self { tolerance: 1e-12, settling: 4, periods: 4_000, goes_on: &|| true }
+        Self { tolerance: 1e-12, settling: 4, periods: 4_000, goes_on: &|| true, told: &|_| () }
     }
 }
 
@@ -54,6 +61,10 @@ pub struct Steady {
     pub period: f64,
     /// Way of the figures' body along x in a period, m; none where no body is named or it is not free.
     pub step: Option<f64>,
+    /// From when on everything repeats itself, s: delays are over, and waveforms that come once.
+    pub begins: f64,
+    /// Local error per step of the runs that it was found by.
+    pub tolerance: f64,
     /// By how much the step may be off, m: an estimate of first order, doubled, that knows nothing of rounding.
     pub bound: f64,
     /// The drive, its waveforms without end.
@@ -118,11 +129,20 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     }
     let from = section.base().clone();
     map.set(section);
-    let fixed = newton::fixed_point(&mut map, &from)?;
+    let fixed = newton::fixed_point(&mut map, &from).map_err(|error| match error {
+        SteadyError::NoConvergence { best, periods } if !settled.never_gave_way.is_empty() => {
+            let name = |c: &usize| model.contacts().nth(*c).map(|(name, _)| name.to_owned());
+            let contacts = settled.never_gave_way.iter().filter_map(name).collect();
+            SteadyError::Shakedown { contacts, best, periods }
+        }
+        error => error,
+    })?;
     let bound = bound::bound(&mut map, &fixed, figures)?;
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
     let found = Steady {
         period: endless.period,
+        begins: endless.begins,
+        tolerance: options.tolerance,
         step: figures.and_then(|body| section.of_body(&fixed.image.way, body, Axis::X)),
         bound: bound.step,
         multipliers: multiplier::of(&bound.gradient.numbers),

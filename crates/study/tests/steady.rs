@@ -112,6 +112,70 @@ fn what_has_no_period_or_is_commanded_is_refused() -> Checked {
     Ok(())
 }
 
+/// A second waveform pulls at the slider of P1, whose period is 1 ms.
+fn pulled(period: &str) -> Result<Result<Steady, SteadyError>, Box<dyn Error>> {
+    let hum = format!(r#"{{"sine":{{"amplitude":"1 mN","period":"{period}"}}}}"#);
+    let set = [
+        ("figures.waveform", "drive"),
+        ("waveforms.hum", hum.as_str()),
+        ("loads[+]", r#"{"on":"slider","x":{"follows":"hum"}}"#),
+    ];
+    Ok(steady::find(&job("p1.json", &set)?, &Options::default()))
+}
+
+#[test]
+fn two_waveforms_have_a_period_in_common_or_are_refused() -> Checked {
+    let found = pulled("0.75 ms")??;
+    assert!((found.period - 3e-3).abs() < 1e-15, "{}", found.period);
+    let refused = pulled("0.70710678 ms")?.err();
+    assert!(matches!(refused, Some(SteadyError::Incommensurate { .. })), "{refused:?}");
+    Ok(())
+}
+
+/// Both bodies of a pair fall, and nothing holds them but each other.
+#[test]
+fn what_nothing_holds_is_refused_by_its_name() -> Checked {
+    let set = [
+        ("bodies.slider.z", "free"),
+        ("bodies.other", r#"{"mass":"1 g","z":"free"}"#),
+        ("springs.tie", r#"{"between":["slider","other"],"direction":"z","stiffness":"1 N/m"}"#),
+    ];
+    let refused = steady::find(&job("p1.json", &set)?, &Options::default()).err();
+    let expected = SteadyError::Drifts { body: "slider".to_owned(), axis: "z" };
+    assert_eq!(refused, Some(expected));
+    Ok(())
+}
+
+/// A load lifts the slider, which then rises for ever: z is no drift, for the contact could press again.
+#[test]
+fn a_slider_that_lifts_for_ever_has_no_steady_motion() -> Checked {
+    let set = [
+        ("bodies.slider.z", "free"),
+        ("contacts.ball.normal", "coupled"),
+        ("loads[+]", r#"{"on":"slider","z":"1 N"}"#),
+    ];
+    let options = Options { periods: 40, ..Options::default() };
+    let refused = steady::find(&job("p1.json", &set)?, &options).err();
+    assert!(matches!(refused, Some(SteadyError::NoConvergence { .. })), "{refused:?}");
+    Ok(())
+}
+
+/// What never slips grossly is named: in the vibrated slider beside a motion that was found, in a drive that only ever sticks as
+/// the reason why there is none.
+#[test]
+fn a_shakedown_is_named() -> Checked {
+    let found = steady::find(&job("vibrated_slider.json", &[])?, &Options::default())?;
+    assert_eq!((found.shaken_down.len(), found.is_stable()), (1, true));
+    assert_eq!(found.multipliers.first().map(|largest| largest.kind()), Some(Kind::Stays));
+    let stuck = job("p1.json", &[("waveforms.drive", r#"{"triangle":{"stroke":"20 nm","period":"1 ms"}}"#)])?;
+    let refused = steady::find(&stuck, &Options { periods: 60, ..Options::default() }).err();
+    assert!(
+        matches!(&refused, Some(SteadyError::Shakedown { contacts, .. }) if contacts == &["ball"]),
+        "{refused:?}"
+    );
+    Ok(())
+}
+
 #[test]
 fn too_few_periods_are_told_with_the_best_defect() -> Checked {
     let options = Options { periods: 1, ..Options::default() };

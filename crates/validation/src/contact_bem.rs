@@ -77,7 +77,7 @@ pub(crate) fn page() -> Result<Page, ValidationError> {
         checks,
         figure: figure(&cases),
         shows: "Left: the force over the shift, in parts of μF_N and u_c; the curve is the program's, one for all four cases, \
-                the points are CONTACT's. Right: by how much the program is off, with what is allowed."
+                the points are CONTACT's. Right: by how much the program is off, with what is asked of approach and force; the shift is the force the other way round."
             .to_owned(),
         tables,
         limits: limits(neglected, &known.spence_source),
@@ -224,7 +224,8 @@ fn figure(cases: &[Compared]) -> Figure<'static> {
         series: vec![law, points("CONTACT", cases.iter().map(|case| case.place), Ink::Palette(1))],
         ..Panel::default()
     };
-    let allowed = [ASKED, -ASKED].map(|y| Reference::Horizontal { y, label: Label::plain("asked") });
+    let allowed = [ASKED, -ASKED]
+        .map(|y| Reference::Horizontal { y, label: Label::plain("asked of approach and force") });
     let deviation = Panel {
         x: stickslip_plot::Axis { covers: Some((0.5, 4.5)), ..axis("case", "") },
         y: axis("program − CONTACT, %", ""),

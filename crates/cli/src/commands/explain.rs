@@ -30,7 +30,13 @@ pub(crate) fn explain(names: &[String]) -> Verdict {
         for definition in &symbols {
             say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
         }
-        if !found && symbols.is_empty() {
+        // Nor is a state such as slip; where it is told stands with it.
+        let is_known = found || !symbols.is_empty();
+        let sayers: Vec<_> = definitions().filter(|definition| !is_known && definition.says(name)).collect();
+        for definition in &sayers {
+            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
+        }
+        if !is_known && sayers.is_empty() {
             let known = definitions().filter_map(|definition| definition.name.rsplit('.').next());
             let help = suggestion(name, known).filter(|help| help.starts_with("did you mean"));
             let help = help.unwrap_or_else(|| {

@@ -117,9 +117,9 @@ fn advice(error: &FigureError) -> &'static str {
             "\n   help: run the scenario with these channels, or without output.channels, which writes all"
         }
         FigureError::Absent { .. } => "\n   help: run the scenario with this picture among its plots",
-        FigureError::Unnamed { .. }
-        | FigureError::Unlike { .. }
-        | FigureError::Table { .. }
-        | FigureError::Plot { .. } => "",
+        FigureError::Unlike { .. } => {
+            "\n   help: draw those over each other that have the same panels, or name two channels of all in their plots"
+        }
+        FigureError::Unnamed { .. } | FigureError::Table { .. } | FigureError::Plot { .. } => "",
     }
 }

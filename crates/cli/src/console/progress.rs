@@ -24,6 +24,24 @@ pub(crate) struct Bar<'a> {
     interrupt: &'a Interrupt,
 }
 
+/// A line that counts what has been done.
+pub(crate) struct Counter {
+    bar: ProgressBar,
+}
+
+impl Counter {
+    /// So many have been done.
+    pub(crate) fn reached(&self, count: u32) {
+        self.bar.set_position(u64::from(count));
+    }
+}
+
+impl Drop for Counter {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
 impl Progress {
     /// Shows bars on stderr if that is a terminal and they are wanted.
     pub(crate) fn new(wanted: bool) -> Self {
@@ -57,6 +75,15 @@ impl Progress {
         bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left"));
         bar.set_prefix(visible(name, Spelling::Text).into_owned());
         Bar { bar, from: 0.0, duration: wall, interrupt }
+    }
+
+    /// A line for work whose end nobody knows: how many of these have been done.
+    pub(crate) fn count(&self, name: &str, of: &'static str) -> Counter {
+        let bar = self.bars.add(ProgressBar::no_length());
+        bar.set_style(style("{prefix} {pos} {msg}"));
+        bar.set_prefix(visible(name, Spelling::Text).into_owned());
+        bar.set_message(of);
+        Counter { bar }
     }
 
     /// Does something with the bars out of the way.

@@ -6,7 +6,7 @@ const ALIKE: f64 = 2e-4;
 const MOST_NAMED: usize = 3;
 
 /// Places of curves that are alike, the first of each group first. A curve is one or more columns.
-pub(super) fn groups(curves: &[Vec<&[f64]>]) -> Vec<Vec<usize>> {
+pub(crate) fn groups(curves: &[Vec<&[f64]>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (place, curve) in curves.iter().enumerate() {
         match groups.iter_mut().find(|group| are_alike(&curves[group[0]], curve)) {
@@ -26,7 +26,7 @@ fn are_alike(a: &[&[f64]], b: &[&[f64]]) -> bool {
 }
 
 /// One name for those of a group.
-pub(super) fn name(names: &[&str]) -> String {
+pub(crate) fn name(names: &[&str]) -> String {
     match names {
         [only] => (*only).to_owned(),
         _ if names.len() <= MOST_NAMED => format!("{} (alike)", names.join(", ")),

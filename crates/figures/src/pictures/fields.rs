@@ -1,6 +1,6 @@
 //! Stress and displacement under the contacts at some moments.
 
-use super::{Kind, Sources, Undrawn, written};
+use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
 use crate::theory::moments::condition;
 use stickslip_contact::SpringState;
@@ -23,6 +23,7 @@ pub(super) const KIND: Kind = Kind {
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
     let mut moments = moments::fields(written(&sources.insides.fields, FIELDS)?)?;
+    let all = moments.len();
     // The last ones: a run ends in what it has come to.
     moments.drain(..moments.len().saturating_sub(MOST));
     let several = moments.iter().any(|moment| moment.contact != moments[0].contact);
@@ -46,7 +47,8 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         zones,
     });
     let moments: Vec<FieldsMoment<'_>> = moments.collect();
-    Ok(pen.draw(PlotName::Fields, fields_figure(job.title(), &moments))?)
+    let title = of_all(job.title(), "last", (moments.len(), all));
+    Ok(pen.draw(PlotName::Fields, fields_figure(&title, &moments))?)
 }
 
 /// Rings of one state, from half way between two radii to half way between two others.

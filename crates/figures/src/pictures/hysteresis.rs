@@ -28,6 +28,8 @@ struct Curve {
     is_pale: bool,
 }
 
+/// A point this near to the end of a period, in periods, is the end.
+const SAME: f64 = 1e-9;
 /// Width of what is to be seen, and of what came before.
 const BOLD: f64 = 1.15;
 const FINE: f64 = 0.9;
@@ -86,7 +88,10 @@ fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bo
         name: match (is_alone && group.len() == 1, words) {
             (_, "") => name.clone(),
             (true, words) => words.to_owned(),
-            (false, words) => format!("{name}, {words}"),
+            // Of several contacts each is named once: twice as many names would be cut, and pale tells what came before.
+            (false, words) if is_alone => format!("{name}, {words}"),
+            (false, _) if is_pale => String::new(),
+            (false, _) => name.clone(),
         },
         path,
         gross_slip: scale.map(|(u_c, _)| u_c),
@@ -98,17 +103,67 @@ fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bo
     let end = kept.whole_until();
     let path = contact_path(job, c, &kept.series);
     let path = if end < kept.end() { path.part((f64::NEG_INFINITY, end)) } else { path };
-    let Some(periods) = Periods::of_contact(job, c, end) else { return vec![curve("", path, false)] };
+    let written = &job.scenario.written;
+    let path = if written.has_all_events() { path } else { windowed(&path, written.window) };
+    let periods = Periods::of_contact(job, c, end).and_then(|periods| seen(&path, periods));
+    let Some(periods) = periods else { return vec![curve("", path, false)] };
     let last = path.part(periods.last());
     let words = format!("period {}", periods.count);
     match (last.is_closed(), periods.count > 1) {
         (true, true) => vec![curve("before", path, true), curve(&words, last, false)],
         (true, false) => vec![curve("", path, false)],
         (false, true) => {
-            let first = is_alone
+            let first = (is_alone && covers(&path, periods.first()))
                 .then(|| curve("first period", path.part(periods.first()).counted_from_start(), true));
             first.into_iter().chain([curve(&words, last.counted_from_start(), false)]).collect()
         }
         (false, false) => vec![curve("first period", last.counted_from_start(), false)],
+    }
+}
+
+/// The points of a window: between them and the rows at both ends of the run nothing is known without events.
+fn windowed(path: &Trail, [from, to]: [f64; 2]) -> Trail {
+    // Rows are rounded apart from the window.
+    let hair = SAME * (to - from);
+    path.within([from - hair, to + hair])
+}
+
+/// The periods up to the last of which there are points from its start to its end; none where there is no such period.
+fn seen(path: &Trail, periods: Periods) -> Option<Periods> {
+    let up_to = |count: usize| Periods { count, ..periods };
+    (1..=periods.count).rev().map(up_to).find(|periods| covers(path, periods.last()))
+}
+
+/// Whether there are points of a path from one time to another.
+fn covers(path: &Trail, (from, to): (f64, f64)) -> bool {
+    let hair = SAME * (to - from);
+    let ends = path.t.first().zip(path.t.last());
+    ends.is_some_and(|(first, last)| *first <= from + hair && *last >= to - hair)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A window in the second period without events: u at the start of that period was read off a line from the first row of the run,
+    /// and taken off all that was drawn.
+    #[test]
+    fn a_period_is_drawn_where_it_was_seen_whole() {
+        let trail = |from: u32, to: u32| {
+            let mut trail = Trail::default();
+            (from..=to).for_each(|k| trail.push(0.1 * f64::from(k), f64::from(k), 0.0));
+            trail
+        };
+        let periods = Periods { start: 0.0, length: 1.0, count: 3 };
+        let count = |path: &Trail| seen(path, periods).map(|periods| periods.count);
+        assert_eq!(
+            [trail(0, 30), trail(5, 25), trail(12, 14)].map(|path| count(&path)),
+            [Some(3), Some(2), None]
+        );
+        // With the rows at both ends of the run a gap would count as seen.
+        let mut rows = trail(12, 14);
+        (rows.t.insert(0, 0.0), rows.x.insert(0, 0.0), rows.y.insert(0, 0.0));
+        rows.push(3.0, 0.0, 0.0);
+        assert_eq!(windowed(&rows, [1.2, 1.4]), trail(12, 14));
     }
 }

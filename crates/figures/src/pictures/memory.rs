@@ -1,6 +1,6 @@
 //! The memory curves of the contacts at some moments, each in its wedge.
 
-use super::{Kind, Sources, Undrawn, written};
+use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{MemoryMoment, memory_figure};
 use stickslip_results::curves::{self, MemoryCurve};
@@ -19,7 +19,8 @@ pub(super) const KIND: Kind = Kind {
 /// One panel for each curve.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
-    let curves = curves::read(written(&sources.insides.memory, MEMORY)?, MOST_CURVES)?;
+    let table = written(&sources.insides.memory, MEMORY)?;
+    let (curves, all) = (curves::read(table, MOST_CURVES)?, curves::count(table)?);
     let slope = |name: &str| {
         let law = job.model.contacts().find(|(contact, _)| *contact == name);
         law.map_or(f64::NAN, |(_, law)| law.stick_slope())
@@ -34,5 +35,6 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         p,
     });
     let moments: Vec<MemoryMoment<'_>> = moments.collect();
-    Ok(pen.draw(PlotName::Memory, memory_figure(job.title(), &moments))?)
+    let title = of_all(job.title(), "", (moments.len(), all));
+    Ok(pen.draw(PlotName::Memory, memory_figure(&title, &moments))?)
 }

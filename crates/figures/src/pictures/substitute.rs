@@ -1,6 +1,6 @@
 //! The contacts as their rows of springs, pressed and sheared (handbook, Figure 4.2).
 
-use super::{Kind, Sources, Undrawn, written};
+use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
 use stickslip_contact::{Interface, Springs};
 use stickslip_plot::{SpringCondition, SubstituteMoment, substitute_figure};
@@ -37,7 +37,8 @@ struct Row<'a> {
 
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
-    let mut curves = curves::read(written(&sources.insides.memory, MEMORY)?, MOST)?;
+    let table = written(&sources.insides.memory, MEMORY)?;
+    let (mut curves, all) = (curves::read(table, MOST)?, curves::count(table)?);
     curves.drain(..curves.len().saturating_sub(MOST));
     let several = curves.iter().any(|curve| curve.contact != curves[0].contact);
     let deepest = curves.iter().map(|curve| curve.apex.0).fold(0.0, f64::max);
@@ -50,7 +51,8 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let largest =
         rows.iter().map(|row| row.law.gross_slip_displacement(deepest)).chain(stretches).fold(0.0, f64::max);
     let moments: Vec<SubstituteMoment<'_>> = rows.iter().map(|row| row.moment(deepest, largest)).collect();
-    Ok(pen.draw(PlotName::Substitute, substitute_figure(job.title(), &moments))?)
+    let title = of_all(job.title(), "", (moments.len(), all));
+    Ok(pen.draw(PlotName::Substitute, substitute_figure(&title, &moments))?)
 }
 
 impl<'a> Row<'a> {

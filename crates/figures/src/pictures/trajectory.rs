@@ -76,6 +76,15 @@ pub(super) fn needs(job: &Job) -> Vec<String> {
 
 /// Motions along an axis: of the feet, which stand behind, and of the sliders.
 pub(super) fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<Track<'a>>, Vec<Track<'a>>) {
+    tracks_of(job, series, (axis, quantity(axis)))
+}
+
+/// The same of a quantity of that axis, such as its velocity.
+pub(crate) fn tracks_of<'a>(
+    job: &'a Job,
+    series: &'a Series,
+    (axis, quantity): (Axis, &str),
+) -> (Vec<Track<'a>>, Vec<Track<'a>>) {
     let (mut feet, mut sliders) = (Vec::new(), Vec::new());
     for (place, body) in job.scenario.scene.bodies.iter().enumerate() {
         let tracks = match body.part.coordinates()[axis as usize].1.freedom {
@@ -84,7 +93,7 @@ pub(super) fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<T
             Freedom::Free if has_actuator(job, place) => &mut feet,
             Freedom::Free | Freedom::Balanced => &mut sliders,
         };
-        tracks.push(track(series, &body.name, quantity(axis)));
+        tracks.push(track(series, &body.name, quantity));
     }
     if sliders.is_empty() {
         // Nothing to stand out against: the prescribed motion is what there is to see.

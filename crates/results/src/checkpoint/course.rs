@@ -19,15 +19,18 @@ impl Job {
     ///
     /// # Errors
     /// A table of which nothing can be written.
-    pub fn run_kept(&self, recorder: Recorder<'_>, mut keeper: Keeper) -> io::Result<(Outcome, Vec<Draft>)> {
-        let plan = &self.scenario.plan;
-        let begun = match keeper.from.take() {
-            None => Run::new(&self.model, plan, self.start.clone()),
-            Some(state) => Run::resume(&self.model, plan, state),
+    pub fn run_kept(&self, recorder: Recorder<'_>, keeper: Keeper) -> io::Result<(Outcome, Vec<Draft>)> {
+        let (plan, from) = (&self.scenario.plan, keeper.from.clone());
+        let begun = if keeper.is_begun {
+            Run::resume(&self.model, plan, from)
+        } else {
+            Run::new(&self.model, plan, from)
         };
         let mut record = Journalled { recorder, keeper, pauses: false };
         let ended = match begun {
-            Err(error) => Ended { error: Some(error), state: self.start.clone(), wall: record.keeper.wall() },
+            Err(error) => {
+                Ended { error: Some(error), state: record.keeper.from.clone(), wall: record.keeper.wall() }
+            }
             Ok(run) => record.follow(self, run),
         };
         Ok(ended.outcome(record.recorder.finish()?))

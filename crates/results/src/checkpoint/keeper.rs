@@ -20,8 +20,10 @@ pub struct Keeper {
     place: PathBuf,
     stub: Stub,
     pub(super) journal: Journal,
-    /// Where the run goes on from; none for one that begins.
-    pub(super) from: Option<State>,
+    /// Where the run begins, or goes on from.
+    pub(super) from: State,
+    /// Whether its record has been told of what came before.
+    pub(super) is_begun: bool,
     /// When this part of the run began, by the clock on the wall, and how long the parts before it took, s.
     begun: Instant,
     before: f64,
@@ -35,6 +37,15 @@ impl Keeper {
     /// # Errors
     /// What the system says of writing them.
     pub fn begin(job: &Job, every: f64) -> io::Result<Self> {
+        Self::begin_with(job, &job.start, every)
+    }
+
+    /// The same of a run that begins with another state, from which [`Resumption`](super::Resumption) then begins it, such as a
+    /// steady motion.
+    ///
+    /// # Errors
+    /// What the system says of writing them.
+    pub fn begin_with(job: &Job, start: &State, every: f64) -> io::Result<Self> {
         let place = place(&job.folder);
         remove(&job.folder)?;
         fs::create_dir_all(&place)?;
@@ -50,13 +61,13 @@ impl Keeper {
             mark: journal.mark()?,
             state: Vec::new(),
         };
-        let mut keeper = Self::new(place, stub, journal, None);
-        keeper.save(job, &job.start)?;
+        let mut keeper = Self::new(place, stub, journal, (start.clone(), false));
+        keeper.save(job, start)?;
         Ok(keeper)
     }
 
     /// Goes on with the checkpoints of an earlier part of the run.
-    pub(super) fn go_on(job: &Job, stub: Stub, journal: Journal, from: Option<State>) -> io::Result<Self> {
+    pub(super) fn go_on(job: &Job, stub: Stub, journal: Journal, from: (State, bool)) -> io::Result<Self> {
         let place = place(&job.folder);
         sweep(&place, &[STATE, SCENARIO]);
         // Either end is one of this run: whichever of the two files is there after a crash, it can go on.
@@ -64,9 +75,9 @@ impl Keeper {
         Ok(Self::new(place, stub, journal, from))
     }
 
-    fn new(place: PathBuf, stub: Stub, journal: Journal, from: Option<State>) -> Self {
+    fn new(place: PathBuf, stub: Stub, journal: Journal, (from, is_begun): (State, bool)) -> Self {
         let (begun, before) = (Instant::now(), stub.wall);
-        Self { place, stub, journal, from, begun, before, saved: begun }
+        Self { place, stub, journal, from, is_begun, begun, before, saved: begun }
     }
 
     /// Whether it is time for the next one.

@@ -70,16 +70,16 @@ impl Resumption {
         let path = self.place.join(JOURNAL);
         let (mark, end) = (self.stub.mark, job.scenario.plan.duration);
         // A run whose record was told nothing has not begun: it begins with its first row and look.
-        let from = Some(&self.state).filter(|_| mark.length > 0);
-        if let Some(state) = from {
-            let told = Told { mark, reached: state.time(), same_end: self.stub.end == end };
+        let is_begun = mark.length > 0;
+        if is_begun {
+            let told = Told { mark, reached: self.state.time(), same_end: self.stub.end == end };
             playback::tell(&path, told, job, recorder)?;
         }
         let unwritable = |source| CheckpointError::Write { path: self.place.clone(), source };
         let journal = Journal::go_on(&path, mark.length, self.digest).map_err(unwritable)?;
         self.stub.every = every.unwrap_or(self.stub.every);
         self.stub.end = end;
-        Keeper::go_on(job, self.stub, journal, from.cloned()).map_err(unwritable)
+        Keeper::go_on(job, self.stub, journal, (self.state, is_begun)).map_err(unwritable)
     }
 }
 

@@ -1,8 +1,10 @@
 //! The cycles of a contact as its run goes on.
 
-use super::{CLOSED, CycleFigures, Track, Walk, range, table_of};
+use super::load::Load;
+use super::{CLOSED, CycleFigures, Moment, Setup, Track, Walk, range, table_of};
 use crate::contact_path::is_walked;
 use crate::job::Job;
+use crate::marks;
 use crate::periods::{Periods, Tracker};
 use std::collections::HashMap;
 use stickslip_analysis::{Cut, split_cycles};
@@ -19,6 +21,14 @@ const QUANTITIES: [&str; 5] = ["u_m", "d_m", "fx_N", "fn_N", "friction_J"];
 pub(crate) struct Loops {
     /// Its columns among all channels, in the order of [`QUANTITIES`].
     places: [usize; 5],
+    /// The column of what dampers have taken, where that is what its own damping has; none where it has no damping.
+    damping: Option<usize>,
+    knows_damping: bool,
+    load: Option<Load>,
+    /// Whether it is looked at in parts of a period.
+    is_dense: bool,
+    /// Whether its force never jumps: nothing that drives the scene does, and no springs of it are damped.
+    is_continuous: bool,
     cut: Cutting,
     track: Track,
     walk: Option<Walk>,
@@ -56,9 +66,17 @@ impl Loops {
         let [Some(u), Some(d), Some(force), Some(normal), Some(friction)] = QUANTITIES.map(place) else {
             return None;
         };
+        let is_damped = job.is_damped(c);
+        let damps_alone = is_damped && job.loses_nothing_beside(c);
+        let damping = places.get("energy.damping_J").copied().filter(|_| damps_alone);
         let memory = job.start.memories().get(c).filter(|_| is_walked(job, c));
         Some(Self {
             places: [u, d, force, normal, friction],
+            damping,
+            knows_damping: damps_alone || !is_damped,
+            load: Load::of(job, c),
+            is_dense: marks::are_dense(job, c),
+            is_continuous: !is_damped && !job.has_jumps(),
             cut,
             track: Track::default(),
             walk: memory.map(|memory| Walk::new(memory.clone())),
@@ -69,13 +87,16 @@ impl Loops {
         })
     }
 
-    /// Takes the next moment, a row of all channels; returns the cycle that it ends, where that comes back.
-    pub(crate) fn take(&mut self, law: &Interface, values: &[f64]) -> Option<CycleFigures> {
+    /// Takes the next moment, a row of all channels, and whether something `bends` there; returns the cycle that it ends, where that
+    /// comes back.
+    pub(crate) fn take(&mut self, law: &Interface, values: &[f64], bends: bool) -> Option<CycleFigures> {
         if matches!(self.cut, Cutting::Over) {
             return None;
         }
         let t = values.first().copied()?;
-        let moment = self.places.map(|place| values.get(place).copied().unwrap_or(f64::NAN));
+        let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
+        let [u, d, force, normal, friction] = self.places.map(at);
+        let moment = Moment { u, d, force, normal, friction, damping: self.damping.map_or(0.0, at), bends };
         let ended = match &mut self.cut {
             Cutting::Periods(tracker) => tracker.pass(t),
             _ => None,
@@ -101,7 +122,7 @@ impl Loops {
     /// What it takes, B.
     pub(crate) fn bytes(&self) -> usize {
         let pending = self.walk.as_ref().map_or(0, |walk| walk.pending.capacity());
-        size_of::<f64>() * (6 * self.track.t.capacity() + pending)
+        size_of::<f64>() * (7 * self.track.t.capacity() + pending) + self.track.bends.capacity()
     }
 
     /// The cycles that are known only when the run has ended.
@@ -113,12 +134,13 @@ impl Loops {
         let cut = Cut::Reversals { least: CLOSED * (high - low) };
         let spans = split_cycles(&self.track.t, &self.track.u, &self.track.force, cut).unwrap_or_default();
         let spans = spans.into_iter().map(|span| span.start..span.end - 1);
-        let Self { track, walk, count, .. } = self;
+        let (track, setup, walk) = self.parts(law);
         let back = spans.filter(|span| track.comes_back(span));
-        back.map(|span| track.figures(&span, (law, *count), walk.as_mut())).collect()
+        let mut walk = walk.as_mut();
+        back.map(|span| track.figures(&span, &setup, walk.as_deref_mut())).collect()
     }
 
-    fn push(&mut self, law: &Interface, t: f64, moment: [f64; 5]) {
+    fn push(&mut self, law: &Interface, t: f64, moment: Moment) {
         let is_full = self.track.t.len() >= self.most;
         if is_full && matches!(self.cut, Cutting::Reversals) {
             self.left_out += 1;
@@ -131,16 +153,16 @@ impl Loops {
             self.forget(law);
         }
         if let Some(walk) = &mut self.walk {
-            walk.begin(moment[1]);
+            walk.begin(moment.d);
         }
         self.track.push(t, moment);
     }
 
     /// A moment before the first cycle.
-    fn wait(&mut self, law: &Interface, [u, d, ..]: [f64; 5]) {
+    fn wait(&mut self, law: &Interface, moment: Moment) {
         let Some(walk) = &mut self.walk else { return };
-        walk.begin(d);
-        walk.pending.push(u);
+        walk.begin(moment.d);
+        walk.pending.push(moment.u);
         if walk.pending.len() >= PENDING {
             walk.catch_up(law);
         }
@@ -150,8 +172,16 @@ impl Loops {
     fn end_cycle(&mut self, law: &Interface) -> Option<CycleFigures> {
         let span = 0..self.track.t.len().checked_sub(1)?;
         let is_whole = !self.is_torn;
-        let Self { track, walk, count, .. } = self;
-        (is_whole && track.comes_back(&span)).then(|| track.figures(&span, (law, *count), walk.as_mut()))
+        let (track, setup, walk) = self.parts(law);
+        (is_whole && track.comes_back(&span)).then(|| track.figures(&span, &setup, walk.as_mut()))
+    }
+
+    /// Moments, what figures are taken with, and the contact led along them.
+    fn parts<'a>(&'a mut self, law: &'a Interface) -> (&'a Track, Setup<'a>, &'a mut Option<Walk>) {
+        let Self { track, walk, load, count, .. } = self;
+        let (is_dense, is_continuous) = (self.is_dense, self.is_continuous);
+        let (load, knows_damping) = (load.as_ref(), self.knows_damping);
+        (track, Setup { law, count: *count, load, is_dense, is_continuous, knows_damping }, walk)
     }
 
     /// Begins a cycle where the one before has ended, with the last moment of the track.
@@ -210,7 +240,7 @@ mod tests {
                     row[loops.places[0]] = 1e-7 * (turn.sin() + 0.1 * f64::from(cycle) * (3.0 * turn).sin());
                     row[loops.places[1]] = job.start.memories()[0].apex().d;
                     row[loops.places[2]] = turn.cos();
-                    told.extend(loops.take(law, &row));
+                    told.extend(loops.take(law, &row, true));
                 }
             }
             assert!(loops.track.t.capacity() < 2 * most.min(128), "{}", loops.track.t.capacity());
@@ -234,7 +264,7 @@ mod tests {
             row[0] = period * (f64::from(k / 4) + share);
             row[loops.places[0]] = 1e-7 * if k % 2 == 0 { 0.0 } else { 1.0 - share };
             row[loops.places[1]] = job.start.memories()[0].apex().d;
-            cycles += usize::from(loops.take(law, &row).is_some());
+            cycles += usize::from(loops.take(law, &row, true).is_some());
             assert!(loops.track.t.len() <= 5 && loops.walk.as_ref().unwrap().pending.len() <= PENDING);
         }
         assert_eq!(cycles, 24_999);

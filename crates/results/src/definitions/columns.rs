@@ -27,7 +27,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "trace.csv",
         "CONTACT.fx_N",
-        "tangential force on the second body, of all count contacts: count · 2∫₀^∞ q_x(x) dx of the springs",
+        "tangential force on the second body, of all count contacts: count · 2∫₀^∞ q_x(x) dx of the springs; with damping those that stick bear βG*ṡ beside G*s, and F_x may exceed μF_N",
     ),
     of("trace.csv", "CONTACT.fn_N", "normal force of all count contacts: count · 2E*∫₀^a (d - g(x)) dx"),
     of("trace.csv", "CONTACT.a_m", "contact radius a, where g(a) = d"),
@@ -176,10 +176,23 @@ pub(super) const COLUMNS: &[Definition] = &[
         "half_opening_m",
         "δ₀, half of the way between the places where F_x passes the middle of its range",
     ),
-    of("cycles.csv", "dissipated_J", "E_d, friction work of the cycle"),
-    of("cycles.csv", "mean_normal_force_N", "P, mean of F_N over the cycle"),
+    of(
+        "cycles.csv",
+        "dissipated_J",
+        "E_d, all that the contact loses in the cycle, to friction and to its damping; empty where other parts lose energy as well as its damping",
+    ),
+    of("cycles.csv", "damping_J", "damping's part of E_d; friction's is the rest"),
+    of(
+        "cycles.csv",
+        "mean_normal_force_N",
+        "P, mean of F_N over the cycle: the integral of a waveform that presses, of other loads from moment to moment",
+    ),
     of("cycles.csv", "energy_ratio", "A = E_d/(4Q*δ*): 0 elastic, 1 a parallelogram as wide as the stroke"),
-    of("cycles.csv", "system_free_ratio", "B = E_d/(4Q*δ₀), which no compliance of the rig enters"),
+    of(
+        "cycles.csv",
+        "system_free_ratio",
+        "B = E_d/(4Q*δ₀), which no compliance of the rig enters; empty where δ₀ is rounding, as in full stick",
+    ),
     of("cycles.csv", "slip_ratio", "D = δ₀/δ*"),
     of("cycles.csv", "energy_coefficient_of_friction", "μ_e = E_d/(4Pδ₀)"),
     of(
@@ -197,7 +210,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "cycles.csv",
         "regime",
-        "`stick`, `partial`, `gross` or `mixed`, by A, B and D against the thresholds of summary.json",
+        "`gross` where F_x comes both ways to the limit of friction, `stick` where A is below 5e-4, else `partial`; of a loop under a constant load without damping",
     ),
     of("steps.csv", "period", "number of the period, from 1"),
     of("steps.csv", "start_s", "time at its start"),

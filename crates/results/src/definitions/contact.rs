@@ -44,7 +44,10 @@ pub(super) const CONTACT: &[Definition] = &[
     key("pressed.contact_radius_m", "a, contact radius, where g(a) = d (4.26)"),
     key("pressed.normal_force_N", "F_N, normal force: 2E*∫₀^a (d - g(x)) dx (4.26)"),
     key("pressed.gross_slip_displacement_m", "u_c = κd (4.28)"),
-    key("pressed.limit_force_N", "μF_N, what it holds at most"),
+    key(
+        "pressed.limit_force_N",
+        "μF_N, what it holds at most; with damping F_x may be larger while it moves, by up to βG*m(c)|u̇|",
+    ),
     key(
         "pressed.peak_pressure_Pa",
         "p_max, largest pressure; infinite at tips and edges, not told of a list of springs",

@@ -72,7 +72,10 @@ pub(super) const INFO: &[Definition] = &[
         "contacts.CONTACT.LOAD.loaded.zero_step_stroke_m",
         "S₀ where this load opposes the steps; not told where the contact does not hold it",
     ),
-    of("contacts.CONTACT.LOAD.limit_force_N", "μF_N, what all count contacts hold at most"),
+    of(
+        "contacts.CONTACT.LOAD.limit_force_N",
+        "μF_N, what all count contacts hold at most without damping; the stuck springs of a damped one bear βG*ṡ beside G*s",
+    ),
     of(
         "contacts.CONTACT.LOAD.tangential_stiffness_N_m",
         "∂F_x/∂u of all count contacts where all of them sticks: count · 2G*a",

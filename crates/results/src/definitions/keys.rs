@@ -83,13 +83,21 @@ pub(super) const KEYS: &[Definition] = &[
         "contacts.CONTACT.fretting.half_opening_m",
         "δ₀, half of the way between the places where F_x passes the middle of its range",
     ),
-    of("contacts.CONTACT.fretting.dissipated_J", "E_d, friction work of the cycle"),
+    of(
+        "contacts.CONTACT.fretting.dissipated_J",
+        "E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; not told where other parts lose energy as well, for their share is not told apart",
+    ),
+    of("contacts.CONTACT.fretting.friction_J", "friction's part of E_d, of a damped contact"),
+    of("contacts.CONTACT.fretting.damping_J", "damping's part of E_d, of a damped contact"),
     of("contacts.CONTACT.fretting.energy_ratio", "A = E_d/(4Q*δ*)"),
-    of("contacts.CONTACT.fretting.system_free_ratio", "B = E_d/(4Q*δ₀)"),
+    of(
+        "contacts.CONTACT.fretting.system_free_ratio",
+        "B = E_d/(4Q*δ₀); not told where δ₀ is rounding, as in full stick",
+    ),
     of("contacts.CONTACT.fretting.slip_ratio", "D = δ₀/δ*"),
     of(
         "contacts.CONTACT.fretting.energy_coefficient_of_friction",
-        "μ_e = E_d/(4Pδ₀), P the mean normal force",
+        "μ_e = E_d/(4Pδ₀), P the mean normal force; not told where δ₀ is rounding",
     ),
     of(
         "contacts.CONTACT.fretting.stiffness_after_maximum_N_m",
@@ -105,11 +113,14 @@ pub(super) const KEYS: &[Definition] = &[
         "contacts.CONTACT.fretting.thresholds.energy_ratio",
         "A of this profile where gross slip begins, on a rigid rig",
     ),
-    of("contacts.CONTACT.fretting.thresholds.system_free_ratio", "B there"),
+    of(
+        "contacts.CONTACT.fretting.thresholds.system_free_ratio",
+        "B there; B of small loops is near 2/3 on any smooth profile, above the threshold of a worn one",
+    ),
     of("contacts.CONTACT.fretting.thresholds.slip_ratio", "D there"),
     of(
         "contacts.CONTACT.fretting.regime",
-        "`stick`, `partial` (below all three thresholds), `gross` (above all) or `mixed`",
+        "`gross` where F_x comes both ways to the limit of friction, `stick` where A is below 5e-4, else `partial`; of a loop under a constant load without damping",
     ),
     of("steps.waveform", "the waveform whose periods make the steps"),
     of("steps.body", "the body that steps"),

@@ -39,11 +39,17 @@ impl Implausible<'_> {
         }
     }
 
-    /// Pressures that nothing bears, and balls pressed in too far.
+    /// Contacts that hold nothing, pressures that nothing bears, and balls pressed in too far.
     pub(super) fn contacts(&mut self) {
         let job = self.job;
         for (c, (name, law)) in job.model.contacts().enumerate() {
             let d = self.depth(c);
+            // A contact that its bodies press bears them all the same.
+            if law.friction() == 0.0 && !job.is_coupled(c) {
+                let path = format!("contacts.{name}.friction");
+                let message = "without friction nothing holds: it slides under any force, and loses nothing";
+                self.find("friction", &path, message.to_owned(), "is that what was meant?");
+            }
             if d > 0.0 {
                 self.pressures(c, (name, law), d);
                 self.ball(c, (name, law), d);

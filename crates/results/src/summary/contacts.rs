@@ -108,7 +108,7 @@ fn contact(job: &Job, outcome: &Outcome, (c, law): (usize, &Interface)) -> Conta
         normal: tally.filter(|_| job.is_coupled(c)).and_then(NormalMotion::of),
         friction: Real(outcome.books.friction_of(c)),
         similarity: SimilaritySummary::of(law),
-        fretting: outcome.cycles.get(c).and_then(Fretting::of),
+        fretting: outcome.cycles.get(c).and_then(|cycles| Fretting::of(cycles, job.is_damped(c))),
     }
 }
 

@@ -23,9 +23,15 @@ pub struct Fretting {
     /// δ₀, half opening at the middle of the force's range: at F_x = 0 of a loop about that.
     #[serde(rename = "half_opening_m", skip_serializing_if = "Option::is_none")]
     half_opening: Option<Real>,
-    /// E_d, the friction work of the cycle.
-    #[serde(rename = "dissipated_J")]
-    pub dissipated: Real,
+    /// E_d, all that the contact loses in the cycle, to friction and to its damping; none where damping's part is not known.
+    #[serde(rename = "dissipated_J", skip_serializing_if = "Option::is_none")]
+    pub dissipated: Option<Real>,
+    /// Friction's part of that, of a damped contact.
+    #[serde(rename = "friction_J", skip_serializing_if = "Option::is_none")]
+    friction: Option<Real>,
+    /// Damping's part, of a damped contact; none where other parts lose energy as well, from whose share it is not told apart.
+    #[serde(rename = "damping_J", skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Real>,
     /// A = E_d/E_t.
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_ratio: Option<Real>,
@@ -54,7 +60,7 @@ pub struct Fretting {
     /// without damping.
     #[serde(skip_serializing_if = "Option::is_none")]
     thresholds: Option<Limits>,
-    /// Against these.
+    /// "gross" where its force comes both ways to the limit of friction, "stick" or "partial".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub regime: Option<&'static str>,
 }
@@ -71,27 +77,30 @@ struct Limits {
 }
 
 impl Fretting {
-    /// The last of the cycles.
-    pub(super) fn of(cycles: &ContactCycles) -> Option<Self> {
+    /// The last of the cycles; of a contact that `is_damped` with the parts of what it loses.
+    pub(super) fn of(cycles: &ContactCycles, is_damped: bool) -> Option<Self> {
         let JudgedCycle { figures: last, regime } = cycles.last?;
         let cycle = last.cycle;
-        let if_closed = |value: Option<f64>| value.filter(|_| last.is_closed).map(Real);
+        let of_loop = |value: Option<f64>| last.of_loop(value).map(Real);
+        let ratio = |value: Option<f64>| last.ratio(value).map(Real);
         Some(Fretting {
             cycles: cycles.count,
             cycle: last.time.map(Real),
             closed: last.is_closed,
             displacement_amplitude: Real(cycle.displacement_amplitude),
             force_amplitude: Real(cycle.force_amplitude),
-            half_opening: if_closed(cycle.half_opening),
-            dissipated: Real(cycle.dissipated),
-            energy_ratio: if_closed(cycle.energy_ratio()),
-            system_free_ratio: if_closed(cycle.system_free_ratio()),
-            slip_ratio: if_closed(cycle.slip_ratio()),
-            energy_coefficient_of_friction: if_closed(cycle.friction_coefficient(last.normal)),
+            half_opening: of_loop(cycle.half_opening),
+            dissipated: last.dissipated().map(Real),
+            friction: is_damped.then(|| Real(last.friction())),
+            damping: last.damping.filter(|_| is_damped).map(Real),
+            energy_ratio: ratio(cycle.energy_ratio()),
+            system_free_ratio: ratio(cycle.system_free_ratio()),
+            slip_ratio: of_loop(cycle.slip_ratio()),
+            energy_coefficient_of_friction: ratio(cycle.friction_coefficient(last.normal)),
             stiffness_after_maximum: cycle.stiffness_after_maximum.map(Real),
             stiffness_after_minimum: cycle.stiffness_after_minimum.map(Real),
-            secant_after_maximum: if_closed(last.secants[0]),
-            secant_after_minimum: if_closed(last.secants[1]),
+            secant_after_maximum: of_loop(last.secants[0]),
+            secant_after_minimum: of_loop(last.secants[1]),
             thresholds: cycles.thresholds.map(|limits| Limits {
                 energy_ratio: limits.energy_ratio.map(Real),
                 system_free_ratio: limits.system_free_ratio.map(Real),
@@ -99,5 +108,10 @@ impl Fretting {
             }),
             regime,
         })
+    }
+
+    /// What friction takes in the cycle, J.
+    pub fn friction_work(&self) -> Real {
+        self.friction.or(self.dissipated).unwrap_or(Real(0.0))
     }
 }

@@ -19,6 +19,10 @@ const STEPS: usize = 24;
 const RADII: usize = 241;
 /// Radii of the map of friction work.
 const MAP_RADII: usize = 81;
+/// A value below this share of the largest on the way is rounding.
+const ROUNDING: f64 = 1e-12;
+/// A stick radius that misses the contact radius by less than this share of it is all of it.
+const AT_EDGE: f64 = 1e-9;
 /// Frames of a leg, and legs that have any: the last ones.
 const FRAMES: usize = 12;
 const FRAMED: usize = 5;
@@ -169,6 +173,15 @@ impl Walk {
     }
 }
 
+impl Walk {
+    /// A quantity of a stop as people are told it: 0 where it is rounding beside the largest on the way.
+    pub fn told(&self, stop: &Stop, of: fn(&Stop) -> f64) -> f64 {
+        let largest = self.stops.iter().map(|stop| of(stop).abs()).fold(0.0, f64::max);
+        let value = of(stop);
+        if value.abs() > ROUNDING * largest { value } else { 0.0 }
+    }
+}
+
 /// So many places from 0 to an end, m.
 fn grid(end: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| end * k as f64 / (count - 1) as f64).collect()
@@ -233,15 +246,18 @@ impl Stop {
         (corner, share, friction): (usize, f64, f64),
     ) -> Self {
         let outcome = memory.preview(law, apex);
+        let a = law.profile().radius(apex.d);
+        // Where springs that slipped are about to lose their contact, rounding leaves some of them.
+        let sticks = outcome.state == ContactState::Partial && outcome.stick_radius >= (1.0 - AT_EDGE) * a;
         Self {
             corner,
             share,
             apex,
             normal_force: law.normal_force(apex.d),
             force: outcome.force,
-            a: law.profile().radius(apex.d),
+            a,
             c: outcome.stick_radius,
-            state: outcome.state,
+            state: if sticks { ContactState::Stick } else { outcome.state },
             elastic: outcome.elastic,
             friction: friction + worked(&outcome),
         }
@@ -268,5 +284,35 @@ impl Moment {
             springs: row.map(|row| LoadedSpring::of(law, memory, row)).unwrap_or_default(),
             knots: curve.knots().collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Job;
+    use stickslip_scenario::Scenario;
+
+    /// Pulled, and relieved of nearly all its load together with its force: it ends without either, at u = 0. Forces and places of 1e-17
+    /// were told, and partial slip of a contact that sticks out to its edge.
+    #[test]
+    fn rounding_is_no_value_and_no_slip() {
+        let text = include_str!("../../../../scenarios/fretting_sphere.json");
+        let job = Job::new(Scenario::from_str(text, "sphere", "").unwrap(), "sphere".to_owned(), "".into())
+            .unwrap();
+        let subject = Subject::find(&job, Some("200 nm")).unwrap();
+        let history =
+            "0.5 N: 0 N, 2 N: 0.4 N, 2 N: -0.7 N, 1.2 N: -0.3 N, 1.2 N: 0.5 N, 2.5 N: 0.5 N, 0.1 N: 0 N";
+        let walk = Walk::of(&subject, subject.pressed(), &History::parse(history).unwrap(), false).unwrap();
+        for Moment { stop, .. } in &walk.moments {
+            let told = [walk.told(stop, |stop| stop.apex.u), walk.told(stop, |stop| stop.force)];
+            assert!(told[0] == 0.0 || told[0].abs() > 1e-9, "{told:?}");
+            assert!(told[1] == 0.0 || told[1].abs() > 0.1, "{told:?}");
+            let slips = stop.state == ContactState::Partial;
+            assert_eq!(slips, stop.c < (1.0 - 1e-9) * stop.a, "{stop:?}");
+        }
+        let states: Vec<ContactState> = walk.moments.iter().map(|moment| moment.stop.state).collect();
+        assert!(states.contains(&ContactState::Partial), "{states:?}");
+        assert_eq!(states.last(), Some(&ContactState::Stick));
     }
 }

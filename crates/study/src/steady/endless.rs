@@ -1,9 +1,12 @@
 //! A drive whose waveforms never end, and its period.
 
 use super::SteadyError;
+use serde_json::Value;
+use std::path::PathBuf;
 use stickslip_drive::scene::{Named, Scene};
 use stickslip_drive::{Model, Timing, Waveform};
 use stickslip_results::Job;
+use stickslip_scenario::Scenario;
 
 /// Longest common period that is looked for, in the longest period.
 const MOST: u32 = 64;
@@ -24,7 +27,6 @@ pub(super) struct Endless {
 impl Endless {
     /// The drive of a job.
     pub(super) fn of(job: &Job) -> Result<Self, SteadyError> {
-        let figures = job.scenario.figures.waveform;
         let mut scene = job.scenario.scene.clone();
         let idle = &job.model.spared().waveforms;
         let mut periods: Vec<(String, f64)> = Vec::new();
@@ -36,8 +38,7 @@ impl Endless {
             if part.generator().is_some() || part.interpolation().is_some() {
                 return Err(SteadyError::Commanded(name.clone()));
             }
-            let once = figures != Some(w) && part.timing().cycles.is_some_and(|cycles| cycles <= 1.0);
-            match part.period().filter(|_| !once) {
+            match part.period().filter(|_| repeats(job, w)) {
                 Some(period) => {
                     *part = endless(part);
                     periods.push((name.clone(), period));
@@ -60,6 +61,38 @@ impl Endless {
         let start = model.start(&job.scenario.plan)?;
         Ok(Self { model, start, period, begins })
     }
+}
+
+/// Whether a waveform of a job repeats itself, at a place of the scene: one that comes once, and is not that of the figures, is an
+/// event of the past.
+fn repeats(job: &Job, w: usize) -> bool {
+    let Some(Named { part, .. }) = job.scenario.scene.waveforms.get(w) else { return false };
+    let once =
+        job.scenario.figures.waveform != Some(w) && part.timing().cycles.is_some_and(|cycles| cycles <= 1.0);
+    part.period().is_some() && !once
+}
+
+/// A job with the same drive, whose scenario says that its waveforms have no end; it runs on for as long as it would have from
+/// the time `start`, s, where it would be over by then.
+pub(super) fn job(job: &Job, start: f64, folder: PathBuf) -> Result<Job, SteadyError> {
+    // What a scenario prints reads back.
+    let mut form: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
+    for (w, Named { name, .. }) in job.scenario.scene.waveforms.iter().enumerate() {
+        let Some(Value::Object(shapes)) = form.pointer_mut("/waveforms").and_then(|all| all.get_mut(name))
+        else {
+            continue;
+        };
+        for shape in shapes.values_mut().filter(|_| repeats(job, w)).filter_map(Value::as_object_mut) {
+            shape.shift_remove("cycles");
+        }
+    }
+    let end = job.scenario.plan.duration;
+    if let (true, Some(run)) = (end <= start, form.get_mut("run").and_then(Value::as_object_mut)) {
+        run.shift_remove("cycles");
+        run.insert("duration".to_owned(), Value::from(start + end));
+    }
+    let scenario = Scenario::from_str_alone(&form.to_string(), &job.name)?;
+    Ok(Job::new(scenario, job.name.clone(), folder)?)
 }
 
 /// The same waveform without an end.

@@ -1,6 +1,7 @@
 //! Why no steady motion is found.
 
 use stickslip_drive::{RunError, SceneError};
+use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
 /// Why no steady motion is found.
@@ -49,14 +50,29 @@ pub enum SteadyError {
     /// The scene with waveforms that never end is none.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The scenario with waveforms that never end is none.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
     /// A run stopped itself.
     #[error("a period could not be computed: {0}")]
     Run(#[from] RunError),
     /// The iteration did not end.
     #[error(
-        "no steady motion found in {periods} periods: the best state comes back {best:e} natural lengths off\n   help: look at a plain run: it may repeat itself every second period, or never; start nearer, with a smaller stroke, or allow more periods"
+        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: look at a plain run: it may repeat itself every second period, or never; start nearer, with a smaller stroke, or allow more periods"
     )]
     NoConvergence {
+        /// Smallest defect, in natural scales.
+        best: f64,
+        /// Periods that were computed.
+        periods: u32,
+    },
+    /// The same where a contact never slips grossly.
+    #[error(
+        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: {contacts:?} never slip grossly: what they hold near their centres they hold for ever, steady motions are a whole family (a shakedown), and a run comes near one of them slowly: look at a plain run, drive it further, so that all slip, or damp it"
+    )]
+    Shakedown {
+        /// Names of the contacts.
+        contacts: Vec<String>,
         /// Smallest defect, in natural scales.
         best: f64,
         /// Periods that were computed.

@@ -13,6 +13,9 @@ const NEAR: f64 = 1e-6;
 /// Differences to both sides at the end: an error of 1e-7 from steps, and of 1e-10 from a bend of 1.
 const FINE: f64 = 1e-5;
 
+/// Of periods that are less than this from a whole number of them the rest is rounding.
+const WHOLE: f64 = 1e-6;
+
 /// The map of a period.
 pub(super) struct Map<'m> {
     model: &'m Model,
@@ -21,7 +24,8 @@ pub(super) struct Map<'m> {
     section: Option<Section<'m>>,
     scales: DVector<f64>,
     options: &'m Options<'m>,
-    work: u32,
+    /// In periods.
+    work: f64,
 }
 
 /// Where a state has got to in a period.
@@ -72,7 +76,7 @@ impl<'m> Map<'m> {
         let limits = Limits { wall: None, ..job.scenario.plan.limits };
         let stepper = Stepper::Event { tolerance: options.tolerance };
         let plan = Plan { duration: f64::MAX, stepper, limits, every: None, until_steady: None };
-        Self { model, period, plan, section: None, scales: DVector::zeros(0), options, work: 0 }
+        Self { model, period, plan, section: None, scales: DVector::zeros(0), options, work: 0.0 }
     }
 
     /// The map at a section.
@@ -95,14 +99,15 @@ impl<'m> Map<'m> {
         self.period
     }
 
-    /// Periods that were computed so far.
+    /// Periods that were computed so far; one that was begun counts.
     pub(super) fn work(&self) -> u32 {
-        self.work
+        // Sums of parts of a period are rounded.
+        (self.work - WHOLE).ceil() as u32
     }
 
     /// Whether more may be computed.
     pub(super) fn may_go_on(&self) -> bool {
-        self.work < self.options.periods
+        self.work() < self.options.periods
     }
 
     /// How many numbers a state has.
@@ -122,9 +127,13 @@ impl<'m> Map<'m> {
         until: f64,
         record: &mut dyn Record,
     ) -> Result<State, SteadyError> {
-        let periods = ((until - state.time()) / self.period).ceil();
-        self.work += if periods > 0.0 { periods as u32 } else { 0 };
+        self.count(((until - state.time()) / self.period).max(0.0));
         self.run(state, until, self.plan, record)
+    }
+
+    fn count(&mut self, periods: f64) {
+        self.work += periods;
+        (self.options.told)(self.work());
     }
 
     fn run(
@@ -135,12 +144,12 @@ impl<'m> Map<'m> {
         record: &mut dyn Record,
     ) -> Result<State, SteadyError> {
         let interrupted = |error: RunError| match error {
-            RunError::Interrupted { .. } => SteadyError::Interrupted(self.work),
+            RunError::Interrupted { .. } => SteadyError::Interrupted(self.work()),
             error => error.into(),
         };
         // A cheap period is over before its run asks.
         if !(self.options.goes_on)() {
-            return Err(SteadyError::Interrupted(self.work));
+            return Err(SteadyError::Interrupted(self.work()));
         }
         let mut asked = Asked { record, goes_on: self.options.goes_on };
         let mut run = Run::new(self.model, &plan, state).map_err(interrupted)?;
@@ -153,7 +162,7 @@ impl<'m> Map<'m> {
     pub(super) fn image(&mut self, state: &State, finer: f64) -> Result<Image, SteadyError> {
         let until = state.time() + self.period;
         let stepper = Stepper::Event { tolerance: self.options.tolerance * finer };
-        self.work += 1;
+        self.count(1.0);
         let end = self.run(state.clone(), until, Plan { stepper, ..self.plan }, &mut ())?;
         let (state, way) = match &self.section {
             Some(section) => section.back(end),

@@ -111,6 +111,9 @@ fn events(comparison: &Comparison) -> Vec<String> {
 
 fn figures(comparison: &Comparison) -> Vec<String> {
     let figures = &comparison.figures;
+    if figures.compared == 0 && figures.missing.is_empty() {
+        return vec!["  figures: none in common, none compared".to_owned()];
+    }
     if figures.differ.is_empty() && figures.missing.is_empty() {
         return vec![format!("  figures: all {} agree", figures.compared)];
     }

@@ -3,7 +3,7 @@
 use crate::commands::info::columns::broken;
 use crate::commands::info::digits::digits;
 use crate::commands::info::tables::grid;
-use stickslip_results::theory::{Loading, Sheet, Walk, contact_word};
+use stickslip_results::theory::{Loading, Sheet, Stop, Walk, contact_word};
 use stickslip_results::{Real, quantity};
 
 /// What is said of a contact that nothing presses.
@@ -120,16 +120,17 @@ fn universal(sheet: &Sheet) -> String {
 pub(super) fn corners(walk: &Walk) -> String {
     let row = |moment: &stickslip_results::theory::Moment| {
         let stop = &moment.stop;
+        let told = |of: fn(&Stop) -> f64, unit: &str| quantity(Real(walk.told(stop, of)), unit);
         vec![
             if stop.corner == 0 { "start".to_owned() } else { stop.corner.to_string() },
-            quantity(Real(stop.apex.d), "m"),
-            quantity(Real(stop.apex.u), "m"),
-            quantity(Real(stop.normal_force), "N"),
-            quantity(Real(stop.force), "N"),
-            quantity(Real(stop.a), "m"),
-            quantity(Real(stop.c), "m"),
+            told(|stop| stop.apex.d, "m"),
+            told(|stop| stop.apex.u, "m"),
+            told(|stop| stop.normal_force, "N"),
+            told(|stop| stop.force, "N"),
+            told(|stop| stop.a, "m"),
+            told(|stop| stop.c, "m"),
             contact_word(stop.state).to_owned(),
-            quantity(Real(stop.friction), "J"),
+            told(|stop| stop.friction, "J"),
         ]
     };
     let head = ["CORNER", "d", "u", "F_N", "F_x", "a", "c", "state", "work"];

@@ -9,7 +9,7 @@ use stickslip_results::Outcome;
 use stickslip_results::Real;
 use stickslip_results::complaint::words;
 use stickslip_results::quantity;
-use stickslip_results::summary::{DriveSummary, SettlingSummary, Status, Summary};
+use stickslip_results::summary::{DriveSummary, Fretting, SettlingSummary, Status, Summary};
 
 /// An error below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
@@ -172,6 +172,27 @@ fn settling(steps: &DriveSummary) -> String {
     }
 }
 
+/// What the last cycle of a contact has come to.
+fn cycle(fretting: &Fretting) -> String {
+    let energy = |energy: Real| quantity(energy, "J");
+    if !fretting.closed {
+        let friction = energy(fretting.friction_work());
+        return format!("the last cycle is not closed; friction took {friction} in it");
+    }
+    let regime = match fretting.regime {
+        Some("stick") => "stick, ".to_owned(),
+        Some(regime) => format!("{regime} slip, "),
+        None => String::new(),
+    };
+    match (fretting.dissipated, fretting.damping) {
+        (Some(lost), Some(damping)) => {
+            format!("{regime}{} lost per cycle, {} of it to damping", energy(lost), energy(damping))
+        }
+        (Some(lost), None) => format!("{regime}{} lost per cycle", energy(lost)),
+        (None, _) => format!("{regime}{} lost to friction per cycle", energy(fretting.friction_work())),
+    }
+}
+
 /// What was done, the numbers looked for first, where the files are.
 fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     let (simulated, wall) = (quantity(summary.simulated, "s"), quantity(Real(outcome.wall), "s"));
@@ -184,17 +205,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     }
     for (name, contact) in &summary.contacts.0 {
         if let Some(fretting) = &contact.fretting {
-            if !fretting.closed {
-                let lost = quantity(fretting.dissipated, "J");
-                lines.push(format!("  {name}: the last cycle is not closed; friction took {lost} in it"));
-                continue;
-            }
-            let regime = match fretting.regime {
-                Some("stick") => "stick, ".to_owned(),
-                Some(regime) => format!("{regime} slip, "),
-                None => String::new(),
-            };
-            lines.push(format!("  {name}: {regime}{} lost per cycle", quantity(fretting.dissipated, "J")));
+            lines.push(format!("  {name}: {}", cycle(fretting)));
         }
     }
     lines.extend(summary.thinned().map(|note| format!("  {note}")));

@@ -232,6 +232,7 @@ fn attempt<A: for<'e> Attempt<Equations<'e>>>(
 ) -> Verdict {
     let error = motion.attempt(eq, state.t, aim, corner);
     let target = aim.target;
+    let error = motion.with_books(eq, state, target, error);
     let verdict = control.propose(Pace::judged(error, aim.grade), target - state.t);
     if verdict.accepted {
         // Rates of guards at the end need its slopes; the dense output is asked for only where a guard may

@@ -1,0 +1,74 @@
+//! The command line of a steady motion.
+
+use super::assignment;
+use super::look::LookArguments;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Long help; paragraphs are broken where the terminal ends.
+pub(crate) const ABOUT: &str = "\
+Find the steady motion of a drive without waiting for it: step, speed, how disturbances fade or grow
+
+A drive is steady where a period of its waveforms brings it back to where it was, a step further. After a few plain periods \
+Newton's method finds that motion, whether or not a run would ever come to it, or stay. Waveforms are taken to go on for ever, \
+whatever number of cycles the scenario gives them; a waveform other than that of the figures that comes only once is over.
+
+Prints the step with its error, the speed, and the Floquet multipliers in words: a disturbance comes back |λ| times as large \
+after a period, and turns by the angle of λ. Writes steady.json, a picture of one period with the multipliers, and a checkpoint from \
+which `stickslip resume DIR` goes on with the steady motion, for as long as the scenario's run is.
+
+Exit codes: 0 found, stable or not; 2 bad input, or a scene that has no steady motion to be found: without a period, with \
+waveforms that have none in common or that a caller commands, with a body that nothing holds; 3 none was found, or \
+something cannot be written; 130 interrupted. Nothing is written unless it was found.";
+
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  stickslip steady drive.json
+  stickslip steady drive.json --set contacts.ball.friction=0.3 --out here
+  stickslip steady drive.json --json                      one line, SI, the unit in each key
+  stickslip steady drive.json && stickslip resume results/drive-steady";
+
+#[derive(Debug, Args)]
+pub(crate) struct SteadyArguments {
+    /// Scenario file
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Put a value into the scenario, such as contacts.ball.friction=0.3
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Local error per step of the runs, in natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6
+    #[arg(long, value_name = "SHARE", default_value_t = 1e-12, value_parser = tolerance)]
+    pub(crate) tolerance: f64,
+    /// Most periods to be computed
+    #[arg(long, value_name = "N", default_value_t = 4000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) periods: u32,
+    /// Folder of the files [default: results/NAME-steady]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print one line of JSON instead of tables; a number that is not finite is null
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress, no warnings, no tables; errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArguments,
+}
+
+/// Reads a tolerance.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let tolerance: f64 = text.parse().map_err(|_| "expected a number such as 1e-12".to_owned())?;
+    let range = 1e-13..=1e-6;
+    if range.contains(&tolerance) { Ok(tolerance) } else { Err("expected 1e-13 to 1e-6".to_owned()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tolerance_is_one_that_the_stepper_has() {
+        assert_eq!((tolerance("1e-9"), tolerance("1e-13")), (Ok(1e-9), Ok(1e-13)));
+        assert!(["1e-14", "1e-3", "NaN", "-1e-9", "fine"].iter().all(|text| tolerance(text).is_err()));
+    }
+}

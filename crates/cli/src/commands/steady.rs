@@ -1,0 +1,142 @@
+//! `stickslip steady`: the motion that repeats itself every period.
+
+mod page;
+
+use crate::arguments::SteadyArguments;
+use crate::console::answer::{complain, say, say_json, warn};
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::verdict::Verdict;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_figures::{FigureError, steady as picture};
+use stickslip_results::checkpoint::{self, Keeper};
+use stickslip_results::complaint::words;
+use stickslip_results::files::STEADY;
+use stickslip_results::folder::{Folder, sweep};
+use stickslip_results::{Job, Refusal};
+use stickslip_study::steady::{Options, Orbit, Report, Steady, SteadyError, find};
+use thiserror::Error;
+
+/// Wall time between two checkpoints of a run that goes on, s.
+const EVERY: f64 = 30.0;
+
+/// Why there is no answer.
+#[derive(Debug, Error)]
+enum SteadyFailure {
+    /// The scenario.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// No steady motion.
+    #[error("{name}: {source}")]
+    NotFound { name: String, source: SteadyError },
+    /// The picture.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// A file.
+    #[error("{}: cannot be written: {}", .folder.display(), words(.source))]
+    Write { folder: PathBuf, source: io::Error },
+}
+
+/// Finds the steady motion of a scenario.
+pub(crate) fn steady(arguments: &SteadyArguments) -> Verdict {
+    match answer(arguments) {
+        Ok(()) => Verdict::Done,
+        Err(failure) => {
+            complain(format_args!("{failure}"));
+            failure.verdict()
+        }
+    }
+}
+
+fn answer(arguments: &SteadyArguments) -> Result<(), SteadyFailure> {
+    let interrupt = Interrupt::install();
+    let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
+    if !arguments.quiet {
+        warn(&job);
+    }
+    let not_found = |source| SteadyFailure::NotFound { name: job.name.clone(), source };
+    let found = search(arguments, &job, &interrupt).map_err(not_found)?;
+    let orbit = found.orbit(&job, picture::ROWS).map_err(not_found)?;
+    let out =
+        arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-steady", job.name)));
+    let lasting = found.job(&job, out.clone()).map_err(not_found)?;
+    let report = write(arguments, (&job, &lasting), &found, &orbit)?;
+    if arguments.json {
+        say_json(&report.line());
+    } else if !arguments.quiet {
+        say(format_args!("{}\n\n{}: {}", page::text(&job, &found), out.display(), report.files.join(", ")));
+        report.notes.iter().for_each(|note| say(format_args!("  {note}")));
+    }
+    Ok(())
+}
+
+/// The search itself, with its progress.
+fn search(arguments: &SteadyArguments, job: &Job, interrupt: &Interrupt) -> Result<Steady, SteadyError> {
+    let progress = Progress::new(!arguments.quiet);
+    let line = progress.count(&job.name, "periods");
+    let options = Options {
+        tolerance: arguments.tolerance,
+        periods: arguments.periods,
+        goes_on: &|| !interrupt.is_raised(),
+        told: &|periods| line.reached(periods),
+        ..Options::default()
+    };
+    find(job, &options)
+}
+
+/// Writes what was found, the picture and the checkpoint of the job whose waveforms last.
+fn write(
+    arguments: &SteadyArguments,
+    (job, lasting): (&Job, &Job),
+    found: &Steady,
+    orbit: &Orbit,
+) -> Result<Report, SteadyFailure> {
+    let pictures = picture::draw(job, found, &orbit.series, &arguments.look.look())?;
+    let mut report = Report::of(job, found);
+    let keeps = lasting.check_checkpoints().is_ok();
+    if !keeps {
+        let stepper = lasting.stepper().0;
+        report.notes.push(format!("no checkpoint to go on from: the stepper \"{stepper}\" keeps none"));
+    }
+    let failed = |source| SteadyFailure::Write { folder: lasting.folder.clone(), source };
+    let mut write = || -> io::Result<()> {
+        let mut folder = Folder::make(&lasting.folder)?;
+        // A command that was killed has left its drafts.
+        let stale = picture::all_files();
+        sweep(&lasting.folder, &stale.iter().cloned().chain([STEADY.to_owned()]).collect::<Vec<_>>());
+        pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+        report.files = folder.names();
+        report.files.push(STEADY.to_owned());
+        if keeps {
+            report.files.push(format!("{}/", checkpoint::FOLDER));
+        }
+        folder.forget(stale);
+        folder.write(STEADY, report.file().as_bytes())?;
+        // That of another motion must not stand beside this one.
+        checkpoint::remove(&lasting.folder)?;
+        folder.publish()?;
+        if keeps {
+            Keeper::begin_with(lasting, &orbit.start, EVERY)?;
+        }
+        Ok(())
+    };
+    write().map_err(failed)?;
+    Ok(report)
+}
+
+impl SteadyFailure {
+    fn verdict(&self) -> Verdict {
+        match self {
+            Self::Refused(_) => Verdict::BadInput,
+            Self::NotFound { source, .. } => match source {
+                SteadyError::Interrupted(_) => Verdict::Interrupted,
+                SteadyError::Run(_) | SteadyError::NoConvergence { .. } | SteadyError::Shakedown { .. } => {
+                    Verdict::Stopped
+                }
+                _ => Verdict::BadInput,
+            },
+            Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! A steady motion as tables for people, the same on a terminal and into a pipe.
+
+use crate::commands::info::tables::grid;
+use stickslip_results::{Job, Real, quantity};
+use stickslip_study::steady::{Multiplier, Steady};
+
+/// Multipliers that are told one by one.
+const TOLD: usize = 8;
+
+/// What was found.
+pub(super) fn text(job: &Job, found: &Steady) -> String {
+    let names: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
+    let named = |places: &[usize]| -> String {
+        places.iter().filter_map(|c| names.get(*c)).copied().collect::<Vec<_>>().join(", ")
+    };
+    let body = job.scenario.figures.body.and_then(|body| job.scenario.scene.bodies.get(body));
+    let error = quantity(Real(found.bound), "m");
+    let step = found.step.map(|step| format!("{} ± {error} a period", quantity(Real(step), "m")));
+    let step = step.zip(body).map(|(step, body)| format!("{step}, {}", body.name));
+    let told =
+        |places: &[usize], words: &str| (!places.is_empty()).then(|| format!("{}: {words}", named(places)));
+    let drifts = match found.drifts {
+        0 => String::new(),
+        1 => ", 1 drift".to_owned(),
+        count => format!(", {count} drifts"),
+    };
+    let rows = [
+        ("period", Some(quantity(Real(found.period), "s"))),
+        ("step", step),
+        ("speed", found.speed().map(|speed| quantity(Real(speed), "m/s"))),
+        ("stable", Some(stable(found))),
+        ("unknowns", Some(format!("{}{drifts}", found.unknowns.len()))),
+        ("found in", Some(format!("{} periods of work", found.work))),
+        (
+            "shaken down",
+            told(&found.shaken_down, "never slips grossly; one motion of a whole family, the nearest"),
+        ),
+        ("led along", told(&found.carried, "memory is no unknown; multipliers do not know of it")),
+    ];
+    let rows = rows.into_iter().filter_map(|(label, cell)| Some(vec![label.to_owned(), cell?]));
+    let title = &job.scenario.title;
+    let head = if title.is_empty() { job.name.clone() } else { format!("{}: {title}", job.name) };
+    let motion = grid(["STEADY MOTION", ""], rows);
+    let multipliers = multipliers(&found.multipliers);
+    [head, motion, multipliers].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n\n")
+}
+
+/// Whether a run stays.
+fn stable(found: &Steady) -> String {
+    let radius = format!("{:.6}", found.radius());
+    if !found.is_stable() {
+        return format!("no: a run leaves this motion, largest |λ| {radius}");
+    }
+    match found.radius() {
+        0.0 => "yes".to_owned(),
+        _ => format!("yes, largest |λ| {radius}"),
+    }
+}
+
+fn multipliers(multipliers: &[Multiplier]) -> String {
+    let row = |multiplier: &Multiplier| {
+        let im = if multiplier.im == 0.0 { String::new() } else { format!(" ± {:.6} i", multiplier.im) };
+        vec![
+            format!("{:.6}{im}", multiplier.re),
+            format!("{:.6}", multiplier.modulus()),
+            format!("a disturbance {}", multiplier.words()),
+        ]
+    };
+    let mut rows: Vec<Vec<String>> = multipliers.iter().take(TOLD).map(row).collect();
+    if multipliers.len() > TOLD {
+        let left = multipliers.len() - TOLD;
+        rows.push(vec![format!("{left} more"), String::new(), "smaller ones".to_owned()]);
+    }
+    grid(["MULTIPLIERS λ", "|λ|", ""], rows)
+}

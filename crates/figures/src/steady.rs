@@ -1,0 +1,73 @@
+//! The picture of a steady motion.
+
+use crate::look::{Look, Pen, Picture};
+use crate::pictures::{FigureError, alike, trajectory::tracks_of};
+use stickslip_drive::scene::Axis;
+use stickslip_plot::{OrbitCourse, Track, orbit_figure};
+use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_results::{Job, Series};
+use stickslip_study::steady::Steady;
+
+/// Name of the picture.
+pub const NAME: &str = "steady";
+/// Rows of the period that is drawn.
+pub const ROWS: u32 = 1024;
+
+/// Names of all files that any look gives to it.
+pub fn all_files() -> Vec<String> {
+    Look::all_files_of(&[NAME])
+}
+
+/// Draws one period of a job's steady motion, and its multipliers.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn draw(job: &Job, found: &Steady, series: &Series, look: &Look) -> Result<Vec<Picture>, FigureError> {
+    let entries = [
+        (TITLE, job.title().to_owned()),
+        (PROGRAM, job.program.clone()),
+        (HASH, job.hash.clone()),
+        (SCENARIO, job.resolved.clone()),
+    ];
+    let provenance = entries.map(|(key, text)| (key.to_owned(), text)).to_vec();
+    let pen = Pen { look, provenance, kept: None };
+    let start = series.time().first().copied().unwrap_or(0.0);
+    let time: Vec<f64> = series.time().iter().map(|t| t - start).collect();
+    let (feet, sliders) = tracks_of(job, series, (Axis::X, "x_m"));
+    let (_, speeds) = tracks_of(job, series, (Axis::X, "vx_m_s"));
+    let [feet, sliders] = [feet, sliders].map(|tracks| returning(&time, &tracks));
+    let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
+    let forces: Vec<Vec<&[f64]>> = contacts.iter().map(|name| vec![series.column(name, "fx_N")]).collect();
+    let groups = alike::groups(&forces);
+    let named = |group: &Vec<usize>| alike::name(&group.iter().map(|&c| contacts[c]).collect::<Vec<_>>());
+    let names: Vec<String> = groups.iter().map(named).collect();
+    let forces = groups.iter().zip(&names).map(|(group, name)| Track { name, values: forces[group[0]][0] });
+    let both = found.multipliers.iter().flat_map(|multiplier| {
+        let pair = (multiplier.im != 0.0).then_some((multiplier.re, -multiplier.im));
+        [Some((multiplier.re, multiplier.im)), pair].into_iter().flatten()
+    });
+    let course = OrbitCourse {
+        time: &time,
+        feet: feet.iter().map(|(name, values)| Track { name, values }).collect(),
+        sliders: sliders.iter().map(|(name, values)| Track { name, values }).collect(),
+        speeds,
+        forces: forces.collect(),
+        multipliers: both.collect(),
+    };
+    let title = format!("{}: a period of its steady motion", job.title());
+    pen.draw_as(NAME, orbit_figure(&title, &course))
+        .map_err(|source| FigureError::Plot { plot: NAME, source })
+}
+
+/// Positions from where they began, without the way that is left over at the end of the period.
+fn returning<'a>(time: &[f64], tracks: &[Track<'a>]) -> Vec<(&'a str, Vec<f64>)> {
+    let length = time.last().copied().unwrap_or(0.0);
+    let of = |track: &Track<'a>| {
+        let first = track.values.first().copied().unwrap_or(0.0);
+        let way = track.values.last().copied().unwrap_or(first) - first;
+        let drift = if length > 0.0 { way / length } else { 0.0 };
+        let values = track.values.iter().zip(time).map(|(x, t)| x - first - drift * t);
+        (track.name, values.collect())
+    };
+    tracks.iter().map(of).collect()
+}

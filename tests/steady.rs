@@ -1,0 +1,154 @@
+//! `stickslip steady`: what it says, what it writes, how it ends.
+
+use crate::program::{Table, code, listing, number, scenario, stderr, stdout, stickslip};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+use stickslip_results::definitions;
+use tempfile::tempdir;
+
+/// A drive that never slips grossly: the search goes on for as long as it may.
+const STUCK: &str = r#"waveforms.drive={"triangle":{"stroke":"20 nm","period":"1 ms"}}"#;
+
+fn steady(name: &str, out: &Path, options: &[&str]) -> Output {
+    stickslip().arg("steady").arg(scenario(name)).arg("--out").arg(out).args(options).output().unwrap()
+}
+
+/// A column of numbers.
+fn numbers(folder: &Path, table: &str, column: &str) -> Vec<f64> {
+    let table = Table::read(&folder.join(table));
+    table.column(column).iter().map(|word| word.parse().unwrap()).collect()
+}
+
+fn found(name: &str, out: &Path, options: &[&str]) -> Value {
+    let output = steady(name, out, options);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""), "{name}");
+    serde_json::from_slice(&fs::read(out.join("steady.json")).unwrap()).unwrap()
+}
+
+/// Every step of the run that goes on is the one that was found, and not by the run's own tolerance alone: a plain run of P1 needs
+/// five periods until a step is as good.
+#[test]
+fn a_run_goes_on_with_the_steady_motion() {
+    for (name, within) in [("p1", 1e-11), ("impact_drive", 1e-7), ("piezo_stack", 1e-8)] {
+        let out = tempdir().unwrap();
+        let found = found(name, out.path(), &[]);
+        assert_eq!(listing(out.path()), ["checkpoint", "steady.json", "steady.png"], "{name}");
+        let resumed = stickslip().arg("resume").arg(out.path()).output().unwrap();
+        assert_eq!((code(&resumed), stderr(&resumed).as_str()), (0, ""), "{name}");
+        let (lengths, step) = (numbers(out.path(), "steps.csv", "length_m"), number(&found, "/step_m"));
+        assert!(lengths.len() >= 10, "{name}");
+        for length in lengths {
+            assert!((length / step - 1.0).abs() < within, "{name}: {length:e} and {step:e}");
+        }
+        // What was given to bodies before the period began is none of this run's energy.
+        let [books, input] =
+            ["energy.error_J", "energy.input_J"].map(|column| numbers(out.path(), "trace.csv", column));
+        let most = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        assert!(books[0].abs() < 1e-12 * most(&input) && input[0] == 0.0, "{name}: {:e}", books[0]);
+        assert!(most(&books) < 1e-6 * most(&input), "{name}: {:e}", most(&books));
+    }
+}
+
+#[test]
+fn the_table_is_for_people_and_the_line_for_machines() {
+    let out = tempdir().unwrap();
+    let said = stdout(&steady("vertical_climber", out.path(), &[]));
+    for words in [
+        "STEADY MOTION",
+        "284.8 nm ±",
+        "a period, climber",
+        "no: a run leaves this motion",
+        "beats every 7.52 periods and grows by 0.131 % a",
+    ] {
+        assert!(said.contains(words), "{words} in\n{said}");
+    }
+    let line = stdout(&steady("vertical_climber", out.path(), &["--json"]));
+    let file: Value = serde_json::from_slice(&fs::read(out.path().join("steady.json")).unwrap()).unwrap();
+    assert_eq!(serde_json::from_str::<Value>(&line).unwrap(), file);
+    assert_eq!(
+        (file["stable"].as_bool(), file["multipliers"][0]["kind"].as_str()),
+        (Some(false), Some("grows"))
+    );
+    assert!(stdout(&steady("p1", out.path(), &["--quiet"])).is_empty());
+}
+
+/// Keys that hold values, as paths.
+fn keys(value: &Value, here: &str, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(entries) => entries.iter().for_each(|(key, inner)| {
+            keys(inner, &if here.is_empty() { key.clone() } else { format!("{here}.{key}") }, found);
+        }),
+        Value::Array(entries) if entries.iter().any(Value::is_object) => {
+            entries.iter().for_each(|inner| keys(inner, here, found));
+        }
+        _ => drop(found.insert(here.to_owned())),
+    }
+}
+
+#[test]
+fn every_key_is_defined_and_every_definition_met() {
+    let out = tempdir().unwrap();
+    let mut met = BTreeSet::new();
+    keys(&found("impact_drive", out.path(), &[]), "", &mut met);
+    let of_file = definitions().filter(|definition| definition.file == "steady.json");
+    let mut defined: BTreeSet<String> = of_file.map(|definition| definition.name.to_owned()).collect();
+    // A search that has nothing to add says nothing.
+    assert!(defined.remove("notes"));
+    assert_eq!(met, defined);
+}
+
+/// The waveform that never ends is refused where a caller commands it; a stepper without checkpoints leaves none.
+#[test]
+fn what_cannot_be_found_is_said_and_leaves_nothing() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("steady");
+    let cases: [(&str, &[&str], i32, &str); 5] = [
+        ("bouncing_ball", &[], 2, "bouncing_ball: no waveform of the scene has a period"),
+        ("commanded", &[], 2, "commanded: the waveform \"drive\" follows what a caller commands"),
+        ("fretting_sphere", &[], 2, "fretting_sphere: nothing is free in this scene"),
+        ("impact_drive", &["--periods", "12"], 3, "impact_drive: no steady motion found in "),
+        ("p1", &["--set", STUCK, "--periods", "60"], 3, "[\"ball\"] never slip grossly"),
+    ];
+    for (name, options, expected, words) in cases {
+        let output = steady(name, &out, options);
+        assert_eq!(code(&output), expected, "{name}: {}", stderr(&output));
+        assert!(stderr(&output).contains(words), "{name}: {}", stderr(&output));
+        assert!(stdout(&output).is_empty() && !out.exists(), "{name}");
+    }
+    fs::write(&out, "a file").unwrap();
+    let output = steady("p1", &out, &[]);
+    assert_eq!((code(&output), stdout(&output)), (3, String::new()), "{}", stderr(&output));
+    assert!(stderr(&output).contains("cannot be written"), "{}", stderr(&output));
+    let refused = steady("p1", root.path(), &["--tolerance", "1e-3"]);
+    assert_eq!(code(&refused), 2);
+}
+
+#[test]
+fn a_stepper_without_checkpoints_leaves_none_and_says_so() {
+    let out = tempdir().unwrap();
+    let dopri5 = r#"run.stepper={"dopri5":{"tolerance":1e-9}}"#;
+    let found = found("p1", out.path(), &["--set", dopri5]);
+    assert_eq!(listing(out.path()), ["steady.json", "steady.png"]);
+    let note = found["notes"][0].as_str().unwrap();
+    assert!(note.ends_with("the stepper \"dopri5\" keeps none"), "{note}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_search_writes_nothing() {
+    use std::process::{Command, Stdio};
+    let root = tempdir().unwrap();
+    let out = root.path().join("steady");
+    let mut command = stickslip();
+    command.arg("steady").arg(scenario("p1")).args(["--set", STUCK, "--periods", "1000000000"]);
+    let child = command.arg("--out").arg(&out).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 130, "{}", stderr(&output));
+    assert!(stderr(&output).starts_with("p1: interrupted after "), "{}", stderr(&output));
+    assert!(!out.exists());
+}
