@@ -100,6 +100,27 @@ fn every_figure_of_a_contact_by_itself_is_defined() {
 }
 
 #[test]
+fn every_figure_of_a_curve_is_defined() {
+    let (file, root) = (scenario("ruby_drive"), tempdir().unwrap());
+    let (file, out) = (file.to_str().unwrap(), root.path().join("out"));
+    let out = out.to_str().unwrap();
+    let ask = |more: &[&str]| {
+        answers(&[&["characterise", "--json", file, "--points", "2", "--out", out], more].concat())
+    };
+    let mut all = ask(&["--vary", "contacts.ball.friction=-0.1..0.2"]);
+    all.extend(ask(&["--curve", "force-speed"]));
+    let out = Path::new(out);
+    all.push(serde_json::from_slice(&std::fs::read(out.join("curve.json")).unwrap()).unwrap());
+    assert!(all.len() == 3 && all[0]["points"][0]["fault"].is_string() && all[2]["files"][0] == "curve.csv");
+    assert_eq!(lacking("curve.json", &all), Vec::<String>::new());
+    let head = Table::read(&out.join("curve.csv")).head;
+    // What is varied has the name that it has in the scenario.
+    assert_eq!(head[0], "load_N");
+    let lacking: Vec<_> = head[1..].iter().filter(|column| !defined("curve.csv", column)).collect();
+    assert!(lacking.is_empty() && head.len() == 12, "{lacking:?}");
+}
+
+#[test]
 fn everything_that_check_says_is_defined() {
     let root = tempdir().unwrap();
     let file = root.path().join("mine.json");

@@ -4,6 +4,7 @@
 mod bench;
 mod bench_frames;
 mod broken_files;
+mod characterise;
 mod check;
 mod checkpoint;
 mod checkpoint_endings;

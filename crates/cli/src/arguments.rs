@@ -1,6 +1,7 @@
 //! The command line.
 
 pub(crate) mod bench;
+pub(crate) mod characterise;
 pub(crate) mod compare;
 pub(crate) mod contact;
 pub(crate) mod look;
@@ -17,6 +18,7 @@ use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 pub(crate) use bench::BenchArguments;
+pub(crate) use characterise::CharacteriseArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
@@ -90,6 +92,9 @@ pub(crate) enum Command {
     /// Answer for one contact of a scenario, without a run: constants, curves, first loadings, fields
     #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
     Contact(ContactArguments),
+    /// Trace a curve of a drive: step over amplitude, speed over frequency, speed against a load
+    #[command(long_about = characterise::ABOUT, after_long_help = characterise::EXAMPLES)]
+    Characterise(CharacteriseArguments),
     /// Find the steady motion of a drive without waiting for it: step, speed, how disturbances fade or grow
     #[command(long_about = steady::ABOUT, after_long_help = steady::EXAMPLES)]
     Steady(SteadyArguments),

@@ -1,6 +1,7 @@
 //! The commands, one room each: what they do with the libraries, and what they say.
 
 pub(crate) mod bench;
+pub(crate) mod characterise;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;

@@ -10,8 +10,8 @@ mod console;
 use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
-    bench, check, compare, completions, contact, explain, gallery, info, materials, new, plot, realtime,
-    repro, resume, run, schema, soak, steady, validate,
+    bench, characterise, check, compare, completions, contact, explain, gallery, info, materials, new, plot,
+    realtime, repro, resume, run, schema, soak, steady, validate,
 };
 use std::process::ExitCode;
 
@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         Command::Resume(arguments) => resume::resume(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Info(arguments) => info::info(&arguments),
+        Command::Characterise(arguments) => characterise::characterise(&arguments),
         Command::Contact(arguments) => contact::contact(&arguments),
         Command::Steady(arguments) => steady::steady(&arguments),
         Command::New(arguments) => new::new(&arguments),

@@ -12,7 +12,8 @@
 //!   over displacement), [`energy`] (the energy book), [`drive`] (what is commanded and what moves), [`events`] (what happened when), [`state`] (springs over time),
 //!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
 //!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
-//!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs), [`orbit`] (a motion that repeats itself);
+//!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs), [`orbit`] (a motion that repeats itself),
+//!   [`curve`] (what a machine does over something that is varied);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
@@ -30,6 +31,7 @@ mod canvas;
 pub mod carried;
 pub mod compare;
 mod content;
+pub mod curve;
 mod dash;
 pub mod drive;
 pub mod energy;
@@ -76,6 +78,7 @@ pub mod zoom;
 pub use anchors::{AnchorMoment, anchors_figure};
 pub use carried::read_text;
 pub use compare::{ComparedChannel, compare_figure};
+pub use curve::{MachineCourse, MachineCurve, machine_figure};
 pub use drive::{DriveCourse, Supply, drive_figure};
 pub use energy::{EnergyBook, energy_figure};
 pub use error::PlotError;

@@ -4,6 +4,7 @@
 mod check;
 mod columns;
 mod contact;
+mod curve;
 mod info;
 mod keys;
 mod steady;
@@ -28,7 +29,7 @@ const PLACEHOLDERS: [&str; 10] =
 /// Everything that is defined, file by file.
 pub fn definitions() -> impl Iterator<Item = &'static Definition> {
     let tables = columns::COLUMNS.iter().chain(keys::KEYS).chain(info::INFO);
-    tables.chain(contact::CONTACT).chain(steady::STEADY).chain(check::CHECK)
+    tables.chain(contact::CONTACT).chain(steady::STEADY).chain(check::CHECK).chain(curve::CURVE)
 }
 
 impl Definition {
@@ -86,7 +87,7 @@ fn lowered(below: char) -> Option<char> {
 /// The page, in Markdown.
 pub fn definitions_page() -> String {
     let mut page = String::from(
-        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `steady`, `check` and\n`validate` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
+        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,\n`validate` and `characterise` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
          entry. Names end\nwith their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is `start`, \
          or `least` and\n`most` of a load that varies. How the figures of steps and loops are found, and how exact they are, is told on \
          [their\npage](figures.md); what the contacts obey, on [the page of the physics](physics.md). Numbers in brackets such as (4.26) are \

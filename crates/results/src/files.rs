@@ -25,6 +25,8 @@ pub const STEPS: &str = "steps.csv";
 pub const SCENARIO: &str = "scenario.json";
 /// What the run came to.
 pub const SUMMARY: &str = "summary.json";
+/// What the points of a curve of a machine came to.
+pub const CURVE: &str = "curve.json";
 /// The steady motion of a drive, found without a run.
 pub const STEADY: &str = "steady.json";
 

@@ -15,7 +15,7 @@
 //! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
 //! fit, as data and in words); `mistakes` (what else does not); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
 //! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
-//! `schema`, and `guide`, which answers from it; `named` (materials by name) and `substance` (what a material's name means).
+//! `schema`, and `guide`, which answers from it; `parameter` (numbers that may be varied); `named` (materials by name) and `substance` (what a material's name means).
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
 mod address;
@@ -32,6 +32,7 @@ mod mistakes;
 mod named;
 mod overrides;
 mod pairing;
+mod parameter;
 mod path;
 mod place;
 mod plot_name;
@@ -56,6 +57,7 @@ pub use meaning::{
     WrittenEvents,
 };
 pub use named::{MATERIALS, NamedMaterial};
+pub use parameter::Parameter;
 pub use plot_name::PlotName;
 pub use quantity::quantity;
 pub use scenario::Scenario;

@@ -52,6 +52,11 @@ impl Kind {
         self.words().1
     }
 
+    /// The dimension of this name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        UNITS.iter().map(|(_, kind, _)| *kind).find(|kind| format!("{kind:?}") == name)
+    }
+
     /// Symbol of the SI unit.
     pub(crate) fn si(self) -> &'static str {
         self.words().2

@@ -2,7 +2,7 @@
 
 use crate::figure::{Figure, FigureError, Placed, Reading};
 use crate::line::{Ended, LineFault, Lines};
-use crate::parameter::{Parameter, ParameterError};
+use crate::number::{Number, NumberError};
 use crate::sketch::Sketch;
 use std::num::NonZero;
 use std::slice::ChunksMut;
@@ -25,7 +25,7 @@ pub struct Batch {
     scene: Scene,
     plan: Plan,
     model: Model,
-    parameters: Vec<Parameter>,
+    varied: Vec<Number>,
     figures: Vec<Figure>,
     placed: Vec<Placed>,
     cores: usize,
@@ -49,15 +49,7 @@ impl Batch {
         let model = Model::new(&scene)?;
         let cores = thread::available_parallelism().map_or(1, NonZero::get);
         let plan = Plan { every: None, ..plan };
-        Ok(Self {
-            scene,
-            plan,
-            model,
-            parameters: Vec::new(),
-            figures: Vec::new(),
-            placed: Vec::new(),
-            cores,
-        })
+        Ok(Self { scene, plan, model, varied: Vec::new(), figures: Vec::new(), placed: Vec::new(), cores })
     }
 
     /// Lets a number of the scene vary, by its key path in the scenario file, such as `bodies.slider.mass`; in SI. Numbers of a
@@ -65,8 +57,8 @@ impl Batch {
     ///
     /// # Errors
     /// A path that names none.
-    pub fn vary(&mut self, path: &str) -> Result<&mut Self, ParameterError> {
-        self.parameters.push(Parameter::named(&self.scene, path)?);
+    pub fn vary(&mut self, path: &str) -> Result<&mut Self, NumberError> {
+        self.varied.push(Number::named(&self.scene, path)?);
         Ok(self)
     }
 
@@ -88,7 +80,7 @@ impl Batch {
 
     /// The numbers that vary, as the scene itself has them.
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        self.parameters.iter().map(|parameter| parameter.get(&self.scene).unwrap_or(f64::NAN))
+        self.varied.iter().map(|number| number.get(&self.scene).unwrap_or(f64::NAN))
     }
 
     /// Runs so many variants. `number` writes the numbers of a variant, by its place, over those of the scene; it is asked on any core
@@ -176,8 +168,8 @@ impl<'b> Worker<'b> {
     fn new(batch: &'b Batch, stop: &'b AtomicBool) -> Self {
         let base: Vec<f64> = batch.numbers().collect();
         let mut sketches: Vec<(usize, Sketch, bool)> = Vec::new();
-        for parameter in &batch.parameters {
-            if let Parameter::Waveform(w, _) = *parameter
+        for number in &batch.varied {
+            if let Number::Waveform(w, _) = *number
                 && sketches.iter().all(|(known, ..)| *known != w)
             {
                 sketches.push((w, Sketch::of(&batch.scene.waveforms[w].part), false));
@@ -225,11 +217,11 @@ impl<'b> Worker<'b> {
     /// Sets the numbers of a variant. All of them, whatever is wrong with one: the next variant finds none of another.
     fn set(&mut self) -> Result<(), LineFault> {
         let mut outcome = Ok(());
-        for (place, (parameter, value)) in self.batch.parameters.iter().zip(&self.numbers).enumerate() {
-            if let Parameter::Waveform(w, quantity) = *parameter {
+        for (place, (number, value)) in self.batch.varied.iter().zip(&self.numbers).enumerate() {
+            if let Number::Waveform(w, quantity) = *number {
                 let own = self.sketches.iter_mut().find(|(known, ..)| *known == w);
                 own.into_iter().for_each(|(_, sketch, due)| *due |= sketch.set(quantity, *value));
-            } else if let Err(why) = parameter.set(&mut self.scene, *value) {
+            } else if let Err(why) = number.set(&mut self.scene, *value) {
                 outcome = outcome.and(Err(LineFault::Number { place, why }));
             }
         }

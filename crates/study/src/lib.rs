@@ -3,19 +3,19 @@
 //! Knows no terminal and draws nothing, so that any door can stand on it. What it computes does not depend on the number of
 //! threads.
 //!
-//! In reading order: `parameter` (numbers of a scene that vary) and `sketch` (those of its waveforms), `figure` (what is kept of
+//! In reading order: `number` (numbers of a scene that a batch sets) and `sketch` (those of its waveforms), `figure` (what is kept of
 //! a run), `line` (what is told of it), `batch` (the runs); [`steady`], the motion that repeats itself every period, and how it
-//! comes back when it is disturbed.
+//! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied.
 
 mod batch;
+pub mod curve;
 mod figure;
 mod line;
-mod parameter;
+mod number;
 mod sketch;
 pub mod steady;
 
 pub use batch::Batch;
 pub use figure::{Figure, FigureError};
 pub use line::{Ended, Line, LineFault, Lines};
-pub use parameter::{Parameter, ParameterError, ValueError};
-pub use sketch::Quantity;
+pub use number::{NumberError, ValueError};

@@ -1,7 +1,7 @@
 //! What a batch tells: a line of each variant.
 
 use crate::figure::Figure;
-use crate::parameter::ValueError;
+use crate::number::ValueError;
 use std::fmt;
 use stickslip_drive::{Counts, RunError, SceneError, WaveformError};
 use thiserror::Error;

@@ -4,7 +4,7 @@ use stickslip_drive::{Shape, Timing, Waveform, WaveformError};
 
 /// A number of a waveform, under the key that it has in a scenario file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub(crate) enum Quantity {
     /// Peak to peak.
     Stroke,
     /// Half of peak to peak.

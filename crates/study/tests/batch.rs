@@ -5,7 +5,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_drive::{Model, Plan, Scene, Variants, run};
 use stickslip_scenario::Scenario;
-use stickslip_study::{Batch, Figure, FigureError, LineFault, Parameter};
+use stickslip_study::{Batch, Figure, FigureError, LineFault};
 
 /// A scenario of the gallery, with keys set.
 fn scenario(name: &str, set: &[(&str, &str)]) -> Scenario {
@@ -208,7 +208,7 @@ fn a_batch_that_is_stopped_keeps_its_lines() {
 
 /// Every number that can vary is the one that the file sets under the same key.
 #[test]
-fn parameters_are_those_of_the_file() {
+fn numbers_are_those_of_the_file() {
     let keys: [(&str, &[&str]); 4] = [
         ("p1", &["bodies.slider.mass", "contacts.ball.friction", "contacts.ball.normal.force"]),
         (
@@ -221,9 +221,9 @@ fn parameters_are_those_of_the_file() {
     for (name, paths) in keys {
         for path in paths {
             let own = scenario(name, &[(path, "1.25e-3")]);
-            let found = Parameter::named(&own.scene, path);
-            let parameter = found.unwrap_or_else(|error| panic!("{name}: {error}"));
-            assert_eq!(parameter.get(&own.scene), Some(1.25e-3), "{name}: {path}");
+            let mut batch = Batch::of(&own).unwrap();
+            batch.vary(path).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(batch.numbers().collect::<Vec<_>>(), [1.25e-3], "{name}: {path}");
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Numbers of a scene that variants set.
+//! Numbers of a scene that variants set: places in what was read, for whoever sets thousands. In the file they are
+//! [`stickslip_scenario::Parameter`]s.
 
 use crate::sketch::{Quantity, Sketch};
 use std::fmt;
@@ -9,7 +10,7 @@ use thiserror::Error;
 
 /// A number of a scene, SI, by the place of its part: what a key path such as `bodies.slider.mass` means, looked up once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Parameter {
+pub(crate) enum Number {
     /// `bodies.NAME.mass`, kg, with what stacks at its ends have given it.
     Mass(usize),
     /// `bodies.NAME.inertia`, kg m².
@@ -49,7 +50,7 @@ pub enum Parameter {
 /// A key path that names no number which variants can set.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("\"{path}\" is no number of this scene that variants can set: {why}")]
-pub struct ParameterError {
+pub struct NumberError {
     /// As it was given.
     pub path: String,
     /// What would be one.
@@ -67,22 +68,21 @@ pub enum ValueError {
     Waveform(#[from] WaveformError),
 }
 
-impl Parameter {
+impl Number {
     /// The number that a key path means in a scene.
     ///
     /// # Errors
     /// Parts that do not exist, keys that are no number, and numbers that this scene does not have.
-    pub fn named(scene: &Scene, path: &str) -> Result<Self, ParameterError> {
-        let found = read(scene, path).and_then(|parameter| match parameter.get(scene) {
-            Some(_) => Ok(parameter),
+    pub(crate) fn named(scene: &Scene, path: &str) -> Result<Self, NumberError> {
+        let found = read(scene, path).and_then(|number| match number.get(scene) {
+            Some(_) => Ok(number),
             None => Err("this part does not have it, or it varies".to_owned()),
         });
-        found.map_err(|why| ParameterError { path: path.to_owned(), why })
+        found.map_err(|why| NumberError { path: path.to_owned(), why })
     }
 
     /// Its value; none where the scene has no such number.
-    #[must_use]
-    pub fn get(self, scene: &Scene) -> Option<f64> {
+    pub(crate) fn get(self, scene: &Scene) -> Option<f64> {
         let body = |b: usize| scene.bodies.get(b).map(|named| &named.part);
         let contact = |c: usize| scene.contacts.get(c).map(|named| &named.part);
         let spring = |s: usize| scene.springs.get(s).map(|named| &named.part);
@@ -181,18 +181,18 @@ fn place<T>(parts: &[Named<T>], name: &str) -> Result<usize, String> {
 }
 
 /// What a key path means.
-fn read(scene: &Scene, path: &str) -> Result<Parameter, String> {
+fn read(scene: &Scene, path: &str) -> Result<Number, String> {
     let keys: Vec<&str> = path.split('.').collect();
     let axis = |key: &str| [Axis::X, Axis::Z, Axis::Pitch].into_iter().find(|axis| axis.key() == key);
     Ok(match keys[..] {
-        ["bodies", name, "mass"] => Parameter::Mass(place(&scene.bodies, name)?),
-        ["bodies", name, "inertia"] => Parameter::Inertia(place(&scene.bodies, name)?),
+        ["bodies", name, "mass"] => Number::Mass(place(&scene.bodies, name)?),
+        ["bodies", name, "inertia"] => Number::Inertia(place(&scene.bodies, name)?),
         ["bodies", name, "start", key] => {
             let body = place(&scene.bodies, name)?;
-            let rate = key.strip_prefix('v').and_then(axis).map(|axis| Parameter::Velocity(body, axis));
-            rate.or(axis(key).map(|axis| Parameter::Position(body, axis))).ok_or_else(|| choice(&STARTS))?
+            let rate = key.strip_prefix('v').and_then(axis).map(|axis| Number::Velocity(body, axis));
+            rate.or(axis(key).map(|axis| Number::Position(body, axis))).ok_or_else(|| choice(&STARTS))?
         }
-        ["contacts", name, "friction"] => Parameter::Friction(place(&scene.contacts, name)?),
+        ["contacts", name, "friction"] => Number::Friction(place(&scene.contacts, name)?),
         ["contacts", name, "normal", key] => {
             let c = place(&scene.contacts, name)?;
             let own = match scene.contacts[c].part.normal {
@@ -201,34 +201,34 @@ fn read(scene: &Scene, path: &str) -> Result<Parameter, String> {
                 Normal::Radius(_) => "radius",
                 Normal::Coupled => "coupled",
             };
-            if key == own { Parameter::Normal(c) } else { return Err(format!("its normal is \"{own}\"")) }
+            if key == own { Number::Normal(c) } else { return Err(format!("its normal is \"{own}\"")) }
         }
-        ["contacts", name, "gap"] => Parameter::Gap(place(&scene.contacts, name)?),
+        ["contacts", name, "gap"] => Number::Gap(place(&scene.contacts, name)?),
         ["contacts", name, "start", key] => {
             let c = place(&scene.contacts, name)?;
             match (scene.contacts[c].part.start, key) {
                 (ContactStart::Force(_), "force") | (ContactStart::Displacement(_), "displacement") => {
-                    Parameter::Preload(c)
+                    Number::Preload(c)
                 }
                 _ => return Err("the contact does not start so".to_owned()),
             }
         }
-        ["springs", name, "stiffness"] => Parameter::SpringStiffness(place(&scene.springs, name)?),
-        ["springs", name, "damping"] => Parameter::SpringDamping(place(&scene.springs, name)?),
-        ["springs", name, "preload"] => Parameter::SpringPreload(place(&scene.springs, name)?),
-        ["actuators", name, "stiffness"] => Parameter::ActuatorStiffness(place(&scene.actuators, name)?),
-        ["actuators", name, "damping"] => Parameter::ActuatorDamping(place(&scene.actuators, name)?),
-        ["gravity", "acceleration"] => Parameter::Gravity,
-        ["gravity", "incline"] => Parameter::Incline,
+        ["springs", name, "stiffness"] => Number::SpringStiffness(place(&scene.springs, name)?),
+        ["springs", name, "damping"] => Number::SpringDamping(place(&scene.springs, name)?),
+        ["springs", name, "preload"] => Number::SpringPreload(place(&scene.springs, name)?),
+        ["actuators", name, "stiffness"] => Number::ActuatorStiffness(place(&scene.actuators, name)?),
+        ["actuators", name, "damping"] => Number::ActuatorDamping(place(&scene.actuators, name)?),
+        ["gravity", "acceleration"] => Number::Gravity,
+        ["gravity", "incline"] => Number::Incline,
         ["waveforms", name, kind, key] => {
             let w = place(&scene.waveforms, name)?;
             let sketch = Sketch::of(&scene.waveforms[w].part);
-            Parameter::Waveform(w, sketch.named(kind, key).ok_or("the waveform has no such number")?)
+            Number::Waveform(w, sketch.named(kind, key).ok_or("the waveform has no such number")?)
         }
         [load, key] => match load.strip_prefix("loads[").and_then(|rest| rest.strip_suffix(']')) {
             Some(place) => {
                 let place = place.parse().map_err(|_| "expected loads[0]")?;
-                Parameter::Load(place, axis(key).ok_or_else(|| choice(&AXES))?)
+                Number::Load(place, axis(key).ok_or_else(|| choice(&AXES))?)
             }
             None => return Err(choice(&KEYS)),
         },

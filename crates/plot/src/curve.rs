@@ -1,0 +1,149 @@
+//! The curves of a machine: what it does over something that is varied.
+
+use crate::Label;
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Band, Panel, Reference, Series};
+use crate::theme::{Dash, Ink, Style};
+
+/// What a machine does over something that is varied.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MachineCurve<'a> {
+    /// What is varied, and its unit.
+    pub axis: (&'a str, &'a str),
+    /// Whether its decades are as far apart everywhere.
+    pub logarithmic: bool,
+    /// Its values, ascending.
+    pub values: &'a [f64],
+    /// What it is in the scene that the curve is of.
+    pub present: Option<f64>,
+    /// Values with a name.
+    pub landmarks: Vec<(String, f64)>,
+    /// What the machine does, a panel each.
+    pub courses: Vec<MachineCourse<'a>>,
+    /// Values at which nothing is known, by the reason.
+    pub faults: Vec<(&'a str, Vec<f64>)>,
+}
+
+/// One thing that a machine does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MachineCourse<'a> {
+    /// What.
+    pub name: &'a str,
+    /// Its unit.
+    pub unit: &'a str,
+    /// How much, as many as there are values; not finite where it is not known.
+    pub values: Vec<f64>,
+    /// How far it swings about that from period to period, as many; 0 where it does not.
+    pub spreads: Vec<f64>,
+}
+
+/// A panel for each thing that the machine does, one below the other: a line through its points, a band where it swings from period
+/// to period. Dots on the line of zero are points without an answer, with the reason in the legend.
+pub fn machine_figure<'a>(title: &str, curve: &MachineCurve<'a>) -> Figure<'a> {
+    let is_known = |course: &MachineCourse<'_>| course.values.iter().any(|value| value.is_finite());
+    if !curve.courses.iter().any(is_known) {
+        return Figure::without_data(title, "no point of the curve has an answer");
+    }
+    let panels = curve.courses.iter().enumerate().map(|(place, course)| panel(place, curve, course));
+    Figure {
+        title: Label::plain(title),
+        panels: panels.collect(),
+        arrangement: Arrangement::Column { share_x: true },
+        size: Figure::size_for(360, 640, curve.courses.len()),
+        ..Figure::default()
+    }
+    .with_room_for_legends()
+}
+
+fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>) -> Panel<'a> {
+    let (name, unit) = curve.axis;
+    let style = |ink, width| Style { ink: Some(ink), dash: Some(Dash::Solid), width };
+    let line = Series {
+        marked: true,
+        style: style(Ink::Palette(place), 1.0),
+        ..Series::new("", curve.values, course.values.clone())
+    };
+    let faults = curve.faults.iter().enumerate().map(|(kind, (reason, at))| {
+        // A gap after every dot: points that no line joins are marked.
+        let xs: Vec<f64> = at.iter().flat_map(|x| [*x, f64::NAN]).collect();
+        let ys = xs.iter().map(|x| if x.is_nan() { f64::NAN } else { 0.0 }).collect::<Vec<f64>>();
+        Series { style: style(Ink::Palette(3 + kind), 1.0), ..Series::new(Label::plain(reason), xs, ys) }
+    });
+    let present = curve.present.filter(|x| is_within(*x, curve.values));
+    let present = present.map(|x| Reference::Vertical { x, label: Label::plain("as in the scenario") });
+    let landmarks =
+        curve.landmarks.iter().map(|(name, x)| Reference::Vertical { x: *x, label: Label::plain(name) });
+    Panel {
+        x: Axis { logarithmic: curve.logarithmic, ..Axis::new(Label::plain(name), unit) },
+        y: Axis::new(Label::plain(course.name), course.unit),
+        bands: swing(curve.values, course).into_iter().collect(),
+        series: faults.chain([line]).collect(),
+        references: [Reference::Horizontal { y: 0.0, label: Label::default() }]
+            .into_iter()
+            .chain(present)
+            .chain(landmarks)
+            .collect(),
+        ..Panel::default()
+    }
+}
+
+/// Between which values the thing swings, where it does.
+fn swing<'a>(xs: &'a [f64], course: &MachineCourse<'a>) -> Option<Band<'a>> {
+    let edge = |sign: f64| -> Vec<f64> {
+        course.values.iter().zip(&course.spreads).map(|(value, spread)| value + sign * spread).collect()
+    };
+    course.spreads.iter().any(|spread| *spread > 0.0).then(|| Band {
+        label: Label::plain("swings from period to period"),
+        xs: xs.into(),
+        low: edge(-1.0).into(),
+        high: edge(1.0).into(),
+        ink: Ink::Shade(2),
+    })
+}
+
+fn is_within(x: f64, values: &[f64]) -> bool {
+    values.first().is_some_and(|first| *first <= x) && values.last().is_some_and(|last| x <= *last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(values: &[f64]) -> MachineCurve<'_> {
+        let course = |name, spread| MachineCourse {
+            name,
+            unit: "m",
+            values: vec![1e-9, f64::NAN, 3e-9],
+            spreads: vec![0.0, f64::NAN, spread],
+        };
+        MachineCurve {
+            axis: ("load", "N"),
+            logarithmic: false,
+            values,
+            present: Some(0.1),
+            landmarks: vec![("stall".to_owned(), 0.25)],
+            courses: vec![course("step", 0.0), course("swing", 1e-9)],
+            faults: vec![("refused", vec![0.2])],
+        }
+    }
+
+    #[test]
+    fn what_swings_has_a_band_and_what_is_not_known_a_dot() {
+        let values = [0.1, 0.2, 0.3];
+        let figure = machine_figure("Title", &curve(&values));
+        let [step, swing] = &figure.panels[..] else { panic!("{}", figure.panels.len()) };
+        assert!(step.bands.is_empty() && swing.bands.len() == 1);
+        assert_eq!(swing.bands[0].high[2], 4e-9);
+        assert!(step.series[0].is_scattered() && step.series[0].xs[0] == 0.2);
+        assert_eq!(step.references.len(), 3);
+        assert!(crate::draw_svg(&figure).is_ok());
+    }
+
+    #[test]
+    fn a_curve_without_an_answer_says_so() {
+        let values = [0.1];
+        let mut curve = curve(&values);
+        curve.courses.iter_mut().for_each(|course| course.values.fill(f64::NAN));
+        assert!(machine_figure("Title", &curve).panels[0].series.is_empty());
+    }
+}

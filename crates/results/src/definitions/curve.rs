@@ -1,0 +1,71 @@
+//! What `stickslip characterise` writes and `--json` says of a curve of a machine.
+
+use super::Definition;
+
+const fn column(name: &'static str, text: &'static str) -> Definition {
+    Definition { file: "curve.csv", name, text }
+}
+
+const fn key(name: &'static str, text: &'static str) -> Definition {
+    Definition { file: "curve.json", name, text }
+}
+
+const STEP: &str = "step along x of the figures' body in a period of the figures' waveform, in steady motion; the mean of steps that swing";
+const ERROR: &str =
+    "how far the step may be off, an estimate: of what was left of the way to it, and of the run's tolerance";
+const SPREAD: &str = "by how much steps swing about their mean from period to period; 0 of steady ones";
+const SPEED: &str = "mean speed along x: step over period";
+const POWER: &str = "load times mean speed, above 0 where the drive moves against the load; of loads only";
+const PERIOD: &str = "period of the figures' waveform";
+const MOTION: &str = "`steady`, `beats` (steps swing about a mean) or `irregular`";
+const MULTIPLIER: &str = "|λ|, modulus of the largest Floquet multiplier: by how much a disturbance is smaller after a period; none of \
+     motions that were waited for";
+const BEAT: &str = "periods in which that disturbance turns once; none where it does not";
+const WORK: &str = "periods that were computed";
+
+pub(super) const CURVE: &[Definition] = &[
+    column("step_m", STEP),
+    column("step_error_m", ERROR),
+    column("step_spread_m", SPREAD),
+    column("speed_m_s", SPEED),
+    column("power_W", POWER),
+    column("period_s", PERIOD),
+    column("motion", MOTION),
+    column("multiplier", MULTIPLIER),
+    column("beat_periods", BEAT),
+    column("work_periods", WORK),
+    column("fault", "why there is no motion at this value"),
+    key("scenario", "name of the scenario"),
+    key("scenario_sha256", "SHA-256 of the resolved scenario, as it is without what the curve varies"),
+    key("program", "name and version of the program"),
+    key("curve", "name of the curve; `vary` of a number by its path"),
+    key("varied", "what is varied; it heads the first column of `curve.csv`, with its unit"),
+    key("unit", "its SI unit; empty of a plain number"),
+    key("present", "what it is in the scenario"),
+    key("against", "along which sense of x the drive steps without load, against which loads act"),
+    key("points.value", "what is varied, at this point"),
+    key("points.set", "what `--set` takes to make a scenario of this point"),
+    key("points.step_m", STEP),
+    key("points.step_error_m", ERROR),
+    key("points.step_spread_m", SPREAD),
+    key("points.speed_m_s", SPEED),
+    key("points.power_W", POWER),
+    key("points.period_s", PERIOD),
+    key("points.motion", MOTION),
+    key("points.multiplier", MULTIPLIER),
+    key("points.beat_periods", BEAT),
+    key("points.work_periods", WORK),
+    key("points.fault", "why there is no motion at this value"),
+    key(
+        "landmarks.name",
+        "`zero_step` (S₀, largest amplitude without a step), `stall` (least load against which there is none), `best_speed`, \
+         `best_power` or `best_step`",
+    ),
+    key("landmarks.at", "what is varied, there"),
+    key("landmarks.half_width", "how far that may be off: half of the bracket in which it lies"),
+    key("landmarks.value", "speed in m/s, power in W or step in m there; of best points only"),
+    key("landmarks.runs", "points that were computed for it, beside those of the curve"),
+    key("landmarks.fault", "why it is not known"),
+    key("files", "names of all files that were written together"),
+    key("table_sha256", "SHA-256 of `curve.csv`"),
+];

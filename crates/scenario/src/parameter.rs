@@ -1,0 +1,240 @@
+//! Numbers of a scenario that somebody may vary, found by their key paths.
+
+use crate::error::ScenarioError;
+use crate::guide::Guide;
+use crate::path::{KeyPath, Step};
+use crate::scenario::Scenario;
+use crate::suggest;
+use crate::units::Kind;
+use serde_json::Value;
+
+/// Longest way from a place in the schema to the name of its dimension.
+const DEEPEST: usize = 8;
+/// What a run goes by and steady motion does not.
+const OF_A_RUN: [&str; 4] = ["output", "plots", "run.duration", "run.cycles"];
+
+/// A number of a scenario that may take any value near the one it has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Its key path, such as `contacts.ball.friction`.
+    pub path: String,
+    /// What it is, in `unit`; none where the scenario leaves it out and the key may still be given.
+    pub value: Option<f64>,
+    /// Its SI unit; empty for a plain number.
+    pub unit: &'static str,
+}
+
+impl Scenario {
+    /// The number under a key path.
+    ///
+    /// # Errors
+    /// Nothing under that path, something else than a number, or one that counts whole things.
+    pub fn parameter(&self, path: &str) -> Result<Parameter, ScenarioError> {
+        let refused = |message: &str, help: Option<String>| Err(self.locate(path, message, help));
+        let Some(steps) = KeyPath::parse(path).filter(|steps| !steps.0.is_empty()) else {
+            let help = "such as contacts.ball.friction or loads[0].x".to_owned();
+            return refused("expected a key path", Some(help));
+        };
+        if OF_A_RUN.iter().any(|part| KeyPath::parse(part).is_some_and(|part| steps.lies_in(&part))) {
+            return refused("it says how a run is run or written and changes no motion", None);
+        }
+        let tree = serde_json::to_value(&self.form).unwrap_or_default();
+        let schema = Guide::get().at(&steps);
+        let found = match (look(&tree, &steps.0), schema) {
+            (Err(help), _) => return refused("there is nothing under this path", help),
+            (Ok(None), None) => {
+                let keys = steps.0.split_last().map(|(_, parent)| keys(&tree, parent));
+                let help = steps.0.last().zip(keys).and_then(|(last, keys)| slip(last, &keys));
+                return refused("there is nothing under this path", help);
+            }
+            (Ok(found), _) => found,
+        };
+        let value = match found {
+            None => None,
+            Some(Value::Number(number)) => number.as_f64(),
+            Some(other) => {
+                return refused(&format!("expected a number, here stands {}", kind_of(other)), None);
+            }
+        };
+        let Some(schema) = schema else { return refused("there is nothing under this path", None) };
+        if is_whole(schema) {
+            let message = "it counts whole things: a curve needs a number that can change by any amount";
+            return refused(message, None);
+        }
+        let (kind, is_number) = dimension(schema, DEEPEST);
+        if !is_number {
+            return refused("expected the path of a number", None);
+        }
+        let unit = kind.or_else(|| followed(&tree, &steps)).map_or("", Kind::si);
+        Ok(Parameter { path: path.to_owned(), value, unit })
+    }
+}
+
+/// What stands under a path; none where its last key alone is missing. An error is what might have been meant.
+fn look<'a>(tree: &'a Value, path: &[Step]) -> Result<Option<&'a Value>, Option<String>> {
+    let mut here = tree;
+    for (depth, step) in path.iter().enumerate() {
+        let next = match step {
+            Step::Key(key) => here.get(key),
+            Step::Index(index) => here.get(index),
+        };
+        here = match next {
+            Some(next) => next,
+            None if depth + 1 == path.len() && here.is_object() && matches!(step, Step::Key(_)) => {
+                return Ok(None);
+            }
+            None => return Err(slip(step, &keys(tree, &path[..depth]))),
+        };
+    }
+    Ok(Some(here))
+}
+
+/// The keys of the object under a path.
+fn keys(tree: &Value, path: &[Step]) -> Vec<String> {
+    let here = look(tree, path).ok().flatten().and_then(Value::as_object);
+    here.into_iter().flat_map(|entries| entries.keys().cloned()).collect()
+}
+
+fn slip(step: &Step, keys: &[String]) -> Option<String> {
+    match step {
+        Step::Key(key) => suggest::help(key, keys.iter().map(String::as_str)),
+        Step::Index(_) => None,
+    }
+}
+
+fn kind_of(value: &Value) -> &'static str {
+    match value {
+        Value::Object(_) => "an object",
+        Value::Array(_) => "a list",
+        Value::String(_) => "a text",
+        Value::Bool(_) => "true or false",
+        Value::Null | Value::Number(_) => "nothing",
+    }
+}
+
+/// Whether the schema asks for a whole number.
+fn is_whole(schema: &Value) -> bool {
+    let is_integer = |kind: &Value| kind.as_str() == Some("integer");
+    schema.get("type").is_some_and(|kind| {
+        is_integer(kind) || kind.as_array().is_some_and(|kinds| kinds.iter().any(is_integer))
+    })
+}
+
+/// The dimension that a schema names, and whether it takes a number at all.
+fn dimension(schema: &Value, deepest: usize) -> (Option<Kind>, bool) {
+    let named = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
+    if let Some(name) = named {
+        let kind = Kind::named(name.strip_prefix("Moving").unwrap_or(name));
+        if kind.is_some() || name == "Quantity" {
+            return (kind, true);
+        }
+    }
+    let kind = schema.get("type");
+    let is_number = kind.is_some_and(|kind| {
+        let is = |kind: &Value| kind.as_str() == Some("number");
+        is(kind) || kind.as_array().is_some_and(|kinds| kinds.iter().any(is))
+    });
+    if is_number || deepest == 0 {
+        return (None, is_number);
+    }
+    let parts = ["anyOf", "oneOf"].into_iter().filter_map(|key| schema.get(key)?.as_array()).flatten();
+    let parts = parts.map(|part| dimension(part, deepest - 1));
+    parts.fold((None, false), |(kind, number), (other, is)| (kind.or(other), number || is))
+}
+
+/// The dimension of a waveform's values: that of the first place that follows it, by its name or in place.
+fn followed(tree: &Value, path: &KeyPath) -> Option<Kind> {
+    let follows = Step::Key("follows".to_owned());
+    if let Some(depth) = path.0.iter().position(|step| *step == follows) {
+        return place(&path.0[..depth]);
+    }
+    match path.0.as_slice() {
+        [Step::Key(part), Step::Key(name), ..] if part == "waveforms" => {
+            let mut places = Vec::new();
+            following(tree, name, &mut Vec::new(), &mut places);
+            places.iter().find_map(|found| place(found))
+        }
+        _ => None,
+    }
+}
+
+/// The dimension of a place that may follow a waveform.
+fn place(path: &[Step]) -> Option<Kind> {
+    match path {
+        [Step::Key(part), _, Step::Key(axis)] if part == "bodies" => {
+            Some(if axis == "pitch" { Kind::Angle } else { Kind::Length })
+        }
+        path => dimension(Guide::get().at(&KeyPath(path.to_vec()))?, DEEPEST).0,
+    }
+}
+
+/// All places that follow the waveform of this name.
+fn following(here: &Value, name: &str, path: &mut Vec<Step>, places: &mut Vec<Vec<Step>>) {
+    match here {
+        Value::Object(entries) => {
+            if entries.get("follows").and_then(Value::as_str) == Some(name) {
+                places.push(path.clone());
+            }
+            for (key, inner) in entries {
+                path.push(Step::Key(key.clone()));
+                following(inner, name, path, places);
+                path.pop();
+            }
+        }
+        Value::Array(entries) => {
+            for (index, inner) in entries.iter().enumerate() {
+                path.push(Step::Index(index));
+                following(inner, name, path, places);
+                path.pop();
+            }
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const QUICKSTART: &str = include_str!("../../../scenarios/quickstart.json");
+    const STAGE: &str = include_str!("../../../docs/piezo/stage.json");
+
+    fn found(text: &str, path: &str) -> Result<(Option<f64>, &'static str), String> {
+        let scenario = Scenario::from_str(text, "drive.json", "").unwrap();
+        let parameter = scenario.parameter(path).map_err(|error| error.to_string())?;
+        Ok((parameter.value, parameter.unit))
+    }
+
+    #[test]
+    fn numbers_are_found_with_their_units() {
+        let quickstart = |path: &str| found(QUICKSTART, path);
+        assert_eq!(quickstart("contacts.ball.friction"), Ok((Some(0.2), "")));
+        assert_eq!(quickstart("contacts.ball.normal.force"), Ok((Some(0.3), "N")));
+        assert_eq!(quickstart("loads[0].x"), Ok((Some(-0.02), "N")));
+        assert_eq!(quickstart("bodies.slider.mass"), Ok((Some(0.01), "kg")));
+        assert_eq!(quickstart("materials.ruby.youngs_modulus"), Ok((Some(4e11), "Pa")));
+        assert_eq!(quickstart("waveforms.drive.sawtooth.stroke"), Ok((Some(2e-7), "m")));
+        assert_eq!(quickstart("waveforms.drive.sawtooth.period"), Ok((Some(1e-2), "s")));
+        // May be given, and is not.
+        assert_eq!(quickstart("waveforms.drive.sawtooth.frequency"), Ok((None, "Hz")));
+        assert_eq!(quickstart("contacts.ball.damping"), Ok((None, "s")));
+        assert_eq!(found(STAGE, "waveforms.drive.sawtooth.stroke"), Ok((Some(120.0), "V")));
+        assert_eq!(found(STAGE, "actuators.stack.driver.current"), Ok((Some(2.0), "A")));
+    }
+
+    #[test]
+    fn what_is_no_number_that_can_change_is_refused_with_its_place() {
+        let refused = |path: &str| found(QUICKSTART, path).unwrap_err();
+        assert!(refused("contacts.bal.friction").contains("did you mean \"ball\"?"));
+        assert!(refused("contacts.ball.fricton").contains("did you mean \"friction\"?"));
+        assert!(refused("waveforms.drive.sine.amplitude").contains("there is nothing under this path"));
+        assert!(refused("contacts.ball").contains("expected a number, here stands an object"));
+        assert!(refused("contacts.ball.materials[0]").contains("here stands a text"));
+        assert!(refused("contacts.ball.count").contains("counts whole things"));
+        assert!(refused("run.duration").contains("changes no motion"));
+        assert!(refused("loads[7].x").contains("there is nothing under this path"));
+        for path in ["", ".", "a..b", "[0]"] {
+            assert!(refused(path).contains("expected a key path"), "{path}");
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The curves of a machine: what its steady motion makes of a number that is varied.
+//!
+//! A [`Curve`] is of a scenario file and a [`Kind`]; its points are variants of the file, each by what `--set` would put into it.
+//! What is wrong with one of them stands in its [`Point`], and the others go on.
+//!
+//! In reading order: `kind`, the curves that have a name; `variation`, what they vary; `range`, where their points lie; `motion`,
+//! the steady motion of a point, `waiting`, that of a run; `point`, all of them on all cores; `edge` and `peak`, how a place between them is closed in on,
+//! `landmark`, which places have a name; `table`, what is told of them.
+
+mod edge;
+mod error;
+mod kind;
+mod landmark;
+mod motion;
+mod peak;
+mod point;
+mod range;
+mod table;
+mod variation;
+mod waiting;
+
+pub use edge::Bracket;
+pub use error::CurveError;
+pub use kind::Kind;
+pub use landmark::{Landmark, Unfound};
+pub use motion::{Course, Motion, Motionless};
+pub use peak::Peak;
+pub use point::Point;
+pub use range::Range;
+pub use table::{TABLE, csv, json, write};
+pub use variation::Variation;
+
+use std::convert::Infallible;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use stickslip_results::{Job, Watcher};
+use stickslip_scenario::{Scenario, ScenarioError};
+
+/// How exactly the stall is known that a range ends beyond, and how far beyond.
+const ROUGHLY: f64 = 0.05;
+const BEYOND: f64 = 1.1;
+
+/// A curve of a scenario file.
+pub struct Curve {
+    file: PathBuf,
+    set: Vec<(String, String)>,
+    /// Which one.
+    pub kind: Kind,
+    /// What is varied.
+    pub variation: Variation,
+    /// The scenario without it.
+    pub job: Job,
+}
+
+/// The points of a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Traced {
+    /// Sense of the steps without load, 1 or -1 along x, that loads act against; 1 where there are none.
+    pub direction: f64,
+    /// Whether the unloaded drive, whose sense that is, could be computed: else loads act against +x.
+    pub is_known: bool,
+    /// In the order of the values.
+    pub points: Vec<Point>,
+    /// Places with a name, where they were looked for.
+    pub landmarks: Vec<Landmark>,
+}
+
+impl Curve {
+    /// The curve of a file; pairs in `set` are overrides that hold for all its points.
+    ///
+    /// # Errors
+    /// A scenario that is refused, or has no such curve.
+    pub fn new(file: &Path, set: &[(String, String)], kind: Kind) -> Result<Self, CurveError> {
+        let job = Job::prepare(file, set, Path::new(""))?;
+        let variation = Variation::of(&kind, &job)?;
+        Ok(Self { file: file.to_owned(), set: set.to_vec(), kind, variation, job })
+    }
+
+    /// Name of what heads its column, with the unit as in other tables: `stroke_m`.
+    #[must_use]
+    pub fn head(&self) -> String {
+        let unit = self.variation.unit.replace([' ', '/'], "_").replace('²', "2").replace('Ω', "Ohm");
+        let name = &self.variation.name;
+        if unit.is_empty() { name.clone() } else { format!("{name}_{unit}") }
+    }
+
+    /// A range worth looking at, SI: about what the scenario has, and of loads up to a little more than it takes to stall the
+    /// drive. None where nobody knows.
+    #[must_use]
+    pub fn range(&self, watcher: &dyn Watcher) -> Option<[f64; 2]> {
+        let [from, to] = self.variation.range?;
+        let unloaded = if self.kind.is_of_load() { Motion::of(&self.job, watcher).ok() } else { None };
+        let Some(unloaded) = unloaded else { return Some([from, to]) };
+        let sense = unloaded.sense();
+        // What is dragged away is stalled as well.
+        let try_at = |load| -> Result<Option<f64>, Infallible> {
+            let motion = self.motion_at(load, sense, watcher).ok().filter(|motion| motion.steps(sense));
+            Ok(motion.map(|motion| sense * motion.step))
+        };
+        let known = unloaded.steps(sense).then_some((from, sense * unloaded.step));
+        let stall = Bracket::narrow(known.into_iter().collect(), to, ROUGHLY, try_at);
+        Some([from, stall.ok().flatten().map_or(to, |stall| BEYOND * stall.still)])
+    }
+
+    /// The points at some values, on so many cores; the same for any number. The watcher is told how many are done; where it wants
+    /// an end, those not yet done are [`Motionless::NotRun`].
+    pub fn trace(&self, values: &[f64], cores: usize, watcher: &(dyn Watcher + Sync)) -> Traced {
+        let unloaded = self.kind.is_of_load().then(|| Motion::of(&self.job, watcher));
+        let is_known = unloaded.as_ref().is_none_or(Result::is_ok);
+        let direction = unloaded.and_then(Result::ok).map_or(1.0, |motion| motion.sense());
+        let done = AtomicUsize::new(0);
+        let points = point::each(values.len(), cores, |place| {
+            let value = values[place];
+            let set = self.variation.overrides(value, direction);
+            let motion = self.motion_with(&set, watcher);
+            watcher.reached((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
+            Point { value, set, motion }
+        });
+        Traced { direction, is_known, points, landmarks: Vec::new() }
+    }
+
+    /// The steady motion at a value; loads act against a direction.
+    fn motion_at(&self, value: f64, direction: f64, watcher: &dyn Watcher) -> Result<Motion, Motionless> {
+        self.motion_with(&self.variation.overrides(value, direction), watcher)
+    }
+
+    fn motion_with(&self, set: &[(String, String)], watcher: &dyn Watcher) -> Result<Motion, Motionless> {
+        // What is read and built before a period is computed takes its time, too.
+        if !watcher.goes_on() {
+            return Err(Motionless::NotRun);
+        }
+        Motion::of(&self.variant(set)?, watcher)
+    }
+
+    /// The scenario with something set, as a run would have it, without what a run would write.
+    fn variant(&self, set: &[(String, String)]) -> Result<Job, ScenarioError> {
+        let all = self.set.iter().chain(set);
+        let overrides: Vec<(&str, &str)> = all.map(|(path, value)| (path.as_str(), value.as_str())).collect();
+        let mut scenario = Scenario::load_with(&self.file, &overrides)?;
+        scenario.plan.every = None;
+        (scenario.springs, scenario.memory, scenario.fields) = (None, None, None);
+        Job::new(scenario, self.job.name.clone(), PathBuf::new())
+    }
+}

@@ -1,0 +1,203 @@
+//! Steady motion of a drive: found directly where that is possible, else by waiting for it.
+//!
+//! [`steady::find`] leads into the motion that repeats itself, whether or not a run would stay in it. Where it is not
+//! found, or a disturbance of it grows, the drive is run (`waiting`).
+
+use super::waiting::waited;
+use crate::steady::{self, Multiplier, Options, SteadyError};
+use stickslip_drive::{RunError, Waveform};
+use stickslip_results::{Job, Watcher};
+use stickslip_scenario::ScenarioError;
+use thiserror::Error;
+
+/// Most periods of the search for a motion that repeats itself.
+const SHOT: u32 = 400;
+/// Its local error per step.
+const TOLERANCE: f64 = 1e-9;
+
+/// What the motion does at the end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Course {
+    /// The same step in every period.
+    Steady,
+    /// Steps that swing about a mean.
+    Beats,
+    /// Steps that change without a pattern.
+    Irregular,
+}
+
+/// Motion of the figures' body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Step along x in a period of the figures' waveform, m: of steps that swing or change without a pattern their mean.
+    pub step: f64,
+    /// How far the step may lie from its limit, m: an estimate.
+    pub error: f64,
+    /// Amplitude of steps that swing, half the range of irregular ones, m; 0 of steady ones.
+    pub spread: f64,
+    /// Period of the figures' waveform, s.
+    pub period: f64,
+    /// What it does.
+    pub course: Course,
+    /// The largest Floquet multiplier, where the motion was found directly and has one.
+    pub multiplier: Option<Multiplier>,
+    /// Periods that were computed.
+    pub work: u32,
+    /// Least u_c of the body's contacts, m: the scale of steps; 0 without contacts.
+    pub natural: f64,
+}
+
+/// Why there is no motion.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Motionless {
+    /// Nobody computed it: the curve was interrupted before.
+    #[error("not run")]
+    NotRun,
+    /// The value makes no scenario.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// No waveform with a period makes steps, or no body.
+    #[error("nothing has a period and a body whose steps could be counted")]
+    NoSteps,
+    /// The waveform ends.
+    #[error("its waveform ends after {0} cycles: too few to become steady")]
+    Ends(u32),
+    /// The run.
+    #[error(transparent)]
+    Run(RunError),
+    /// The search, where waiting does not help either.
+    #[error(transparent)]
+    Search(SteadyError),
+    /// Steps on their way, or away.
+    #[error(
+        "steps go on changing: after {periods} periods {step:.3e} m, by {change:.1e} m from the last to this one"
+    )]
+    Unsettled {
+        /// Periods that were run.
+        periods: u32,
+        /// The last step, m.
+        step: f64,
+        /// What it has changed, m.
+        change: f64,
+    },
+}
+
+/// A step below this share of the natural length is none.
+pub(super) const STILL: f64 = 1e-5;
+
+impl Motion {
+    /// The steady motion of a job, or the course that its steps take instead.
+    ///
+    /// # Errors
+    /// Nothing that steps, a run that stops itself, steps that do not settle; [`Motionless::NotRun`] where the watcher wants an end.
+    pub fn of(job: &Job, watcher: &dyn Watcher) -> Result<Self, Motionless> {
+        // What drivers and materials remember is no number of the search: it does not come back to itself there.
+        if !job.scenario.scene.blocks.is_empty() {
+            return waited(job, watcher);
+        }
+        let goes_on = || watcher.goes_on();
+        let options =
+            Options { tolerance: TOLERANCE, periods: SHOT, goes_on: &goes_on, ..Options::default() };
+        match steady::find(job, &options) {
+            Ok(found) if found.is_stable() => Self::found(job, &found),
+            Ok(found) => waited(job, watcher).map(|motion| Self { work: motion.work + found.work, ..motion }),
+            Err(SteadyError::Interrupted(_)) => Err(Motionless::NotRun),
+            Err(
+                SteadyError::NoConvergence { .. }
+                | SteadyError::Commanded(_)
+                | SteadyError::Endless(_)
+                | SteadyError::Incommensurate { .. }
+                | SteadyError::Run(_),
+            ) => waited(job, watcher),
+            Err(error) => Err(Motionless::Search(error)),
+        }
+    }
+
+    fn found(job: &Job, found: &steady::Steady) -> Result<Self, Motionless> {
+        let body = job.scenario.figures.body.ok_or(Motionless::NoSteps)?;
+        let period = waveform(job)?.period().ok_or(Motionless::NoSteps)?;
+        // All waveforms together may take several periods of this one.
+        let share = 1.0 / (found.period / period).round().max(1.0);
+        let step = share * found.step.ok_or(Motionless::NoSteps)?;
+        Ok(Self {
+            step,
+            error: share * found.bound,
+            spread: 0.0,
+            period,
+            course: Course::Steady,
+            multiplier: found.multipliers.first().copied(),
+            work: found.work,
+            natural: natural(job, body),
+        })
+    }
+
+    /// Mean speed along x, m/s.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.step / self.period
+    }
+
+    /// Sense of its steps along x, 1 or -1; 1 of those that are none.
+    #[must_use]
+    pub fn sense(&self) -> f64 {
+        if self.steps(-1.0) { -1.0 } else { 1.0 }
+    }
+
+    /// Whether it makes no step either way.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        !self.steps(1.0) && !self.steps(-1.0)
+    }
+
+    /// Whether it steps along a direction, 1 or -1: further than the error and than a hundred-thousandth of u_c.
+    #[must_use]
+    pub fn steps(&self, direction: f64) -> bool {
+        direction * self.step > (STILL * self.natural).max(self.error)
+    }
+}
+
+impl Motionless {
+    /// The kind of reason, in a word or two.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::NotRun => "not run",
+            Self::Scenario(_) => "refused",
+            Self::NoSteps | Self::Ends(_) => "no steps to count",
+            Self::Run(_) | Self::Search(_) => "stopped",
+            Self::Unsettled { .. } => "not settled",
+        }
+    }
+}
+
+impl Course {
+    /// Its word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Steady => "steady",
+            Self::Beats => "beats",
+            Self::Irregular => "irregular",
+        }
+    }
+}
+
+/// The waveform whose period is that of the steps.
+pub(super) fn waveform(job: &Job) -> Result<&Waveform, Motionless> {
+    let place = job.scenario.figures.waveform.ok_or(Motionless::NoSteps)?;
+    let named = job.scenario.scene.waveforms.get(place).ok_or(Motionless::NoSteps)?;
+    Ok(&named.part)
+}
+
+/// Least u_c of the contacts of a body, m; of all of them where it has none of its own; 0 where there are none.
+pub(super) fn natural(job: &Job, body: usize) -> f64 {
+    use stickslip_drive::scene::Side;
+    let contacts = &job.scenario.scene.contacts;
+    let least = |own: bool| {
+        let all = contacts.iter().enumerate();
+        let counted = all.filter(|(_, contact)| !own || contact.part.between.contains(&Side::Body(body)));
+        let lengths = counted.map(|(c, _)| job.contact_scale(c).0).filter(|length| *length > 0.0);
+        lengths.reduce(f64::min)
+    };
+    least(true).or_else(|| least(false)).unwrap_or(0.0)
+}

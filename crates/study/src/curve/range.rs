@@ -1,0 +1,76 @@
+//! Where the points of a curve lie.
+
+use super::CurveError;
+
+/// Most points of a curve: each may be hundreds of periods.
+const MOST: usize = 10_000;
+
+/// Values between two ends, both with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Where it begins, SI.
+    pub from: f64,
+    /// Where it ends, SI, above.
+    pub to: f64,
+    /// Number of points, 2 to 10 000.
+    pub points: usize,
+    /// Whether there are as many in every decade, and not in every equal part.
+    pub decades: bool,
+}
+
+impl Range {
+    /// Its values, ascending; the ends are what was asked for to the last bit.
+    ///
+    /// # Errors
+    /// A range that holds nothing, or decades from zero on.
+    pub fn values(&self) -> Result<Vec<f64>, CurveError> {
+        let Self { from, to, points, decades } = *self;
+        let is_usable = from.is_finite() && to.is_finite() && from < to && (to - from).is_finite();
+        if !is_usable {
+            return Err(CurveError::Range { from, to });
+        }
+        if !(2..=MOST).contains(&points) {
+            return Err(CurveError::Points { most: MOST, got: points });
+        }
+        if decades && from <= 0.0 {
+            return Err(CurveError::Decades { from, to });
+        }
+        let last = points - 1;
+        let value = |k: usize| match k as f64 / last as f64 {
+            _ if k == 0 => from,
+            _ if k == last => to,
+            share if decades => from * (to / from).powf(share),
+            share => from + share * (to - from),
+        };
+        Ok((0..points).map(value).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(from: f64, to: f64, points: usize, decades: bool) -> Result<Vec<f64>, CurveError> {
+        Range { from, to, points, decades }.values()
+    }
+
+    #[test]
+    fn ends_are_kept_and_parts_are_equal() {
+        assert_eq!(range(0.0, 1.0, 5, false), Ok(vec![0.0, 0.25, 0.5, 0.75, 1.0]));
+        let decades = range(0.1, 1e3, 5, true).unwrap_or_default();
+        let wanted = [0.1, 1.0, 10.0, 100.0, 1e3];
+        assert!(decades.iter().zip(wanted).all(|(found, wanted)| (found / wanted - 1.0).abs() < 1e-14));
+        assert_eq!((decades[0], decades[4]), (0.1, 1e3));
+    }
+
+    #[test]
+    fn ranges_that_hold_nothing_are_refused() {
+        let refused = CurveError::Range { from: 2.0, to: 1.0 };
+        assert_eq!(range(2.0, 1.0, 5, false), Err(refused));
+        for (from, to) in [(1.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (-f64::MAX, f64::MAX)] {
+            assert!(matches!(range(from, to, 5, false), Err(CurveError::Range { .. })), "{from} {to}");
+        }
+        assert_eq!(range(0.0, 1.0, 1, false), Err(CurveError::Points { most: MOST, got: 1 }));
+        assert_eq!(range(0.0, 1.0, 5, true), Err(CurveError::Decades { from: 0.0, to: 1.0 }));
+    }
+}

@@ -1,0 +1,237 @@
+//! What is told of a curve: a table, and all of it in JSON.
+
+use super::{Curve, Landmark, Motion, Motionless, Traced};
+use serde::Serialize;
+use std::fmt::Write;
+use std::io;
+use stickslip_results::files::CURVE;
+use stickslip_results::folder::Folder;
+use stickslip_results::{Real, hash};
+
+/// Name of the table.
+pub const TABLE: &str = "curve.csv";
+
+/// All numbers of a curve; written last.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    scenario: &'a str,
+    scenario_sha256: &'a str,
+    program: &'a str,
+    curve: &'static str,
+    varied: &'a str,
+    unit: &'static str,
+    present: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    against: Option<&'static str>,
+    points: Vec<PointReport>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    landmarks: Vec<LandmarkReport>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table_sha256: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct PointReport {
+    value: Real,
+    set: Vec<String>,
+    #[serde(flatten)]
+    figures: Option<Figures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<String>,
+}
+
+/// What is told of a place with a name.
+#[derive(Debug, Serialize)]
+struct LandmarkReport {
+    name: &'static str,
+    at: Option<Real>,
+    half_width: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<Real>,
+    runs: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<String>,
+}
+
+impl LandmarkReport {
+    fn of(landmark: &Landmark) -> Self {
+        let at = landmark.at.as_ref().ok().copied();
+        Self {
+            name: landmark.name,
+            at: at.map(Real),
+            half_width: at.map(|_| Real(landmark.half_width)),
+            value: landmark.value.map(Real),
+            runs: landmark.runs,
+            fault: landmark.at.as_ref().err().map(ToString::to_string),
+        }
+    }
+}
+
+/// What is told of a motion.
+#[derive(Debug, Serialize)]
+struct Figures {
+    #[serde(rename = "step_m")]
+    step: Real,
+    #[serde(rename = "step_error_m")]
+    error: Real,
+    #[serde(rename = "step_spread_m")]
+    spread: Real,
+    #[serde(rename = "speed_m_s")]
+    speed: Real,
+    #[serde(rename = "power_W", skip_serializing_if = "Option::is_none")]
+    power: Option<Real>,
+    #[serde(rename = "period_s")]
+    period: Real,
+    motion: &'static str,
+    multiplier: Option<Real>,
+    beat_periods: Option<Real>,
+    work_periods: u32,
+}
+
+impl Figures {
+    fn of(motion: &Motion, load: Option<f64>) -> Self {
+        Self {
+            step: Real(motion.step),
+            error: Real(motion.error),
+            spread: Real(motion.spread),
+            speed: Real(motion.speed()),
+            power: load.map(|load| Real(load * motion.speed())),
+            period: Real(motion.period),
+            motion: motion.course.word(),
+            multiplier: motion.multiplier.map(|multiplier| Real(multiplier.modulus())),
+            beat_periods: motion.multiplier.and_then(|multiplier| multiplier.beat()).map(Real),
+            work_periods: motion.work,
+        }
+    }
+}
+
+impl Traced {
+    /// Power against the load at a place, W: load times speed the way of the unloaded steps. None of curves without load.
+    #[must_use]
+    pub fn power(&self, curve: &Curve, place: usize) -> Option<f64> {
+        let point = self.points.get(place).filter(|_| curve.kind.is_of_load())?;
+        let motion = point.motion.as_ref().ok()?;
+        Some(self.direction * point.value * motion.speed())
+    }
+
+    /// How many points have no motion.
+    #[must_use]
+    pub fn faults(&self) -> usize {
+        self.points.iter().filter(|point| point.motion.is_err()).count()
+    }
+
+    /// Whether points were left undone.
+    #[must_use]
+    pub fn is_cut(&self) -> bool {
+        self.points.iter().any(|point| point.motion == Err(Motionless::NotRun))
+    }
+}
+
+/// As CSV: what is varied, the figures of the motion there, and what is wrong with it. Numbers have as many digits as it takes to
+/// read the same bits back; a cell is empty where there is no such number.
+#[must_use]
+pub fn csv(curve: &Curve, traced: &Traced) -> String {
+    let mut table = curve.head();
+    table.push_str(",step_m,step_error_m,step_spread_m,speed_m_s");
+    table.push_str(if curve.kind.is_of_load() { ",power_W" } else { "" });
+    table.push_str(",period_s,motion,multiplier,beat_periods,work_periods,fault\n");
+    for (place, point) in traced.points.iter().enumerate() {
+        let _ = write!(table, "{:e}", point.value);
+        match &point.motion {
+            Ok(motion) => {
+                let power = traced.power(curve, place);
+                let multiplier = motion.multiplier.map(|multiplier| multiplier.modulus());
+                let beat = motion.multiplier.and_then(|multiplier| multiplier.beat());
+                let cells = [motion.step, motion.error, motion.spread, motion.speed()].map(Some);
+                let power = curve.kind.is_of_load().then_some(power);
+                cells
+                    .into_iter()
+                    .chain(power)
+                    .chain([Some(motion.period)])
+                    .for_each(|n| number(&mut table, n));
+                let _ = write!(table, ",{}", motion.course.word());
+                [multiplier, beat].into_iter().for_each(|n| number(&mut table, n));
+                let _ = write!(table, ",{},", motion.work);
+            }
+            Err(fault) => {
+                let empty = if curve.kind.is_of_load() { 10 } else { 9 };
+                (0..empty).for_each(|_| table.push(','));
+                let _ = write!(table, ",\"{}\"", one_line(&fault.to_string()).replace('"', "\"\""));
+            }
+        }
+        table.push('\n');
+    }
+    table
+}
+
+fn number(table: &mut String, number: Option<f64>) {
+    let _ = match number {
+        Some(number) => write!(table, ",{number:e}"),
+        None => write!(table, ","),
+    };
+}
+
+/// What is wrong without the excerpt of the file and the help, which stand below it.
+fn one_line(fault: &str) -> &str {
+    fault.lines().next().unwrap_or_default()
+}
+
+/// All numbers on one line of JSON.
+#[must_use]
+pub fn json(curve: &Curve, traced: &Traced) -> String {
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    serde_json::to_string(&report(curve, traced)).unwrap_or_default()
+}
+
+/// Writes the table, `curve.json` and pictures into a folder; files of these names that are not among them go. Returns the names.
+///
+/// # Errors
+/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+pub fn write(
+    mut folder: Folder,
+    (curve, traced): (&Curve, &Traced),
+    pictures: &[(String, Vec<u8>)],
+    stale: Vec<String>,
+) -> io::Result<Vec<String>> {
+    let table = csv(curve, traced);
+    folder.write(TABLE, table.as_bytes())?;
+    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    let mut files = folder.names();
+    files.push(CURVE.to_owned());
+    folder.forget(stale);
+    let report = Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(curve, traced) };
+    let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
+    json.push(b'\n');
+    folder.write(CURVE, &json)?;
+    folder.publish()?;
+    Ok(files)
+}
+
+fn report<'a>(curve: &'a Curve, traced: &'a Traced) -> Report<'a> {
+    let against = if traced.direction < 0.0 { "-x" } else { "+x" };
+    let points = traced.points.iter().map(|point| {
+        let load = curve.kind.is_of_load().then_some(traced.direction * point.value);
+        PointReport {
+            value: Real(point.value),
+            set: point.set.iter().map(|(path, value)| format!("{path}={value}")).collect(),
+            figures: point.motion.as_ref().ok().map(|motion| Figures::of(motion, load)),
+            fault: point.motion.as_ref().err().map(ToString::to_string),
+        }
+    });
+    Report {
+        scenario: &curve.job.name,
+        scenario_sha256: &curve.job.hash,
+        program: &curve.job.program,
+        curve: curve.kind.name(),
+        varied: &curve.variation.name,
+        unit: curve.variation.unit,
+        present: curve.variation.present.map(Real),
+        against: curve.kind.is_of_load().then_some(against),
+        points: points.collect(),
+        landmarks: traced.landmarks.iter().map(LandmarkReport::of).collect(),
+        files: Vec::new(),
+        table_sha256: None,
+    }
+}

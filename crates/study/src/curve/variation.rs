@@ -1,0 +1,259 @@
+//! What a curve varies, resolved once from the scene: pairs of key path and value as in `--set`, so that every point can be run
+//! again by itself.
+
+use super::{CurveError, Kind};
+use serde_json::Value;
+use stickslip_drive::Waveform;
+use stickslip_drive::facts::Pressed;
+use stickslip_drive::scene::{Axis, Freedom, Named, Normal, Scene, Side, Varying};
+use stickslip_results::Job;
+
+/// Pairs of key path and value.
+pub(super) type Overrides = Vec<(String, String)>;
+
+/// How far two periods may be apart, as a share, to be the same.
+const SAME: f64 = 1e-9;
+
+/// What a curve varies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variation {
+    /// What it is: "stroke", "frequency", "load", "preload", or its path.
+    pub name: String,
+    /// Its SI unit; empty for a plain number.
+    pub unit: &'static str,
+    /// What it is in the scenario, SI; none where it is left out there.
+    pub present: Option<f64>,
+    /// A range worth looking at, SI; none where nobody knows.
+    pub range: Option<[f64; 2]>,
+    setting: Setting,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Setting {
+    /// Each of these paths to the value times its share.
+    Paths(Vec<(String, f64)>),
+    /// A load on the body of this name, besides those it has.
+    Load(String),
+}
+
+/// A waveform where it stands in the scenario.
+struct Place<'a> {
+    /// Path of its form, such as `waveforms.drive.sawtooth`.
+    path: String,
+    /// Its word, such as `sawtooth`.
+    word: String,
+    form: &'a Value,
+}
+
+impl Variation {
+    /// What a kind of curve varies of a job.
+    ///
+    /// # Errors
+    /// A scene that has no such curve, or a path to nothing that can be varied.
+    pub(super) fn of(kind: &Kind, job: &Job) -> Result<Self, CurveError> {
+        let (waveform, body) = (waveform(job)?, body(job)?);
+        let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
+        match kind {
+            Kind::StepAmplitude => Self::amplitude(job, &tree, waveform),
+            Kind::SpeedFrequency => Self::frequency(job, &tree, waveform),
+            Kind::ForceSpeed | Kind::StepLoad => Ok(Self::load(job, body)),
+            Kind::Preload => Self::preload(job, body),
+            Kind::Vary(path) => {
+                let found = job.scenario.parameter(path)?;
+                let setting = Setting::Paths(vec![(path.clone(), 1.0)]);
+                let (name, unit, present) = (path.clone(), found.unit, found.value);
+                Ok(Self { name, unit, present, range: None, setting })
+            }
+        }
+    }
+
+    /// What sets it to a value; a load acts against the direction, 1 or -1, of the steps.
+    pub(super) fn overrides(&self, value: f64, direction: f64) -> Overrides {
+        match &self.setting {
+            Setting::Paths(paths) => {
+                paths.iter().map(|(path, share)| (path.clone(), format!("{:e}", share * value))).collect()
+            }
+            Setting::Load(on) => {
+                let entry = serde_json::json!({ "on": on, "x": -direction * value });
+                vec![("loads[+]".to_owned(), entry.to_string())]
+            }
+        }
+    }
+
+    fn amplitude(job: &Job, tree: &Value, waveform: usize) -> Result<Self, CurveError> {
+        let scene = &job.scenario.scene;
+        let Some((path, key, value)) = size(tree, scene, waveform) else {
+            let word = place(tree, &scene.waveforms[waveform].name).map_or(String::new(), |place| place.word);
+            let why = format!("a waveform of the kind \"{word}\" has no one stroke or amplitude");
+            return Err(not_here(job, &Kind::StepAmplitude, why, "vary one of its numbers by its path"));
+        };
+        // Other feet of the same gait: of the same period and size, followed along the same axes.
+        let alike = |w: usize| {
+            let found = size(tree, scene, w);
+            found.filter(|(_, other, size)| {
+                *other == key && *size == value && followed(scene, w) == followed(scene, waveform)
+            })
+        };
+        let others = companions(scene, waveform).into_iter().filter(|w| *w != waveform).filter_map(alike);
+        let unit = job.scenario.parameter(&path)?.unit;
+        let paths = [(path, 1.0)].into_iter().chain(others.map(|(path, ..)| (path, 1.0))).collect();
+        let range = Some([value / 20.0, 2.0 * value]);
+        Ok(Self { name: key.to_owned(), unit, present: Some(value), range, setting: Setting::Paths(paths) })
+    }
+
+    fn frequency(job: &Job, tree: &Value, waveform: usize) -> Result<Self, CurveError> {
+        let scene = &job.scenario.scene;
+        let path = |w: usize| {
+            let path = format!("{}.frequency", place(tree, &scene.waveforms[w].name)?.path);
+            job.scenario.parameter(&path).ok().map(|_| (path, 1.0))
+        };
+        let paths = companions(scene, waveform).into_iter().map(path).collect::<Option<Vec<_>>>();
+        let Some(paths) = paths else {
+            let why = "a waveform of the steps' period has no frequency, as tables have none".to_owned();
+            return Err(not_here(job, &Kind::SpeedFrequency, why, "vary one of its numbers by its path"));
+        };
+        let present = scene.waveforms[waveform].part.period().map(f64::recip);
+        let range = present.map(|frequency| [frequency / 10.0, 2.0 * frequency]);
+        let setting = Setting::Paths(paths);
+        Ok(Self { name: "frequency".to_owned(), unit: "Hz", present, range, setting })
+    }
+
+    fn load(job: &Job, body: usize) -> Self {
+        let most = held(job, body);
+        Self {
+            name: "load".to_owned(),
+            unit: "N",
+            present: Some(0.0),
+            range: (most > 0.0).then_some([0.0, most]),
+            setting: Setting::Load(job.scenario.scene.bodies[body].name.clone()),
+        }
+    }
+
+    /// All contacts of the body that a constant force presses, each by its share; the value is the sum.
+    fn preload(job: &Job, body: usize) -> Result<Self, CurveError> {
+        let scene = &job.scenario.scene;
+        let own = scene.contacts.iter().filter(|c| c.part.between.contains(&Side::Body(body)));
+        let pressed = own.filter_map(|contact| match contact.part.normal {
+            Normal::Force(Varying::Constant(force)) if force > 0.0 => {
+                Some((contact.name.as_str(), force, f64::from(contact.part.count)))
+            }
+            _ => None,
+        });
+        let forces: Vec<(&str, f64, f64)> = pressed.collect();
+        let sum: f64 = forces.iter().map(|(_, force, count)| force * count).sum();
+        if forces.is_empty() {
+            let name = &scene.bodies[body].name;
+            let why = format!("no contact of \"{name}\" is pressed by a constant force");
+            return Err(not_here(
+                job,
+                &Kind::Preload,
+                why,
+                "vary what presses it by its path, such as loads[0].z",
+            ));
+        }
+        let share =
+            |(name, force, _): &(&str, f64, f64)| (format!("contacts.{name}.normal.force"), force / sum);
+        let setting = Setting::Paths(forces.iter().map(share).collect());
+        let range = Some([sum / 10.0, 3.0 * sum]);
+        Ok(Self { name: "preload".to_owned(), unit: "N", present: Some(sum), range, setting })
+    }
+}
+
+fn not_here(job: &Job, kind: &Kind, why: String, help: &str) -> CurveError {
+    CurveError::NotHere { file: job.name.clone(), kind: kind.name(), why, help: help.to_owned() }
+}
+
+/// μF_N of all contacts of a body at t = 0, N: no load beyond it is held.
+fn held(job: &Job, body: usize) -> f64 {
+    let contacts = job.scenario.scene.contacts.iter().enumerate();
+    let own = contacts.filter(|(_, contact)| contact.part.between.contains(&Side::Body(body)));
+    let limit = |(c, _)| {
+        let depth = job.model.indentations(&job.start, c)?.start;
+        Pressed::of(job.setup(), c, depth).map(|pressed| pressed.limit_force)
+    };
+    own.filter_map(limit).sum()
+}
+
+/// The waveform whose period is that of the steps.
+fn waveform(job: &Job) -> Result<usize, CurveError> {
+    let scene = &job.scenario.scene;
+    let is_periodic = |named: &&Named<Waveform>| named.part.period().is_some();
+    let place = job.scenario.figures.waveform.filter(|w| scene.waveforms.get(*w).is_some());
+    if let Some(w) = place
+        && is_periodic(&&scene.waveforms[w])
+    {
+        return Ok(w);
+    }
+    let names: Vec<&str> = scene.waveforms.iter().filter(is_periodic).map(|w| w.name.as_str()).collect();
+    let why = match place {
+        Some(w) => format!("\"{}\" repeats nothing", scene.waveforms[w].name),
+        None if names.is_empty() => "nothing here repeats itself".to_owned(),
+        None => "there are several".to_owned(),
+    };
+    let help = match names.is_empty() {
+        true => "let a body follow a waveform with a period".to_owned(),
+        false => format!("name one, \"figures\": {{\"waveform\": …}}: {}", names.join(", ")),
+    };
+    Err(CurveError::NoPeriod { file: job.name.clone(), why, help })
+}
+
+/// The body whose way is the step.
+fn body(job: &Job) -> Result<usize, CurveError> {
+    let bodies = &job.scenario.scene.bodies;
+    let is_free = |b: &usize| bodies.get(*b).is_some_and(|body| body.part.x.freedom == Freedom::Free);
+    let names: Vec<&str> = (0..bodies.len()).filter(is_free).map(|b| bodies[b].name.as_str()).collect();
+    let help = match names.is_empty() {
+        true => "let a body be free along x".to_owned(),
+        false => format!("name one, \"figures\": {{\"body\": …}}: {}", names.join(", ")),
+    };
+    let none = CurveError::NoBody { file: job.name.clone(), help };
+    job.scenario.figures.body.filter(is_free).ok_or(none)
+}
+
+/// All waveforms of the same period as one of them, with it.
+fn companions(scene: &Scene, waveform: usize) -> Vec<usize> {
+    let own = scene.waveforms[waveform].part.period().unwrap_or(f64::NAN);
+    let is_alike = |w: &usize| {
+        scene.waveforms[*w].part.period().is_some_and(|period| (period / own - 1.0).abs() <= SAME)
+    };
+    (0..scene.waveforms.len()).filter(is_alike).collect()
+}
+
+/// Where a waveform stands in the scenario: under its name, or where it is followed.
+fn place<'a>(tree: &'a Value, name: &str) -> Option<Place<'a>> {
+    let named = tree.get("waveforms").and_then(|all| all.get(name));
+    let (path, found) = match named {
+        Some(found) => (format!("waveforms.{name}"), found),
+        // One written out in place is named by its path.
+        None => (name.to_owned(), tree.pointer(&pointer(name))?),
+    };
+    let (word, form) = found.as_object()?.iter().next()?;
+    Some(Place { path: format!("{path}.{word}"), word: word.clone(), form })
+}
+
+/// A key path as a JSON pointer.
+fn pointer(path: &str) -> String {
+    format!("/{}", path.replace('[', ".").replace(']', "").replace('.', "/"))
+}
+
+/// The path of a waveform's stroke or amplitude, which of them, and its value.
+fn size(tree: &Value, scene: &Scene, waveform: usize) -> Option<(String, &'static str, f64)> {
+    let Place { path, form, .. } = place(tree, &scene.waveforms.get(waveform)?.name)?;
+    ["stroke", "amplitude"].into_iter().find_map(|key| {
+        let value = form.get(key)?.as_f64()?;
+        Some((format!("{path}.{key}"), key, value))
+    })
+}
+
+/// Along which axes bodies follow a waveform.
+fn followed(scene: &Scene, waveform: usize) -> Vec<Axis> {
+    let axes = scene.bodies.iter().flat_map(|body| body.part.coordinates());
+    let follows = |freedom| match freedom {
+        Freedom::Follows(signal) => scene.waveform_of(signal) == Some(waveform),
+        Freedom::Fixed | Freedom::Free | Freedom::Balanced => false,
+    };
+    let mut axes: Vec<Axis> = axes.filter(|(_, c)| follows(c.freedom)).map(|(axis, _)| axis).collect();
+    axes.sort_by_key(|axis| *axis as u8);
+    axes.dedup();
+    axes
+}

@@ -1,0 +1,171 @@
+//! Curves: each point against a plain run of its own file, the same for any number of cores, and what is refused.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use stickslip_drive::{Plan, Run};
+use stickslip_results::{Job, Watcher};
+use stickslip_study::curve::{Course, Curve, CurveError, Kind, Motion, Motionless, Point, csv, json};
+
+type Checked = Result<(), Box<dyn Error>>;
+
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
+}
+
+fn curve(name: &str, set: &[(&str, &str)], kind: Kind) -> Result<Curve, CurveError> {
+    let set: Vec<(String, String)> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
+    Curve::new(&file(name), &set, kind)
+}
+
+fn motion(point: &Point) -> Result<Motion, Motionless> {
+    point.motion.clone()
+}
+
+/// The last of so many steps of a plain run of a file in which a point's pairs are set, m.
+fn last_step(name: &str, point: &Point, periods: u32) -> Result<f64, Box<dyn Error>> {
+    let job = Job::prepare(&file(name), &point.set, Path::new(""))?;
+    let body = job.scenario.figures.body.ok_or("a body")?;
+    let period = motion(point)?.period;
+    let plan = Plan { every: None, until_steady: None, duration: f64::MAX, ..job.scenario.plan };
+    let mut run = Run::new(&job.model, &plan, job.start.clone())?;
+    let mut x = [0.0; 2];
+    for (x, count) in x.iter_mut().zip([periods - 1, periods]) {
+        run.advance(f64::from(count) * period, &mut ())?;
+        *x = run.state().body(&job.model, body).ok_or("a body")?.0;
+    }
+    Ok(x[1] - x[0])
+}
+
+/// Waiting knows nothing of the search; its tolerance is that of the file, 1e-9.
+fn is_where_a_run_ends(name: &str, kind: Kind, values: &[f64], periods: u32, within: f64) -> Checked {
+    let curve = curve(name, &[], kind)?;
+    for point in &curve.trace(values, 1, &()).points {
+        let found = motion(point).map_err(|error| format!("{}: {error}", point.value))?;
+        let waited = last_step(name, point, periods)?;
+        let off = (found.step - waited).abs() / curve.job.contact_scale(0).0;
+        assert!(
+            off <= within,
+            "{name} at {:e}: {:e}, waited {waited:e}, {off:e} u_c",
+            point.value,
+            found.step
+        );
+        assert_eq!(found.course, Course::Steady, "{name} at {:e}", point.value);
+    }
+    Ok(())
+}
+
+#[test]
+fn steps_over_the_stroke_are_those_of_long_runs() -> Checked {
+    is_where_a_run_ends("ruby_drive.json", Kind::StepAmplitude, &[60e-9, 200e-9, 1e-6], 300, 1e-7)
+}
+
+#[test]
+fn speeds_over_the_frequency_are_those_of_long_runs() -> Checked {
+    is_where_a_run_ends("ruby_drive.json", Kind::SpeedFrequency, &[100.0, 1e3, 1e4], 300, 1e-7)
+}
+
+#[test]
+fn speeds_against_a_load_are_those_of_long_runs() -> Checked {
+    is_where_a_run_ends("ruby_drive.json", Kind::ForceSpeed, &[0.0, 0.05, 0.15], 300, 1e-7)
+}
+
+/// A driver remembers: its motion is waited for.
+#[test]
+fn a_driver_at_its_limit_has_a_curve() -> Checked {
+    is_where_a_run_ends("driven_stage.json", Kind::SpeedFrequency, &[500.0, 2e3], 200, 1e-5)
+}
+
+/// A load against steps to the left acts to the right: of the mirrored drive the mirrored curve, to the last digit of the search.
+#[test]
+fn a_load_acts_against_the_steps() -> Checked {
+    let mirrored = [("waveforms.drive.sawtooth.stroke", "-100 nm")];
+    let values = [0.0, 0.05];
+    let [right, left] = [&[][..], &mirrored].map(|set| curve("ruby_drive.json", set, Kind::ForceSpeed));
+    let (right, left) = (right?, left?);
+    let (to_right, to_left) = (right.trace(&values, 1, &()), left.trace(&values, 1, &()));
+    assert_eq!((to_right.direction, to_left.direction), (1.0, -1.0));
+    for (place, (a, b)) in to_right.points.iter().zip(&to_left.points).enumerate() {
+        let (a, b) = (motion(a)?, motion(b)?);
+        assert!((a.step + b.step).abs() <= 1e-8 * a.step.abs(), "{} {}", a.step, b.step);
+        let (power, expected) = (to_left.power(&left, place).ok_or("a power")?, values[place] * a.speed());
+        assert!((power - expected).abs() <= 1e-8 * expected.abs(), "{power} {expected}");
+    }
+    Ok(())
+}
+
+/// F_N of all contacts is what the preload says, shared as it was.
+#[test]
+fn a_preload_is_the_sum_of_all_contacts() -> Checked {
+    let curve = curve("ruby_drive.json", &[], Kind::Preload)?;
+    // Three balls of 0.3 N.
+    assert!((curve.variation.present.ok_or("a preload")? - 0.9).abs() < 1e-15);
+    let traced = curve.trace(&[1.8], 1, &());
+    let job = Job::prepare(&file("ruby_drive.json"), &traced.points[0].set, Path::new(""))?;
+    assert!((job.contact_scale(0).1 - 0.6).abs() < 1e-12);
+    Ok(())
+}
+
+#[test]
+fn any_number_of_cores_tells_the_same() -> Checked {
+    let curve = curve("quickstart.json", &[], Kind::Vary("contacts.ball.friction".to_owned()))?;
+    // Some are refused.
+    let values: Vec<f64> = (0..12).map(|k| -0.1 + 0.05 * f64::from(k)).collect();
+    let told = [1, 2, 3].map(|cores| {
+        let traced = curve.trace(&values, cores, &());
+        (csv(&curve, &traced), json(&curve, &traced))
+    });
+    assert_eq!(told[0], told[1]);
+    assert_eq!(told[0], told[2]);
+    let table: Vec<&str> = told[0].0.lines().collect();
+    assert_eq!(table.len(), 13);
+    assert!(table[0].starts_with("contacts.ball.friction,step_m,") && table[0].ends_with(",fault"));
+    let fault = table[1].split('"').nth(1).ok_or("a fault")?;
+    assert!(fault.contains("contacts.ball.friction: expected a number between 0 and 1000"), "{fault}");
+    let columns = |line: &str| line.split('"').next().map(|numbers| numbers.matches(',').count());
+    assert!(table.iter().all(|line| columns(line) == columns(table[0])), "{table:#?}");
+    Ok(())
+}
+
+/// Somebody who has seen enough after a number of points.
+struct Patience(AtomicUsize);
+
+impl Watcher for Patience {
+    fn reached(&self, done: f64) {
+        self.0.store(done as usize, Ordering::Relaxed);
+    }
+    fn goes_on(&self) -> bool {
+        self.0.load(Ordering::Relaxed) < 3
+    }
+}
+
+#[test]
+fn what_was_done_before_an_interrupt_is_kept() -> Checked {
+    let curve = curve("ruby_drive.json", &[], Kind::StepAmplitude)?;
+    let traced = curve.trace(&[1e-7; 6], 1, &Patience(AtomicUsize::new(0)));
+    assert!(traced.is_cut());
+    let done = traced.points.iter().filter(|point| point.motion.is_ok()).count();
+    assert_eq!((done, traced.points[3].motion.clone().err()), (3, Some(Motionless::NotRun)));
+    Ok(())
+}
+
+#[test]
+fn scenes_without_such_a_curve_are_refused() {
+    let refused =
+        |name, set: &[(&str, &str)], kind| curve(name, set, kind).err().map(|error| error.to_string());
+    let says = |refused: Option<String>, words: &str| {
+        let refused = refused.unwrap_or_default();
+        assert!(refused.contains(words), "{refused}");
+    };
+    says(refused("bouncing_ball.json", &[], Kind::StepAmplitude), "nothing here repeats itself");
+    says(refused("worn_ball.json", &[], Kind::StepAmplitude), "no body makes the steps");
+    says(refused("three_ball_stage.json", &[], Kind::Preload), "is pressed by a constant force");
+    let vary = |path: &str| refused("ruby_drive.json", &[], Kind::Vary(path.to_owned()));
+    says(vary("contacts.bal.friction"), "did you mean \"ball\"?");
+    says(vary("contacts.ball.count"), "counts whole things");
+    says(vary("run.cycles"), "changes no motion");
+    let table = r#"{"points": [[0, 0], [9.99e-3, 1e-7], [10e-3, 0]], "repeat": true}"#;
+    let table = [("waveforms.drive.table", table)];
+    let found = refused("ruby_drive.json", &table, Kind::StepAmplitude);
+    says(found, "no one stroke or amplitude");
+}

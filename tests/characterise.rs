@@ -1,0 +1,107 @@
+//! `stickslip characterise`: curves of a machine. What they tell is tested beside the library; here is what is written and said.
+
+use crate::program::{Table, code, listing, run, scenario, stderr, stdout, stickslip, summary};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Output;
+use tempfile::tempdir;
+
+fn characterise(name: &str, out: &Path, arguments: &[&str]) -> Output {
+    stickslip()
+        .arg("characterise")
+        .arg(scenario(name))
+        .args(arguments)
+        .arg("--out")
+        .arg(out)
+        .output()
+        .unwrap()
+}
+
+/// `run` waits for its steps by itself: what it calls steady is the point of the curve, to the tolerance that both have.
+#[test]
+fn a_point_is_what_a_run_of_it_comes_to() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("curve");
+    let arguments = ["--vary", "waveforms.drive.sawtooth.stroke=60 nm..300 nm", "--points", "3"];
+    let output = characterise("ruby_drive", &out, &arguments);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    assert_eq!(listing(&out), ["curve.csv", "curve.json", "curve.png"]);
+    let table = Table::read(&out.join("curve.csv"));
+    let steps: Vec<f64> = table.column("step_m").iter().map(|step| step.parse().unwrap()).collect();
+    let strokes = table.column("waveforms.drive.sawtooth.stroke_m");
+    assert_eq!((strokes.len(), strokes[0], strokes[2]), (3, "6e-8", "3e-7"));
+    for (stroke, step) in strokes.iter().zip(steps) {
+        let set = format!("waveforms.drive.sawtooth.stroke={stroke}");
+        let output = run(&scenario("ruby_drive"), root.path(), &[&set, "run.cycles=30"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let waited = summary(&root.path().join("ruby_drive"))["steps"]["steady"]["step_m"].as_f64().unwrap();
+        // u_c is 40 nm.
+        assert!((step - waited).abs() < 1e-6 * 40e-9, "{stroke}: {step:e} {waited:e}");
+    }
+}
+
+#[test]
+fn the_same_bytes_for_any_number_of_threads_and_no_file_of_before() {
+    let root = tempdir().unwrap();
+    let written = |name: &str, more: &[&str]| {
+        let out = root.path().join(name);
+        let arguments = [&["--curve", "force-speed", "--points", "5"], more].concat();
+        let output = characterise("quickstart", &out, &arguments);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let read = |name: &String| (name.clone(), std::fs::read(out.join(name)).unwrap());
+        listing(&out).iter().map(read).collect::<Vec<_>>()
+    };
+    let one = written("one", &["--threads", "1", "--theme", "dark"]);
+    assert!(one.iter().any(|(name, _)| name == "curve-dark.png"));
+    let [one, two] = [written("one", &["--threads", "1"]), written("two", &["--threads", "3"])];
+    assert_eq!(one, two);
+    assert_eq!(
+        one.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(),
+        ["curve.csv", "curve.json", "curve.png"]
+    );
+}
+
+#[test]
+fn what_a_value_does_not_allow_is_said_beside_the_others() {
+    let root = tempdir().unwrap();
+    let arguments = ["--vary", "contacts.ball.friction=-0.2..0.2", "--points", "3"];
+    let output = characterise("quickstart", &root.path().join("some"), &arguments);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let said = stderr(&output);
+    assert!(said.contains("1 of 3 points have no motion; at -0.2000: "), "{said}");
+    assert!(said.contains("expected a number between 0 and 1000, got -2e-1"), "{said}");
+    assert!(stdout(&output).contains("refused"), "{}", stdout(&output));
+    let none = ["--vary", "contacts.ball.friction=-0.3..-0.2", "--points", "2", "--json"];
+    let output = characterise("quickstart", &root.path().join("none"), &none);
+    assert_eq!(code(&output), 3);
+    let answer: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(answer["points"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn bad_input_is_told_and_writes_nothing() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("out");
+    let refused = |name: &str, arguments: &[&str], words: &str| {
+        let output = characterise(name, &out, arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(words), "{arguments:?}: {}", stderr(&output));
+        assert!(!out.exists(), "{arguments:?}");
+    };
+    refused("quickstart", &[], "--curve");
+    refused("quickstart", &["--curve", "speed"], "possible values: step-amplitude");
+    refused(
+        "quickstart",
+        &["--curve", "force-speed", "--range", "1"],
+        "expected FROM..TO, such as 0.1..0.6, got \"1\"",
+    );
+    refused("quickstart", &["--curve", "force-speed", "--range", "1 N..2 nm"], "--range  ");
+    refused("quickstart", &["--curve", "force-speed", "--range", "2 mN..1 mN"], "a range that rises");
+    refused("quickstart", &["--curve", "force-speed", "--range", "0..1 N", "--log"], "above 0");
+    refused("quickstart", &["--curve", "preload", "--points", "1"], "expected 2 to 10000 points, got 1");
+    refused("quickstart", &["--vary", "contacts.ball.friction"], "PATH=VALUE");
+    refused("quickstart", &["--vary", "contacts.bal.friction=0..1"], "did you mean \"ball\"?");
+    refused("quickstart", &["--vary", "contacts.ball.count=1..3"], "counts whole things");
+    refused("bouncing_ball", &["--curve", "step-amplitude"], "nothing here repeats itself");
+    refused("walking_drive", &["--curve", "preload"], "pressed by a constant force");
+}
