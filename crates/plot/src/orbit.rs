@@ -100,7 +100,7 @@ mod tests {
     fn multipliers_are_points_in_a_circle_that_is_round() {
         let (time, x) = ([0.0, 1.0, 2.0], [0.0, 0.5, 0.0]);
         let slider = Track { name: "slider", values: &x };
-        let multipliers = vec![(0.6, 0.8000001), (0.6, -0.8000001), (0.3, 0.0)];
+        let multipliers = vec![(0.6, 0.801), (0.6, -0.801), (0.3, 0.0)];
         let course =
             OrbitCourse { time: &time, sliders: vec![slider], multipliers, ..OrbitCourse::default() };
         let figure = orbit_figure("steady", &course);

@@ -38,7 +38,11 @@ fn last_step(job: &Job, found: &Steady, from: State, periods: u32) -> Result<f64
 
 /// The plain runs start at t = 0 and know nothing of the search.
 fn settles_on(name: &str, periods: u32) -> Checked {
-    let job = job(name, &[])?;
+    settles_on_with((name, &[]), periods)
+}
+
+fn settles_on_with((name, set): (&str, &[(&str, &str)]), periods: u32) -> Checked {
+    let job = job(name, set)?;
     let found = steady::find(&job, &Options::default())?;
     let waited = last_step(&job, &found, found.model.start(&plan(&job))?, periods)?;
     let off = (found.step.ok_or("a step")? - waited).abs() / job.contact_scale(0).0;
@@ -54,6 +58,13 @@ fn p1_settles_on_the_step_after_ten_thousand_periods() -> Checked {
 #[test]
 fn the_piezo_stack_settles_on_the_step() -> Checked {
     settles_on("piezo_stack.json", 1_000)
+}
+
+/// It goes on through its damper to ground: that holds nothing in its place.
+#[test]
+fn a_slider_that_a_damper_brakes_settles_on_the_step() -> Checked {
+    let brake = r#"{"between": ["ground", "slider"], "damping": "500 N s/m"}"#;
+    settles_on_with(("quickstart.json", &[("loads", "[]"), ("springs.brake", brake)]), 100)
 }
 
 /// What its driver's source gives and what is lost goes on from period to period, and is no part of the motion.

@@ -1,6 +1,6 @@
 //! Motions along which nothing changes but the place.
 //!
-//! A coordinate that no link, no pressing contact and no block measures may be counted from anywhere, if the anchors of its
+//! A coordinate that no spring or actuator, no pressing contact and no block measures may be counted from anywhere, if the anchors of its
 //! contacts are counted from there, too: after a period a drive stands where it stood, but for its step. Several bodies that
 //! are tied to each other and to nothing else travel together.
 
@@ -55,7 +55,9 @@ pub(super) fn drifts(model: &Model) -> Vec<Drift> {
 
 /// What depends on places themselves.
 fn measures(model: &Model) -> impl Iterator<Item = &Measure> {
-    let links = model.links.iter().map(|link| &link.elongation);
+    // A damper alone holds nothing in its place.
+    let holding = model.links.iter().filter(|link| link.stiffness != 0.0);
+    let links = holding.map(|link| &link.elongation);
     let pulls = model.balanced.iter().flat_map(|b| b.pull.links.iter().chain(&b.own.links));
     let pressing = model.contacts.iter().filter_map(|contact| contact.coupling());
     let lengths = model.blocks.iter().flat_map(|block| &block.wires).filter_map(|wire| match wire {

@@ -104,6 +104,7 @@ impl Motion {
             Err(SteadyError::Interrupted(_)) => Err(Motionless::NotRun),
             Err(
                 SteadyError::NoConvergence { .. }
+                | SteadyError::Shakedown { .. }
                 | SteadyError::Commanded(_)
                 | SteadyError::Endless(_)
                 | SteadyError::Incommensurate { .. }
