@@ -162,7 +162,9 @@ mod tests {
         );
         // With the rows at both ends of the run a gap would count as seen.
         let mut rows = trail(12, 14);
-        (rows.t.insert(0, 0.0), rows.x.insert(0, 0.0), rows.y.insert(0, 0.0));
+        for column in [&mut rows.t, &mut rows.x, &mut rows.y] {
+            column.insert(0, 0.0);
+        }
         rows.push(3.0, 0.0, 0.0);
         assert_eq!(windowed(&rows, [1.2, 1.4]), trail(12, 14));
     }

@@ -77,7 +77,7 @@ fn drivers_of_nanoseconds_are_stepped_over() {
     for (spec, lag) in cases {
         for tolerance in [1e-3, 1e-6, 1e-9] {
             let saw = every(Shape::Sawtooth { stroke: GAIN * 100.0, flyback: 0.1e-3 });
-            let ran = ran(&scene(saw, spec.clone()), &event(tolerance, 0.97e-3), 37e-6);
+            let ran = ran(&scene(saw, spec), &event(tolerance, 0.97e-3), 37e-6);
             let exact = |t: f64| match t % 1e-3 - lag {
                 _ if t == 0.0 => 0.0,
                 s if s < 0.9e-3 => 100.0 / 0.9e-3 * s,
