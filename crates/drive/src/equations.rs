@@ -269,7 +269,9 @@ impl Conservative for Equations<'_> {
                     pulls => pulls.iter().for_each(add),
                 }
             }
-            (x, out, Some(Interval { kernel, .. })) if kernel.is_whole() => kernel.accelerations((t, x), out),
+            (x, out, Some(Interval { kernel, .. })) if kernel.is_whole() => {
+                kernel.accelerations(self, (t, x), out);
+            }
             (x, out, _) => self.accelerate(&Positions { t, x }, out),
         }
     }
