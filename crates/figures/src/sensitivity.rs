@@ -59,7 +59,9 @@ fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
             let slope = slope.ok()?;
             let (length, error) = (elasticity(slope.value)?, elasticity(slope.error)?.abs());
             let name = side.map_or_else(|| path.clone(), |side| format!("{path}, {side}"));
-            Some((Bar { name, note: String::new(), length, is_half: side.is_some() }, error))
+            // What is not told from nothing has no bar.
+            (length.abs() > error)
+                .then(|| (Bar { name, note: String::new(), length, is_half: side.is_some() }, error))
         })
     };
     taken.order(asked, f).into_iter().flat_map(of).collect()
@@ -67,5 +69,5 @@ fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
 
 fn noted(bar: Bar, error: f64, longest: f64) -> Bar {
     let doubt = if error > DOUBT * longest { format!(" ± {error:.1e}") } else { String::new() };
-    Bar { note: format!("{:+.3}{doubt}", bar.length), ..bar }
+    Bar { note: format!("{:+.3}{doubt}", bar.length).replace('-', "\u{2212}"), ..bar }
 }

@@ -1,5 +1,5 @@
-//! Derivatives at drawn points of ten scenes against five-point differences of runs of their own, with other steps, at another tolerance
-//! and, of some, by another stepper.
+//! Derivatives at drawn points of ten scenes against five-point differences of runs of their own, with other steps and at another
+//! tolerance. Steppers that locate no events are no help: by Dopri5 at 1e-11 the slope of P1's step over the mass was 12 % off.
 
 use serde_json::Value;
 use std::error::Error;
@@ -28,6 +28,8 @@ const SCENES: [(&str, &str, &str); 10] = [
 const POINTS: usize = 2;
 const MOVED: usize = 2;
 const QUANTITIES: usize = 3;
+/// Tolerance of the runs that differences are taken of.
+const OWN: f64 = 1e-13;
 /// Steps of the five-point differences, as shares of the quantity; none is one of the program's.
 const STEPS: [f64; 6] = [3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 
@@ -50,15 +52,10 @@ impl Drawn {
 }
 
 /// Figures of a run of the file with some values set.
-fn figures(
-    name: &str,
-    set: &[(String, String)],
-    names: &[String],
-    stepper: Stepper,
-) -> Result<Vec<f64>, Box<dyn Error>> {
+fn figures(name: &str, set: &[(String, String)], names: &[String]) -> Result<Vec<f64>, Box<dyn Error>> {
     let set: Vec<(&str, &str)> = set.iter().map(|(path, value)| (path.as_str(), value.as_str())).collect();
     let mut scenario = Scenario::load_with(example(name), &set)?;
-    scenario.plan.stepper = stepper;
+    scenario.plan.stepper = Stepper::Event { tolerance: OWN };
     scenario.plots.clear();
     let job = Job::new(scenario, name.to_owned(), PathBuf::new())?;
     let summary = serde_json::to_value(Summary::new(&job, &job.run(&())))?;
@@ -75,7 +72,6 @@ fn slopes(
     set: &[(String, String)],
     (path, value): (&str, f64),
     names: &[String],
-    stepper: Stepper,
 ) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
     let mut by_step = Vec::new();
     for step in STEPS.map(|share| share * value) {
@@ -83,7 +79,7 @@ fn slopes(
             let mut set = set.to_vec();
             set.retain(|(other, _)| other != path);
             set.push((path.to_owned(), format!("{:e}", value + k * step)));
-            figures(name, &set, names, stepper)
+            figures(name, &set, names)
         };
         let [a, b, c, d] = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];
         let slope = |f: usize| (a[f] - 8.0 * b[f] + 8.0 * c[f] - d[f]) / (12.0 * step);
@@ -152,16 +148,11 @@ fn moved(name: &str, end: (&str, &str), drawn: &mut Drawn) -> Result<Vec<(String
     Ok(set)
 }
 
-fn compare(
-    scenes: &[(&str, &str, &str)],
-    points: usize,
-    tolerance: f64,
-    stepper: Stepper,
-) -> Result<Compared, Box<dyn Error>> {
+fn compare() -> Result<Compared, Box<dyn Error>> {
     let mut compared = Compared::default();
-    for (seed, (name, key, end)) in scenes.iter().enumerate() {
+    for (seed, (name, key, end)) in SCENES.iter().enumerate() {
         let mut drawn = Drawn(20_261_123 + seed as u64);
-        for _ in 0..points {
+        for _ in 0..POINTS {
             let set = moved(name, (key, end), &mut drawn)?;
             let all = Sensitivity::new(&example(name), &set, &Asked::default(), &())?.quantities;
             let mut to: Vec<String> = Vec::new();
@@ -171,8 +162,7 @@ fn compare(
                     to.push(path.clone());
                 }
             }
-            let asked =
-                Sensitivity::new(&example(name), &set, &Asked { to, tolerance, ..Asked::default() }, &())?;
+            let asked = Sensitivity::new(&example(name), &set, &Asked { to, ..Asked::default() }, &())?;
             let taken = asked.take(2, &());
             let names: Vec<String> = asked.figures.iter().map(|figure| figure.name.clone()).collect();
             for (q, quantity) in asked.quantities.iter().enumerate() {
@@ -181,7 +171,7 @@ fn compare(
                 if !(0..names.len()).any(known) {
                     continue;
                 }
-                let wanted = slopes(name, &set, (&quantity.path, quantity.value), &names, stepper)?;
+                let wanted = slopes(name, &set, (&quantity.path, quantity.value), &names)?;
                 for (f, wanted) in wanted.into_iter().enumerate() {
                     let Derivative::Known(found) = &taken.derivatives[f][q] else { continue };
                     let what = format!("{name}: {} by {} of {set:?}", names[f], quantity.path);
@@ -197,24 +187,9 @@ fn compare(
 /// At least 200 of them, of which 95 % must lie within the errors told and what the differences themselves leave open.
 #[test]
 fn drawn_derivatives_are_those_of_other_differences_within_their_errors() -> Checked {
-    let mut compared = compare(&SCENES, POINTS, 1e-12, Stepper::Event { tolerance: 1e-13 })?;
+    let mut compared = compare()?;
     let told = compared.told();
-    println!("{told}");
     assert!(compared.all >= 200, "{told}");
     assert!(compared.beyond.len() * 20 <= compared.all, "{told}\n{}", compared.beyond.join("\n"));
-    Ok(())
-}
-
-/// The same of the plain explicit reference, which locates no events.
-#[test]
-fn another_stepper_has_the_same_derivatives() -> Checked {
-    let mut compared = compare(&SCENES[..3], 1, 1e-12, Stepper::Dopri5 { tolerance: 1e-11 })?;
-    let told = compared.told();
-    println!("{told}");
-    assert!(
-        compared.all >= 20 && compared.beyond.len() * 20 <= compared.all,
-        "{told}\n{}",
-        compared.beyond.join("\n")
-    );
     Ok(())
 }
