@@ -160,6 +160,7 @@ mod tests {
         let summary = json!({"a": {"b.c": {"d": 1.5}, "b": 2.5}, "e": [{"f": 3.5}, 4.5], "n": 3, "w": "x"});
         let mut all = Vec::new();
         numbers(String::new(), &summary, &mut all);
+        all.sort_by(|a, b| a.0.cmp(&b.0));
         let names: Vec<&str> = all.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["a.b", "a.b.c.d", "e[0].f", "e[1]", "n"]);
         assert!(is_whole(all[4].1) && !is_whole(all[3].1));

@@ -104,9 +104,12 @@ mod tests {
         (0..count).map(|k| vec![(at(k), f(at(k)))]).collect()
     }
 
-    /// Noise that looks like one and is the same in every run of the test.
+    /// Noise of standard deviation 1, evenly spread, which is the same in every run of the test (Steele's mixer of bits).
     fn rough(x: f64) -> f64 {
-        (1e15 * x).sin()
+        let mixed = (x.to_bits() ^ (x.to_bits() >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let share = ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
+        12.0_f64.sqrt() * (share - 0.5)
     }
 
     #[test]
@@ -114,12 +117,13 @@ mod tests {
         let f = |x: f64| 2.0 + 3.0 * x - 5.0 * x.powi(2) + 7.0 * x.powi(3);
         let slope = estimate(&both(f, 0.1, 4), None, Wanted::Slope, 1e-16).unwrap();
         assert!((slope.value - 3.0).abs() < 1e-12 && (slope.value - 3.0).abs() <= slope.error, "{slope:?}");
-        for own in [None, Some(2.0)] {
-            let slope = estimate(&above(f, 0.1, 5), own, Wanted::Slope, 1e-16).unwrap();
-            assert!((slope.value - 3.0).abs() <= slope.error && slope.error < 1e-5, "{own:?} {slope:?}");
+        // Without the value itself a parabola is all that is left to compare with.
+        for (own, sharp) in [(None, 1e-5), (Some(2.0), 1e-8)] {
+            let slope = estimate(&above(f, 0.1, 7), own, Wanted::Slope, 1e-16).unwrap();
+            assert!((slope.value - 3.0).abs() <= slope.error && slope.error < sharp, "{own:?} {slope:?}");
         }
-        let value = estimate(&above(f, 0.1, 5), None, Wanted::Value, 1e-16).unwrap();
-        assert!((value.value - 2.0).abs() <= value.error && value.error < 1e-8, "{value:?}");
+        let value = estimate(&above(f, 0.1, 7), None, Wanted::Value, 1e-16).unwrap();
+        assert!((value.value - 2.0).abs() <= value.error && value.error < 1e-12, "{value:?}");
     }
 
     /// Bends of any size beside noise of any size: sin(kx + 1) has the slope k cos 1.
@@ -127,7 +131,7 @@ mod tests {
     fn errors_hold_what_is_off() {
         for wave in [0.3, 5.0, 100.0, 3e3] {
             for noise in [1e-15, 1e-12, 1e-9, 1e-6] {
-                let f = |x: f64| (wave * x + 1.0).sin() + noise * std::f64::consts::SQRT_2 * rough(x);
+                let f = |x: f64| (wave * x + 1.0).sin() + noise * rough(x);
                 let wanted = wave * 1.0_f64.cos();
                 let slope = estimate(&both(f, 1.0 / 128.0, 7), None, Wanted::Slope, noise).unwrap();
                 let off = (slope.value - wanted).abs();
@@ -153,8 +157,7 @@ mod tests {
         let values: Vec<f64> =
             (-50..=50).map(|k| f64::from(k) * 1e-6).map(|x| (300.0 * x).exp() + 1e-11 * rough(x)).collect();
         let found = noise(&values).unwrap();
-        let own = 1e-11 / std::f64::consts::SQRT_2;
-        assert!((found / own - 1.0).abs() < 0.3, "{found:e}");
+        assert!((found / 1e-11 - 1.0).abs() < 0.3, "{found:e}");
         assert_eq!(noise(&values[..4]), None);
     }
 }
