@@ -214,11 +214,12 @@ impl<'m> Map<'m> {
         Ok(Image { state, way })
     }
 
-    /// By how much a state some periods after a fixed point is off, in natural scales: of its numbers, and of the way.
+    /// By how much a state some periods after a fixed point is off, in natural scales: of its numbers, and of the way, which alone tells
+    /// where a memory has a knot more or less: it may be no deeper than rounding.
     pub(super) fn missed_after(&self, state: State, (fixed, periods): (&Fixed, f64)) -> f64 {
         let Some(section) = &self.section else { return 0.0 };
         let (state, way) = section.back(state);
-        let numbers = self.difference(&state, &fixed.state).map_or(f64::INFINITY, |off| off.amax());
+        let numbers = self.difference(&state, &fixed.state).map_or(0.0, |off| off.amax());
         let scales = section.lengths();
         let ways = way.iter().zip(&fixed.image.way).zip(&scales);
         ways.map(|((way, one), scale)| (way - periods * one).abs() / scale).fold(numbers, f64::max)
