@@ -69,7 +69,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
     }
 
     fn reference(&mut self, place: &Placed<'_, '_>, reference: &Reference) -> Result<(), PlotError> {
-        let (frame, stroke) = (place.frame, self.theme.reference());
+        let (frame, stroke) = (place.frame, self.theme.reference(place.panel.place_of(reference)));
         match *reference {
             Reference::Horizontal { y, .. } if is_drawable(place.panel.y.measure(y)) => {
                 let y = place.panel.y.measure(y);

@@ -1,6 +1,6 @@
 //! Legends: beside the data, never over it.
 
-use crate::panel::{Panel, Reference, Series, is_drawable};
+use crate::panel::{Panel, Series, is_drawable};
 use crate::theme::{Colour, Stroke};
 use crate::{Label, PlotError, Theme};
 
@@ -50,11 +50,10 @@ pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
     let classes = classes.map(|(label, ink)| (label, swatch(*ink)));
     let bands = panel.bands.iter().map(|band| (&band.label, swatch(band.ink)));
     let shapes = panel.shapes.iter().map(|shape| (&shape.label, swatch(shape.ink)));
-    let lines = panel.references.iter().map(|reference| match reference {
-        Reference::Horizontal { label, .. } | Reference::Vertical { label, .. } => {
-            (label, Sample::Line(theme.reference()))
-        }
-    });
+    let lines = panel
+        .references
+        .iter()
+        .map(|reference| (reference.label(), Sample::Line(theme.reference(panel.place_of(reference)))));
     let mut entries: Vec<Entry> = Vec::new();
     for (label, sample) in curves.chain(classes).chain(bands).chain(shapes).chain(lines) {
         let entry = Entry { label: label.clone(), sample };
@@ -179,6 +178,7 @@ fn row_count(places: &[(usize, f64)]) -> usize {
 mod tests {
     use super::*;
     use crate::Series;
+    use crate::panel::Reference;
 
     fn panel(names: usize) -> Panel<'static> {
         let series = (0..names)
@@ -205,6 +205,12 @@ mod tests {
         let line = |y| Reference::Horizontal { y, label: Label::plain("limit") };
         let panel = Panel { references: vec![line(1.0), line(-1.0)], ..panel(0) };
         assert_eq!(entries(&panel, &theme).len(), 1);
+        // Stall and best power were two lines that nobody could tell apart.
+        let names =
+            ["stall", "best", "stall"].map(|name| Reference::Vertical { x: 1.0, label: Label::plain(name) });
+        let panel = Panel { references: names.to_vec(), ..panel };
+        let told = entries(&panel, &theme);
+        assert!(told.len() == 2 && told[0].sample != told[1].sample);
         assert!(Legend::new(&[], 100.0, 30.0, 3).unwrap().rows.is_empty());
     }
 }

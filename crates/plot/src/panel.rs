@@ -198,7 +198,27 @@ impl Axis {
     }
 }
 
+impl Reference {
+    /// Its name.
+    pub(crate) fn label(&self) -> &Label {
+        match self {
+            Self::Horizontal { label, .. } | Self::Vertical { label, .. } => label,
+        }
+    }
+}
+
 impl Panel<'_> {
+    /// The place of a reference line's name among those of the panel: lines of one name look alike, and those without like the first.
+    pub(crate) fn place_of(&self, reference: &Reference) -> usize {
+        let mut names: Vec<&Label> = Vec::new();
+        for label in self.references.iter().map(Reference::label).filter(|label| !label.is_empty()) {
+            if !names.contains(&label) {
+                names.push(label);
+            }
+        }
+        names.iter().position(|label| *label == reference.label()).unwrap_or(0)
+    }
+
     /// Whether there is nothing to show.
     pub(crate) fn is_empty(&self) -> bool {
         let series = self.series.iter().all(|series| self.points(series).flatten().next().is_none());

@@ -195,9 +195,10 @@ impl Theme {
         self.background.towards(self.muted, 0.22)
     }
 
-    /// The stroke of reference lines.
-    pub(crate) fn reference(&self) -> Stroke {
-        Stroke { colour: self.muted, dash: Dash::Dashed, width: 0.6 * self.line }
+    /// The stroke of reference lines, by the place of their name among those of a panel.
+    pub(crate) fn reference(&self, place: usize) -> Stroke {
+        // Solid lines are curves.
+        Stroke { colour: self.muted, dash: Dash::at(1 + place % (DASHES.len() - 1)), width: 0.6 * self.line }
     }
 }
 

@@ -70,10 +70,16 @@ fn speeds_against_a_load_are_those_of_long_runs() -> Checked {
     is_where_a_run_ends("ruby_drive.json", Kind::ForceSpeed, &[0.0, 0.05, 0.15], 300, 1e-7)
 }
 
-/// A driver remembers: its motion is waited for.
+/// A driver remembers; its steady motion is found directly all the same, with how a disturbance of it fades.
 #[test]
 fn a_driver_at_its_limit_has_a_curve() -> Checked {
-    is_where_a_run_ends("driven_stage.json", Kind::SpeedFrequency, &[500.0, 2e3], 200, 1e-5)
+    is_where_a_run_ends("driven_stage.json", Kind::SpeedFrequency, &[500.0, 2e3], 200, 1e-5)?;
+    let curve = curve("driven_stage.json", &[], Kind::SpeedFrequency)?;
+    for point in &curve.trace(&[500.0, 2e3], 2, &()).points {
+        let found = motion(point)?;
+        assert!(found.multiplier.is_some_and(|multiplier| multiplier.modulus() < 1.0), "{found:?}");
+    }
+    Ok(())
 }
 
 /// A load against steps to the left acts to the right: of the mirrored drive the mirrored curve, to the last digit of the search.

@@ -11,7 +11,7 @@ pub(crate) const ABOUT: &str = "\
 Trace a curve of a drive: step over amplitude, speed over frequency, speed against a load, or over any number of its scenario
 
 Each point is the scenario with something else in it, as --set would put it there, and its steady motion: found directly, as \
-the state that a period of the waveform brings back, or by a run that waits for it, where a driver or a material remembers \
+the state that a period of the waveform brings back, or by a run that waits for it, where it is not found \
 or where no run would stay in it. Of steps that swing from period to period the mean is told, and by how much they swing.
 
   step-amplitude   step over the stroke, or amplitude, of the waveform of the steps; S₀, below which there is none

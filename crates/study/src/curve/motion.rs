@@ -10,8 +10,10 @@ use stickslip_results::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Most periods of the search for a motion that repeats itself.
+/// Most periods of the search for a motion that repeats itself, and where drivers or materials remember: what is found there is found
+/// soon, and plays of a ceramic are not.
 const SHOT: u32 = 400;
+const SHOT_OF_BLOCKS: u32 = 100;
 /// Its local error per step.
 const TOLERANCE: f64 = 1e-9;
 
@@ -91,13 +93,9 @@ impl Motion {
     /// # Errors
     /// Nothing that steps, a run that stops itself, steps that do not settle; [`Motionless::NotRun`] where the watcher wants an end.
     pub fn of(job: &Job, watcher: &dyn Watcher) -> Result<Self, Motionless> {
-        // What drivers and materials remember is no number of the search: it does not come back to itself there.
-        if !job.scenario.scene.blocks.is_empty() {
-            return waited(job, watcher);
-        }
         let goes_on = || watcher.goes_on();
-        let options =
-            Options { tolerance: TOLERANCE, periods: SHOT, goes_on: &goes_on, ..Options::default() };
+        let periods = if job.scenario.scene.blocks.is_empty() { SHOT } else { SHOT_OF_BLOCKS };
+        let options = Options { tolerance: TOLERANCE, periods, goes_on: &goes_on, ..Options::default() };
         match steady::find(job, &options) {
             Ok(found) if found.is_stable() => Self::found(job, &found),
             Ok(found) => waited(job, watcher).map(|motion| Self { work: motion.work + found.work, ..motion }),
