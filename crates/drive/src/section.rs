@@ -6,8 +6,12 @@
 //! is left out is where the drive has got to. Memories of blocks, and of rows of springs, are carried along as they are.
 
 mod drift;
+mod gradient;
 mod legs;
 
+pub use gradient::Gradient;
+
+use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::model::Binding;
 use crate::scene::Axis;
@@ -209,9 +213,11 @@ impl<'m> Section<'m> {
             way.iter_mut().zip(&drift.shape).for_each(|(way, share)| *way += gone * share);
         }
         end.y.iter_mut().zip(&way).for_each(|(x, way)| *x -= way);
-        for (memory, contact) in end.memories.iter_mut().zip(&self.model.contacts) {
+        let standing = end.memories.iter_mut().zip(&mut end.modes);
+        for ((memory, mode), contact) in standing.zip(&self.model.contacts) {
             let moved: f64 = contact.u.free.iter().map(|(i, a)| a * way[*i]).sum();
             memory.shift(-moved);
+            mode.shift(-moved);
         }
         let Self { base, .. } = self;
         (end.t, end.step, end.stuck_step, end.underway) = (base.t, base.step, base.stuck_step, None);
@@ -273,6 +279,10 @@ impl<'m> Section<'m> {
             let numbers = self.unknowns.iter().zip(by).map(|(unknown, by)| (*unknown, *by));
             let gone = (after.d - before.d, after.u - before.u);
             moved.memories[c] = legs::moved(contact, &state.memories[c], gone, numbers)?;
+            if moved.memories[c] != state.memories[c] {
+                // A law is of its memory: that of another one is chosen when a run begins.
+                moved.modes[c] = Mode::Whole { sense: 0.0 };
+            }
         }
         Some(moved)
     }

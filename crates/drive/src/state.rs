@@ -230,6 +230,10 @@ impl State {
             return;
         }
         self.memories = self.shifted_back(model);
+        for c in 0..model.contacts.len() {
+            let by = self.shift(&model.contacts[c]);
+            self.modes[c].shift(by);
+        }
         self.y.iter_mut().zip(&mut self.shifts).for_each(|(x, shift)| *x += std::mem::take(shift));
     }
 

@@ -41,6 +41,15 @@ impl Mode {
         }
     }
 
+    /// Counts displacements from another origin, `by` (m) further back: the law was made of the memory and lies where that does.
+    pub(crate) fn shift(&mut self, by: f64) {
+        match self {
+            Self::Slip(branch) => branch.shift(by),
+            Self::Lull { lull, .. } => lull.shift(by),
+            Self::Open | Self::Grow | Self::Whole { .. } => {}
+        }
+    }
+
     /// Whether all springs slip.
     pub(crate) fn is_gross(&self) -> bool {
         matches!(self, Self::Slip(branch) if branch.is_gross())

@@ -49,4 +49,5 @@ mod straight_walks;
 mod swings;
 mod unfed_inputs;
 mod units;
+mod variations;
 mod vibrated;

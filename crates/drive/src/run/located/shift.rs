@@ -7,7 +7,6 @@
 //! what is written.
 
 use crate::Model;
-use crate::contact::Mode;
 use crate::model::Free;
 use crate::state::State;
 
@@ -46,12 +45,7 @@ fn shift_one(model: &Model, state: &mut State, i: usize) {
         let along: f64 = contact.u.free.iter().filter(|(free, _)| *free == i).map(|(_, a)| a).sum();
         if along != 0.0 {
             state.memories[c].shift(-along * by);
-            // The law was made of the memory and lies where that did.
-            match &mut state.modes[c] {
-                Mode::Slip(branch) => branch.shift(-along * by),
-                Mode::Lull { lull, .. } => lull.shift(-along * by),
-                Mode::Open | Mode::Grow | Mode::Whole { .. } => {}
-            }
+            state.modes[c].shift(-along * by);
         }
     }
 }
