@@ -121,6 +121,22 @@ fn every_figure_of_a_curve_is_defined() {
 }
 
 #[test]
+fn every_figure_of_derivatives_is_defined() {
+    let (file, root) = (scenario("driven_stage"), tempdir().unwrap());
+    let (file, out) = (file.to_str().unwrap(), root.path().join("out"));
+    let asked = ["--of", "steps.last_m", "--to", "waveforms.drive.sawtooth.stroke", "--set", "run.cycles=2"];
+    let all = [&["sensitivity", "--json", file, "--out", out.to_str().unwrap()], &asked[..]].concat();
+    let mut all = answers(&all);
+    all.push(serde_json::from_slice(&std::fs::read(out.join("sensitivity.json")).unwrap()).unwrap());
+    let note = &all[0]["figures"][0]["derivatives"][0]["note"];
+    assert!(all.len() == 2 && note.is_string() && all[1]["files"][0] == "sensitivity.csv", "{note}");
+    assert_eq!(lacking("sensitivity.json", &all), Vec::<String>::new());
+    let head = Table::read(&out.join("sensitivity.csv")).head;
+    let lacking: Vec<_> = head.iter().filter(|column| !defined("sensitivity.csv", column)).collect();
+    assert!(lacking.is_empty() && head.len() == 14, "{lacking:?}");
+}
+
+#[test]
 fn everything_that_check_says_is_defined() {
     let root = tempdir().unwrap();
     let file = root.path().join("mine.json");

@@ -32,6 +32,7 @@ mod repro;
 mod reproducibility;
 mod results;
 mod scenarios;
+mod sensitivity;
 mod soak;
 mod steady;
 mod strangers;

@@ -8,6 +8,7 @@ pub(crate) mod look;
 mod pictures;
 pub(crate) mod realtime;
 pub(crate) mod run;
+pub(crate) mod sensitivity;
 pub(crate) mod soak;
 pub(crate) mod steady;
 pub(crate) mod validate;
@@ -24,6 +25,7 @@ pub(crate) use contact::ContactArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 pub(crate) use realtime::RealtimeArguments;
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
+pub(crate) use sensitivity::SensitivityArguments;
 pub(crate) use soak::SoakArguments;
 pub(crate) use steady::SteadyArguments;
 pub(crate) use validate::ValidateArguments;
@@ -95,6 +97,9 @@ pub(crate) enum Command {
     /// Trace a curve of a drive: step over amplitude, speed over frequency, speed against a load
     #[command(long_about = characterise::ABOUT, after_long_help = characterise::EXAMPLES)]
     Characterise(CharacteriseArguments),
+    /// Tell which numbers matter: by how much figures of a run change with each number of its scenario
+    #[command(long_about = sensitivity::ABOUT, after_long_help = sensitivity::EXAMPLES)]
+    Sensitivity(SensitivityArguments),
     /// Find the steady motion of a drive without waiting for it: step, speed, how disturbances fade or grow
     #[command(long_about = steady::ABOUT, after_long_help = steady::EXAMPLES)]
     Steady(SteadyArguments),

@@ -17,6 +17,7 @@ pub(crate) mod repro;
 pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod sensitivity;
 pub(crate) mod soak;
 pub(crate) mod steady;
 pub(crate) mod validate;

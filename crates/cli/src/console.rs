@@ -4,5 +4,6 @@ pub(crate) mod answer;
 pub(crate) mod interrupt;
 pub(crate) mod pace;
 pub(crate) mod progress;
+pub(crate) mod table;
 pub(crate) mod verdict;
 pub(crate) mod visible;

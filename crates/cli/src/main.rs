@@ -11,7 +11,7 @@ use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
     bench, characterise, check, compare, completions, contact, explain, gallery, info, materials, new, plot,
-    realtime, repro, resume, run, schema, soak, steady, validate,
+    realtime, repro, resume, run, schema, sensitivity, soak, steady, validate,
 };
 use std::process::ExitCode;
 
@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::info(&arguments),
         Command::Characterise(arguments) => characterise::characterise(&arguments),
         Command::Contact(arguments) => contact::contact(&arguments),
+        Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
         Command::Steady(arguments) => steady::steady(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Schema => schema::print(),

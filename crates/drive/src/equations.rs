@@ -156,6 +156,12 @@ impl<'a> Equations<'a> {
         Motion { d, u: u.value, dd, du: u.rate }
     }
 
+    /// u of a contact, m, from its shifted origin, and its rate, m/s.
+    #[inline]
+    pub(crate) fn slide(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Reading {
+        self.read(&contact.u, &Components { t, y })
+    }
+
     /// Prescribed indentation and its rate.
     #[inline(always)]
     pub(crate) fn pressed(&self, contact: &Contact, t: f64) -> (f64, f64) {
@@ -269,7 +275,9 @@ impl Conservative for Equations<'_> {
                     pulls => pulls.iter().for_each(add),
                 }
             }
-            (x, out, Some(Interval { kernel, .. })) if kernel.is_whole() => kernel.accelerations((t, x), out),
+            (x, out, Some(Interval { kernel, .. })) if kernel.is_whole() => {
+                kernel.accelerations(self, (t, x), out);
+            }
             (x, out, _) => self.accelerate(&Positions { t, x }, out),
         }
     }

@@ -131,11 +131,15 @@ impl<'a> Interval<'a> {
         for c in changed {
             if let (Some(place), Mode::Slip(branch)) = (self.places[c], &state.modes[c]) {
                 self.closed[place].renew(branch, Guard::of(&model.contacts[c], &state.modes[c]));
+                self.kernel.renew(place, self.closed[place].branch);
             }
         }
         self.traits.slides = self.slides(state);
         self.traits.asked = false;
-        self.act(model, state);
+        // All else that the kernel lays out is as it was.
+        if !self.kernel.is_whole() {
+            self.act(model, state);
+        }
         true
     }
 

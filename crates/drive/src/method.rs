@@ -13,8 +13,8 @@
 //! | [`Method::Radau`] | any | of what settles far faster than all else goes on |
 //! | [`Method::DormandPrince`] | any | all others |
 //!
-//! At tolerances down to [`TIGHTEST_BRIEF`] a step of the last of these that an event will end soon goes by the pair of order
-//! 5(4), [`Method::Brief`].
+//! At tolerances down to [`Method::tightest_brief`] a step of the two explicit methods that an event will end soon goes by one of
+//! fewer stages, [`Method::brief`].
 //!
 //! A graded step goes by Dormand and Prince's pair wherever it is taken: its stages ask for velocities.
 
@@ -40,6 +40,8 @@ pub enum Method {
     Parabola,
     /// Steps of the Runge–Kutta–Nyström pair of order 8(6).
     Nystrom,
+    /// Steps of Nyström's method of order 5, of half the stages, where an event is near and the tolerance allows.
+    BriefNystrom,
     /// Steps of Dormand and Prince's Runge–Kutta pair of order 8(5,3).
     DormandPrince,
     /// Steps of their pair of order 5(4), of half the stages, where an event is near and the tolerance allows.
@@ -54,10 +56,26 @@ pub enum Method {
     AskedFor,
 }
 
-/// Tightest tolerance at which steps of few stages are worth their errors.
-// At 1e-9 they spare nothing, and at 1e-10 the books of a stage on damped springs, which no estimate sees, were twice as far
-// off (1.1e-8).
-pub(crate) const TIGHTEST_BRIEF: f64 = 1e-6;
+impl Method {
+    /// The method of a step that an event will end soon, of fewer stages than this one's; none where there is none.
+    pub(crate) fn brief(self) -> Option<Self> {
+        match self {
+            Self::Nystrom => Some(Self::BriefNystrom),
+            Self::DormandPrince => Some(Self::Brief),
+            _ => None,
+        }
+    }
+
+    /// Tightest tolerance at which such steps are worth their errors.
+    // Of Dormand and Prince's pair: at 1e-9 they spare nothing, and at 1e-10 the books of a stage on damped springs, which no
+    // estimate sees, were twice as far off (1.1e-8).
+    pub(crate) fn tightest_brief(self) -> f64 {
+        match self {
+            Self::Nystrom => 1e-6,
+            _ => 1e-6,
+        }
+    }
+}
 
 /// What is done about one contact between two events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -11,7 +11,6 @@ mod legs;
 
 pub use gradient::Gradient;
 
-use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::model::Binding;
 use crate::scene::Axis;
@@ -149,6 +148,12 @@ impl<'m> Section<'m> {
         self.unknowns.iter().map(scale).collect()
     }
 
+    /// Natural scale of the way of each free coordinate, m or rad.
+    #[must_use]
+    pub fn lengths(&self) -> Vec<f64> {
+        self.model.free.iter().map(|free| free.scale.0).collect()
+    }
+
     /// How many ways there are along which nothing changes but the place.
     #[must_use]
     pub fn drifts(&self) -> usize {
@@ -213,11 +218,9 @@ impl<'m> Section<'m> {
             way.iter_mut().zip(&drift.shape).for_each(|(way, share)| *way += gone * share);
         }
         end.y.iter_mut().zip(&way).for_each(|(x, way)| *x -= way);
-        let standing = end.memories.iter_mut().zip(&mut end.modes);
-        for ((memory, mode), contact) in standing.zip(&self.model.contacts) {
+        for contact in &self.model.contacts {
             let moved: f64 = contact.u.free.iter().map(|(i, a)| a * way[*i]).sum();
-            memory.shift(-moved);
-            mode.shift(-moved);
+            end.shift_law(contact.place, -moved);
         }
         let Self { base, .. } = self;
         (end.t, end.step, end.stuck_step, end.underway) = (base.t, base.step, base.stuck_step, None);
@@ -279,10 +282,7 @@ impl<'m> Section<'m> {
             let numbers = self.unknowns.iter().zip(by).map(|(unknown, by)| (*unknown, *by));
             let gone = (after.d - before.d, after.u - before.u);
             moved.memories[c] = legs::moved(contact, &state.memories[c], gone, numbers)?;
-            if moved.memories[c] != state.memories[c] {
-                // A law is of its memory: that of another one is chosen when a run begins.
-                moved.modes[c] = Mode::Whole { sense: 0.0 };
-            }
+            moved.renew_law(model, c, gone.1);
         }
         Some(moved)
     }

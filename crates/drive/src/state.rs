@@ -224,15 +224,37 @@ impl State {
         memories
     }
 
+    /// Counts u of a contact from another origin, `by` (m) further back: its memory, and the law that was made of it.
+    pub(crate) fn shift_law(&mut self, c: usize, by: f64) {
+        self.memories[c].shift(by);
+        self.modes[c].shift(by);
+    }
+
+    /// Makes the law of a contact anew from a memory that was put in the place of its own, for a motion in the same sense; its u has
+    /// grown by `by`, m.
+    pub(crate) fn renew_law(&mut self, model: &Model, c: usize, by: f64) {
+        let (contact, memory) = (&model.contacts[c], &self.memories[c]);
+        match (&mut self.modes[c], memory.branching()) {
+            (Mode::Slip(branch), Some(curve)) => {
+                *branch = curve.branch(&contact.interface, branch.sense(), 0.0);
+            }
+            (Mode::Grow, _) => {
+                let (Some(slot), layout) = (contact.slot, model.layout()) else { return };
+                let now = memory.preview(&contact.interface, memory.apex());
+                self.y[layout.force(slot)] = now.force;
+                self.y[layout.elastic(slot)] = now.elastic;
+            }
+            (mode, _) => mode.shift(by),
+        }
+    }
+
     /// Counts all positions from where they started.
     pub(crate) fn come_back(&mut self, model: &Model) {
         if self.shifts.iter().all(|shift| *shift == 0.0) {
             return;
         }
-        self.memories = self.shifted_back(model);
-        for c in 0..model.contacts.len() {
-            let by = self.shift(&model.contacts[c]);
-            self.modes[c].shift(by);
+        for contact in &model.contacts {
+            self.shift_law(contact.place, self.shift(contact));
         }
         self.y.iter_mut().zip(&mut self.shifts).for_each(|(x, shift)| *x += std::mem::take(shift));
     }

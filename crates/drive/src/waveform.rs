@@ -29,6 +29,7 @@ use shape::Law;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waveform {
     shape: Shape,
+    given: Timing,
     timing: Timing,
     course: Course,
     /// Values held before the start and after the stop.
@@ -56,14 +57,15 @@ impl Waveform {
     /// [`WaveformError`] names the parameter, what was expected and what came.
     pub fn new(shape: Shape, timing: Timing) -> Result<Self, WaveformError> {
         let course = shape.course(&timing)?;
-        let timing = shape.timing(timing);
+        let given = timing;
+        let timing = shape.timing(given);
         let window = match &course.chain {
             Chain::Corners(corners) => corners.window(),
             Chain::Sines(_) => (timing.delay, timing.stop()),
             Chain::Step(time) => (*time, *time),
             Chain::Supplied(_) => (0.0, 0.0),
         };
-        let mut waveform = Self { shape, timing, course, held: (0.0, 0.0), window };
+        let mut waveform = Self { shape, given, timing, course, held: (0.0, 0.0), window };
         waveform.held = waveform.course.ends.unwrap_or_else(|| waveform.ends());
         Ok(waveform)
     }
@@ -77,7 +79,8 @@ impl Waveform {
             self.shape.clone_from(&from.shape);
         }
         self.course.copy(&from.course);
-        (self.timing, self.held, self.window) = (from.timing, from.held, from.window);
+        (self.given, self.timing) = (from.given, from.timing);
+        (self.held, self.window) = (from.held, from.window);
     }
 
     /// Zero for ever, without a corner.
@@ -92,7 +95,7 @@ impl Waveform {
             wave: f64::INFINITY,
             has_jumps: false,
         };
-        Self { shape, timing: Timing::every(1.0), course, held, window: held }
+        Self { shape, given: Timing::every(1.0), timing: Timing::every(1.0), course, held, window: held }
     }
 
     /// The piece that holds at `t` (s).
@@ -241,7 +244,13 @@ impl Waveform {
         &self.shape
     }
 
-    /// When it runs, as given.
+    /// When it runs, as given: of a pattern that of one cycle of what it repeats. With [`Self::shape`] it makes the same waveform again.
+    #[must_use]
+    pub fn given(&self) -> &Timing {
+        &self.given
+    }
+
+    /// When it runs: of a pattern its own.
     #[must_use]
     pub fn timing(&self) -> &Timing {
         &self.timing

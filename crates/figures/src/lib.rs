@@ -5,7 +5,8 @@
 //!
 //! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
 //! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop;
-//! [`steady`], the picture of a motion that repeats itself; [`curve`], those of a machine.
+//! [`steady`], the picture of a motion that repeats itself; [`curve`], those of a machine; [`sensitivity`], what
+//! matters to it.
 
 pub mod comparison;
 pub mod curve;
@@ -15,6 +16,7 @@ mod origin;
 pub mod overlay;
 mod pictures;
 pub mod realtime;
+pub mod sensitivity;
 pub mod steady;
 pub mod theory;
 

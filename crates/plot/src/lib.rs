@@ -13,7 +13,7 @@
 //!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
 //!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
 //!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs), [`orbit`] (a motion that repeats itself),
-//!   [`curve`] (what a machine does over something that is varied);
+//!   [`curve`] (what a machine does over something that is varied), [`tornado`] (what matters most);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
@@ -70,6 +70,7 @@ pub mod substitute;
 pub mod svg;
 pub mod theme;
 mod thin;
+pub mod tornado;
 pub mod trajectory;
 pub mod waveform;
 pub mod work_precision;
@@ -107,6 +108,7 @@ pub use state::{SpringCondition, SpringMap, state_figure};
 pub use substitute::{SubstituteMoment, substitute_figure};
 pub use svg::draw_svg;
 pub use theme::{Colour, Dash, Ink, Style, Theme};
+pub use tornado::{Bar, Tornado, tornado_figure};
 pub use trajectory::{Coordinate, Motion, Track, Trajectory, trajectory_figure};
 pub use waveform::{WaveformCourse, waveform_figure};
 pub use work_precision::{WorkCurve, work_precision_figure};

@@ -324,6 +324,26 @@ fn a_crowd_is_drawn_as_far_as_it_goes() {
     }
 }
 
+/// A body that is reached a millimetre off and one that is reached a nanometre off: the drawing is wider than any frame is long.
+#[test]
+fn a_drawing_that_is_far_too_wide_is_framed() {
+    let scene = Scene {
+        bodies: vec![
+            body("nine letters or more", FREE),
+            body("", DRIVEN),
+            body("b", SLIDER),
+            body("c", [Mobility::Fixed; 3]),
+        ],
+        contacts: vec![contact("contact", [at(1, 0.0, 1e-3), GROUND], 1e-3)],
+        links: vec![spring("0", [GROUND, at(0, 1e-9, 0.0)], true, 0.0)],
+        loads: Vec::new(),
+        gravity: None,
+    };
+    let figure = layout_figure("Far apart", &scene);
+    draw_png(&figure).unwrap();
+    drawn::assert_texts_apart(&figure);
+}
+
 prop_compose! {
     fn any_fixture(bodies: usize)(
         body in prop_oneof![1 => Just(None), 4 => (0..bodies).prop_map(Some)],

@@ -27,6 +27,8 @@ pub const SCENARIO: &str = "scenario.json";
 pub const SUMMARY: &str = "summary.json";
 /// What the points of a curve of a machine came to.
 pub const CURVE: &str = "curve.json";
+/// By how much figures change with the numbers of a scenario.
+pub const SENSITIVITY: &str = "sensitivity.json";
 /// The steady motion of a drive, found without a run.
 pub const STEADY: &str = "steady.json";
 

@@ -51,6 +51,7 @@ pub mod markdown;
 mod marks;
 pub mod moments;
 mod outcome;
+pub mod outlook;
 mod parts;
 mod periods;
 mod plausibility;

@@ -13,6 +13,7 @@ use crate::excess::{self, Excess};
 use crate::files::EVENTS;
 use crate::job::Job;
 use crate::outcome::Outcome;
+use crate::outlook::Outlook;
 use crate::parts::Parts;
 use crate::program;
 use crate::quantity::quantity;
@@ -68,6 +69,9 @@ pub struct Summary {
     /// Steps of the drive; none without a free body driven by a periodic waveform.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<DriveSummary>,
+    /// The motion that it would settle on if its waveforms never ended; whoever has looked for it tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steady_motion: Option<Outlook>,
     energy: Balance,
     /// Driver electronics by the names of their stacks.
     #[serde(skip_serializing_if = "Parts::is_empty")]
@@ -226,6 +230,7 @@ impl Summary {
             states: job.scenario.written.state_numbers.then(|| Parts(legend())),
             contacts: contacts::of(job, outcome),
             steps: steps::of(job, outcome, &drivers, &mut notes),
+            steady_motion: None,
             energy: outcome.books.balance(),
             drivers,
             warnings,
@@ -235,6 +240,16 @@ impl Summary {
             cut: outcome.failure.is_some(),
             timing: Timing { wall: Real(outcome.wall), simulated_s_per_s: Real(simulated / outcome.wall) },
         }
+    }
+
+    /// Says what the drive would settle on.
+    pub fn set_outlook(&mut self, outlook: Option<Outlook>) {
+        self.steady_motion = outlook;
+    }
+
+    /// What the drive would settle on.
+    pub fn outlook(&self) -> Option<&Outlook> {
+        self.steady_motion.as_ref()
     }
 
     /// Says what is missing, and why.

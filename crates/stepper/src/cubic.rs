@@ -44,6 +44,14 @@ impl Cubic {
         if x > 0.0 && x < 1.0 { x } else { chord }
     }
 
+    /// Whether it stays above a level all along, as its control points show, between which it lies. False says nothing.
+    #[must_use]
+    pub fn stays_above(&self, level: f64) -> bool {
+        let third = self.h / 3.0;
+        let points = [self.y0, self.y0 + third * self.dy0, self.y1 - third * self.dy1, self.y1];
+        points.into_iter().all(|y| y > level)
+    }
+
     /// Its minimum inside the step: where (x as a fraction of the step, 0 < θ < 1) and how low (y).
     ///
     /// Shows a guard that dips below zero and returns inside a step. None if there is no minimum inside.

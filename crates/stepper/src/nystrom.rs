@@ -6,10 +6,12 @@
 //!
 //! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*,
 //! IMA Journal of Numerical Analysis 7 (1987) 423–430. The dense output is Hermite–Birkhoff: accelerations at seven
-//! nodes of the step, those inside evaluated again on the interpolant of the stages.
+//! nodes of the step, those inside evaluated again on the interpolant of the stages. Steps of [few stages](crate::Grade::Few) go
+//! by Nyström's method of order 5.
 
 mod dense;
 mod estimate;
+mod order5;
 mod stages;
 mod storage;
 mod tableau;
@@ -18,7 +20,7 @@ mod track;
 pub use storage::{Many, One, Storage, Values};
 pub use track::Track;
 
-use crate::{Attempt, Completion, End, Hand, Method, Span, Step, Target};
+use crate::{Attempt, Completion, End, Grade, Hand, Method, Span, Step, Target};
 use tableau::END;
 
 /// Power of the step with which the error estimate falls.
@@ -54,6 +56,8 @@ pub struct Nystrom<N: Storage = Many> {
     end_time: f64,
     /// Length of the step attempted, s.
     step: f64,
+    /// Whether its stages are few: those of order 5.
+    few: bool,
     /// States at both ends: positions, velocities, quadratures.
     begin: N::State,
     end: N::State,
@@ -103,6 +107,7 @@ impl<N: Storage> Nystrom<N> {
             time: 0.0,
             end_time: 0.0,
             step: 0.0,
+            few: false,
             begin: Values::of(total),
             end: Values::of(total),
             stage: Values::of(positions),
@@ -257,10 +262,10 @@ impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
         self.starting_step(longest, scale)
     }
 
-    /// Stages lie evenly, whatever grade is asked for.
-    fn attempt(&mut self, system: &S, Target { end, .. }: Target, scale: &[f64]) -> f64 {
-        self.step_to(system, end);
-        self.error(scale)
+    /// Stages lie evenly, whatever grade is asked for; few of them where that is.
+    fn attempt(&mut self, system: &S, Target { end, grade }: Target, scale: &[f64]) -> f64 {
+        self.step_to(system, end, grade == Grade::Few);
+        if self.few { self.error_of_fifth(scale) } else { self.error(scale) }
     }
 
     /// The slopes at the end are known already, but for a step that was cut; the dense output costs the samples inside.

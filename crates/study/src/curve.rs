@@ -30,6 +30,7 @@ pub use range::Range;
 pub use table::{TABLE, csv, json, write};
 pub use variation::Variation;
 
+use crate::each::each;
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -109,7 +110,7 @@ impl Curve {
         let is_known = unloaded.as_ref().is_none_or(Result::is_ok);
         let direction = unloaded.and_then(Result::ok).map_or(1.0, |motion| motion.sense());
         let done = AtomicUsize::new(0);
-        let points = point::each(values.len(), cores, |place| {
+        let points = each(values.len(), cores, |place| {
             let value = values[place];
             let set = self.variation.overrides(value, direction);
             let motion = self.motion_with(&set, watcher);

@@ -5,13 +5,16 @@
 //!
 //! In reading order: `number` (numbers of a scene that a batch sets) and `sketch` (those of its waveforms), `figure` (what is kept of
 //! a run), `line` (what is told of it), `batch` (the runs); [`steady`], the motion that repeats itself every period, and how it
-//! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied.
+//! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
+//! figure changes with each number of the scenario. `each` does many things side by side.
 
 mod batch;
 pub mod curve;
+mod each;
 mod figure;
 mod line;
 mod number;
+pub mod sensitivity;
 mod sketch;
 pub mod steady;
 

@@ -45,7 +45,7 @@ impl Quantity {
 
 impl Sketch {
     pub(crate) fn of(waveform: &Waveform) -> Self {
-        Self { shape: waveform.shape().clone(), timing: *waveform.timing() }
+        Self { shape: waveform.shape().clone(), timing: *waveform.given() }
     }
 
     /// The number under a key of this waveform's kind.

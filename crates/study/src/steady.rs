@@ -8,7 +8,7 @@
 //! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
 //! period the map is taken; `map`, the map and its gradient by differences; `newton`, its fixed point; `multiplier`, what the
 //! gradient means; `bound`, how far the step may be off; `orbit`, the motion from the beginning of a period on, from which a run
-//! goes on; `report`, what is told of it.
+//! goes on; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive.
 
 mod bound;
 mod endless;
@@ -18,12 +18,14 @@ mod moment;
 mod multiplier;
 mod newton;
 mod orbit;
+mod outlook;
 mod report;
 
 pub use error::SteadyError;
 pub use multiplier::{Kind, Multiplier};
 pub use newton::{Defect, Way};
 pub use orbit::Orbit;
+pub use outlook::outlook;
 pub use report::Report;
 
 use endless::Endless;
@@ -42,6 +44,8 @@ pub struct Options<'a> {
     pub settling: u32,
     /// Most periods altogether; default 4 000.
     pub periods: u32,
+    /// Most accepted and rejected steps altogether; by default as many as it takes.
+    pub steps: u64,
     /// Asked before every period; `false` gives up.
     pub goes_on: &'a dyn Fn() -> bool,
     /// Told how many periods have been computed, the one that begins included.
@@ -50,7 +54,14 @@ pub struct Options<'a> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self { tolerance: 1e-12, settling: 4, periods: 4_000, goes_on: &|| true, told: &|_| () }
+        Self {
+            tolerance: 1e-12,
+            settling: 4,
+            periods: 4_000,
+            steps: u64::MAX,
+            goes_on: &|| true,
+            told: &|_| (),
+        }
     }
 }
 
@@ -139,6 +150,7 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         error => error,
     })?;
     let bound = bound::bound(&mut map, &fixed, figures)?;
+    let never_gave_way = moment::twice(&mut map, &fixed)?;
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
     let found = Steady {
         period: endless.period,
@@ -150,7 +162,7 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         drifts: section.drifts(),
         unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),
         carried: section.carried().to_vec(),
-        shaken_down: settled.never_gave_way,
+        shaken_down: never_gave_way,
         defects: fixed.defects,
         work: map.work(),
         model: model.clone(),

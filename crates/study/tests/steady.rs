@@ -25,15 +25,20 @@ fn x(model: &Model, state: &State, body: usize) -> Result<f64, Box<dyn Error>> {
 }
 
 /// The last of so many plain steps from a state on, m.
-fn last_step(job: &Job, found: &Steady, from: State, periods: u32) -> Result<f64, Box<dyn Error>> {
+fn last_step(
+    job: &Job,
+    (model, from): (&Model, State),
+    period: f64,
+    periods: u32,
+) -> Result<f64, Box<dyn Error>> {
     let body = job.scenario.figures.body.ok_or("a body")?;
     let start = from.time();
-    let mut run = Run::new(&found.model, &plan(job), from)?;
-    let end = |count: u32| start + f64::from(count) * found.period;
+    let mut run = Run::new(model, &plan(job), from)?;
+    let end = |count: u32| start + f64::from(count) * period;
     run.advance(end(periods - 1), &mut ())?;
-    let before = x(&found.model, run.state(), body)?;
+    let before = x(model, run.state(), body)?;
     run.advance(end(periods), &mut ())?;
-    Ok(x(&found.model, run.state(), body)? - before)
+    Ok(x(model, run.state(), body)? - before)
 }
 
 /// The plain runs start at t = 0 and know nothing of the search.
@@ -44,7 +49,9 @@ fn settles_on(name: &str, periods: u32) -> Checked {
 fn settles_on_with((name, set): (&str, &[(&str, &str)]), periods: u32) -> Checked {
     let job = job(name, set)?;
     let found = steady::find(&job, &Options::default())?;
-    let waited = last_step(&job, &found, found.model.start(&plan(&job))?, periods)?;
+    // The drive as its scenario has it: what the search makes of it knows nothing of this run.
+    let start = (&job.model, job.model.start(&plan(&job))?);
+    let waited = last_step(&job, start, found.period, periods)?;
     let off = (found.step.ok_or("a step")? - waited).abs() / job.contact_scale(0).0;
     assert!(off <= 1e-10, "{name}: {off:e} u_c");
     Ok(())
@@ -65,6 +72,34 @@ fn the_piezo_stack_settles_on_the_step() -> Checked {
 fn a_slider_that_a_damper_brakes_settles_on_the_step() -> Checked {
     let brake = r#"{"between": ["ground", "slider"], "damping": "500 N s/m"}"#;
     settles_on_with(("quickstart.json", &[("loads", "[]"), ("springs.brake", brake)]), 100)
+}
+
+/// A pattern keeps its rests and its runs when it is taken to have no end.
+#[test]
+fn bursts_and_sequences_settle_on_the_step() -> Checked {
+    for (key, value) in [
+        ("burst", r#"{"cycles": 3, "dwell": "20 ms"}"#),
+        ("burst", r#"{"cycles": 2, "dwell": "3 ms"}"#),
+        ("sequence", r#"[{"cycles": 2}]"#),
+        ("sequence", r#"[{"cycles": 3}, {"cycles": 1, "reversed": true}]"#),
+    ] {
+        let key = format!("waveforms.drive.sawtooth.{key}");
+        settles_on_with(("quickstart.json", &[(&key, value)]), 40)?;
+    }
+    Ok(())
+}
+
+/// Just above the largest stroke without a step gross slip is short, and knots are left at every moment of the period: the branch that
+/// was made of them drifts along with the slider as they do.
+#[test]
+fn a_drive_whose_contact_never_forgets_settles_on_the_step() -> Checked {
+    for stroke in ["49 nm", "49.5 nm", "50 nm"] {
+        let set = [("waveforms.drive.sawtooth.stroke", &*format!("\"{stroke}\""))];
+        let found = steady::find(&job("quickstart.json", &set)?, &Options::default())?;
+        assert!(found.unknowns.iter().any(|unknown| unknown.contains("knot")), "{:?}", found.unknowns);
+        settles_on_with(("quickstart.json", &set), 200)?;
+    }
+    Ok(())
 }
 
 /// What its driver's source gives and what is lost goes on from period to period, and is no part of the motion.

@@ -2,10 +2,10 @@
 
 use crate::arguments::CharacteriseArguments;
 use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::Interrupt;
+use crate::console::interrupt::{Interrupt, Interrupted};
 use crate::console::progress::Progress;
+use crate::console::table;
 use crate::console::verdict::Verdict;
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, curve as picture};
@@ -15,9 +15,6 @@ use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Real, Watcher, quantity};
 use stickslip_study::curve::{self, Curve, CurveError, Kind, Point, Range, Traced};
 use thiserror::Error;
-
-/// A line under the heads, nothing else.
-const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
 /// Why there is no curve.
 #[derive(Debug, Error)]
@@ -98,16 +95,6 @@ fn range(
     Ok(Range { from, to, points: arguments.points, decades: arguments.log })
 }
 
-/// Whoever may end it, without a bar.
-struct Interrupted<'a>(&'a Interrupt);
-
-impl Watcher for Interrupted<'_> {
-    fn reached(&self, _: f64) {}
-    fn goes_on(&self) -> bool {
-        !self.0.is_raised()
-    }
-}
-
 /// Where the files go.
 fn folder(arguments: &CharacteriseArguments, curve: &Curve) -> PathBuf {
     let own = || Path::new("results").join(format!("{}-{}", curve.job.name, curve.kind.name()));
@@ -132,15 +119,12 @@ fn write(
 
 /// The points as a table, and what is wrong with some of them.
 fn tell(curve: &Curve, traced: &Traced) {
-    let mut table = Table::new();
-    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
     let heads = [curve.variation.name.as_str(), "step", "mean speed"].into_iter();
-    table.set_header(heads.chain(curve.kind.is_of_load().then_some("power")).chain(["motion"]));
+    let mut table = table::plain(heads.chain(curve.kind.is_of_load().then_some("power")).chain(["motion"]));
     for (place, point) in traced.points.iter().enumerate() {
         table.add_row(row(curve, traced, (place, point)));
     }
-    let numbers = if curve.kind.is_of_load() { 4 } else { 3 };
-    table.column_iter_mut().take(numbers).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    table::to_the_right(&mut table, 0..=if curve.kind.is_of_load() { 3 } else { 2 });
     say(format_args!("{table}"));
     for landmark in &traced.landmarks {
         match &landmark.at {

@@ -15,6 +15,8 @@ use stickslip_results::Warning;
 use stickslip_results::info::{
     self, BodyInfo, ContactInfo, Expectation, ModeInfo, PiezoInfo, Stepping, Usage, WaveformInfo,
 };
+use stickslip_results::outlook::Outlook;
+use stickslip_study::steady::outlook;
 
 /// Derived numbers of a scenario, in SI.
 #[derive(Debug, Serialize)]
@@ -31,6 +33,9 @@ struct Info {
     modes: Vec<ModeInfo>,
     /// Piezo stacks and their drivers.
     actuators: Parts<PiezoInfo>,
+    /// What the drive would settle on if its waveforms never ended.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steady_motion: Option<Outlook>,
     stepping: Stepping,
     expected: Expectation,
     usage: Usage,
@@ -68,6 +73,7 @@ impl Info {
             bodies: info::bodies(job),
             waveforms: info::waveforms(job),
             contacts: info::contacts(job),
+            steady_motion: outlook(job, &|| true),
             stepping: Stepping::of(job),
             expected: Expectation::of(job),
             actuators: info::piezos(job),

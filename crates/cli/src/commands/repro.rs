@@ -98,7 +98,7 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     drop(bar);
     if let Some(mut folder) = folder {
         folder.forget_checkpoint();
-        run::write(job, &arguments.look.look(), folder, (&outcome, drafts)).map_err(written)?;
+        run::write(job, (&arguments.look.look(), &|| true), folder, (&outcome, drafts)).map_err(written)?;
     }
     if let Some(source) = outcome.failure {
         return Err(written(source));

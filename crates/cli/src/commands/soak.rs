@@ -4,8 +4,9 @@ use crate::arguments::SoakArguments;
 use crate::console::answer::{complain, say};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
+use crate::console::table;
 use crate::console::verdict::Verdict;
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use comfy_table::Table;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_bench::BenchError;
@@ -13,9 +14,6 @@ use stickslip_bench::soak::{self, Finding, Seeds, hostile};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::Folder;
 use thiserror::Error;
-
-/// A line under the heads, nothing else.
-const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
 /// Why not everything was done.
 #[derive(Debug, Error)]
@@ -116,10 +114,8 @@ fn ending(interrupted: bool, findings: &[Finding]) -> Verdict {
 fn shares(findings: &[Finding]) -> Table {
     let met = soak::Verdict::ALL.into_iter().filter(|verdict| soak::count(findings, None, *verdict) > 0);
     let verdicts: Vec<soak::Verdict> = met.collect();
-    let mut table = Table::new();
-    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
-    let heads = verdicts.iter().map(|verdict| verdict.name().to_owned());
-    table.set_header(["kind", "scenes"].map(str::to_owned).into_iter().chain(heads));
+    let heads = verdicts.iter().map(|verdict| verdict.name());
+    let mut table = table::plain(["kind", "scenes"].into_iter().chain(heads));
     let mut kinds: Vec<&str> = Vec::new();
     for finding in findings {
         if !kinds.contains(&finding.kind) {
@@ -134,7 +130,7 @@ fn shares(findings: &[Finding]) -> Table {
         let numbers = counts.iter().map(usize::to_string);
         table.add_row([name, all.to_string()].into_iter().chain(numbers));
     }
-    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    table::to_the_right(&mut table, 1..=1 + verdicts.len());
     table
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use stickslip_results::Watcher;
 
 /// Tells whether somebody asked the program to stop.
 #[derive(Debug, Clone, Default)]
@@ -24,5 +25,15 @@ impl Interrupt {
     /// Whether to stop.
     pub(crate) fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Whoever may end work that no bar is shown of.
+pub(crate) struct Interrupted<'a>(pub(crate) &'a Interrupt);
+
+impl Watcher for Interrupted<'_> {
+    fn reached(&self, _: f64) {}
+    fn goes_on(&self) -> bool {
+        !self.0.is_raised()
     }
 }

@@ -41,7 +41,7 @@ impl Mode {
         }
     }
 
-    /// Counts displacements from another origin, `by` (m) further back: the law was made of the memory and lies where that does.
+    /// Counts displacements from another origin, `by` (m) further back: a law lies where the memory that it was made of does.
     pub(crate) fn shift(&mut self, by: f64) {
         match self {
             Self::Slip(branch) => branch.shift(by),

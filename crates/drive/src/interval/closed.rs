@@ -23,6 +23,8 @@ pub(crate) struct Closed<'a> {
     /// Sum of the coefficients: what a single coordinate counts in u.
     pub(crate) arm: f64,
     pub(super) branch: FixedDepthBranch,
+    /// The one free coordinate in u and its coefficient, where there is no other.
+    lever: Option<(usize, f64)>,
 }
 
 impl Closed<'_> {
@@ -58,6 +60,12 @@ impl Closed<'_> {
         self.own(x) + self.followed(t).value
     }
 
+    /// u̇ at time t, s; `v` reads velocities of free coordinates.
+    #[inline(always)]
+    pub(crate) fn speed(&self, t: f64, v: impl Fn(usize) -> f64) -> f64 {
+        self.own(v) + self.followed(t).rate
+    }
+
     /// Motion at time t, s; `x` and `v` read positions and velocities of free coordinates.
     #[inline(always)]
     pub(crate) fn motion(&self, t: f64, x: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64) -> Motion {
@@ -71,34 +79,35 @@ impl Closed<'_> {
         Apex { d: self.d, u: self.displacement(t, x) }
     }
 
-    /// Value of one of its guards at time t, s: the margin of its piece, or else the speed of its edge.
+    /// The same with ü, m/s²; `a` reads accelerations of free coordinates.
     #[inline(always)]
-    pub(crate) fn guard(
+    pub(crate) fn course(
         &self,
-        guard: Guard,
         t: f64,
         x: impl Fn(usize) -> f64,
         v: impl Fn(usize) -> f64,
-    ) -> f64 {
+        a: impl Fn(usize) -> f64,
+    ) -> (Motion, f64) {
+        let Sample { value, rate, acceleration } = self.followed(t);
+        let motion = Motion { d: self.d, u: self.own(x) + value, dd: 0.0, du: self.own(v) + rate };
+        (motion, self.own(a) + acceleration)
+    }
+
+    /// Value of one of its guards at a motion: the margin of its piece, or else the speed of its edge.
+    #[inline(always)]
+    pub(crate) fn guard(&self, guard: Guard, at: &Motion) -> f64 {
         match guard {
-            Guard::Piece => self.branch.margin(self.displacement(t, x)),
-            _ => self.branch.sense() * (self.own(v) + self.followed(t).rate),
+            Guard::Piece => self.branch.margin(at.u),
+            _ => self.branch.sense() * at.du,
         }
     }
 
-    /// Its rate at time t, s; `v` and `a` read velocities and accelerations.
+    /// Its rate, with ü (m/s²).
     #[inline(always)]
-    pub(crate) fn guard_rate(
-        &self,
-        guard: Guard,
-        t: f64,
-        v: impl Fn(usize) -> f64,
-        a: impl Fn(usize) -> f64,
-    ) -> f64 {
-        let followed = self.followed(t);
+    pub(crate) fn guard_rate(&self, guard: Guard, at: &Motion, second: f64) -> f64 {
         match guard {
-            Guard::Piece => -self.branch.sense() * (self.own(v) + followed.rate),
-            _ => self.branch.sense() * (self.own(a) + followed.acceleration),
+            Guard::Piece => -self.branch.sense() * at.du,
+            _ => self.branch.sense() * second,
         }
     }
 
@@ -129,7 +138,10 @@ impl Closed<'_> {
     /// What the free coordinates make of u, or their derivatives of its own.
     #[inline(always)]
     pub(crate) fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
-        self.contact.u.free.iter().map(|(i, a)| a * of(*i)).sum()
+        match self.lever {
+            Some((i, a)) => a * of(i),
+            None => self.contact.u.free.iter().map(|(i, a)| a * of(*i)).sum(),
+        }
     }
 }
 
@@ -150,5 +162,6 @@ pub(super) fn closed_form<'a>(
         followed: followed?,
         arm: contact.u.free.iter().map(|(_, a)| a).sum(),
         branch: branch.at_depth(*d, *reduced_force),
+        lever: if let [lever] = contact.u.free[..] { Some(lever) } else { None },
     })
 }

@@ -3,12 +3,13 @@
 //! Steps evaluate the equations some ten times each, and most scenes have few free coordinates. For up to [`WIDTH`] of them
 //! everything that an evaluation needs until the next event is gathered here when the interval begins: rows of Jacobians side
 //! by side with zeros where a coordinate does not count, what followers make of a length in closed form, the law of each
-//! contact. What has no such form (curved followers, rows in a lull, the whole law, blocks, varying loads) leaves the scene to
+//! contact; for more of them the same without zeros ([`wide`]). What has no such form (curved followers, rows in a lull, the whole law, blocks, varying loads) leaves the scene to
 //! the general [`Equations`], of which this is a copy that asks nothing twice.
 
 mod contacts;
 mod length;
 mod ties;
+mod wide;
 
 use super::{Closed, emptied};
 use crate::equations::Equations;
@@ -16,7 +17,9 @@ use crate::model::Model;
 use crate::state::State;
 use contacts::{Moving, Steady};
 use length::{Row, Sums};
+use stickslip_contact::FixedDepthBranch;
 use ties::Tie;
+use wide::Wide;
 
 /// Most free coordinates of a kernel: two bodies along both directions.
 pub(crate) const WIDTH: usize = 4;
@@ -24,20 +27,32 @@ pub(crate) const WIDTH: usize = 4;
 /// The forces of an interval. Scratch, made anew with it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Kernel<'a> {
-    /// Whether all that acts is in it.
-    whole: bool,
+    extent: Extent,
     /// Gravity and constant loads, N or N m, and inverse masses.
     forces: Row,
     mobilities: Row,
     steady: Vec<Steady<'a>>,
     moving: Vec<Moving<'a>>,
     links: Vec<Tie<'a>>,
+    wide: Wide<'a>,
+}
+
+/// What of all that acts is in a kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Extent {
+    /// Not all: the general equations hold.
+    #[default]
+    Part,
+    /// All, side by side.
+    Narrow,
+    /// All, on more coordinates than there is room for in a row.
+    Wide,
 }
 
 impl<'a> Kernel<'a> {
     /// Whether a model has room in one.
     fn fits(model: &Model) -> bool {
-        (1..=WIDTH).contains(&model.free.len())
+        !model.free.is_empty()
             && model.loads.is_empty()
             && model.blocks.is_empty()
             && model.balanced.is_empty()
@@ -46,6 +61,9 @@ impl<'a> Kernel<'a> {
     /// Room for all that acts in a model.
     pub(super) fn reserve(&mut self, model: &Model) {
         self.clear();
+        if model.free.len() > WIDTH {
+            return self.wide.reserve(model);
+        }
         self.steady.reserve(model.contacts.len());
         self.moving.reserve(model.contacts.len());
         self.links.reserve(model.links.len());
@@ -54,15 +72,16 @@ impl<'a> Kernel<'a> {
     /// The room that it takes, empty.
     pub(super) fn emptied(self) -> Kernel<'static> {
         let (steady, moving, links) = (emptied(self.steady), emptied(self.moving), emptied(self.links));
-        Kernel { steady, moving, links, ..Kernel::default() }
+        Kernel { steady, moving, links, wide: self.wide.emptied(), ..Kernel::default() }
     }
 
     /// No interval: the general equations hold.
     pub(super) fn clear(&mut self) {
-        self.whole = false;
+        self.extent = Extent::Part;
         self.steady.clear();
         self.moving.clear();
         self.links.clear();
+        self.wide.clear();
     }
 
     /// Lays out what acts between two events; leaves it to the general equations where something has no form here.
@@ -74,6 +93,12 @@ impl<'a> Kernel<'a> {
     ) {
         self.clear();
         if !Self::fits(model) {
+            return;
+        }
+        if model.free.len() > WIDTH {
+            if others.is_empty() && self.wide.lay_out((model, state), closed).is_some() {
+                self.extent = Extent::Wide;
+            }
             return;
         }
         for (i, free) in model.free.iter().enumerate() {
@@ -88,19 +113,29 @@ impl<'a> Kernel<'a> {
             let Some(tie) = Tie::of(link, model, state) else { return };
             self.links.push(tie);
         }
-        self.whole = true;
+        self.extent = Extent::Narrow;
+    }
+
+    /// Takes up another branch of a contact of closed form, by its place among these.
+    pub(super) fn renew(&mut self, place: usize, branch: FixedDepthBranch) {
+        match self.extent {
+            Extent::Part => {}
+            Extent::Narrow => self.steady[place].renew(branch),
+            Extent::Wide => self.wide.renew(place, branch),
+        }
     }
 
     /// Whether all that acts is in it.
     #[inline(always)]
     pub(crate) fn is_whole(&self) -> bool {
-        self.whole
+        self.extent != Extent::Part
     }
 
     /// Slopes of all components, as [`Equations::slopes`](stickslip_stepper::System::slopes) has them.
     #[inline(always)]
     pub(crate) fn slopes(&self, eq: &Equations<'_>, (t, y): (f64, &[f64]), dy: &mut [f64]) {
         match eq.layout.free {
+            _ if self.extent == Extent::Wide => self.wide.slopes(eq, (t, y), dy),
             1 => self.slopes_of::<1>(eq, (t, y), dy),
             2 => self.slopes_of::<2>(eq, (t, y), dy),
             3 => self.slopes_of::<3>(eq, (t, y), dy),
@@ -110,8 +145,9 @@ impl<'a> Kernel<'a> {
 
     /// The same without velocities: accelerations, and the power put in.
     #[inline(always)]
-    pub(crate) fn accelerations(&self, (t, x): (f64, &[f64]), out: &mut [f64]) {
+    pub(crate) fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
         match x.len() {
+            _ if self.extent == Extent::Wide => self.wide.accelerations(eq, (t, x), out),
             1 => self.accelerations_of::<1>((t, x), out),
             2 => self.accelerations_of::<2>((t, x), out),
             3 => self.accelerations_of::<3>((t, x), out),
@@ -137,8 +173,9 @@ impl<'a> Kernel<'a> {
             return;
         };
         *dx = *v;
-        for slope in extra.iter_mut() {
-            *slope = 0.0;
+        // Beside the powers there are only the slopes of what grows.
+        if eq.layout.growing > 0 {
+            extra.fill(0.0);
         }
         let mut sums = self.sums::<N>();
         for steady in &self.steady {

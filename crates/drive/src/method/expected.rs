@@ -4,9 +4,7 @@
 //! waveforms on straight pieces or on curved ones, and the run's own functions are asked what they would do there. Kinds of
 //! intervals that a scene cannot come to, such as a flight of a contact that is always pressed, are left out.
 
-use super::{
-    IntervalTraits, Method, SceneTraits, TIGHTEST_BRIEF, Treatment, Why, choice, stepping, treatment,
-};
+use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
 use crate::contact::{Contact, Mode, Motion};
 use crate::equations::Equations;
 use crate::interval::{Followed, Interval, PhasePoint, Swing};
@@ -111,8 +109,12 @@ impl Model {
             Accuracy::Tolerance(tolerance) => tolerance,
             Accuracy::Step(_) | Accuracy::Frame { .. } => 0.0,
         };
-        if tolerance >= TIGHTEST_BRIEF && expected.takes(Method::DormandPrince) {
-            expected.add((Method::Brief, Why::NearEvent));
+        let (method, _) = stepping(&scene);
+        if let Some(brief) = method.brief()
+            && tolerance >= method.tightest_brief()
+            && expected.takes(method)
+        {
+            expected.add((brief, Why::NearEvent));
         }
         // Implicit steps are all even.
         if !scene.stiff && self.contacts.iter().any(Contact::ends_singularly) {

@@ -28,11 +28,12 @@ impl Clone for Tally {
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Walk,
         Self::Swing,
         Self::Parabola,
         Self::Nystrom,
+        Self::BriefNystrom,
         Self::DormandPrince,
         Self::Brief,
         Self::Radau,
@@ -48,6 +49,7 @@ impl Method {
             Self::Swing => "closed form from event to event",
             Self::Parabola => "parabola",
             Self::Nystrom => "Runge–Kutta–Nyström 8(6)",
+            Self::BriefNystrom => "Nyström 5",
             Self::DormandPrince => "Dormand–Prince 8(5,3)",
             Self::Brief => "Dormand–Prince 5(4)",
             Self::Radau => "Radau IIA 9, implicit",

@@ -2,9 +2,8 @@
 //!
 //! Each contact follows the law set at its last event, which goes on smoothly beyond the event that will end it. A step is
 //! attempted on these laws; if a guard falls below zero inside it, the moment is found on the dense output and the step
-//! ends there, in the state that the dense output has. Then memory is committed, all contacts together, and those whose
-//! guard fell get their next law. Steps that no event ends leave the memories of contacts of closed form to the next one that
-//! does. Corners of waveforms end steps exactly. Where an interval has a closed form, no step is attempted: one leap takes
+//! ends there, in the state that the dense output has. Then memories move, all that do together, and contacts whose
+//! guard fell get their next law. The memory of a contact of closed form waits for an event of its own. Corners of waveforms end steps exactly. Where an interval has a closed form, no step is attempted: one leap takes
 //! it to its end.
 //!
 //! The sentence is [`Located::step`]. Its parts own what they change: [`Motion`] the solver and what steers it, [`Watch`] the
@@ -27,6 +26,8 @@ mod search;
 mod shift;
 mod steady;
 mod step;
+#[cfg(test)]
+mod tests;
 mod turning;
 mod underway;
 mod watch;

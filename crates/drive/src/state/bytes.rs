@@ -23,8 +23,8 @@ use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"stickslp";
 /// Version of the format: 2 counts the steps whose estimate missed, 3 has parts, one method more, and a driver's charge of strain,
-/// 4 an implicit method.
-const VERSION: u64 = 4;
+/// 4 an implicit method, 5 one of few stages more.
+const VERSION: u64 = 5;
 /// Steppers at fixed step, by their number.
 const FIXED: [&str; 3] = ["rk4", "verlet", "frames"];
 /// Bytes before the words.

@@ -3,6 +3,7 @@
 //! What a held run must come to is what an undisturbed one comes to: to the bit where nothing was cut, within the tolerance
 //! where it was.
 
+use crate::chains::chain;
 use crate::lottery::{Draw, deal, on_rows};
 use crate::parts::{FOOT_SLIDER, contact, damped, damper, event, foot_and_slider, named, p1, plan};
 use crate::soak::pressed;
@@ -27,7 +28,12 @@ fn scenes() -> Vec<(Scene, f64, String)> {
         (scene, period, format!("pressed {seed}"))
     });
     // Events accumulate in the last one: there it is left in the middle of a detour, too.
-    let others = [(p1(), PERIOD, "P1".to_owned()), (dragged_back(), 7.8e-3, "dragged back".to_owned())];
+    let sawtooth = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 };
+    let others = [
+        (p1(), PERIOD, "P1".to_owned()),
+        (dragged_back(), 7.8e-3, "dragged back".to_owned()),
+        (chain(sawtooth, 6), PERIOD, "chain".to_owned()),
+    ];
     drawn.chain(begun_badly).chain(others).collect()
 }
 

@@ -14,6 +14,7 @@ mod abuse;
 mod balanced;
 mod balanced_bodies;
 mod benchmark_drive;
+mod chains;
 mod closed_forms;
 mod contact_damping;
 mod coupled_books;

@@ -131,7 +131,7 @@ fn framed(
     let (middle, centre) = bounds.centre();
     // More than the width holds what no symbols are small enough for.
     let width = (bounds.right - bounds.left + 2.0 * NAMES).max(WIDTH);
-    let height = (bounds.top - bounds.bottom + 2.0 * NAMES).max(LEAST_HEIGHT);
+    let height = (bounds.top - bounds.bottom + 2.0 * NAMES).max(LEAST_HEIGHT).max(width / SLIVER);
     let axis = |name: &str, stretch: f64, (centre, length, scale): (f64, f64, f64)| {
         let label = if is_to_scale && stretch > 1.0 {
             format!("{name}, enlarged {stretch} times")

@@ -12,11 +12,14 @@ impl<N: Storage> Nystrom<N> {
         if self.known.dense {
             return;
         }
+        self.known.dense = true;
+        if self.few {
+            return self.interpolate_fifth();
+        }
         if !self.constant {
             self.refine(system);
         }
         self.tracks.as_mut().iter_mut().for_each(Track::interpolate);
-        self.known.dense = true;
     }
 
     /// Evaluates the samples inside the step again: the stages there are of order 4 only.

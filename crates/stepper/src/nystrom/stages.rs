@@ -7,13 +7,19 @@ use super::{Conservative, Nystrom, Storage};
 impl<N: Storage> Nystrom<N> {
     /// Takes all stages up to a time and concludes the step.
     #[inline(always)]
-    pub(super) fn step_to<S: Conservative + ?Sized>(&mut self, system: &S, end: f64) {
+    pub(super) fn step_to<S: Conservative + ?Sized>(&mut self, system: &S, end: f64, few: bool) {
         if !self.known.first {
             self.restart_slopes(system);
         }
         self.forget_step();
         let (t, h) = (self.time, end - self.time);
         (self.step, self.end_time) = (h, end);
+        self.few = few && !self.constant;
+        if self.few {
+            self.step_by_fifth(system, end);
+            self.known.last = true;
+            return;
+        }
         if self.constant {
             self.advance_constant();
         } else {

@@ -1,9 +1,6 @@
 //! The points of a curve, each the steady motion of a scene of its own.
 
 use super::{Motion, Motionless};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 /// A point of a curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,26 +11,4 @@ pub struct Point {
     pub set: Vec<(String, String)>,
     /// What the drive does there, or why that is not known.
     pub motion: Result<Motion, Motionless>,
-}
-
-/// Computes so many things on so many cores, each by its place; they come in order.
-pub(super) fn each<T: Send>(count: usize, cores: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::with_capacity(count)));
-    let work = || {
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            if place >= count {
-                break;
-            }
-            let found = of(place);
-            done.lock().unwrap_or_else(PoisonError::into_inner).push((place, found));
-        }
-    };
-    thread::scope(|scope| {
-        (1..cores.min(count)).for_each(|_| drop(scope.spawn(work)));
-        work();
-    });
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    done.sort_by_key(|(place, _)| *place);
-    done.into_iter().map(|(_, found)| found).collect()
 }

@@ -97,7 +97,7 @@ pub(super) fn job(job: &Job, start: f64, folder: PathBuf) -> Result<Job, SteadyE
 
 /// The same waveform without an end.
 fn endless(waveform: &Waveform) -> Waveform {
-    let timing = Timing { cycles: None, ..*waveform.timing() };
+    let timing = Timing { cycles: None, ..*waveform.given() };
     Waveform::new(waveform.shape().clone(), timing).unwrap_or_else(|_| waveform.clone())
 }
 

@@ -56,6 +56,12 @@ pub enum SteadyError {
     /// A run stopped itself.
     #[error("a period could not be computed: {0}")]
     Run(#[from] RunError),
+    /// It takes more steps than were allowed.
+    #[error("no steady motion found within {steps} steps\n   help: allow more")]
+    Costly {
+        /// Most steps altogether.
+        steps: u64,
+    },
     /// The iteration did not end.
     #[error(
         "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: look at a plain run: it may repeat itself every second period, or never; start nearer, with a smaller stroke, or allow more periods"

@@ -2,6 +2,7 @@
 //!
 //! Numbers are counted in natural scales: u_c of a coordinate's contacts, u_c ω of its speed.
 
+use super::newton::Fixed;
 use super::{Options, SteadyError};
 use nalgebra::{DMatrix, DVector};
 use stickslip_drive::section::{Section, Unknown};
@@ -28,6 +29,8 @@ pub(super) struct Map<'m> {
     work: f64,
     /// Steps and events of the last period.
     steps: u64,
+    /// Steps that may still be taken.
+    left: u64,
 }
 
 /// Where a state has got to in a period.
@@ -80,13 +83,28 @@ impl Record for Asked<'_> {
     }
 }
 
+/// Accepted and rejected steps so far.
+fn tried(state: &State) -> u64 {
+    state.counts().steps + state.counts().rejected
+}
+
 impl<'m> Map<'m> {
     /// The map of a model at no moment yet.
     pub(super) fn new(model: &'m Model, period: f64, job: &Job, options: &'m Options<'m>) -> Self {
         let limits = Limits { wall: None, ..job.scenario.plan.limits };
         let stepper = Stepper::Event { tolerance: options.tolerance };
         let plan = Plan { duration: f64::MAX, stepper, limits, every: None, until_steady: None };
-        Self { model, period, plan, section: None, scales: DVector::zeros(0), options, work: 0.0, steps: 0 }
+        Self {
+            model,
+            period,
+            plan,
+            section: None,
+            scales: DVector::zeros(0),
+            options,
+            work: 0.0,
+            steps: 0,
+            left: options.steps,
+        }
     }
 
     /// The map at a section.
@@ -160,14 +178,20 @@ impl<'m> Map<'m> {
     }
 
     fn run(
-        &self,
+        &mut self,
         state: State,
         until: f64,
         plan: Plan,
         record: &mut dyn Record,
     ) -> Result<State, SteadyError> {
+        let before = tried(&state);
+        let most = before.saturating_add(self.left);
+        let costs = most < plan.limits.steps;
+        let limits = Limits { steps: most.min(plan.limits.steps), ..plan.limits };
+        let plan = Plan { limits, ..plan };
         let interrupted = |error: RunError| match error {
             RunError::Interrupted { .. } => SteadyError::Interrupted(self.work()),
+            RunError::TooManySteps { .. } if costs => SteadyError::Costly { steps: self.options.steps },
             error => error.into(),
         };
         // A cheap period is over before its run asks.
@@ -178,7 +202,9 @@ impl<'m> Map<'m> {
         let mut run = Run::new(self.model, &plan, state).map_err(interrupted)?;
         run.advance(until, &mut asked).map_err(interrupted)?;
         run.stop(&mut ());
-        Ok(run.into_state())
+        let state = run.into_state();
+        self.left = self.left.saturating_sub(tried(&state) - before);
+        Ok(state)
     }
 
     /// Where a state of the section gets to in a period, by the tolerance times `finer`.
@@ -194,6 +220,16 @@ impl<'m> Map<'m> {
             None => (end, Vec::new()),
         };
         Ok(Image { state, way })
+    }
+
+    /// By how much a state some periods after a fixed point is off, in natural scales: of its numbers, and of the way.
+    pub(super) fn missed_after(&self, state: State, (fixed, periods): (&Fixed, f64)) -> f64 {
+        let Some(section) = &self.section else { return 0.0 };
+        let (state, way) = section.back(state);
+        let numbers = self.difference(&state, &fixed.state).map_or(f64::INFINITY, |off| off.amax());
+        let scales = section.lengths();
+        let ways = way.iter().zip(&fixed.image.way).zip(&scales);
+        ways.map(|((way, one), scale)| (way - periods * one).abs() / scale).fold(numbers, f64::max)
     }
 
     /// Numbers of one state less those of another, in natural scales; none where their memories have other knots.

@@ -6,10 +6,15 @@
 
 use super::SteadyError;
 use super::map::Map;
+use super::newton::Fixed;
 use stickslip_drive::{Event, EventKind, Model, Record, Source, State};
 
 /// Stretches that are looked at, the longest first.
 const MOST: usize = 256;
+/// By how much the second of two periods may be off, in defects of the first: disturbances may grow.
+const AGAIN: f64 = 1e6;
+/// Most of it, in natural scales.
+const OFF: f64 = 1e-3;
 /// Shorter ones are too near to an event on either side, as a part of the period.
 const SHORTEST: f64 = 1e-4;
 
@@ -62,6 +67,23 @@ pub(super) fn settle(
     let chosen = choose(map, &state, &stretches)?;
     let never_gave_way = (0..contacts).filter(|c| !moments.gave_way[*c]).collect();
     Ok(Settled { state: chosen, never_gave_way })
+}
+
+/// Goes two plain periods from a fixed point, the second from where the first has led: that it comes by as much again shows that
+/// nothing was forgotten of what the motion depends on. Tells which contacts did not give way in it.
+pub(super) fn twice(map: &mut Map<'_>, fixed: &Fixed) -> Result<Vec<usize>, SteadyError> {
+    let model = map.model();
+    let contacts = model.contacts().count();
+    let gave_way = (0..contacts).map(|c| fixed.state.has_given_way(model, c)).collect();
+    let mut moments = Moments { times: Vec::new(), gave_way };
+    let (from, period) = (fixed.state.time(), map.period());
+    let first = map.lead(fixed.state.clone(), from + period, &mut ())?;
+    let second = map.lead(first, from + 2.0 * period, &mut moments)?;
+    let off = map.missed_after(second, (fixed, 2.0));
+    if off > (AGAIN * map.tolerance().max(fixed.defect.amax())).min(OFF) {
+        return Err(SteadyError::NoConvergence { best: off, periods: map.work() });
+    }
+    Ok((0..contacts).filter(|c| !moments.gave_way[*c]).collect())
 }
 
 /// Stretches between two events as (middle, length), s, by their middle; those that are too short are left out.

@@ -1,14 +1,11 @@
 //! What a comparison tells people.
 
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use crate::console::table;
 use serde_json::Value;
 use stickslip_results::compare::{ChannelDifference, Comparison, FigureDifference, Lone, time};
 
 /// Events and figures shown of each sort; `--json` has all.
 const SHOWN: usize = 5;
-
-/// A line under the heads, nothing else.
-const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
 /// A table of channels, then events, figures and the first difference.
 pub(crate) fn text(comparison: &Comparison) -> String {
@@ -49,9 +46,7 @@ fn share(share: f64) -> String {
 }
 
 fn channels(comparison: &Comparison) -> Vec<String> {
-    let mut table = Table::new();
-    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(["channel", "worst", "at t", "allowed", ""]);
+    let mut table = table::plain(["channel", "worst", "at t", "allowed", ""]);
     for channel in &comparison.channels {
         let at = channel.at.map(|at| format!("{} s", time(at.0))).unwrap_or_default();
         let verdict = if channel.is_same() { "ok" } else { "DIFFERS" };
@@ -61,9 +56,7 @@ fn channels(comparison: &Comparison) -> Vec<String> {
     for name in &comparison.channels_missing {
         table.add_row([name, "", "", "", "MISSING in B"]);
     }
-    for column in table.column_iter_mut().skip(1).take(3) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
+    table::to_the_right(&mut table, 1..=3);
     table.lines().map(|line| format!(" {}", line.trim_end())).collect()
 }
 

@@ -7,6 +7,7 @@ use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
 use stickslip_results::Real;
 use stickslip_results::info::Item;
 use stickslip_results::info::{BodyInfo, Freed, ModeInfo, PiezoInfo, WaveformInfo};
+use stickslip_results::outlook::Outlook;
 use stickslip_results::quantity;
 
 /// Widest line.
@@ -34,6 +35,7 @@ impl Info {
             columns::contacts(&self.contacts.0),
             modes,
             self.actuators(),
+            self.lasting(),
             self.run(),
             self.usage(),
         ];
@@ -113,6 +115,22 @@ impl Info {
         let table = grid(["ACTUATORS", "command, as a stroke", "stack"], self.actuators.0.iter().map(row));
         let said = self.actuators.0.iter().flat_map(|(_, piezo)| &piezo.words);
         std::iter::once(table).chain(said.map(|words| paragraph(words))).collect::<Vec<_>>().join("\n\n")
+    }
+
+    fn lasting(&self) -> String {
+        let Some(outlook) = &self.steady_motion else { return String::new() };
+        let rows = match outlook {
+            Outlook::Found(motion) => {
+                let [step, error] = [motion.step, motion.error].map(|length| quantity(length, "m"));
+                vec![
+                    ["step", &format!("{step} ± {error} a period, {}", quantity(motion.speed, "m/s"))]
+                        .map(str::to_owned),
+                    ["a disturbance", &motion.words].map(str::to_owned),
+                ]
+            }
+            Outlook::NotFound { fault } => vec![["none", fault.as_str()].map(str::to_owned)],
+        };
+        grid(["STEADY MOTION", ""], rows.into_iter().map(Vec::from))
     }
 
     fn run(&self) -> String {

@@ -8,6 +8,7 @@ use stickslip_results::Job;
 use stickslip_results::Outcome;
 use stickslip_results::Real;
 use stickslip_results::complaint::words;
+use stickslip_results::outlook::Outlook;
 use stickslip_results::quantity;
 use stickslip_results::summary::{DriveSummary, Fretting, SettlingSummary, Status, Summary};
 
@@ -177,6 +178,17 @@ fn settling(steps: &DriveSummary) -> String {
     }
 }
 
+/// What the drive would settle on.
+fn lasting(outlook: &Outlook) -> String {
+    match outlook {
+        Outlook::Found(motion) => {
+            let step = quantity(motion.step, "m");
+            format!("steady motion: {step} a period; a disturbance {}", motion.words)
+        }
+        Outlook::NotFound { fault } => fault.clone(),
+    }
+}
+
 /// What the last cycle of a contact has come to.
 fn cycle(fretting: &Fretting) -> String {
     let energy = |energy: Real| quantity(energy, "J");
@@ -210,6 +222,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     if let Some(steps) = &summary.steps {
         lines.push(format!("  {}, mean speed {}", settling(steps), quantity(steps.mean_speed, "m/s")));
         lines.extend(steps.oddity().iter().map(|line| format!("    {line}")));
+        lines.extend(summary.outlook().map(|outlook| format!("  {}", lasting(outlook))));
     }
     for (name, contact) in &summary.contacts.0 {
         if let Some(fretting) = &contact.fretting {

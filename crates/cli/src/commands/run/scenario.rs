@@ -10,7 +10,9 @@ use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
 use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
+use stickslip_results::summary::Status;
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, Watcher};
+use stickslip_study::steady::outlook;
 
 /// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.
 const RESERVE: usize = 1 << 16;
@@ -62,6 +64,7 @@ pub(crate) fn run(
     let watcher: &dyn Watcher = paced.as_ref().map_or(&bar, |paced| paced);
     let recorder = Recorder::new(job, watcher);
     let recorder = if job.scenario.plots.is_empty() { recorder } else { recorder.fingerprinted() };
+    let goes_on = || !interrupt.is_raised();
     let report = recorder.with_tables(&folder).and_then(|mut recorder| {
         let keeper = match beginning {
             Beginning::Plain => None,
@@ -75,23 +78,26 @@ pub(crate) fn run(
         let Some(keeper) = keeper else {
             folder.forget_checkpoint();
             let (outcome, drafts) = job.run_recorded(recorder)?;
-            return write(job, look, folder, (&outcome, drafts));
+            return write(job, (look, &goes_on), folder, (&outcome, drafts));
         };
         let (outcome, drafts) = job.run_kept(recorder, keeper)?;
-        Ok(write(job, look, folder, (&outcome, drafts))?.resumable(job, &outcome))
+        Ok(write(job, (look, &goes_on), folder, (&outcome, drafts))?.resumable(job, &outcome))
     });
     let report = report.unwrap_or_else(|error| Report::not_written(job, &error));
     report.with_pace(paced.map(|paced| paced.words()))
 }
 
-/// Writes what comes beside the tables, and gives all files their names.
+/// Writes what comes beside the tables, and gives all files their names. `goes_on` is asked while the steady motion is looked for.
 pub(crate) fn write(
     job: &Job,
-    look: &Look,
+    (look, goes_on): (&Look, &dyn Fn() -> bool),
     mut folder: Folder,
     (outcome, drafts): (&Outcome, Vec<Draft>),
 ) -> io::Result<Report> {
     let mut summary = Summary::new(job, outcome);
+    if summary.status == Status::Done {
+        summary.set_outlook(outlook(job, goes_on));
+    }
     summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;
     if outcome.failure.is_some() {

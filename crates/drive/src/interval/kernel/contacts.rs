@@ -52,6 +52,11 @@ impl<'a> Steady<'a> {
         Self { u, count: closed.contact.count, branch: closed.branch, profile }
     }
 
+    /// Takes up another branch.
+    pub(super) fn renew(&mut self, branch: FixedDepthBranch) {
+        self.branch = branch;
+    }
+
     #[inline(always)]
     pub(super) fn act<const N: usize>(&self, t: f64, x: &[f64; N], sums: &mut Sums<N>) {
         let followed = self.u.followed.at(t);

@@ -10,7 +10,6 @@
 //! its order.
 
 use super::Located;
-use super::watch::Watch;
 use crate::contact::{Contact, Guard, Mode};
 use crate::equations::Equations;
 use crate::interval::Closed;
@@ -124,7 +123,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return None;
         }
         let eq = self.setting.equations(state, &self.interval);
-        let ends = left.min(OVERSTEP * self.watch.turn(&eq, &self.motion.solver)).min(corner - state.t);
+        let ends = left.min(OVERSTEP * self.watch.turn(&eq)).min(corner - state.t);
         let brief = |step: f64| Aim {
             target: end(state.t, step, corner),
             grade: Grade::Few,
@@ -142,10 +141,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// even step does as well. Under a vibrating foot even steps of Nyström's method took ten steps and four
     /// rejections for each start of gross slip.
     fn is_singular(&self, state: &State, end: Expected) -> bool {
-        let (contact, motion) = (
-            &self.setting.model.contacts[end.contact],
-            self.watch.motion_at_start(&self.interval, end.contact, &self.motion.solver),
-        );
+        let (contact, motion) =
+            (&self.setting.model.contacts[end.contact], self.watch.from[end.contact].motion);
         if !self.motion.solver.grades() {
             return false;
         }
@@ -164,14 +161,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// [`Pace::closeness`]: super::motion::Pace::closeness
     fn start_grade(&self, state: &State, step: f64) -> Grade {
-        let touched = |(c, contact): (usize, &Contact)| {
+        let touched = |c: usize| {
+            let contact = &self.setting.model.contacts[c];
             let motion = self.watch.from[c].motion;
             // A depth that never changes has no first moment.
             !contact.is_constant()
                 && matches!(state.modes[c], Mode::Grow | Mode::Slip(_))
                 && motion.d <= self.motion.pace.closeness * motion.dd * step
         };
-        if self.motion.solver.grades() && self.setting.model.contacts.iter().enumerate().any(touched) {
+        // What has a closed form has been pressed all along.
+        if self.motion.solver.grades() && self.interval.others.iter().copied().any(touched) {
             Grade::Start
         } else {
             Grade::Even
@@ -182,9 +181,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// None where no edge will reach the end of its piece as it moves now.
     fn piece_end(&self, state: &State) -> Option<Expected> {
-        let (eq, n) = (self.setting.equations(state, &self.interval), self.setting.layout.free);
-        let of_steady = |steady: &Closed<'_>| Watch::expected_of_closed(steady, n, &self.motion.solver);
-        // Contacts of closed form have no entry in the watch: their motion is read off the state.
+        let (eq, begin) = (self.setting.equations(state, &self.interval), self.motion.solver.span().begin);
+        let of_steady = |steady: &Closed<'_>| self.watch.expected_of_closed(steady, begin);
         let steady = self.interval.closed.iter().map(|steady| (steady.index, of_steady(steady)));
         let all = steady.chain(
             self.interval.open_form().map(|c| (c, self.watch.expected_of(&eq, c, &self.motion.solver))),
@@ -198,7 +196,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Of contacts pressed by their bodies' motion only.
     fn lift_off(&self, state: &State, step: f64) -> Option<Expected> {
         let mut first: Option<Expected> = None;
-        for (c, contact) in self.setting.model.contacts.iter().enumerate() {
+        for &c in &self.interval.others {
+            let contact = &self.setting.model.contacts[c];
             let Some(measure) = contact.coupling().filter(|_| state.modes[c] != Mode::Open) else { continue };
             if let Some(left) = self.leaves(c, contact, measure, 2.0 * step)
                 && first.is_none_or(|first| left < first.left)

@@ -8,7 +8,7 @@
 use crate::Model;
 use crate::contact::Contact;
 use crate::equations::{Components, Equations};
-use crate::model::Link;
+use crate::model::{Link, Stroke};
 use crate::state::{Allowed, State};
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
@@ -132,7 +132,7 @@ fn allow_rush(model: &Model, state: &State, scale: &mut [f64]) {
     let moment = RUSH / model.fastest;
     let late = f64::EPSILON * state.t * moment;
     let mut work = 0.0;
-    for link in &model.links {
+    for link in model.links.iter().filter(|link| matches!(link.stroke, Stroke::Driven(_))) {
         let stroke = equations.stroke(link, &at);
         let push = late * (link.stiffness * stroke.rate + link.damping * stroke.acceleration).abs();
         work += push * stroke.rate.abs();

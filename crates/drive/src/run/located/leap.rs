@@ -271,7 +271,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return;
         }
         let pieces = steady.filter(|steady| steady.guards.contains(&Guard::Piece));
-        let left = |steady: &Closed<'_>| steady.guard(Guard::Piece, state.t, |_| state.y[0], |_| state.y[1]);
+        let left = |steady: &Closed<'_>| {
+            let motion = steady.motion(state.t, |_| state.y[0], |_| state.y[1]);
+            steady.guard(Guard::Piece, &motion)
+        };
         // Twins close their loops at once; rounding must not make two events of them.
         let least = pieces.clone().map(left).fold(f64::INFINITY, f64::min);
         let reached = pieces.filter(|steady| {

@@ -10,7 +10,7 @@ use super::allowance::Allowance;
 use crate::Waveform;
 use crate::contact::Contact;
 use crate::equations::Equations;
-use crate::method::{Method, TIGHTEST_BRIEF};
+use crate::method::Method;
 use crate::model::{Free, Model};
 use crate::record;
 use crate::state::{Ahead, Gait, Grip, State, Whereabouts};
@@ -64,7 +64,7 @@ impl<A> Motion<A> {
         let pace = Pace {
             longest: longest(model),
             first: scene_time(model),
-            short: if setting.method == Method::DormandPrince { short(model, tolerance) } else { 0.0 },
+            short: short(setting.method, model, tolerance),
             closeness: closeness(model, tolerance),
             resolved: tolerance.powf(2.0 / 3.0),
             gait: Gait::FRESH,
@@ -274,16 +274,31 @@ fn closeness(model: &Model, tolerance: f64) -> f64 {
     0.1 * tolerance.powf(if damped { 2.0 / 3.0 } else { 0.4 })
 }
 
-/// Error of a swing's amplitude that the embedded estimate of order 5 tells after a step of one radian: what its polynomial of
-/// stability lacks of the fifth power, 1097/120000 - 1/120.
-const ESTIMATED: f64 = 8.1e-4;
-/// Longest step of it, rad: up to here swings do not grow.
-const STABLE: f64 = 0.9;
+/// What the estimate of a method of few stages tells of a swing of the natural amplitude, error · θ^-power after a step of θ rad, and
+/// the longest step, rad, up to which swings do not grow, or by less than 1e-5 of a radian.
+///
+/// Of Dormand and Prince's: what its embedded polynomial of stability lacks of the fifth power, 1097/120000 - 1/120. Of Nyström's:
+/// 35/336 of what the acceleration of its last stage differs from that at the end, at its largest.
+const fn estimate(method: Method) -> Option<Estimate> {
+    match method {
+        Method::Brief => Some(Estimate { error: 8.1e-4, power: 5.0, stable: 0.9 }),
+        Method::BriefNystrom => Some(Estimate { error: 7.5e-4, power: 4.0, stable: 0.5 }),
+        _ => None,
+    }
+}
 
-/// Longest step that the pair of order 5 takes, s: there it meets the tolerance for the fastest swing; none where nothing swings.
-fn short(model: &Model, tolerance: f64) -> f64 {
-    if tolerance < TIGHTEST_BRIEF || model.fastest == 0.0 {
+/// An estimate of few stages.
+struct Estimate {
+    error: f64,
+    power: f64,
+    stable: f64,
+}
+
+/// Longest step of few stages, s: there it meets the tolerance for the fastest swing; none where nothing swings.
+fn short(method: Method, model: &Model, tolerance: f64) -> f64 {
+    let Some(Estimate { error, power, stable }) = method.brief().and_then(estimate) else { return 0.0 };
+    if tolerance < method.tightest_brief() || model.fastest == 0.0 {
         return 0.0;
     }
-    (tolerance / ESTIMATED).powf(0.2).min(1.0) * STABLE / model.fastest
+    (tolerance / error).powf(power.recip()).min(1.0) * stable / model.fastest
 }

@@ -30,45 +30,73 @@ const BEND: f64 = 100.0;
 // Friction of an oblique impact at 1e-8, summed along them: one chord a step is 2e-3 off, eight 4e-5.
 const BENDS: u32 = 8;
 
+/// Whose memories move at the end of a step.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Moves {
+    /// Those of contacts whose form is not closed.
+    Open,
+    /// Theirs, and those of contacts whose guards fell.
+    Fired,
+    /// All.
+    All,
+}
+
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// The segments of all contacts that lead to the end of the step: chords, and for a contact that
+    /// The segments of contacts that lead to the end of the step: chords, and for a contact that
     /// grew in full stick its path in as many pieces as its bend asks for.
     ///
-    /// A contact of closed form drags one edge over one piece of its memory: one chord to the next event is the same as many, and
-    /// a step that `goes_on` leaves its memory where it is.
+    /// A contact of closed form drags one edge over one piece of its memory: one chord to its own next event is the same as many.
     ///
-    /// The ledger is cleared first; nothing is committed here. The memories of 32 unlike contacts on one
-    /// slider, committed at every step, took 47 % of the run.
-    pub(super) fn trace_step(&mut self, state: &State, t: f64, goes_on: bool) {
-        let ledger = &mut self.ledger;
-        ledger.clear();
-        if goes_on && self.interval.is_closed() {
+    /// The ledger is cleared first; nothing is committed here.
+    // The memories of 32 unlike contacts on one slider, committed at every step, took 47 % of the run; those of a chain of 32
+    // sliders, committed at every event of any of them, 16 %.
+    pub(super) fn trace_step(&mut self, state: &State, t: f64, moves: Moves) {
+        self.ledger.clear();
+        if moves == Moves::Open && self.interval.is_closed() {
             return;
         }
-        let eq = self.setting.equations(state, &self.interval);
-        for (c, contact) in self.setting.model.contacts.iter().enumerate() {
-            // What is never pressed has nothing to remember, and a path that goes on is one chord to the next
-            // event.
-            if contact.is_never_pressed() || (goes_on && self.interval.closed_form(c).is_some()) {
-                continue;
+        if moves == Moves::All {
+            // What is never pressed has nothing to remember.
+            let contacts = self.setting.model.contacts.iter().enumerate();
+            let pressed = contacts.filter(|(_, contact)| !contact.is_never_pressed());
+            pressed.for_each(|(c, _)| self.trace_contact(c, state, t));
+        } else {
+            for k in 0..self.interval.others.len() {
+                self.trace_contact(self.interval.others[k], state, t);
             }
-            let span = self.motion.solver.span();
-            let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
-            let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
-            if let (Mode::Grow, Some(slot)) = (state.modes[c], curved) {
-                // Of what is committed only growth reads the inside of a step: the evaluations of the dense
-                // output are asked for here and not before.
-                self.motion.solver.complete(&eq, Completion::Dense);
-                let growth =
-                    Growth { motion: &self.motion, eq: &eq, state, tolerance: self.setting.tolerance };
-                growth.trace((c, slot), (t, &motion), |t, piece| ledger.push(c, t, piece));
-            } else {
-                ledger.push(c, t, Segment::Straight(motion.apex()));
+            for k in 0..self.interval.apart.len() {
+                self.trace_contact(self.interval.apart[k], state, t);
+            }
+        }
+        if moves == Moves::Fired {
+            for k in 0..self.watch.fired.len() {
+                if let Fallen::Contact(c, _) = self.watch.fired[k]
+                    && self.interval.closed_form(c).is_some()
+                {
+                    self.trace_contact(c, state, t);
+                }
             }
         }
         if self.ledger.is_told() {
             self.tell_bends(state, t);
         }
+    }
+
+    /// The segments of contact `c`.
+    fn trace_contact(&mut self, c: usize, state: &State, t: f64) {
+        let contact = &self.setting.model.contacts[c];
+        let span = self.motion.solver.span();
+        let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
+        let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
+        let (Mode::Grow, Some(slot)) = (state.modes[c], curved) else {
+            return self.ledger.push(c, t, Segment::Straight(motion.apex()));
+        };
+        // Of what is committed only growth reads the inside of a step: the evaluations of the dense output are asked for here and
+        // not before.
+        let eq = self.setting.equations(state, &self.interval);
+        self.motion.solver.complete(&eq, Completion::Dense);
+        let growth = Growth { motion: &self.motion, eq: &eq, state, tolerance: self.setting.tolerance };
+        growth.trace((c, slot), (t, &motion), |t, piece| self.ledger.push(c, t, piece));
     }
 
     /// Tells of a step's way what the chords leave out: where the indentation changes it bends, and friction does its work

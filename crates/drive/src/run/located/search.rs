@@ -12,7 +12,7 @@ use super::watch::{Moving, Watch};
 use super::watched::Watched;
 use crate::contact::{Guard, Motion, NEARNESS, bands};
 use crate::equations::Equations;
-use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, End, Point, root, root_near};
+use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, root, root_near};
 
 /// A guard that falls inside the step just attempted, and when, s.
 #[derive(Clone, Copy)]
@@ -28,17 +28,8 @@ struct Search<'r, 'e, A> {
     tolerance: f64,
     solver: &'r mut A,
     eq: &'r Equations<'e>,
-}
-
-/// A moment inside a step.
-#[derive(Clone, Copy)]
-struct Instant {
-    /// s.
-    t: f64,
-    /// The same as the dense output counts.
-    part: f64,
-    /// The contact last asked for, and its motion: all its guards are functions of it.
-    moved: Option<(usize, Motion)>,
+    /// Whether it ends where it was cut: slopes are not known there.
+    is_cut: bool,
 }
 
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
@@ -56,7 +47,24 @@ impl Watch {
         eq: &Equations<'e>,
     ) -> Option<Fall<'e>> {
         let Self { from, to, tolerance, .. } = self;
-        Search { from, to, tolerance: *tolerance, solver, eq }.first_fall()
+        Search { from, to, tolerance: *tolerance, solver, eq, is_cut: false }.first_fall()
+    }
+
+    /// Ends the step where a guard falls, or where one does that is up at both ends of the step but down there, such as that of a
+    /// piece of memory that an edge has used up before it turns back: that one came first.
+    pub(super) fn cut<'e, A: for<'q> Attempt<Equations<'q>>>(
+        &mut self,
+        solver: &mut A,
+        eq: &Equations<'e>,
+        fall: Fall<'e>,
+    ) -> Fall<'e> {
+        solver.cut(fall.t);
+        self.arrive(eq, solver);
+        let Self { from, to, tolerance, .. } = self;
+        match (Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true }).before(fall) {
+            Some(earlier) => self.cut(solver, eq, earlier),
+            None => fall,
+        }
     }
 
     /// The guard that ends the step, whatever its last bit says, and all others that are down or as good as down there:
@@ -68,11 +76,11 @@ impl Watch {
         fall: Fall<'e>,
     ) {
         let Self { from, to, tolerance, fired } = self;
-        let search = Search { from, to, tolerance: *tolerance, solver, eq };
+        let search = Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true };
         fired.push(fall.watched.fallen());
         Watched::each(eq, |watched| {
-            let known = fired.iter().any(|fallen| fallen.is_of(&watched.fallen()));
-            if !known && search.falls_too(watched) {
+            let known = || fired.iter().any(|fallen| fallen.is_of(&watched.fallen()));
+            if search.falls_too(watched) && !known() {
                 fired.push(watched.fallen());
             }
         });
@@ -91,14 +99,23 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
             } else {
                 self.dip(watched, g1)
             };
-            if let Some(low) = low {
-                let t = self.fall(watched, low);
-                if first.is_none_or(|first| t < first.t) {
-                    first = Some(Fall { t, watched });
-                }
+            let Some(low) = low else { return };
+            if first.is_some_and(|first| self.comes_later(watched, low.0, first.t)) {
+                return;
+            }
+            self.solver.complete(self.eq, Completion::Dense);
+            let t = self.fall(watched, low);
+            if first.is_none_or(|first| t < first.t) {
+                first = Some(Fall { t, watched });
             }
         });
-        first.map(|first| self.before(first))
+        first
+    }
+
+    /// Whether a guard that is down at the time `low` is still up at `t`, where another one falls: its own moment is nobody's
+    /// business then. Of many contacts most guards go that way.
+    fn comes_later(&self, watched: Watched<'e>, low: f64, t: f64) -> bool {
+        t < low && self.inside(watched, t) > self.bands(watched).1
     }
 
     /// Whether a guard with the value `g` later in the step has fallen below its deadband.
@@ -106,20 +123,15 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         g < -self.bands(watched).0 && g < self.at_begin(watched)
     }
 
-    /// A guard that is up at both ends of the step may be down where another one falls: the piece of memory that an
-    /// edge has used up before it turns back. Then that one comes first.
-    fn before(&mut self, mut first: Fall<'e>) -> Fall<'e> {
-        let mut moment = self.moment(first.t);
+    /// The earliest fall of any other guard before that which ends the step.
+    fn before(&self, last: Fall<'e>) -> Option<Fall<'e>> {
+        let mut first: Option<Fall<'e>> = None;
         Watched::each(self.eq, |watched| {
-            if watched.fallen() == first.watched.fallen() {
-                return;
-            }
-            let g = self.value_then(watched, &mut moment);
-            if g < 0.0 && self.has_fallen(watched, g) {
-                let t = self.fall(watched, (first.t, g));
-                if t < first.t {
-                    first = Fall { t, watched };
-                    moment = self.moment(t);
+            let g = self.at_end(watched);
+            if g < 0.0 && watched.fallen() != last.watched.fallen() && self.has_fallen(watched, g) {
+                let t = self.fall(watched, (last.t, g));
+                if t < first.map_or(last.t, |first| first.t) {
+                    first = Some(Fall { t, watched });
                 }
             }
         });
@@ -145,10 +157,12 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
         let (g0, rates) = (self.at_begin(watched), self.rates(watched));
-        let lowest = Cubic { y0: g0, dy0: rates[0], y1: g1, dy1: rates[1], h }.dip()?;
-        if lowest.y > 0.1 * g0.min(g1).max(0.0) {
+        let (cubic, level) =
+            (Cubic { y0: g0, dy0: rates[0], y1: g1, dy1: rates[1], h }, 0.1 * g0.min(g1).max(0.0));
+        if cubic.stays_above(level) {
             return None;
         }
+        let lowest = cubic.dip().filter(|lowest| lowest.y <= level)?;
         let low = self.look(watched, t0 + lowest.x * h);
         Some(low).filter(|(_, g)| *g < -self.bands(watched).0)
     }
@@ -168,9 +182,10 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     }
 
     /// The moment at which a guard falls, between the start of the step and a time at which it is below zero.
+    ///
+    /// By the dense output, which is there.
     #[inline(never)]
-    fn fall(&mut self, watched: Watched<'e>, (low, below): (f64, f64)) -> f64 {
-        self.solver.complete(self.eq, Completion::Dense);
+    fn fall(&self, watched: Watched<'e>, (low, below): (f64, f64)) -> f64 {
         let (t0, g0) = (self.solver.span().time, self.at_begin(watched));
         let (_, near) = self.bands(watched);
         // What starts as good as down rests until it has left its deadband.
@@ -192,7 +207,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
     /// both ends of the step where its rates are known there.
     fn guess(&self, watched: Watched<'_>, (g0, low, below): (f64, f64, f64)) -> f64 {
-        if low < self.solver.span().end_time || watched.is_sampled() {
+        if self.is_cut || low < self.solver.span().end_time || watched.is_sampled() {
             return 0.5;
         }
         let rates = self.rates(watched);
@@ -226,73 +241,71 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// Value of a guard at the start of the step.
     #[inline(always)]
     fn at_begin(&self, watched: Watched<'_>) -> f64 {
-        self.value(watched, (self.solver.span().time, self.solver.span().begin), self.from)
+        self.value(watched, self.from, || (self.solver.span().time, self.solver.span().begin))
     }
 
     /// Its value at the end of the step.
     #[inline(always)]
     fn at_end(&self, watched: Watched<'_>) -> f64 {
-        self.value(watched, (self.solver.span().end_time, self.solver.span().end), self.to)
+        self.value(watched, self.to, || (self.solver.span().end_time, self.solver.span().end))
     }
 
-    /// Its value at one end of the step: time and state there, and the contacts whose form is not closed.
+    /// Its value at one end of the step: the contacts there, and for blocks time and state.
     #[inline(always)]
-    fn value(&self, watched: Watched<'_>, (t, y): (f64, &[f64]), contacts: &[Moving]) -> f64 {
+    fn value<'y>(
+        &self,
+        watched: Watched<'_>,
+        contacts: &[Moving],
+        place: impl Fn() -> (f64, &'y [f64]),
+    ) -> f64 {
         match watched {
-            Watched::Closed(steady, guard) => {
-                steady.guard(guard, t, |i| y[i], |i| y[self.eq.layout.velocity(i)])
-            }
+            Watched::Closed(steady, guard) => steady.guard(guard, &contacts[steady.index].motion),
             Watched::Contact(index, contact, guard) => {
                 guard.value(contact, self.eq.law(index), &contacts[index].motion)
             }
-            Watched::Block(k, guard) => self.eq.block_guard(k, guard, t, |i| y[i]),
+            Watched::Block(k, guard) => {
+                let (t, y) = place();
+                self.eq.block_guard(k, guard, t, |i| y[i])
+            }
         }
     }
 
     /// Its rates at both ends; of one that is sampled none are known.
     #[inline(always)]
     fn rates(&self, watched: Watched<'_>) -> [f64; 2] {
-        let (span, n) = (self.solver.span(), self.eq.layout.free);
-        match watched {
+        let rate = |ends: &[Moving]| match watched {
             Watched::Closed(steady, guard) => {
-                let rate = |t: f64, y: &[f64], end: End| {
-                    steady.guard_rate(guard, t, |i| y[n + i], |i| self.solver.slope(n + i, end))
-                };
-                [rate(span.time, span.begin, End::Start), rate(span.end_time, span.end, End::End)]
+                let Moving { motion, second: (_, pull) } = &ends[steady.index];
+                steady.guard_rate(guard, motion, *pull)
             }
-            Watched::Contact(index, contact, guard) => [&self.from[index], &self.to[index]]
-                .map(|Moving { motion, second }| guard.rate(contact, &self.eq.modes[index], motion, *second)),
-            Watched::Block(..) => [0.0; 2],
-        }
+            Watched::Contact(index, contact, guard) => {
+                let Moving { motion, second } = &ends[index];
+                guard.rate(contact, &self.eq.modes[index], motion, *second)
+            }
+            Watched::Block(..) => 0.0,
+        };
+        [rate(self.from), rate(self.to)]
     }
 
     /// Its value at a time inside the step, on the dense output.
     #[inline(always)]
     fn inside(&self, watched: Watched<'_>, t: f64) -> f64 {
-        self.value_then(watched, &mut self.moment(t))
-    }
-
-    #[inline(always)]
-    fn moment(&self, t: f64) -> Instant {
-        Instant { t, part: self.solver.part(t), moved: None }
-    }
-
-    /// Its value at a moment inside the step, on the dense output.
-    #[inline(always)]
-    fn value_then(&self, watched: Watched<'_>, at: &mut Instant) -> f64 {
-        let (t, part) = (at.t, at.part);
+        let part = self.solver.part(t);
         let value = |i: usize| self.solver.value_at(i, part);
         match watched {
             Watched::Closed(steady, guard) => {
-                steady.guard(guard, t, value, |i| value(self.eq.layout.velocity(i)))
+                // Half of its motion is of use to each.
+                let at = match guard {
+                    Guard::Piece => Motion { u: steady.displacement(t, value), ..Motion::default() },
+                    _ => {
+                        let speed = steady.speed(t, |i| value(self.eq.layout.velocity(i)));
+                        Motion { du: speed, ..Motion::default() }
+                    }
+                };
+                steady.guard(guard, &at)
             }
             Watched::Contact(index, contact, guard) => {
-                let motion = match at.moved {
-                    Some((known, motion)) if known == index => motion,
-                    _ => self.eq.motion(contact, t, value),
-                };
-                at.moved = Some((index, motion));
-                guard.value(contact, self.eq.law(index), &motion)
+                guard.value(contact, self.eq.law(index), &self.eq.motion(contact, t, value))
             }
             Watched::Block(k, guard) => self.eq.block_guard(k, guard, t, value),
         }
@@ -300,30 +313,46 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
 
     /// Its deadband and how near to zero it is as good as there.
     fn bands(&self, watched: Watched<'_>) -> (f64, f64) {
-        let begin = self.solver.span().begin;
-        let (contact, guard, u) = match watched {
-            Watched::Closed(steady, guard) => {
-                (steady.contact, guard, steady.displacement(self.solver.span().time, |i| begin[i]))
-            }
-            Watched::Contact(index, contact, guard) => (contact, guard, self.from[index].motion.u),
-            Watched::Block(k, guard) => {
-                return bands(self.eq.model.blocks[k].block().guard_scale(guard), self.tolerance);
-            }
+        let (dead, near) = self.own_bands(watched);
+        let (contact, guard) = match watched {
+            Watched::Closed(steady, guard) => (steady.contact, guard),
+            Watched::Contact(_, contact, guard) => (contact, guard),
+            Watched::Block(..) => return (dead, near),
         };
         // A contact that rides on moving bodies has a small u of large places; what these round moves it to and fro. Never more
         // than counts as there anyway: at tolerances near to rounding every turn is looked at.
-        let (dead, near) = guard.bands(contact, self.tolerance, u);
+        let begin = self.solver.span().begin;
         (dead.max(guard.noise(contact, contact.u.travel(|i| begin[i])).min(near)), near)
     }
 
+    /// The same without what places far from their origins make of it.
+    #[inline(always)]
+    fn own_bands(&self, watched: Watched<'_>) -> (f64, f64) {
+        match watched {
+            Watched::Closed(steady, guard) => {
+                guard.bands(steady.contact, self.tolerance, self.from[steady.index].motion.u)
+            }
+            Watched::Contact(index, contact, guard) => {
+                guard.bands(contact, self.tolerance, self.from[index].motion.u)
+            }
+            Watched::Block(k, guard) => {
+                bands(self.eq.model.blocks[k].block().guard_scale(guard), self.tolerance)
+            }
+        }
+    }
+
     /// Whether a guard is down at the end of the step, or as good as down.
+    #[inline(always)]
     fn falls_too(&self, watched: Watched<'_>) -> bool {
         let (g0, g) = (self.at_begin(watched), self.at_end(watched));
+        // Of many contacts few are.
+        if !(g < g0 && g < self.own_bands(watched).1) {
+            return false;
+        }
         let (dead, near) = self.bands(watched);
         // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
         let rises =
             || self.rates(watched)[0] * (self.solver.span().end_time - self.solver.span().time) > near;
-        let falls = g < -dead || g < near && (g0 >= near || rises());
-        falls && g < g0
+        g < -dead || g0 >= near || rises()
     }
 }

@@ -44,8 +44,7 @@ fn shift_one(model: &Model, state: &mut State, i: usize) {
     for (c, contact) in model.contacts.iter().enumerate() {
         let along: f64 = contact.u.free.iter().filter(|(free, _)| *free == i).map(|(_, a)| a).sum();
         if along != 0.0 {
-            state.memories[c].shift(-along * by);
-            state.modes[c].shift(-along * by);
+            state.shift_law(c, -along * by);
         }
     }
 }

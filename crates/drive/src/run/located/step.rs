@@ -6,7 +6,8 @@
 
 use super::aim::Aim;
 use super::motion::Pace;
-use super::watch::Watch;
+use super::path::Moves;
+use super::watch::{Fallen, Watch};
 use super::{Located, Motion};
 use crate::RunError;
 use crate::equations::Equations;
@@ -82,7 +83,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let ending = self.ending(&aim);
         let wished = self.wished(state, ending, (h, verdict.next));
         state.tally.step(self.method(&aim));
-        self.accept(state, record, ending == Ending::Smooth && self.watch.fired.is_empty())?;
+        self.accept(state, record, self.moves(ending))?;
         state.step = match ending {
             // Only what goes on smoothly knows how its error falls; after a corner or an event control begins
             // with caution.
@@ -133,7 +134,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         match aim.grade {
             _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
             Grade::Even => self.setting.method,
-            Grade::Few => Method::Brief,
+            Grade::Few => self.setting.method.brief().unwrap_or(self.setting.method),
             Grade::Start | Grade::End => Method::Graded,
         }
     }
@@ -166,16 +167,30 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Err(RunError::StepTooSmall { t: state.t, step: verdict.next })
     }
 
-    /// Rows and looks inside the step, then the commit of all contacts, then time moves on. `goes_on` says that no event
-    /// ends the step.
+    /// Whose memories move at the end of the step just located.
     ///
-    /// Memories of contacts of closed form stay where they are in a step that goes on, and the ledger says
+    /// All where laws of contacts may change whose own guards have not fallen: at corners, at events of blocks, whose signals
+    /// may be what bodies follow, and where places without mass are solved for from them.
+    fn moves(&self, ending: Ending) -> Moves {
+        let others = self.watch.fired.iter().any(|fallen| matches!(fallen, Fallen::Block(..)));
+        if ending == Ending::Corner || others || !self.setting.model.balanced.is_empty() {
+            Moves::All
+        } else if self.watch.fired.is_empty() {
+            Moves::Open
+        } else {
+            Moves::Fired
+        }
+    }
+
+    /// Rows and looks inside the step, then the commit of all contacts that move, then time moves on.
+    ///
+    /// Memories of other contacts of closed form stay where they are, and the ledger says
     /// so. Fails where a component is not finite, before anything of the state has moved, or where a commit
     /// is refused.
-    fn accept(&mut self, state: &mut State, record: &mut dyn Record, goes_on: bool) -> Result<(), RunError> {
+    fn accept(&mut self, state: &mut State, record: &mut dyn Record, moves: Moves) -> Result<(), RunError> {
         let t = self.motion.solver.span().end_time;
-        self.trace_step(state, t, goes_on);
-        self.ledger.booked.books = if goes_on { Books::Behind } else { Books::Current };
+        self.trace_step(state, t, moves);
+        self.ledger.booked.books = if moves == Moves::All { Books::Current } else { Books::Behind };
         if self.output.due(t) {
             self.write(state, t, record);
         }
@@ -240,10 +255,9 @@ fn attempt<A: for<'e> Attempt<Equations<'e>>>(
         motion.solver.complete(eq, Completion::EndSlopes);
         watch.arrive(eq, &motion.solver);
         watch.fired.clear();
-        if let Some(fall) = watch.first_fall(&mut motion.solver, eq) {
+        if let Some(mut fall) = watch.first_fall(&mut motion.solver, eq) {
             if fall.t < target {
-                motion.solver.cut(fall.t);
-                watch.arrive(eq, &motion.solver);
+                fall = watch.cut(&mut motion.solver, eq, fall);
             }
             watch.collect_fallen(&mut motion.solver, eq, fall);
         }

@@ -1,7 +1,7 @@
 //! The contacts at both ends of a step, and the guards that fell at its end.
 //!
-//! Watched is what has no closed form: motion and accelerations at both ends of a step, so that guards have
-//! values and rates there without another evaluation. [`search`](super::search) looks between the ends. A
+//! Motion and accelerations of all contacts at both ends of a step are read once, so that guards have values and rates there
+//! however often they are asked. [`search`](super::search) looks between the ends. A
 //! step's end becomes the next one's start by an exchange of both; whatever makes slopes jump sets the start
 //! anew.
 
@@ -17,7 +17,7 @@ use stickslip_stepper::{End, Step};
 // the rest of its period; any of 0.5 to 8 ends that. 4 moves an event of a climber at a tolerance of 1e-12.
 const LAST_PLACES: f64 = 2.0;
 
-/// A contact at one end of a step. Closed contacts have none: their motion is read off the state where it is asked for.
+/// A contact at one end of a step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Moving {
     /// d, u and their rates; m, m/s.
@@ -76,21 +76,13 @@ impl Watch {
     }
 
     /// The contacts at the start of the next step, after anything that makes slopes jump.
-    ///
-    /// Nothing is done where all contacts have closed forms.
     pub(super) fn set_out(&mut self, eq: &Equations<'_>, solver: &impl Step) {
-        if eq.interval.is_some_and(Interval::is_closed) {
-            return;
-        }
         let span = solver.span();
         follow(eq, &mut self.from, (span.time, span.begin), |i| solver.slope(i, End::Start));
     }
 
     /// The contacts at the end of the step.
     pub(super) fn arrive(&mut self, eq: &Equations<'_>, solver: &impl Step) {
-        if eq.interval.is_some_and(Interval::is_closed) {
-            return;
-        }
         let span = solver.span();
         follow(eq, &mut self.to, (span.end_time, span.end), |i| solver.slope(i, End::End));
     }
@@ -101,27 +93,16 @@ impl Watch {
         std::mem::swap(&mut self.from, &mut self.to);
     }
 
-    /// Motion of contact `c` at the end of the step, at time t and components y.
+    /// Motion of contact `c` at the end of the step or leap, at time t and components y. A leap watches no contact: of one of
+    /// closed form it is read off these.
     pub(super) fn motion_at_end(&self, interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64])) -> Motion {
-        motion(interval, c, (t, y), &self.to)
-    }
-
-    /// Motion of contact `c` at the start of the step.
-    pub(super) fn motion_at_start(&self, interval: &Interval<'_>, c: usize, solver: &impl Step) -> Motion {
-        let span = solver.span();
-        motion(interval, c, (span.time, span.begin), &self.from)
-    }
-}
-
-/// Motion of contact `c` at one end of a step: of closed form from time and components, else as it was
-/// watched.
-fn motion(interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64]), contacts: &[Moving]) -> Motion {
-    match interval.closed_form(c) {
-        Some(steady) => {
-            let n = interval.scene.free;
-            steady.motion(t, |i| y[i], |i| y[n + i])
+        match interval.closed_form(c) {
+            Some(steady) => {
+                let n = interval.scene.free;
+                steady.motion(t, |i| y[i], |i| y[n + i])
+            }
+            None => self.to[c].motion,
         }
-        None => contacts[c].motion,
     }
 }
 
@@ -134,6 +115,11 @@ fn follow(
     slope: impl Fn(usize) -> f64 + Copy,
 ) {
     let Some(interval) = eq.interval else { return };
+    let n = eq.layout.free;
+    for steady in &interval.closed {
+        let (motion, pull) = steady.course(t, |i| y[i], |i| y[n + i], |i| slope(n + i));
+        contacts[steady.index] = Moving { motion, second: (0.0, pull) };
+    }
     for c in interval.open_form() {
         let contact = &eq.model.contacts[c];
         let motion = eq.motion(contact, t, |i| y[i]);
@@ -157,16 +143,14 @@ fn second(
 
 impl Watch {
     /// When the first contact will turn or leave full stick as it moves now, s from the start of the step.
-    pub(super) fn turn(&self, eq: &Equations<'_>, solver: &impl Step) -> f64 {
+    pub(super) fn turn(&self, eq: &Equations<'_>) -> f64 {
         let Some(interval) = eq.interval else { return f64::INFINITY };
-        let (span, n) = (solver.span(), eq.layout.free);
-        let (v, a) = (|i: usize| span.begin[n + i], |i: usize| solver.slope(n + i, End::Start));
         let falls = |value: f64, rate: f64| {
             if value > 0.0 && rate < 0.0 { -value / rate } else { f64::INFINITY }
         };
         let closed = interval.closed.iter().map(|steady| {
-            let at = |guard| steady.guard(guard, span.time, |i| span.begin[i], v);
-            falls(at(Guard::Drag), steady.guard_rate(Guard::Drag, span.time, v, a))
+            let Moving { motion, second: (_, pull) } = &self.from[steady.index];
+            falls(steady.guard(Guard::Drag, motion), steady.guard_rate(Guard::Drag, motion, *pull))
         });
         let open = interval.others.iter().flat_map(|&c| {
             let (contact, law, Moving { motion, second }) = (&eq.model.contacts[c], eq.law(c), &self.from[c]);
@@ -182,21 +166,21 @@ impl Watch {
         closed.chain(open).fold(f64::INFINITY, f64::min)
     }
 
-    /// When a contact of closed form will have used up its piece of memory, s from the start of the step.
+    /// When a contact of closed form will have used up its piece of memory, s from the start of the step, which stands at
+    /// components `begin`.
     #[inline(always)]
-    pub(super) fn expected_of_closed(steady: &Closed<'_>, n: usize, solver: &impl Step) -> f64 {
+    pub(super) fn expected_of_closed(&self, steady: &Closed<'_>, begin: &[f64]) -> f64 {
         if !steady.guards.contains(&Guard::Piece) {
             return f64::INFINITY;
         }
-        let span = solver.span();
-        let (t, begin) = (span.time, span.begin);
-        let (x, v, a) = (|i| begin[i], |i| begin[n + i], |i| solver.slope(n + i, End::Start));
-        let guard = |guard| steady.guard(guard, t, x, v);
-        let left = guard(Guard::Piece);
-        if is_rounding(left, steady.contact, x) {
+        let Moving { motion, second: (_, pull) } = &self.from[steady.index];
+        let guard = |guard| steady.guard(guard, motion);
+        let (left, pull) = (guard(Guard::Piece), steady.guard_rate(Guard::Drag, motion, *pull));
+        let when = reached(left, guard(Guard::Drag), pull);
+        if when < f64::INFINITY && is_rounding(left, steady.contact, |i| begin[i]) {
             return f64::INFINITY;
         }
-        reached(left, guard(Guard::Drag), steady.guard_rate(Guard::Drag, t, v, a))
+        when
     }
 
     /// The same of any other contact.

@@ -285,8 +285,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.output.grid.write(&eq, state, due, &|i| half.value(i, due), record);
         }
         let at = |i: usize, t: f64| half.value(i, t);
-        let ends: [(f64, &dyn Fn(usize) -> f64); 2] = [(state.t, &|i| state.y[i]), (t, &y)];
-        if self.output.turns.notice(&eq, ends, self.setting.tolerance) {
+        if self.output.turns.notice(&eq, (state.t, &state.y), (t, y), self.setting.tolerance) {
             self.output.turns.locate(&eq, [state.t, t], at);
         }
         while let Some(due) = self.output.marks.due(t) {

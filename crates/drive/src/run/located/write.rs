@@ -44,8 +44,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Whether some u turns in the step.
     fn turns_by(&mut self, eq: &Equations<'_>, state: &State, t: f64) -> bool {
         let end = self.motion.solver.span().end;
-        let ends: [(f64, &dyn Fn(usize) -> f64); 2] = [(state.t, &|i| state.y[i]), (t, &|i| end[i])];
-        self.output.turns.notice(eq, ends, self.setting.tolerance)
+        self.output.turns.notice(eq, (state.t, &state.y), (t, |i| end[i]), self.setting.tolerance)
     }
 
     /// What is due inside the step.

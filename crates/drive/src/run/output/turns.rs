@@ -20,8 +20,10 @@ const NEAR: f64 = 1e-12;
 #[derive(Debug, Default)]
 pub(in crate::run) struct Turns {
     contacts: Vec<usize>,
-    /// Rates of u before a corner, m/s, in the order of the contacts.
-    before: Vec<f64>,
+    /// Rates of u, m/s, in the order of the contacts: at the end of the last step, or before a corner.
+    rates: Vec<f64>,
+    /// When that was, s.
+    at: f64,
     /// Moments, s, and contacts, in the order of time; moments are not known before they are located.
     found: Vec<(f64, usize)>,
     next: usize,
@@ -38,6 +40,7 @@ impl Turns {
     /// The same room with nothing to watch.
     pub(in crate::run) fn renewed(mut self) -> Self {
         self.contacts.clear();
+        self.at = f64::NAN;
         self.forget();
         self
     }
@@ -45,13 +48,14 @@ impl Turns {
     /// Watches the contacts of a body, by its place in the scene.
     pub(super) fn begin(&mut self, model: &Model, body: Option<usize>) {
         self.contacts.clear();
+        self.at = f64::NAN;
         self.forget();
         let binding = body.and_then(|body| Some(model.bodies.get(body)?.bindings[Axis::X as usize]));
         let Some(Binding::Free(i)) = binding else { return };
         let touches = |contact: &&Contact| contact.u.free.iter().any(|(k, _)| *k == i);
         let watched = model.contacts.iter().filter(|contact| contact.turns_unseen()).filter(touches);
         self.contacts.extend(watched.map(|contact| contact.place));
-        self.before.reserve(self.contacts.len());
+        self.rates.reserve(self.contacts.len());
         self.found.reserve(self.contacts.len());
     }
 
@@ -61,28 +65,50 @@ impl Turns {
         !self.contacts.is_empty()
     }
 
+    /// Forgets what was found.
     fn forget(&mut self) {
         self.found.clear();
         self.next = 0;
     }
 
-    /// Whether some u turns between two moments, at each of which `y` reads the components.
+    /// Whether some u turns between two moments, with the components there.
     pub(in crate::run) fn notice(
         &mut self,
         eq: &Equations<'_>,
-        [from, to]: [(f64, &dyn Fn(usize) -> f64); 2],
+        (from, before): (f64, &[f64]),
+        to: (f64, impl Fn(usize) -> f64),
         tolerance: f64,
     ) -> bool {
         self.forget();
-        for &c in &self.contacts {
+        // A step begins where the last one ended.
+        if self.at != from {
+            self.stand(eq, from, before);
+        }
+        self.compare(eq, to, tolerance);
+        !self.found.is_empty()
+    }
+
+    /// Finds those that turn until a moment; their rates there are the next to compare with.
+    fn compare(&mut self, eq: &Equations<'_>, (t, y): (f64, impl Fn(usize) -> f64), tolerance: f64) {
+        for (&c, rate) in self.contacts.iter().zip(&mut self.rates) {
             let contact = &eq.model.contacts[c];
-            let [start, end] = [from, to].map(|(t, y)| eq.motion(contact, t, y));
-            let (_, near) = Guard::Drag.bands(contact, tolerance, end.u);
-            if turns([start.du, end.du], near) {
-                self.found.push((f64::NAN, c));
+            let slide = eq.slide(contact, t, &y);
+            let before = std::mem::replace(rate, slide.rate);
+            if turns([before, slide.rate]) {
+                let (_, near) = Guard::Drag.bands(contact, tolerance, slide.value);
+                if before.abs().max(slide.rate.abs()) > near {
+                    self.found.push((f64::NAN, c));
+                }
             }
         }
-        !self.found.is_empty()
+        self.at = t;
+    }
+
+    /// Rates at a moment, to compare with.
+    fn stand(&mut self, eq: &Equations<'_>, t: f64, y: &[f64]) {
+        self.rates.clear();
+        self.rates.extend(self.contacts.iter().map(|c| eq.slide(&eq.model.contacts[*c], t, |i| y[i]).rate));
+        self.at = t;
     }
 
     /// Finds the moments of those just noticed between two moments; `y` reads a component at a moment.
@@ -94,7 +120,7 @@ impl Turns {
     ) {
         for (moment, c) in &mut self.found {
             let contact = &eq.model.contacts[*c];
-            let rate = |t: f64| eq.motion(contact, t, |i| y(i, t)).du;
+            let rate = |t: f64| eq.slide(contact, t, |i| y(i, t)).rate;
             let bracket =
                 Bracket { from: Point { x: from, y: rate(from) }, to: Point { x: to, y: rate(to) } };
             *moment = root(rate, bracket, NEAR * (to - from));
@@ -111,27 +137,19 @@ impl Turns {
 
     /// Before a corner at t, s.
     pub(in crate::run) fn near_corner(&mut self, eq: &Equations<'_>, t: f64, y: &[f64]) {
-        self.before.clear();
-        let rate = |c: &usize| eq.motion(&eq.model.contacts[*c], t, |i| y[i]).du;
-        self.before.extend(self.contacts.iter().map(rate));
+        self.stand(eq, t, y);
     }
 
     /// After it: those that turned there.
     pub(in crate::run) fn pass_corner(&mut self, eq: &Equations<'_>, (t, y): (f64, &[f64]), tolerance: f64) {
         self.forget();
-        for (&c, before) in self.contacts.iter().zip(&self.before) {
-            let contact = &eq.model.contacts[c];
-            let motion = eq.motion(contact, t, |i| y[i]);
-            let (_, near) = Guard::Drag.bands(contact, tolerance, motion.u);
-            if turns([*before, motion.du], near) {
-                self.found.push((t, c));
-            }
-        }
+        self.compare(eq, (t, |i| y[i]), tolerance);
+        self.found.iter_mut().for_each(|(moment, _)| *moment = t);
     }
 }
 
-/// Whether a rate changes its sign by more than rounding; what stands still has the sign of what rises, so that a turn at the
-/// very end of a step counts once.
-fn turns([before, after]: [f64; 2], near: f64) -> bool {
-    (before >= 0.0) != (after >= 0.0) && before.abs().max(after.abs()) > near
+/// Whether a rate changes its sign; what stands still has the sign of what rises, so that a turn at the very end of a step
+/// counts once.
+fn turns([before, after]: [f64; 2]) -> bool {
+    (before >= 0.0) != (after >= 0.0)
 }

@@ -1,0 +1,140 @@
+//! `stickslip sensitivity`: which numbers matter.
+
+use crate::arguments::SensitivityArguments;
+use crate::console::answer::{complain, say, say_json, warn};
+use crate::console::interrupt::{Interrupt, Interrupted};
+use crate::console::progress::Progress;
+use crate::console::table;
+use crate::console::verdict::Verdict;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_figures::{FigureError, sensitivity as picture};
+use stickslip_results::complaint::words;
+use stickslip_results::files::SENSITIVITY;
+use stickslip_results::folder::{Folder, sweep};
+use stickslip_results::{Real, quantity};
+use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, Taken};
+use stickslip_study::steady::SteadyError;
+use thiserror::Error;
+
+/// Why there is no answer.
+#[derive(Debug, Error)]
+enum SensitivityFailure {
+    /// What is asked for.
+    #[error(transparent)]
+    Asked(#[from] SensitivityError),
+    /// The picture.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The files.
+    #[error("{}: {}", .path.display(), words(.source))]
+    Write { path: PathBuf, source: io::Error },
+}
+
+/// Takes derivatives and writes them.
+pub(crate) fn sensitivity(arguments: &SensitivityArguments) -> Verdict {
+    answer(arguments).unwrap_or_else(|failure| {
+        complain(format_args!("{failure}"));
+        match failure {
+            SensitivityFailure::Asked(error) => verdict(&error),
+            SensitivityFailure::Figure(_) | SensitivityFailure::Write { .. } => Verdict::Stopped,
+        }
+    })
+}
+
+/// What an error in what is asked comes to: scenes without a period are bad input, searches that fail are not.
+fn verdict(error: &SensitivityError) -> Verdict {
+    match error {
+        SensitivityError::Interrupted
+        | SensitivityError::NotSteady { source: SteadyError::Interrupted(_), .. } => Verdict::Interrupted,
+        SensitivityError::Stopped { .. }
+        | SensitivityError::NotSteady {
+            source: SteadyError::Run(_) | SteadyError::NoConvergence { .. } | SteadyError::Shakedown { .. },
+            ..
+        } => Verdict::Stopped,
+        _ => Verdict::BadInput,
+    }
+}
+
+fn answer(arguments: &SensitivityArguments) -> Result<Verdict, SensitivityFailure> {
+    let interrupt = Interrupt::install();
+    let SensitivityArguments { of, to, steady, tolerance, .. } = arguments;
+    let asked = Asked { of: of.clone(), to: to.clone(), steady: *steady, tolerance: *tolerance };
+    let asked = Sensitivity::new(&arguments.file, &arguments.set, &asked, &Interrupted(&interrupt))?;
+    if !arguments.quiet {
+        warn(&asked.job);
+    }
+    let progress = Progress::new(!arguments.quiet);
+    let bar = progress.budget(&asked.job.name, asked.runs() as f64, &interrupt);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let taken = asked.take(arguments.threads.map_or(cores, usize::from), &bar);
+    drop(bar);
+    let names = write(arguments, &asked, &taken)?;
+    if arguments.json {
+        say_json(&sensitivity::json(&asked, &taken));
+    } else if !arguments.quiet {
+        tell(&asked, &taken);
+        say(format_args!("{}: {}", folder(arguments, &asked).display(), names.join(", ")));
+    }
+    let all = asked.figures.len() * asked.quantities.len();
+    Ok(match () {
+        () if interrupt.is_raised() => Verdict::Interrupted,
+        () if taken.faults() == all => Verdict::Stopped,
+        () => Verdict::Done,
+    })
+}
+
+/// Where the files go.
+fn folder(arguments: &SensitivityArguments, asked: &Sensitivity) -> PathBuf {
+    let own = || Path::new("results").join(format!("{}-sensitivity", asked.job.name));
+    arguments.out.clone().unwrap_or_else(own)
+}
+
+fn write(
+    arguments: &SensitivityArguments,
+    asked: &Sensitivity,
+    taken: &Taken,
+) -> Result<Vec<String>, SensitivityFailure> {
+    let out = folder(arguments, asked);
+    let pictures = picture::draw((asked, taken), &arguments.look.look())?;
+    let failed = |source| SensitivityFailure::Write { path: out.clone(), source };
+    let folder = Folder::make(&out).map_err(failed)?;
+    // A command that was killed has left its drafts.
+    let stale = picture::all_files();
+    let own = [sensitivity::TABLE, SENSITIVITY].map(str::to_owned).into_iter();
+    sweep(&out, &own.chain(stale.iter().cloned()).collect::<Vec<_>>());
+    sensitivity::write(folder, (asked, taken), &pictures, stale).map_err(failed)
+}
+
+/// A table for each figure, and what is to be said of some of its rows.
+fn tell(asked: &Sensitivity, taken: &Taken) {
+    for (f, figure) in asked.figures.iter().enumerate() {
+        say(format_args!("{} = {}", figure.name, shown(figure.value, figure.unit)));
+        let mut table = table::plain(["quantity", "% per %", "\u{b1}", "derivative", "\u{b1}", ""]);
+        let mut notes = Vec::new();
+        for q in taken.order(asked, f) {
+            let derivative = &taken.derivatives[f][q];
+            let path = &asked.quantities[q].path;
+            for (side, slope) in derivative.sides() {
+                let name = side.map_or_else(|| path.clone(), |side| format!("{path}, {side}"));
+                let Ok(slope) = slope else { continue };
+                let elasticity = |value: f64| Taken::elasticity(asked, (f, q), value);
+                let share = elasticity(slope.value).map_or(String::new(), |share| format!("{share:+.4}"));
+                let doubt =
+                    elasticity(slope.error).map_or(String::new(), |share| format!("{:.0e}", share.abs()));
+                let (value, error) = (format!("{:.5e}", slope.value), format!("{:.0e}", slope.error));
+                table.add_row([name, share, doubt, value, error, asked.unit((f, q))]);
+            }
+            notes.extend(derivative.words().map(|words| format!("  {path}: {words}")));
+        }
+        table::to_the_right(&mut table, 1..=4);
+        say(format_args!("{table}"));
+        notes.iter().for_each(|note| say(format_args!("{note}")));
+        say(format_args!(""));
+    }
+}
+
+fn shown(value: f64, unit: &str) -> String {
+    // A prefix belongs to a unit.
+    if unit.is_empty() { format!("{value:.4}") } else { quantity(Real(value), unit) }
+}

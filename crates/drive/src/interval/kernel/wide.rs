@@ -1,0 +1,256 @@
+//! The same for more coordinates than a kernel has room for in a row, where each length lies between two of them at most: chains,
+//! and sliders that springs join.
+
+use crate::equations::Equations;
+use crate::interval::{Closed, Followed};
+use crate::model::{Link, Measure, Model, Stroke, Terms};
+use crate::state::State;
+use stickslip_contact::{FixedDepthBranch, Profile};
+
+/// The forces of an interval on any number of coordinates. Scratch, made anew with it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Wide<'a> {
+    steady: Vec<Steady<'a>>,
+    springs: Vec<Spring>,
+    ties: Vec<Tie<'a>>,
+}
+
+/// Σ coefficient · coordinate of two coordinates; of a single one the second coefficient is 0.
+#[derive(Debug, Clone, Copy)]
+struct Ends {
+    at: [usize; 2],
+    arms: [f64; 2],
+}
+
+/// A contact at constant depth on one branch.
+#[derive(Debug, Clone)]
+struct Steady<'a> {
+    ends: Ends,
+    followed: Followed<'a>,
+    count: f64,
+    branch: FixedDepthBranch,
+    profile: &'a Profile,
+}
+
+/// A spring between free coordinates alone, without a damper: no work is put in or lost.
+#[derive(Debug, Clone, Copy)]
+struct Spring {
+    ends: Ends,
+    /// Σ coefficient · coordinate at which it is slack but for its preload, m.
+    rest: f64,
+    stiffness: f64,
+    preload: f64,
+}
+
+/// Any other spring, damper or actuator.
+#[derive(Debug, Clone, Copy)]
+struct Tie<'a> {
+    ends: Ends,
+    followed: Followed<'a>,
+    stroke: Followed<'a>,
+    stiffness: f64,
+    damping: f64,
+    preload: f64,
+}
+
+/// Forces on the coordinates, and powers, as they add up.
+struct Sums<'f> {
+    forces: &'f mut [f64],
+    input: f64,
+    damping: f64,
+}
+
+impl Ends {
+    /// None of more than two coordinates.
+    fn of(terms: &Terms) -> Option<Self> {
+        match terms[..] {
+            [] => Some(Self { at: [0; 2], arms: [0.0; 2] }),
+            [(i, a)] => Some(Self { at: [i; 2], arms: [a, 0.0] }),
+            [(i, a), (j, b)] => Some(Self { at: [i, j], arms: [a, b] }),
+            _ => None,
+        }
+    }
+
+    #[inline(always)]
+    fn dot(&self, x: &[f64]) -> f64 {
+        let own = self.arms[0] * x[self.at[0]];
+        // Most contacts ride on a follower.
+        if self.arms[1] == 0.0 { own } else { own + self.arms[1] * x[self.at[1]] }
+    }
+}
+
+impl Sums<'_> {
+    /// Adds a force along a length whose followers move at the rate `driven`: what drives them puts in -force · driven.
+    #[inline(always)]
+    fn apply(&mut self, ends: &Ends, driven: f64, force: f64) {
+        self.pull(ends, force);
+        self.input -= force * driven;
+    }
+
+    /// Adds a force along a length between free coordinates alone.
+    #[inline(always)]
+    fn pull(&mut self, ends: &Ends, force: f64) {
+        self.forces[ends.at[0]] += ends.arms[0] * force;
+        if ends.arms[1] != 0.0 {
+            self.forces[ends.at[1]] += ends.arms[1] * force;
+        }
+    }
+}
+
+impl<'a> Steady<'a> {
+    fn of(closed: &Closed<'a>) -> Option<Self> {
+        Some(Self {
+            ends: Ends::of(&closed.contact.u.free)?,
+            followed: closed.followed,
+            count: closed.contact.count,
+            branch: closed.branch,
+            profile: closed.contact.interface.profile(),
+        })
+    }
+
+    #[inline(always)]
+    fn act(&self, t: f64, x: &[f64], sums: &mut Sums<'_>) {
+        let followed = self.followed.at(t);
+        let u = self.ends.dot(x) + followed.value;
+        sums.apply(&self.ends, followed.rate, -self.count * self.branch.force(self.profile, u));
+    }
+}
+
+impl Spring {
+    /// None of a tie that has more to it.
+    fn of(tie: &Tie<'_>) -> Option<Self> {
+        let ([place, 0.0, _], [slack, 0.0, _]) = (tie.followed.line()?, tie.stroke.line()?) else {
+            return None;
+        };
+        let Tie { ends, stiffness, damping, preload, .. } = *tie;
+        (damping == 0.0).then_some(Self { ends, rest: slack - place, stiffness, preload })
+    }
+
+    #[inline(always)]
+    fn act(&self, x: &[f64], sums: &mut Sums<'_>) {
+        sums.pull(&self.ends, self.stiffness * (self.rest - self.ends.dot(x)) + self.preload);
+    }
+}
+
+impl<'a> Tie<'a> {
+    fn of(link: &Link, model: &'a Model, state: &State) -> Option<Self> {
+        let stroke = match link.stroke {
+            Stroke::Constant(constant) => Followed::constant(constant),
+            Stroke::Driven(w) => Followed::signal(w, model, state)?,
+        };
+        let elongation: &Measure = &link.elongation;
+        let Link { stiffness, damping, preload, .. } = *link;
+        let followed = Followed::of(elongation, model, state)?;
+        Some(Self { ends: Ends::of(&elongation.free)?, followed, stroke, stiffness, damping, preload })
+    }
+
+    /// As [a narrow one](super::ties) acts.
+    #[inline(always)]
+    fn act(&self, t: f64, (x, v): (&[f64], Option<&[f64]>), sums: &mut Sums<'_>) {
+        let (followed, stroke) = (self.followed.at(t), self.stroke.at(t));
+        let stretch = stroke.value - (self.ends.dot(x) + followed.value);
+        let own = v.map_or(0.0, |v| self.ends.dot(v));
+        let rate = stroke.rate - (own + followed.rate);
+        let force = self.stiffness * stretch + self.damping * rate;
+        sums.apply(&self.ends, followed.rate, force + self.preload);
+        sums.input += force * stroke.rate;
+        sums.damping += self.damping * rate * rate;
+    }
+}
+
+impl<'a> Wide<'a> {
+    /// Room for all that acts in a model.
+    pub(super) fn reserve(&mut self, model: &Model) {
+        self.clear();
+        self.steady.reserve(model.contacts.len());
+        self.springs.reserve(model.links.len());
+        self.ties.reserve(model.links.len());
+    }
+
+    /// The room that it takes, empty.
+    pub(super) fn emptied(self) -> Wide<'static> {
+        let (steady, ties) = (super::emptied(self.steady), super::emptied(self.ties));
+        Wide { steady, springs: self.springs, ties }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.steady.clear();
+        self.springs.clear();
+        self.ties.clear();
+    }
+
+    /// Lays out what acts; none where something has no form here.
+    pub(super) fn lay_out(
+        &mut self,
+        (model, state): (&'a Model, &State),
+        closed: &[Closed<'a>],
+    ) -> Option<()> {
+        for closed in closed {
+            self.steady.push(Steady::of(closed)?);
+        }
+        for link in &model.links {
+            let tie = Tie::of(link, model, state)?;
+            match Spring::of(&tie) {
+                Some(spring) => self.springs.push(spring),
+                None => self.ties.push(tie),
+            }
+        }
+        Some(())
+    }
+
+    /// Takes up another branch of a contact, by its place among those of closed form.
+    pub(super) fn renew(&mut self, place: usize, branch: FixedDepthBranch) {
+        if let Some(steady) = self.steady.get_mut(place) {
+            steady.branch = branch;
+        }
+    }
+
+    /// Slopes of all components; input and damping are the last two.
+    #[inline(never)]
+    pub(super) fn slopes(&self, eq: &Equations<'_>, (t, y): (f64, &[f64]), dy: &mut [f64]) {
+        let n = eq.layout.free;
+        let (x, v) = (&y[..n], &y[n..2 * n]);
+        let (dx, rest) = dy.split_at_mut(n);
+        let (dv, extra) = rest.split_at_mut(n);
+        dx.copy_from_slice(v);
+        extra.fill(0.0);
+        let first = eq.layout.input() - 2 * n;
+        (extra[first], extra[first + 1]) = self.accelerate(eq.model, t, (x, Some(v)), dv);
+    }
+
+    /// Accelerations, and the power put in.
+    #[inline(never)]
+    pub(super) fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
+        let (dv, input) = out.split_at_mut(x.len());
+        (input[0], _) = self.accelerate(eq.model, t, (x, None), dv);
+    }
+
+    /// From forces to accelerations; gives the powers put in and damped.
+    #[inline(always)]
+    fn accelerate(
+        &self,
+        model: &Model,
+        t: f64,
+        (x, v): (&[f64], Option<&[f64]>),
+        dv: &mut [f64],
+    ) -> (f64, f64) {
+        for (dv, free) in dv.iter_mut().zip(&model.free) {
+            *dv = free.force;
+        }
+        let mut sums = Sums { forces: dv, input: 0.0, damping: 0.0 };
+        for steady in &self.steady {
+            steady.act(t, x, &mut sums);
+        }
+        for spring in &self.springs {
+            spring.act(x, &mut sums);
+        }
+        for tie in &self.ties {
+            tie.act(t, (x, v), &mut sums);
+        }
+        let Sums { forces, input, damping } = sums;
+        for (force, free) in forces.iter_mut().zip(&model.free) {
+            *force *= free.mobility;
+        }
+        (input, damping)
+    }
+}

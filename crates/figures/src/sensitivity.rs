@@ -1,0 +1,73 @@
+//! The picture of what matters: elasticities as bars.
+
+use crate::look::{Look, Pen, Picture};
+use crate::pictures::FigureError;
+use stickslip_plot::{Bar, Tornado, tornado_figure};
+use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_study::sensitivity::{Sensitivity, Taken};
+
+/// Name of the picture.
+const NAME: &str = "sensitivity";
+/// Most bars of a figure, and most figures: the rest stands in the table.
+const BARS: usize = 12;
+const FIGURES: usize = 6;
+/// Errors that are worth a word beside a bar, as a share of the longest.
+const DOUBT: f64 = 0.01;
+
+/// Names of all files that any look gives to it.
+pub fn all_files() -> Vec<String> {
+    Look::all_files_of(&[NAME])
+}
+
+/// Draws it: of each figure by how many per cent it changes with one per cent of each quantity.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn draw((asked, taken): (&Sensitivity, &Taken), look: &Look) -> Result<Vec<Picture>, FigureError> {
+    let entries = [
+        (TITLE, asked.job.title().to_owned()),
+        (PROGRAM, asked.job.program.clone()),
+        (HASH, asked.job.hash.clone()),
+        (SCENARIO, asked.job.resolved.clone()),
+    ];
+    let provenance = entries.map(|(key, text)| (key.to_owned(), text)).to_vec();
+    let pen = Pen { look, provenance, kept: None };
+    let figures = asked.figures.iter().enumerate().take(FIGURES);
+    let tornados: Vec<Tornado<'_>> = figures
+        .map(|(f, figure)| {
+            let all = bars(asked, taken, f);
+            let longest = all.iter().fold(0.0, |most: f64, (bar, _)| most.max(bar.length.abs()));
+            let more = all.len().saturating_sub(BARS);
+            let bars = all.into_iter().take(BARS).map(|(bar, error)| noted(bar, error, longest));
+            let axis = match more {
+                0 => "change in %, per % of the quantity".to_owned(),
+                more => format!("change in %, per % of the quantity; {more} shorter bars are not shown"),
+            };
+            Tornado { name: &figure.name, axis, bars: bars.collect(), absence: "no elasticity is known" }
+        })
+        .collect();
+    let figure = tornado_figure(asked.job.title(), &tornados);
+    pen.draw_as(NAME, figure).map_err(|source| FigureError::Plot { plot: NAME, source })
+}
+
+/// The bars of a figure and their errors, the longest first.
+fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
+    let of = |q: usize| {
+        let elasticity = move |slope: f64| Taken::elasticity(asked, (f, q), slope);
+        let path = &asked.quantities[q].path;
+        taken.derivatives[f][q].sides().into_iter().filter_map(move |(side, slope)| {
+            let slope = slope.ok()?;
+            let (length, error) = (elasticity(slope.value)?, elasticity(slope.error)?.abs());
+            let name = side.map_or_else(|| path.clone(), |side| format!("{path}, {side}"));
+            // What is not told from nothing has no bar.
+            (length.abs() > error)
+                .then(|| (Bar { name, note: String::new(), length, is_half: side.is_some() }, error))
+        })
+    };
+    taken.order(asked, f).into_iter().flat_map(of).collect()
+}
+
+fn noted(bar: Bar, error: f64, longest: f64) -> Bar {
+    let doubt = if error > DOUBT * longest { format!(" ± {error:.1e}") } else { String::new() };
+    Bar { note: format!("{:+.3}{doubt}", bar.length).replace('-', "\u{2212}"), ..bar }
+}

@@ -1,0 +1,43 @@
+//! What a drive would settle on, told before a run and beside it.
+
+use crate::real::Real;
+use serde::Serialize;
+
+/// The motion of a drive that repeats itself every period, as whoever has looked for it tells it: `study` does.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Outlook {
+    /// It is there.
+    Found(Repetition),
+    /// It was not found.
+    NotFound {
+        /// Why.
+        fault: String,
+    },
+}
+
+/// A motion that repeats itself every period.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Repetition {
+    /// Way of the figures' body along x in a period, m.
+    #[serde(rename = "step_m")]
+    pub step: Real,
+    /// How far the step may be off, m.
+    #[serde(rename = "step_error_m")]
+    pub error: Real,
+    /// Step over period, m/s.
+    #[serde(rename = "speed_m_s")]
+    pub speed: Real,
+    /// Whether a run that is disturbed a little comes back.
+    pub stable: bool,
+    /// Largest magnitude of a Floquet multiplier: what is left of a disturbance after a period; 0 without any.
+    pub radius: Real,
+    /// Periods of the drive to a beat of the disturbance that stays longest.
+    #[serde(rename = "beat_periods", skip_serializing_if = "Option::is_none")]
+    pub beat: Option<Real>,
+    /// Periods in which that disturbance falls, or grows, by e.
+    #[serde(rename = "fold_periods", skip_serializing_if = "Option::is_none")]
+    pub fold: Option<Real>,
+    /// What becomes of that disturbance, in words.
+    pub words: String,
+}

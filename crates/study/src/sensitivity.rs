@@ -1,0 +1,332 @@
+//! By how much figures of a run change with the numbers of its scenario: which number matters?
+//!
+//! A [`Sensitivity`] is of a scenario file, some [`Figure`]s and some [`Quantity`]s; [`Sensitivity::take`] tells the [`Derivative`] of
+//! each figure with respect to each quantity, with how far it may be off. Where no number is true it tells why, and both sides.
+//!
+//! In reading order: `figure` and `quantity`, what is asked; `sample`, what a variant comes to; `ladder`, which variants are
+//! run; `stencil`, slopes from their values; `derivative`, what these mean; `table`, what is told of them.
+
+mod derivative;
+mod error;
+mod figure;
+mod ladder;
+mod quantity;
+mod sample;
+mod stencil;
+mod table;
+
+pub use derivative::{Derivative, Slope, Source, Split};
+pub use error::SensitivityError;
+pub use figure::Figure;
+pub use quantity::Quantity;
+pub use sample::Missing;
+pub use table::{TABLE, csv, json, write};
+
+use crate::each::each;
+use derivative::Near;
+use figure::Reading;
+use ladder::Tried;
+use sample::{Happened, Ran, Sample};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use stickslip_results::{Job, Watcher};
+
+/// What derivatives are asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Asked {
+    /// Names of figures; those that stand out where there are none.
+    pub of: Vec<String>,
+    /// Key paths of quantities; all that say what there is and what drives it where there are none.
+    pub to: Vec<String>,
+    /// Whether step and speed of steady motion are among the figures.
+    pub steady: bool,
+    /// Local error per step of the runs, relative to natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6.
+    pub tolerance: f64,
+}
+
+impl Default for Asked {
+    fn default() -> Self {
+        Self { of: Vec::new(), to: Vec::new(), steady: false, tolerance: 1e-12 }
+    }
+}
+
+/// Figures of a scenario and what they may depend on.
+pub struct Sensitivity {
+    /// The scenario as it stands.
+    pub job: Job,
+    /// What derivatives are of.
+    pub figures: Vec<Figure>,
+    /// What they are with respect to.
+    pub quantities: Vec<Quantity>,
+    /// Local error per step of the runs.
+    pub tolerance: f64,
+    happened: Happened,
+}
+
+/// Derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Taken {
+    /// Of each figure with respect to each quantity, in their orders.
+    pub derivatives: Vec<Vec<Derivative>>,
+    /// Standard deviation of each figure's noise, where it was measured.
+    pub noise: Vec<Option<f64>>,
+    /// Runs that were done beside that of the scenario as it stands.
+    pub runs: usize,
+}
+
+/// Most of the figure that it may change by where the scale of a quantity is looked for.
+const LITTLE: f64 = 0.1;
+/// Levels on a side that make finer ones needless.
+const ENOUGH: usize = 4;
+/// Noise where none could be measured, in tolerances.
+const UNMEASURED: f64 = 100.0;
+
+/// A watcher who is asked and not told.
+struct Silent<'a>(&'a dyn Watcher);
+
+impl Watcher for Silent<'_> {
+    fn reached(&self, _: f64) {}
+    fn goes_on(&self) -> bool {
+        self.0.goes_on()
+    }
+}
+
+impl Sensitivity {
+    /// The derivatives of a file; pairs in `set` are overrides. Runs it as it stands.
+    ///
+    /// # Errors
+    /// A scenario that is refused, a run of its own that stops, figures or quantities that it does not have.
+    pub fn new(
+        file: &Path,
+        set: &[(String, String)],
+        asked: &Asked,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, SensitivityError> {
+        let tolerance = asked.tolerance;
+        if !(1e-13..=1e-6).contains(&tolerance) {
+            return Err(SensitivityError::Tolerance(tolerance));
+        }
+        let job = Job::prepare(file, set, Path::new(""))?;
+        let quantities = match asked.to.is_empty() {
+            true => Quantity::all(&job),
+            false => once(&asked.to)?.map(|path| Quantity::of(&job, path)).collect::<Result<_, _>>()?,
+        };
+        if quantities.is_empty() {
+            return Err(SensitivityError::NoQuantity(job.name));
+        }
+        let (figures, happened) = figures(&job, asked, &Silent(watcher))?;
+        Ok(Self { job, figures, quantities, tolerance, happened })
+    }
+
+    /// How many runs it takes, about: fewer are not done, more where something happens near by.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        let of = |quantity: &Quantity| match quantity.value {
+            0.0 => ladder::probes().count() + ladder::first().count(),
+            _ => ladder::first().count(),
+        };
+        self.quantities.iter().map(of).sum()
+    }
+
+    /// The derivatives, on so many cores; the same for any number. The watcher is told how many runs are done; where it wants an
+    /// end, what hangs on others is [`Missing::NotRun`].
+    pub fn take(&self, cores: usize, watcher: &(dyn Watcher + Sync)) -> Taken {
+        let bench = Bench { asked: self, cores, watcher, done: AtomicUsize::new(0) };
+        let scales = bench.scales();
+        let all = |shares: fn() -> Vec<(f64, bool)>, wanted: &dyn Fn(usize) -> bool| {
+            let quantities = (0..self.quantities.len()).filter(|q| wanted(*q));
+            let variants: Vec<_> =
+                quantities.flat_map(|q| shares().into_iter().map(move |share| (q, share))).collect();
+            bench.run(&scales, &variants)
+        };
+        let mut tried = all(|| ladder::first().collect(), &|_| true);
+        let near = all(|| ladder::finer().collect(), &|q| self.needs_finer(&tried[q]));
+        tried.iter_mut().zip(near).for_each(|(tried, finer)| tried.extend(finer));
+        let noise: Vec<_> = (0..self.figures.len()).map(|f| self.noise(f, &tried)).collect();
+        let derivative = |f: usize, q: usize| {
+            let figure = &self.figures[f];
+            let unmeasured = UNMEASURED * self.tolerance * figure.value.abs();
+            let common = noise[f].unwrap_or(unmeasured);
+            let own = self.own_noise(f, &tried[q]).unwrap_or(common);
+            let noise = own.max(common).max(f64::EPSILON * figure.value.abs());
+            Near { tried: &tried[q], figure: f, own: (figure.value, &self.happened), noise }.derivative()
+        };
+        let of = |f: usize| (0..self.quantities.len()).map(|q| derivative(f, q)).collect();
+        let derivatives = (0..self.figures.len()).map(of).collect();
+        Taken { derivatives, noise, runs: bench.done.into_inner() }
+    }
+
+    /// Whether something else happens on a side of a quantity before there are enough levels.
+    fn needs_finer(&self, tried: &[Tried]) -> bool {
+        let is_alike =
+            |tried: &&Tried| tried.sample.as_ref().is_ok_and(|sample| sample.happened == self.happened);
+        [-1.0, 1.0].into_iter().any(|sense| {
+            let levels = ladder::levels(tried, sense);
+            let has_any = levels.iter().any(|tried| tried.sample.is_ok());
+            has_any && levels.into_iter().filter(is_alike).count() < ENOUGH
+        })
+    }
+
+    /// Noise of a figure near a quantity: of runs in which the same happens, or in which that is never the same.
+    fn own_noise(&self, f: usize, tried: &[Tried]) -> Option<f64> {
+        let flickers = [-1.0, 1.0].into_iter().any(|sense| ladder::settled(tried, sense).is_none());
+        let value = |tried: &Tried| {
+            let sample = tried.sample.as_ref().ok()?;
+            let belongs = flickers || sample.happened == self.happened;
+            sample.figures.get(f).copied().flatten().filter(|_| belongs)
+        };
+        ladder::neighbours(tried, self.figures[f].value, value).and_then(|values| stencil::noise(&values))
+    }
+
+    /// Noise of a figure: the middle of what it is near each quantity.
+    fn noise(&self, f: usize, tried: &[Vec<Tried>]) -> Option<f64> {
+        let mut all: Vec<f64> = tried.iter().filter_map(|tried| self.own_noise(f, tried)).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied()
+    }
+}
+
+impl Taken {
+    /// Change of a figure per change of a quantity, both as shares of what they are; none of what is 0.
+    #[must_use]
+    pub fn elasticity(asked: &Sensitivity, (f, q): (usize, usize), slope: f64) -> Option<f64> {
+        let (figure, quantity) = (asked.figures[f].value, asked.quantities[q].value);
+        let elasticity = slope * quantity / figure;
+        (figure != 0.0 && quantity != 0.0 && elasticity.is_finite()).then_some(elasticity)
+    }
+
+    /// Quantities by how much a figure changes with them, the largest elasticity first; those without one last, in their order.
+    #[must_use]
+    pub fn order(&self, asked: &Sensitivity, f: usize) -> Vec<usize> {
+        let size = |q: usize| {
+            let steepest = self.derivatives[f][q].steepest();
+            steepest.and_then(|slope| Self::elasticity(asked, (f, q), slope)).map_or(-1.0, f64::abs)
+        };
+        let mut order: Vec<usize> = (0..self.derivatives[f].len()).collect();
+        order.sort_by(|a, b| size(*b).total_cmp(&size(*a)));
+        order
+    }
+
+    /// How many derivatives are not known at all.
+    #[must_use]
+    pub fn faults(&self) -> usize {
+        self.derivatives
+            .iter()
+            .flatten()
+            .filter(|derivative| matches!(derivative, Derivative::Unknown(_)))
+            .count()
+    }
+}
+
+/// Where variants are run.
+struct Bench<'a> {
+    asked: &'a Sensitivity,
+    cores: usize,
+    watcher: &'a (dyn Watcher + Sync),
+    done: AtomicUsize,
+}
+
+impl Bench<'_> {
+    /// Runs variants of quantities, by their places; they come by quantity.
+    fn run(&self, scales: &[f64], variants: &[(usize, (f64, bool))]) -> Vec<Vec<Tried>> {
+        let asked = self.asked;
+        let tried = each(variants.len(), self.cores, |place| {
+            let (q, (share, is_level)) = variants[place];
+            let quantity = &asked.quantities[q];
+            let value = quantity.value + share * scales[q];
+            let goes_on = self.watcher.goes_on();
+            let variant = if goes_on {
+                sample::variant(&asked.job, &quantity.path, value, asked.tolerance)
+            } else {
+                Err(Missing::NotRun)
+            };
+            let silent = Silent(self.watcher);
+            let sample = variant.and_then(|job| Sample::of(&job, &asked.figures, asked.tolerance, &silent));
+            let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+            self.watcher.reached(done as f64);
+            Tried { share, offset: value - quantity.value, is_level, sample }
+        });
+        let mut by_quantity: Vec<Vec<Tried>> = vec![Vec::new(); asked.quantities.len()];
+        variants.iter().zip(tried).for_each(|((q, _), tried)| by_quantity[*q].push(tried));
+        by_quantity
+    }
+
+    /// The scale of each quantity: its magnitude, or of one that is 0 the largest distance at which all goes on nearly as it does.
+    fn scales(&self) -> Vec<f64> {
+        let quantities = &self.asked.quantities;
+        let large = |quantity: &Quantity| match quantity.value {
+            0.0 => ladder::large(&self.asked.job, quantity),
+            value => value.abs(),
+        };
+        let mut scales: Vec<f64> = quantities.iter().map(large).collect();
+        let zeros = quantities.iter().enumerate().filter(|(_, quantity)| quantity.value == 0.0);
+        let variants: Vec<_> =
+            zeros.flat_map(|(q, _)| ladder::probes().map(move |probe| (q, probe))).collect();
+        for (q, probes) in self.run(&scales, &variants).into_iter().enumerate() {
+            let little = probes.iter().find(|tried| self.is_little(tried));
+            scales[q] *= little.or(probes.last()).map_or(1.0, |tried| tried.share);
+        }
+        scales
+    }
+
+    /// Whether the same happens, and figures change by little.
+    fn is_little(&self, tried: &Tried) -> bool {
+        let Ok(sample) = &tried.sample else { return false };
+        let figures = self.asked.figures.iter().zip(&sample.figures);
+        sample.happened == self.asked.happened
+            && figures.into_iter().all(|(own, other)| {
+                other.is_some_and(|other| (other - own.value).abs() <= LITTLE * own.value.abs())
+            })
+    }
+}
+
+/// Names, none twice.
+fn once(names: &[String]) -> Result<impl Iterator<Item = &String>, SensitivityError> {
+    match names.iter().enumerate().find(|(place, name)| names[..*place].contains(name)) {
+        Some((_, twice)) => Err(SensitivityError::Twice(twice.clone())),
+        None => Ok(names.iter()),
+    }
+}
+
+/// The figures asked for, with what they are, and what happens in the scenario's own run.
+fn figures(
+    job: &Job,
+    asked: &Asked,
+    watcher: &dyn Watcher,
+) -> Result<(Vec<Figure>, Happened), SensitivityError> {
+    let file = || job.name.clone();
+    let steady =
+        if asked.steady { figure::STEADY.map(|(name, _)| name.to_owned()).to_vec() } else { Vec::new() };
+    let steady = steady.into_iter().filter(|name| !asked.of.contains(name));
+    let own = sample::ready(job.scenario.clone(), &job.name, asked.tolerance)?;
+    let runs = asked.of.is_empty() || asked.of.iter().any(|name| figure::steady(name).is_none());
+    let ran = runs.then(|| Ran::of(&own, watcher)).transpose().map_err(|missing| match missing {
+        Missing::NotRun => SensitivityError::Interrupted,
+        other => SensitivityError::Stopped { file: file(), why: other.to_string() },
+    })?;
+    let default = ran.as_ref().map_or_else(Vec::new, |ran| figure::by_default(job, &ran.summary));
+    let names: Vec<String> = match asked.of.is_empty() {
+        true => default.into_iter().chain(steady).collect(),
+        false => once(&asked.of)?.cloned().chain(steady).collect(),
+    };
+    if names.is_empty() {
+        return Err(SensitivityError::NoDefault(file()));
+    }
+    let found = if names.iter().any(|name| figure::steady(name).is_some()) {
+        let found = sample::find_steady(&own, asked.tolerance, watcher);
+        found.map_err(|source| SensitivityError::NotSteady { file: file(), source })?
+    } else {
+        None
+    };
+    let of = |name: &String| -> Result<Figure, SensitivityError> {
+        let (reading, value) = match (figure::steady(name), &ran, found) {
+            (Some(Reading::SteadySpeed), _, Some([_, speed])) => (Reading::SteadySpeed, speed),
+            (Some(reading), _, Some([step, _])) => (reading, step),
+            (None, Some(ran), _) => figure::find(job, name, &ran.summary, &|channel| ran.at_end(channel))?,
+            _ => return Err(SensitivityError::NotHere { name: name.clone(), file: file() }),
+        };
+        Ok(Figure { name: name.clone(), unit: figure::unit(name), value, reading })
+    };
+    let figures = names.iter().map(of).collect::<Result<_, _>>()?;
+    Ok((figures, ran.map(Ran::happened).unwrap_or_default()))
+}

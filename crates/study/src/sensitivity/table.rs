@@ -1,0 +1,214 @@
+//! What is told of derivatives: a table, and all of it in JSON.
+
+use super::{Derivative, Missing, Sensitivity, Slope, Source, Split, Taken};
+use serde::Serialize;
+use std::fmt::Write;
+use std::io;
+use stickslip_results::files::SENSITIVITY;
+use stickslip_results::folder::Folder;
+use stickslip_results::{Real, hash};
+
+/// Name of the table.
+pub const TABLE: &str = "sensitivity.csv";
+
+/// All numbers; written last.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    scenario: &'a str,
+    scenario_sha256: &'a str,
+    program: &'a str,
+    tolerance: Real,
+    runs: usize,
+    figures: Vec<FigureReport<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table_sha256: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct FigureReport<'a> {
+    name: &'a str,
+    unit: &'a str,
+    value: Real,
+    noise: Option<Real>,
+    derivatives: Vec<Row<'a>>,
+}
+
+/// A slope, or why there is none.
+#[derive(Debug, Serialize)]
+pub(super) struct Row<'a> {
+    quantity: &'a str,
+    quantity_unit: &'a str,
+    quantity_value: Real,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    side: Option<&'static str>,
+    derivative: Option<Real>,
+    derivative_error: Option<Real>,
+    unit: String,
+    elasticity: Option<Real>,
+    elasticity_error: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reach: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    split: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    note: Option<String>,
+}
+
+impl Sensitivity {
+    /// Unit of the derivative of a figure with respect to a quantity, by their places.
+    #[must_use]
+    pub fn unit(&self, (f, q): (usize, usize)) -> String {
+        let (of, to) = (self.figures[f].unit, self.quantities[q].unit);
+        match (of, to) {
+            (of, "") => of.to_owned(),
+            ("", to) => format!("1/{}", bracketed(to)),
+            (of, to) => format!("{}/{}", bracketed(of), bracketed(to)),
+        }
+    }
+
+    fn row(
+        &self,
+        place: (usize, usize),
+        derivative: &Derivative,
+        side: (Option<&'static str>, Result<Slope, Missing>),
+    ) -> Row<'_> {
+        let quantity = &self.quantities[place.1];
+        let (side, slope) = side;
+        let slope = slope.ok();
+        let elasticity = |value: f64| Taken::elasticity(self, place, value).map(Real);
+        let reach = slope.map(|slope| match slope.source {
+            Source::Differences { reach } => Real(reach),
+        });
+        let split = match derivative {
+            Derivative::Split { why, .. } => Some(Split::name(why)),
+            Derivative::Known(_) | Derivative::Unknown(_) => None,
+        };
+        Row {
+            quantity: &quantity.path,
+            quantity_unit: quantity.unit,
+            quantity_value: Real(quantity.value),
+            side,
+            derivative: slope.map(|slope| Real(slope.value)),
+            derivative_error: slope.map(|slope| Real(slope.error)),
+            unit: self.unit(place),
+            elasticity: slope.and_then(|slope| elasticity(slope.value)),
+            elasticity_error: slope
+                .and_then(|slope| elasticity(slope.error))
+                .map(|error| Real(error.0.abs())),
+            source: slope.map(|slope| slope.source.word()),
+            reach,
+            split,
+            note: derivative.words(),
+        }
+    }
+
+    /// The rows of a figure, the largest elasticity first.
+    fn rows(&self, taken: &Taken, f: usize) -> Vec<Row<'_>> {
+        let of = |q: usize| {
+            let derivative = &taken.derivatives[f][q];
+            derivative
+                .sides()
+                .into_iter()
+                .map(move |side| self.row((f, q), derivative, side))
+                .collect::<Vec<_>>()
+        };
+        taken.order(self, f).into_iter().flat_map(of).collect()
+    }
+}
+
+fn bracketed(unit: &str) -> String {
+    if unit.contains(['/', ' ']) { format!("({unit})") } else { unit.to_owned() }
+}
+
+/// As CSV: each figure's derivatives, the largest elasticity first. Numbers have as many digits as it takes to read the same bits
+/// back; a cell is empty where there is no such number.
+#[must_use]
+pub fn csv(asked: &Sensitivity, taken: &Taken) -> String {
+    let mut table = "figure,figure_unit,figure_value,quantity,quantity_unit,quantity_value,side,derivative,derivative_error,unit,\
+                     elasticity,elasticity_error,source,note\n"
+        .to_owned();
+    for (f, figure) in asked.figures.iter().enumerate() {
+        for row in asked.rows(taken, f) {
+            // Writing to a string cannot fail.
+            let _ = write!(table, "{},{},{:e}", quoted(&figure.name), figure.unit, figure.value);
+            let _ =
+                write!(table, ",{},{},{:e}", quoted(row.quantity), row.quantity_unit, row.quantity_value.0);
+            let _ = write!(table, ",{}", row.side.unwrap_or_default());
+            [row.derivative, row.derivative_error].into_iter().for_each(|n| number(&mut table, n));
+            let _ = write!(table, ",{}", row.unit);
+            [row.elasticity, row.elasticity_error].into_iter().for_each(|n| number(&mut table, n));
+            let note = row.note.map(|note| quoted(&note)).unwrap_or_default();
+            let _ = writeln!(table, ",{},{note}", row.source.unwrap_or_default());
+        }
+    }
+    table
+}
+
+fn number(table: &mut String, number: Option<Real>) {
+    let _ = match number {
+        Some(Real(number)) => write!(table, ",{number:e}"),
+        None => write!(table, ","),
+    };
+}
+
+/// A cell: names may have whatever a scenario gives them.
+fn quoted(text: &str) -> String {
+    let is_plain = !text.contains(['"', ',', '\n', '\r']);
+    if is_plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
+}
+
+/// All numbers on one line of JSON.
+#[must_use]
+pub fn json(asked: &Sensitivity, taken: &Taken) -> String {
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    serde_json::to_string(&report(asked, taken)).unwrap_or_default()
+}
+
+/// Writes the table, `sensitivity.json` and pictures into a folder; files of these names that are not among them go. Returns the
+/// names.
+///
+/// # Errors
+/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+pub fn write(
+    mut folder: Folder,
+    (asked, taken): (&Sensitivity, &Taken),
+    pictures: &[(String, Vec<u8>)],
+    stale: Vec<String>,
+) -> io::Result<Vec<String>> {
+    let table = csv(asked, taken);
+    folder.write(TABLE, table.as_bytes())?;
+    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    let mut files = folder.names();
+    files.push(SENSITIVITY.to_owned());
+    folder.forget(stale);
+    let report = Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(asked, taken) };
+    let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
+    json.push(b'\n');
+    folder.write(SENSITIVITY, &json)?;
+    folder.publish()?;
+    Ok(files)
+}
+
+fn report<'a>(asked: &'a Sensitivity, taken: &Taken) -> Report<'a> {
+    let figures = asked.figures.iter().enumerate().map(|(f, figure)| FigureReport {
+        name: &figure.name,
+        unit: figure.unit,
+        value: Real(figure.value),
+        noise: taken.noise[f].map(Real),
+        derivatives: asked.rows(taken, f),
+    });
+    Report {
+        scenario: &asked.job.name,
+        scenario_sha256: &asked.job.hash,
+        program: &asked.job.program,
+        tolerance: Real(asked.tolerance),
+        runs: taken.runs,
+        figures: figures.collect(),
+        files: Vec::new(),
+        table_sha256: None,
+    }
+}

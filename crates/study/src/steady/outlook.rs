@@ -1,0 +1,50 @@
+//! What a drive would settle on, as far as a glance tells.
+
+use super::{Options, Steady, SteadyError, find};
+use stickslip_results::outlook::{Outlook, Repetition};
+use stickslip_results::{Job, Real};
+
+/// Local error per step: six digits of a step are enough to compare a run with.
+const TOLERANCE: f64 = 1e-9;
+/// Steps that a glance may take: more than all examples need that have a motion to be found but one.
+const STEPS: u64 = 75_000;
+
+impl Steady {
+    /// What is told of it beside a run; none where no body steps.
+    #[must_use]
+    pub fn repetition(&self) -> Option<Repetition> {
+        let largest = self.multipliers.first();
+        Some(Repetition {
+            step: Real(self.step?),
+            error: Real(self.bound),
+            speed: Real(self.speed()?),
+            stable: self.is_stable(),
+            radius: Real(self.radius()),
+            beat: largest.and_then(super::Multiplier::beat).map(Real),
+            fold: largest.and_then(super::Multiplier::periods).map(Real),
+            words: largest.map_or_else(|| "is gone after a period".to_owned(), super::Multiplier::words),
+        })
+    }
+}
+
+/// What a job's drive would settle on, if that can be told at little cost; none of scenes that do not ask the question: without a
+/// period, without a free body that figures are of. `goes_on` is asked before every period; `false` gives up.
+pub fn outlook(job: &Job, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
+    job.scenario.figures.body.zip(job.scenario.figures.waveform)?;
+    let options = Options { tolerance: TOLERANCE, steps: STEPS, goes_on, ..Options::default() };
+    match find(job, &options) {
+        Ok(found) => found.repetition().map(Outlook::Found),
+        Err(
+            SteadyError::NoPeriod
+            | SteadyError::NothingFree
+            | SteadyError::Endless(_)
+            | SteadyError::Commanded(_)
+            | SteadyError::Interrupted(_),
+        ) => None,
+        // Its first line says what, the others what to try.
+        Err(error) => {
+            let fault = error.to_string().lines().next().unwrap_or_default().to_owned();
+            Some(Outlook::NotFound { fault })
+        }
+    }
+}
