@@ -7,7 +7,7 @@
 //!
 //! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its small motions, [`Linearised`]; [`State`]; the
 //! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down;
-//! [`facts`], which are told before anything runs.
+//! the [`Variation`] of a run, its derivatives; [`facts`], which are told before anything runs.
 //!
 //! Coordinates are x, z and the small pitch of each body, displacements from the position drawn, in SI: free, fixed or
 //! following a waveform. Where no force depends on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere,
@@ -32,6 +32,7 @@ pub mod scene;
 mod schedule;
 pub mod section;
 mod state;
+mod variation;
 mod waveform;
 
 pub use error::{Field, Part, RunError, SceneError, SceneFault};
@@ -45,6 +46,7 @@ pub use run::{Run, VariantError, Variants, WALK_TOLERANCE, run};
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
 pub use state::{BytesError, CommandError, Counts, Generated, InputError, State};
+pub use variation::{Variation, VariationError};
 pub use waveform::{
     Command, Cycle, Generator, Harmonic, Heading, Interpolation, Piece, Sample, Section, Shape, Steps, Sweep,
     Timing, Waveform, WaveformError,

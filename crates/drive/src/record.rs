@@ -82,6 +82,17 @@ pub trait Record {
         [0.0, f64::INFINITY]
     }
 
+    /// The state at which an interval between two located events ends, its laws still those of the interval; memories that wait
+    /// for an event of their own stay where they are.
+    fn leaves(&mut self, state: &State) {
+        let _ = state;
+    }
+
+    /// The state at which an interval begins, with its laws: where a run between located events begins, and after every event.
+    fn enters(&mut self, state: &State) {
+        let _ = state;
+    }
+
     /// Whether events are wanted; their rows cost an evaluation each.
     fn wants_events(&self) -> bool {
         true

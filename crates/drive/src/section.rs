@@ -6,7 +6,10 @@
 //! is left out is where the drive has got to. Memories of blocks, and of rows of springs, are carried along as they are.
 
 mod drift;
+mod gradient;
 mod legs;
+
+pub use gradient::Gradient;
 
 use crate::equations::Equations;
 use crate::model::Binding;

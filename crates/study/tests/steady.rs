@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 use stickslip_drive::{Model, Plan, Run, State, Stepper};
 use stickslip_results::Job;
-use stickslip_study::steady::{self, Kind, Options, Steady, SteadyError};
+use stickslip_study::steady::{self, Kind, Options, Steady, SteadyError, Way};
 
 type Checked = Result<(), Box<dyn Error>>;
 
@@ -168,6 +168,32 @@ fn the_impact_drive_fades_as_its_multiplier_says() -> Checked {
 #[test]
 fn the_climber_grows_as_its_multiplier_says() -> Checked {
     turns_as_told("vertical_climber.json", false, 40.0)
+}
+
+/// Each Newton step by an exact gradient leaves the square of the defect before, times how much the map bends: below 10⁻⁴ a
+/// thousandth at least, until the tolerance of the runs is met.
+fn falls_quadratically(name: &str) -> Checked {
+    let job = job(name, &[])?;
+    let options = Options { settling: 2, ..Options::default() };
+    let found = steady::find(&job, &options)?;
+    let told: Vec<String> =
+        found.defects.iter().map(|defect| format!("{:.1e} {:?}", defect.size, defect.way)).collect();
+    let steps = found.defects.windows(2).filter(|pair| pair[1].way == Way::Newton && pair[0].size < 1e-4);
+    let sizes: Vec<[f64; 2]> = steps.map(|pair| [pair[0].size, pair[1].size]).collect();
+    assert!(!sizes.is_empty(), "{name}: {told:?}");
+    for [before, after] in sizes {
+        assert!(after < 100.0 * before * before + 1e-11, "{name}: {told:?}");
+    }
+    let numbers = found.unknowns.len() as u32;
+    assert!(found.work <= 6 * (numbers + 1), "{name}: {} periods for {numbers} numbers", found.work);
+    Ok(())
+}
+
+#[test]
+fn defects_fall_quadratically() -> Checked {
+    ["piezo_stack.json", "three_ball_stage.json", "vertical_climber.json"]
+        .into_iter()
+        .try_for_each(falls_quadratically)
 }
 
 #[test]

@@ -144,7 +144,7 @@ impl Contact {
     /// Height of the slip front, m.
     ///
     /// Springs of heights below it stick, those above slip.
-    fn front(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> f64 {
+    pub(crate) fn front(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> f64 {
         if branch.covers(motion.d, motion.u) {
             branch.front(motion.d, motion.u)
         } else {

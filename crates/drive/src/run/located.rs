@@ -181,6 +181,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.ledger.begin_telling(record);
         let eq = self.setting.plain(state);
         self.output.begin_looks(&eq, (self.setting.model, state), opening, record);
+        record.enters(state);
     }
 
     /// Whatever it has done before: the workspace knows nothing of a state that it has yet to take up.
@@ -293,6 +294,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         is_corner: bool,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
+        record.leaves(state);
         if is_corner {
             self.output.turns.near_corner(&self.setting.plain(state), state.t, &state.y);
             self.turn_corners(state, record)?;
@@ -310,6 +312,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         if is_corner || moves || !self.renew_interval(state) {
             self.begin_interval(state);
         }
+        record.enters(state);
         self.go_on_from(state);
         Ok(())
     }

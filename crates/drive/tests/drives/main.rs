@@ -50,4 +50,5 @@ mod straight_walks;
 mod swings;
 mod unfed_inputs;
 mod units;
+mod variations;
 mod vibrated;

@@ -1,4 +1,4 @@
-//! The map of a period, and its gradient by differences.
+//! The map of a period, and its gradient: by the variation of a run where there is one, else by differences.
 //!
 //! Numbers are counted in natural scales: u_c of a coordinate's contacts, u_c ω of its speed.
 
@@ -49,6 +49,8 @@ pub(super) struct Gradient {
     pub(super) numbers: DMatrix<f64>,
     /// Of the way of each free coordinate, m or rad per natural scale.
     pub(super) way: DMatrix<f64>,
+    /// Whether it is exact, but for the tolerance of the run.
+    pub(super) is_exact: bool,
 }
 
 /// Passes on whether its caller has had enough.
@@ -69,6 +71,12 @@ impl Record for Asked<'_> {
     }
     fn wants_event_rows(&self) -> bool {
         self.record.wants_event_rows()
+    }
+    fn leaves(&mut self, state: &State) {
+        self.record.leaves(state);
+    }
+    fn enters(&mut self, state: &State) {
+        self.record.enters(state);
     }
     fn goes_on(&mut self, _: f64) -> bool {
         (self.goes_on)()
@@ -236,15 +244,47 @@ impl<'m> Map<'m> {
         self.section.as_ref()?.moved(state, by.component_mul(&self.scales).as_slice())
     }
 
-    /// The gradient at a state whose image is known, by one difference for each number.
+    /// The gradient at a state, by the variation of a run from there; none where that has none.
+    fn exact_gradient(&mut self, state: &State) -> Result<Option<Gradient>, SteadyError> {
+        let tolerance = self.options.tolerance;
+        let made = self.section.as_ref().and_then(|section| section.variation(state, tolerance).ok());
+        let Some(mut variation) = made else { return Ok(None) };
+        self.count(1.0);
+        let end = self.run(state.clone(), state.time() + self.period, self.plan, &mut variation)?;
+        if variation.finish(&end).is_err() {
+            return Ok(None);
+        }
+        let Some(section) = &self.section else { return Ok(None) };
+        let back = section.back(end).0;
+        if section.difference(&back, state).is_none() {
+            return Ok(None);
+        }
+        let matrix = |rows: Vec<Vec<f64>>| {
+            DMatrix::from_row_iterator(rows.len(), self.scales.len(), rows.into_iter().flatten())
+        };
+        let gradient = section.gradient(&variation, &back).map(|gradient| Gradient {
+            numbers: matrix(gradient.numbers),
+            way: matrix(gradient.way),
+            is_exact: true,
+        });
+        Ok(gradient)
+    }
+
+    /// The gradient at a state whose image is known, else by one difference for each number.
     pub(super) fn near_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
+        if let Some(gradient) = self.exact_gradient(state)? {
+            return Ok(gradient);
+        }
         self.gradient(image, |map, j| {
             Ok(map.beside(state, (j, NEAR))?.map(|beside| (beside, image.clone(), NEAR)))
         })
     }
 
-    /// The gradient by differences to both sides, or to one where the other is of another kind.
+    /// The gradient, else by differences to both sides, or to one where the other is of another kind.
     pub(super) fn fine_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
+        if let Some(gradient) = self.exact_gradient(state)? {
+            return Ok(gradient);
+        }
         self.gradient(image, |map, j| {
             let [ahead, behind] = [map.beside(state, (j, FINE))?, map.beside(state, (j, -FINE))?];
             Ok(match (ahead, behind) {
@@ -263,8 +303,11 @@ impl<'m> Map<'m> {
         mut pair: impl FnMut(&mut Self, usize) -> Result<Option<(Image, Image, f64)>, SteadyError>,
     ) -> Result<Gradient, SteadyError> {
         let count = self.scales.len();
-        let mut gradient =
-            Gradient { numbers: DMatrix::zeros(count, count), way: DMatrix::zeros(image.way.len(), count) };
+        let mut gradient = Gradient {
+            numbers: DMatrix::zeros(count, count),
+            way: DMatrix::zeros(image.way.len(), count),
+            is_exact: false,
+        };
         for j in 0..count {
             let Some((ahead, behind, apart)) = pair(self, j)? else { continue };
             let Some(difference) = self.difference(&ahead.state, &behind.state) else { continue };

@@ -1,6 +1,7 @@
 //! The fixed point of the map of a period.
 //!
-//! Plain periods as long as they come nearer by themselves; else Newton's method on the defect, its gradient by differences and
+//! Plain periods as long as they come nearer by themselves; else Newton's method on the defect, its gradient by the variation of a
+//! run, made anew for every step, so that defects fall quadratically; by differences where there is none, and then
 //! mended by Broyden's rule from period to period, made anew where that no longer helps. Where a step leads away it is halved.
 //! Directions along which nothing changes, as in a shakedown, are left alone: the nearest fixed point is the one.
 
@@ -64,8 +65,9 @@ pub(super) fn fixed_point(map: &mut Map<'_>, from: &State) -> Result<Fixed, Stea
         if !map.may_go_on() {
             return Err(SteadyError::NoConvergence { best: search.least(), periods: map.work() });
         }
-        let by_itself =
-            search.gradient.is_none() && search.before.is_some_and(|before| size < BY_ITSELF * before);
+        let by_itself = search.gradient.is_none()
+            && search.was_plain()
+            && search.before.is_some_and(|before| size < BY_ITSELF * before);
         let never = search.before.is_none();
         if by_itself || never || map.unknowns() == 0 || !search.newton(map)? {
             let count = if by_itself || never { 1 } else { PLAIN };
@@ -112,6 +114,10 @@ impl Search {
 
     fn size(&self) -> f64 {
         self.defect.as_ref().map_or(f64::INFINITY, DVector::amax)
+    }
+
+    fn was_plain(&self) -> bool {
+        self.defects.last().is_some_and(|defect| defect.way == Way::Plain)
     }
 
     fn least(&self) -> f64 {
@@ -198,7 +204,8 @@ impl Search {
             return Ok(false);
         }
         let pays = size <= WORN * before || self.lasts(size / before, size) <= defect.len() as f64;
-        self.gradient = pays.then(|| mended(gradient, (&along, defect, &after)));
+        // An exact one costs less than it spares: defects fall quadratically.
+        self.gradient = (pays && !gradient.is_exact).then(|| mended(gradient, (&along, defect, &after)));
         (self.state, self.image, self.defect) = (state, image, Some(after));
         self.before = Some(before);
         self.note(Way::Newton);
