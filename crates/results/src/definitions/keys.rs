@@ -150,8 +150,11 @@ pub(super) const KEYS: &[Definition] = &[
     of("steps.steady.error_m", "how far the mean of all later steps may lie from it"),
     of("steps.steady.repeatability_m", "standard deviation of those steps"),
     of("steps.steady.back_step", "share of the forward stroke that is lost in the flyback and after"),
-    of("steps.mean_speed_m_s", "net travel over the time of the whole periods"),
-    of("steps.net_travel_m", "x at the end of the last whole period minus x at the start"),
+    of("steps.mean_speed_m_s", "way in the whole periods over their time"),
+    of(
+        "steps.net_travel_m",
+        "x at the end of the run minus x at the start; what comes before and after whole periods counts",
+    ),
     of("steps.last_period.from_s", "start of the last whole period"),
     of("steps.last_period.to_s", "its end"),
     of("steps.last_period.step_m", "how far the body came in it"),
