@@ -37,6 +37,9 @@ use stickslip_drive::section::Section;
 use stickslip_drive::{Model, State};
 use stickslip_results::Job;
 
+/// What a contact that never slips grossly may slide in a period, in parts of its natural displacement.
+const STILL: f64 = 1e-3;
+
 /// How steady motion is looked for.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
@@ -102,6 +105,19 @@ pub struct Steady {
 }
 
 impl Steady {
+    /// Whether there is a step, farther than it may be off.
+    #[must_use]
+    pub fn steps(&self) -> bool {
+        self.step.is_some_and(|step| step.abs() > self.bound)
+    }
+
+    /// Names of contacts by their places.
+    #[must_use]
+    pub fn named(&self, contacts: &[usize]) -> Vec<String> {
+        let names: Vec<&str> = self.model.contacts().map(|(name, _)| name).collect();
+        contacts.iter().filter_map(|c| names.get(*c)).map(|name| (*name).to_owned()).collect()
+    }
+
     /// Speed, m/s: step over period.
     #[must_use]
     pub fn speed(&self) -> Option<f64> {
@@ -152,14 +168,22 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         error => error,
     })?;
     let bound = bound::bound(&mut map, &fixed, figures)?;
-    let never_gave_way = moment::twice(&mut map, &fixed)?;
+    let mut never_gave_way = moment::twice(&mut map, &fixed)?;
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
+    // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
+    // along, has still to come.
+    let slides = |c: usize| section.slides(&fixed.image.way, c).abs();
+    // In a jump a contact gives way without an event.
+    never_gave_way.retain(|c| {
+        model.contact_natural(*c).is_none_or(|natural| slides(*c) <= STILL * natural.displacement)
+    });
+    let slid = never_gave_way.iter().map(|c| slides(*c)).fold(0.0, f64::max);
     let found = Steady {
         period: endless.period,
         begins: endless.begins,
         tolerance: options.tolerance,
         step: figures.and_then(|body| section.of_body(&fixed.image.way, body, Axis::X)),
-        bound: bound.step,
+        bound: bound.step + slid,
         multipliers: multiplier::of(&bound.gradient.numbers),
         drifts: section.drifts(),
         unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),

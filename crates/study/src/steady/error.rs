@@ -32,6 +32,14 @@ pub enum SteadyError {
         /// Longest common period that is looked for, in the longer one.
         most: u32,
     },
+    /// A motion without a step, where one is asked for.
+    #[error(
+        "there is no step: it is less than {least:.3e} m, which is what it may be off\n   help: sensitivity tells figures of a run as well"
+    )]
+    NoStep {
+        /// How far the step may be off, m.
+        least: f64,
+    },
     /// All bodies are led or held.
     #[error(
         "nothing is free in this scene: its motion is what it is told, and steady from the second period on"
