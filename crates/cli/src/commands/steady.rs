@@ -15,7 +15,7 @@ use stickslip_results::complaint::words;
 use stickslip_results::files::STEADY;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Job, Refusal};
-use stickslip_study::steady::{Options, Orbit, Report, Steady, SteadyError, find};
+use stickslip_study::steady::{Aftermath, Options, Orbit, Report, Steady, SteadyError, find};
 use thiserror::Error;
 
 /// Wall time between two checkpoints of a run that goes on, s.
@@ -56,23 +56,33 @@ fn answer(arguments: &SteadyArguments) -> Result<(), SteadyFailure> {
         warn(&job);
     }
     let not_found = |source| SteadyFailure::NotFound { name: job.name.clone(), source };
-    let found = search(arguments, &job, &interrupt).map_err(not_found)?;
+    let (found, aftermath) = search(arguments, &job, &interrupt).map_err(not_found)?;
     let orbit = found.orbit(&job, picture::ROWS).map_err(not_found)?;
     let out =
         arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-steady", job.name)));
     let lasting = found.job(&job, out.clone()).map_err(not_found)?;
-    let report = write(arguments, (&job, &lasting), &found, &orbit)?;
+    let aftermath = aftermath.as_ref();
+    let report = write(arguments, (&job, &lasting), (&found, aftermath), &orbit)?;
     if arguments.json {
         say_json(&report.line());
     } else if !arguments.quiet {
-        say(format_args!("{}\n\n{}: {}", page::text(&job, &found), out.display(), report.files.join(", ")));
+        say(format_args!(
+            "{}\n\n{}: {}",
+            page::text(&job, &found, aftermath),
+            out.display(),
+            report.files.join(", ")
+        ));
         report.notes.iter().for_each(|note| say(format_args!("  {note}")));
     }
     Ok(())
 }
 
-/// The search itself, with its progress.
-fn search(arguments: &SteadyArguments, job: &Job, interrupt: &Interrupt) -> Result<Steady, SteadyError> {
+/// The search itself and, where a run leaves the motion, what it ends on, with their progress.
+fn search(
+    arguments: &SteadyArguments,
+    job: &Job,
+    interrupt: &Interrupt,
+) -> Result<(Steady, Option<Aftermath>), SteadyError> {
     let progress = Progress::new(!arguments.quiet);
     let line = progress.count(&job.name, "periods");
     let options = Options {
@@ -82,18 +92,20 @@ fn search(arguments: &SteadyArguments, job: &Job, interrupt: &Interrupt) -> Resu
         told: &|periods| line.reached(periods),
         ..Options::default()
     };
-    find(job, &options)
+    let found = find(job, &options)?;
+    let aftermath = found.aftermath(job, &options)?;
+    Ok((found, aftermath))
 }
 
 /// Writes what was found, the picture and the checkpoint of the job whose waveforms last.
 fn write(
     arguments: &SteadyArguments,
     (job, lasting): (&Job, &Job),
-    found: &Steady,
+    (found, aftermath): (&Steady, Option<&Aftermath>),
     orbit: &Orbit,
 ) -> Result<Report, SteadyFailure> {
     let pictures = picture::draw(job, found, &orbit.series, &arguments.look.look())?;
-    let mut report = Report::of(job, found);
+    let mut report = Report::of(job, found, aftermath);
     let keeps = lasting.check_checkpoints().is_ok();
     if !keeps {
         let stepper = lasting.stepper().0;
