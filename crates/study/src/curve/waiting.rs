@@ -24,6 +24,8 @@ const LEFT: f64 = 1e-6;
 const FEWEST: usize = 5;
 /// How many limits must agree.
 const AGREEING: usize = 3;
+/// By which share a beat that stays as it is may be larger or smaller in the last quarter of the periods than in the one before.
+const STAYS: f64 = 0.05;
 /// Where the changes of steps are rounding, as a share of their scale.
 const ROUNDING: f64 = 1e-11;
 
@@ -146,7 +148,14 @@ fn judged(steps: &[f64], hold: Hold, bounds: Bounds) -> Result<(Course, Mean, f6
         Settling::Settled(settled) => {
             Ok((Course::Steady, Mean { value: settled.value, error: settled.error }, 0.0))
         }
-        Settling::Beats { period, amplitude, .. } => Ok((Course::Beats, mean(period, amplitude), amplitude)),
+        Settling::Beats { period, amplitude, .. } => {
+            // One that goes on growing or fading takes the mean with it, and nobody knows how far.
+            let [before, after] = [&half[..half.len() / 2], &half[half.len() / 2..]].map(extent);
+            let Mean { value, error } = mean(period, amplitude);
+            let stays = (after - before).abs() <= STAYS * before;
+            let error = if stays { error } else { error.max(amplitude) };
+            Ok((Course::Beats, Mean { value, error }, amplitude))
+        }
         Settling::Irregular { spread } => Ok((Course::Irregular, mean(0.0, spread), spread)),
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
             // Where nobody knows how long a step can be, one that grows to no limit that is foreseen.
@@ -158,6 +167,13 @@ fn judged(steps: &[f64], hold: Hold, bounds: Bounds) -> Result<(Course, Mean, f6
             })
         }
     }
+}
+
+/// How far apart the longest and the shortest step are.
+fn extent(steps: &[f64]) -> f64 {
+    let bounds = |(low, high): (f64, f64), step: &f64| (low.min(*step), high.max(*step));
+    let (low, high) = steps.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+    high - low
 }
 
 /// A record that keeps nothing, hears when it is to end, and what happens to contacts.
@@ -213,6 +229,12 @@ mod tests {
         // 15 swings in 100 values: their mean is known to less than a tenth of the swing.
         assert!((mean.value - 1e-8).abs() <= mean.error && mean.error < 1e-10, "{mean:?}");
         assert!((spread - 1e-9).abs() < 1e-11, "{spread}");
+        // Its mean goes with the square of its amplitude, as long as it grows.
+        let of = |k: i32| 1e-10 * 1.004_f64.powi(k);
+        let grows: Vec<f64> =
+            (0..400).map(|k| 1e-8 - 1e8 * of(k).powi(2) + of(k) * f64::from(k).sin()).collect();
+        let (_, mean, spread) = judged(&grows, Hold::default(), FREE).unwrap();
+        assert!(mean.error >= spread && spread > 0.9 * of(399), "{mean:?} {spread}");
     }
 
     /// A constant force: each step is longer than the one before by F T²/m. Differences of such places are rounded, and by chance
