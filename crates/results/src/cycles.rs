@@ -11,6 +11,7 @@ mod judged;
 mod load;
 mod loops;
 mod peak;
+mod walk;
 
 pub(crate) use judged::ContactCycles;
 pub use judged::JudgedCycle;
@@ -21,9 +22,10 @@ use crate::periods::followed;
 use load::Load;
 use std::ops::Range;
 use stickslip_analysis::Cycle;
-use stickslip_contact::{Apex, Interface, Memory, Segment};
+use stickslip_contact::Interface;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::Side;
+use walk::{Question, Walk};
 
 /// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
 const CLOSED: f64 = 0.01;
@@ -34,8 +36,6 @@ const STILL: f64 = 1e-12;
 const FIXED: f64 = 1e-9;
 /// Share of the displacement range over which a secant is taken.
 const WINDOW: f64 = stickslip_analysis::fretting::STIFFNESS_WINDOW;
-/// Halvings of an interval in which the force changes sign: to the last place.
-const HALVINGS: u32 = 64;
 
 /// One cycle of a contact that comes back along u.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,17 +122,6 @@ struct Setup<'a> {
     is_continuous: bool,
     /// Whether what its own damping takes is known.
     knows_damping: bool,
-}
-
-/// What the law is asked for in a cycle: between which moment and the next, and at which u; without one, where F_x passes the
-/// middle of its range.
-struct Question {
-    after: usize,
-    u: Option<f64>,
-    /// Extreme of u that this u is on the way back from, m.
-    extreme: f64,
-    /// u where F_x passes the middle, or F_x at u.
-    answer: f64,
 }
 
 impl Track {
@@ -274,79 +263,6 @@ impl Track {
             _ => None,
         }
     }
-}
-
-/// A contact led once more along the moments of a run.
-struct Walk {
-    memory: Memory,
-    /// Indentation, m.
-    d: f64,
-    /// Displacements of moments before those of the track, which it has not been led to yet, m.
-    pending: Vec<f64>,
-    /// The moment of the track where it stands, once it has been led along all that are pending.
-    at: Option<usize>,
-}
-
-impl Walk {
-    /// Where the run starts.
-    fn new(memory: Memory) -> Self {
-        Self { memory, d: f64::NAN, pending: Vec::new(), at: None }
-    }
-
-    /// Takes the indentation of the first moment: it is that of all.
-    fn begin(&mut self, d: f64) {
-        if self.d.is_nan() {
-            self.d = d;
-        }
-    }
-
-    /// Leads it along what is pending.
-    fn catch_up(&mut self, law: &Interface) {
-        let Self { memory, d, pending, .. } = self;
-        for u in pending.drain(..) {
-            // The run has been here: its contact was not refused.
-            let _ = memory.commit(law, Segment::Straight(Apex { d: *d, u }));
-        }
-    }
-
-    /// Answers questions of a cycle that is not before the one asked about last.
-    fn answer(
-        &mut self,
-        (track, law): (&Track, &Interface),
-        span: &Range<usize>,
-        (count, middle): (f64, f64),
-        questions: &mut [Question],
-    ) {
-        self.catch_up(law);
-        let d = self.d;
-        // In order of their moments.
-        let mut next = 0;
-        for i in self.at.map_or(0, |at| at + 1)..=span.end {
-            if i > span.start {
-                let first = next;
-                next += questions[next..].iter().take_while(|question| question.after == i - 1).count();
-                for question in &mut questions[first..next] {
-                    let force = |u: f64| count * self.memory.force(law, Apex { d, u });
-                    question.answer = match question.u {
-                        Some(u) => force(u),
-                        None => zero(|u| force(u) - middle, [track.u[i - 1], track.u[i]]),
-                    };
-                }
-            }
-            let _ = self.memory.commit(law, Segment::Straight(Apex { d, u: track.u[i] }));
-            self.at = Some(i);
-        }
-    }
-}
-
-/// Where a force that changes its sign once vanishes.
-fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
-    let falls = force(to) < 0.0;
-    for _ in 0..HALVINGS {
-        let middle = from + 0.5 * (to - from);
-        if (force(middle) < 0.0) == falls { to = middle } else { from = middle }
-    }
-    to
 }
 
 /// Whether a body of contact `c` moves as forces say.

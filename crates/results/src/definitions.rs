@@ -7,6 +7,7 @@ mod contact;
 mod curve;
 mod info;
 mod keys;
+mod outlook;
 mod sensitivity;
 mod steady;
 
@@ -29,8 +30,10 @@ const PLACEHOLDERS: [&str; 10] =
 
 /// Everything that is defined, file by file.
 pub fn definitions() -> impl Iterator<Item = &'static Definition> {
-    let tables = columns::COLUMNS.iter().chain(keys::KEYS).chain(info::INFO);
-    tables
+    let summary = columns::COLUMNS.iter().chain(keys::KEYS).chain(outlook::SUMMARY);
+    let info = info::INFO.iter().chain(outlook::INFO);
+    summary
+        .chain(info)
         .chain(contact::CONTACT)
         .chain(steady::STEADY)
         .chain(check::CHECK)

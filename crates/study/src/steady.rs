@@ -8,8 +8,9 @@
 //! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
 //! period the map is taken; `map`, the map and its gradient by differences; `newton`, its fixed point; `multiplier`, what the
 //! gradient means; `bound`, how far the step may be off; `orbit`, the motion from the beginning of a period on, from which a run
-//! goes on; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive.
+//! goes on; `aftermath`, what a run ends on that leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive.
 
+mod aftermath;
 mod bound;
 mod endless;
 mod error;
@@ -21,6 +22,7 @@ mod orbit;
 mod outlook;
 mod report;
 
+pub use aftermath::{Aftermath, Ending};
 pub use error::SteadyError;
 pub use multiplier::{Kind, Multiplier};
 pub use newton::{Defect, Way};

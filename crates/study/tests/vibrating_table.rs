@@ -11,7 +11,7 @@ use stickslip_drive::scene::Axis;
 use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
 use stickslip_results::Job;
 use stickslip_scenario::Scenario;
-use stickslip_study::steady::{self, Multiplier, Options, Steady};
+use stickslip_study::steady::{self, Ending, Multiplier, Options, Steady};
 
 const MASS: f64 = 4e-3;
 const DAMPING: f64 = 0.8;
@@ -243,6 +243,26 @@ fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box
     let (slope, bend) = ((after - before) / (2.0 * apart), (after - 2.0 * there + before) / (apart * apart));
     let off = -there / (slope - 0.5 * bend * there / slope);
     assert!(before > 0.0 && after < 0.0 && off.abs() < 1e-8, "{off:e} of {own:e} m");
+    Ok(())
+}
+
+/// Beyond that the bounces of its own equations, one after another, come to two that take turns; and so does a run.
+#[test]
+fn beyond_it_a_run_ends_on_two_bounces() -> Result<(), Box<dyn Error>> {
+    let table = Table { amplitude: 7.6e-6 };
+    let job = job(table)?;
+    let found = steady::find(&job, &Options::default())?;
+    let mut at = touch(&job, &found)?;
+    let own = table.fixed(at).ok_or("a bounce")?;
+    at[1] *= 1.01;
+    for _ in 0..1000 {
+        at = table.map(at).ok_or("a bounce")?;
+    }
+    let [once, twice] = [table.map(at).ok_or("one")?, table.map(table.map(at).ok_or("one")?).ok_or("two")?];
+    assert!((once[1] - at[1]).abs() > 0.01 * own[1].abs() && (twice[1] - at[1]).abs() < 1e-9 * own[1].abs());
+    assert!(!found.is_stable());
+    let aftermath = found.aftermath(&job, &Options::default())?.ok_or("an end")?;
+    assert_eq!(aftermath.ending, Ending::Repeats(2));
     Ok(())
 }
 

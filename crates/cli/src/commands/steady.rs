@@ -15,7 +15,7 @@ use stickslip_results::complaint::words;
 use stickslip_results::files::STEADY;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Job, Refusal, Watcher};
-use stickslip_study::steady::{Options, Orbit, Report, Steady, SteadyError, find};
+use stickslip_study::steady::{Aftermath, Options, Orbit, Report, Steady, SteadyError, find};
 use thiserror::Error;
 
 /// Wall time between two checkpoints of a run that goes on, s.
@@ -66,21 +66,31 @@ fn answer(arguments: &SteadyArguments) -> Result<(), SteadyFailure> {
     // Before the first period: of some drives it takes thousands.
     let folder = Folder::ready(&out, RESERVE)
         .map_err(|source| SteadyFailure::Folder { folder: out.clone(), source })?;
-    let found = search(arguments, &job, &interrupt).map_err(not_found)?;
+    let (found, aftermath) = search(arguments, &job, &interrupt).map_err(not_found)?;
     let orbit = found.orbit(&job, picture::ROWS).map_err(not_found)?;
     let lasting = found.job(&job, out.clone()).map_err(not_found)?;
-    let report = write(arguments, (&job, &lasting), (&found, &orbit), folder)?;
+    let aftermath = aftermath.as_ref();
+    let report = write(arguments, (&job, &lasting), (&found, aftermath, &orbit), folder)?;
     if arguments.json {
         say_json(&report.line());
     } else if !arguments.quiet {
-        say(format_args!("{}\n\n{}: {}", page::text(&job, &found), out.display(), report.files.join(", ")));
+        say(format_args!(
+            "{}\n\n{}: {}",
+            page::text(&job, &found, aftermath),
+            out.display(),
+            report.files.join(", ")
+        ));
         report.notes.iter().for_each(|note| say(format_args!("  {note}")));
     }
     Ok(())
 }
 
-/// The search itself, with its progress.
-fn search(arguments: &SteadyArguments, job: &Job, interrupt: &Interrupt) -> Result<Steady, SteadyError> {
+/// The search itself and, where a run leaves the motion, what it ends on, with their progress.
+fn search(
+    arguments: &SteadyArguments,
+    job: &Job,
+    interrupt: &Interrupt,
+) -> Result<(Steady, Option<Aftermath>), SteadyError> {
     let progress = Progress::new(!arguments.quiet);
     progress.tell(format_args!("{}: looking for its steady motion", job.name));
     let line = progress.count(&job.name, "periods", interrupt);
@@ -93,18 +103,19 @@ fn search(arguments: &SteadyArguments, job: &Job, interrupt: &Interrupt) -> Resu
     };
     let found = find(job, &options)?;
     progress.tell(format_args!("{}: found in {} periods", job.name, found.work));
-    Ok(found)
+    let aftermath = found.aftermath(job, &options)?;
+    Ok((found, aftermath))
 }
 
 /// Writes what was found, the picture and the checkpoint of the job whose waveforms last.
 fn write(
     arguments: &SteadyArguments,
     (job, lasting): (&Job, &Job),
-    (found, orbit): (&Steady, &Orbit),
+    (found, aftermath, orbit): (&Steady, Option<&Aftermath>, &Orbit),
     mut folder: Folder,
 ) -> Result<Report, SteadyFailure> {
     let pictures = picture::draw(job, found, &orbit.series, &arguments.look.look())?;
-    let mut report = Report::of(job, found);
+    let mut report = Report::of(job, found, aftermath);
     let keeps = lasting.check_checkpoints().is_ok();
     if !keeps {
         let stepper = lasting.stepper().0;

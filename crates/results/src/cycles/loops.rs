@@ -1,7 +1,8 @@
 //! The cycles of a contact as its run goes on.
 
 use super::load::Load;
-use super::{CLOSED, CycleFigures, Moment, Setup, Track, Walk, range, still, table_of};
+use super::walk::Walk;
+use super::{CLOSED, CycleFigures, Moment, Setup, Track, range, still, table_of};
 use crate::contact_path::is_walked;
 use crate::job::Job;
 use crate::marks;

@@ -30,6 +30,17 @@ pub(super) const STEADY: &[Definition] = &[
     key("multipliers.beat_periods", "2π/|arg λ|, periods of a beat; none where it does not turn"),
     key("multipliers.fold_periods", "1/|ln |λ||, periods in which it becomes e times smaller, or larger"),
     key("multipliers.words", "the same in words"),
+    key(
+        "aftermath.ending",
+        "what a run ends on that leaves an unstable motion, every number of it disturbed by a hundredth of a natural scale: it `repeats` itself, `beats`, is `irregular`, is `underway` still, or `stops`",
+    ),
+    key("aftermath.periods", "periods until then"),
+    key("aftermath.repeats_periods", "after how many periods it repeats itself; 1: another steady motion"),
+    key("aftermath.beat_periods", "periods of its beat"),
+    key("aftermath.step_m", "mean step of what repeats itself, else of the last half"),
+    key("aftermath.least_m", "the shortest of these steps"),
+    key("aftermath.most_m", "the longest of these steps"),
+    key("aftermath.words", "the same in words"),
     key("unknowns", "the numbers that the map of a period is of"),
     key("drifts", "number of ways along which nothing changes but the place"),
     key(

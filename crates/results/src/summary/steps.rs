@@ -37,7 +37,7 @@ pub struct DriveSummary {
     /// The step that they have settled to; none where they have not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steady: Option<Steady>,
-    /// Net travel over time, m/s.
+    /// Way in the whole periods over their time, m/s.
     #[serde(rename = "mean_speed_m_s")]
     pub mean_speed: Real,
     #[serde(rename = "net_travel_m")]

@@ -65,7 +65,7 @@ impl Steady {
     }
 
     /// The motion at that moment.
-    fn start(&self, job: &Job) -> Result<State, SteadyError> {
+    pub(super) fn start(&self, job: &Job) -> Result<State, SteadyError> {
         let plan = self.plan(job);
         let begins = self.beginning(job);
         let mut first = self.model.start(&plan)?;

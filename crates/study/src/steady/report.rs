@@ -1,6 +1,6 @@
 //! What is told of a steady motion, as JSON.
 
-use super::{Kind, Multiplier, Steady, Way};
+use super::{Aftermath, Ending, Kind, Multiplier, Steady, Way};
 use serde::Serialize;
 use stickslip_results::{Job, Real};
 
@@ -21,6 +21,8 @@ pub struct Report {
     stable: bool,
     radius: Real,
     multipliers: Vec<MultiplierReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    aftermath: Option<AftermathReport>,
     unknowns: Vec<String>,
     drifts: usize,
     carried: Vec<String>,
@@ -49,15 +51,32 @@ struct MultiplierReport {
 }
 
 #[derive(Debug, Clone, Serialize)]
+struct AftermathReport {
+    ending: &'static str,
+    periods: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    repeats_periods: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beat_periods: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step_m: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least_m: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    most_m: Option<Real>,
+    words: String,
+}
+
+#[derive(Debug, Clone, Serialize)]
 struct DefectReport {
     size: Real,
     way: &'static str,
 }
 
 impl Report {
-    /// What is told of a job's steady motion.
+    /// What is told of a job's steady motion, and of what a run ends on that leaves it.
     #[must_use]
-    pub fn of(job: &Job, found: &Steady) -> Self {
+    pub fn of(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> Self {
         let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
         let named = |places: &[usize]| -> Vec<String> {
             places.iter().filter_map(|c| contacts.get(*c)).map(|name| (*name).to_owned()).collect()
@@ -81,6 +100,7 @@ impl Report {
             stable: found.is_stable(),
             radius: Real(found.radius()),
             multipliers: found.multipliers.iter().map(MultiplierReport::of).collect(),
+            aftermath: aftermath.map(AftermathReport::of),
             unknowns: found.unknowns.clone(),
             drifts: found.drifts,
             carried: named(&found.carried),
@@ -116,6 +136,27 @@ impl MultiplierReport {
             beat_periods: multiplier.beat().map(Real),
             fold_periods: multiplier.periods().map(Real),
             words: multiplier.words(),
+        }
+    }
+}
+
+impl AftermathReport {
+    fn of(aftermath: &Aftermath) -> Self {
+        let [step, least, most] = aftermath.range().map_or([None; 3], |range| range.map(|x| Some(Real(x))));
+        let (repeats, beat) = match aftermath.ending {
+            Ending::Repeats(periods) => (Some(periods), None),
+            Ending::Beats(period) => (None, Some(Real(period))),
+            Ending::Irregular | Ending::Underway | Ending::Stops(_) => (None, None),
+        };
+        Self {
+            ending: aftermath.ending.name(),
+            periods: aftermath.periods,
+            repeats_periods: repeats,
+            beat_periods: beat,
+            step_m: step,
+            least_m: least,
+            most_m: most,
+            words: aftermath.words(),
         }
     }
 }

@@ -2,13 +2,13 @@
 
 use crate::commands::info::tables::grid;
 use stickslip_results::{Job, Real, quantity};
-use stickslip_study::steady::{Multiplier, Steady};
+use stickslip_study::steady::{Aftermath, Multiplier, Steady};
 
 /// Multipliers that are told one by one.
 const TOLD: usize = 8;
 
 /// What was found.
-pub(super) fn text(job: &Job, found: &Steady) -> String {
+pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> String {
     let names: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
     let named = |places: &[usize]| -> String {
         places.iter().filter_map(|c| names.get(*c)).copied().collect::<Vec<_>>().join(", ")
@@ -29,6 +29,7 @@ pub(super) fn text(job: &Job, found: &Steady) -> String {
         ("step", step),
         ("speed", found.speed().map(|speed| quantity(Real(speed), "m/s"))),
         ("stable", Some(stable(found))),
+        ("ends on", aftermath.map(Aftermath::words)),
         ("unknowns", Some(format!("{}{drifts}", found.unknowns.len()))),
         ("found in", Some(format!("{} periods of work", found.work))),
         (
