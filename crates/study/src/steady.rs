@@ -30,6 +30,7 @@ pub use orbit::Orbit;
 pub use outlook::outlook;
 pub use report::Report;
 
+use crate::grip::{Grip, Loose};
 use endless::Endless;
 use map::Map;
 use stickslip_drive::scene::Axis;
@@ -98,6 +99,8 @@ pub struct Steady {
     /// Contacts that never slip grossly in a period: what their springs near the centre hold, they hold for ever. Of such
     /// motions there is a whole family, and this one is the one that was nearest: a shakedown.
     pub shaken_down: Vec<usize>,
+    /// Whether the figures' body slips on all its contacts all through the period: it is dragged along, and makes no step.
+    pub is_dragged: bool,
     /// Largest defect of every period on the way, in natural scales, and how the one before was left.
     pub defects: Vec<Defect>,
     /// Periods that were computed.
@@ -168,7 +171,12 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         error => error,
     })?;
     let bound = bound::bound(&mut map, &fixed, figures)?;
-    let mut never_gave_way = moment::twice(&mut map, &fixed)?;
+    let grip = figures.map(|body| Grip::new(job, body));
+    let (mut never_gave_way, loose) = moment::twice(&mut map, &fixed, grip)?;
+    let body = figures.and_then(|body| job.scenario.scene.bodies.get(body));
+    if let (Some(Loose::Flies), Some(body)) = (loose, body) {
+        return Err(SteadyError::Flies { body: body.name.clone(), periods: map.work() });
+    }
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
     // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
     // along, has still to come.
@@ -189,6 +197,7 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),
         carried: section.carried().to_vec(),
         shaken_down: never_gave_way,
+        is_dragged: loose == Some(Loose::Slides),
         defects: fixed.defects,
         work: map.work(),
         model: model.clone(),

@@ -55,6 +55,16 @@ pub enum SteadyError {
         /// z or pitch.
         axis: &'static str,
     },
+    /// All contacts of the figures' body are open all through the period.
+    #[error(
+        "\"{body}\" is in the air all through the period: how far it flies is no step\n   help: press it on: by its weight, by a spring or a load along z"
+    )]
+    Flies {
+        /// Name of the body.
+        body: String,
+        /// Periods that were computed.
+        periods: u32,
+    },
     /// The scene with waveforms that never end is none.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -180,6 +180,11 @@ impl<'m> Map<'m> {
         self.run(state, until, self.plan, record)
     }
 
+    /// A run that stands at a state.
+    pub(super) fn held(&self, state: State) -> Result<Run<'m>, SteadyError> {
+        Ok(Run::new(self.model, &self.plan, state)?)
+    }
+
     fn count(&mut self, periods: f64) {
         self.work += periods;
         (self.options.told)(self.work());
