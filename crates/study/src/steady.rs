@@ -8,10 +8,12 @@
 //! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
 //! period the map is taken; `map`, the map and its gradient by differences; `newton`, its fixed point; `multiplier`, what the
 //! gradient means; `bound`, how far the step may be off; `orbit`, the motion from the beginning of a period on, from which a run
-//! goes on; `aftermath`, what a run ends on that leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive.
+//! goes on; `aftermath`, what a run ends on that leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is
+//! about to run the drive; [`continuation`], steady motions one after another, as a number of the scenario changes.
 
 mod aftermath;
 mod bound;
+pub mod continuation;
 mod endless;
 mod error;
 mod map;
@@ -32,6 +34,7 @@ pub use report::Report;
 
 use endless::Endless;
 use map::Map;
+use newton::Fixed;
 use stickslip_drive::scene::Axis;
 use stickslip_drive::section::Section;
 use stickslip_drive::{Model, State};
@@ -133,24 +136,10 @@ impl Steady {
 /// stops itself, and no fixed point within the periods allowed, with the best that was found.
 pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     let endless = Endless::of(job)?;
-    let model = endless.model;
+    let model = &endless.model;
     let figures = job.scenario.figures.body;
-    let mut map = Map::new(&model, endless.period, job, options);
-    let settled = moment::settle(&mut map, endless.begins, endless.start, options.settling)?;
-    let section = Section::new(&model, settled.state);
-    if let Some((body, axis)) = section.drifts_away() {
-        return Err(SteadyError::Drifts { body, axis });
-    }
-    let from = section.base().clone();
-    map.set(section);
-    let fixed = newton::fixed_point(&mut map, &from).map_err(|error| match error {
-        SteadyError::NoConvergence { best, periods } if !settled.never_gave_way.is_empty() => {
-            let name = |c: &usize| model.contacts().nth(*c).map(|(name, _)| name.to_owned());
-            let contacts = settled.never_gave_way.iter().filter_map(name).collect();
-            SteadyError::Shakedown { contacts, best, periods }
-        }
-        error => error,
-    })?;
+    let mut map = Map::new(model, endless.period, job, options);
+    let fixed = fixed_point(&mut map, &endless)?;
     let bound = bound::bound(&mut map, &fixed, figures)?;
     let never_gave_way = moment::twice(&mut map, &fixed)?;
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
@@ -171,4 +160,24 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         state: fixed.state,
     };
     Ok(found)
+}
+
+/// The fixed point that the start of a drive leads to.
+fn fixed_point<'m>(map: &mut Map<'m>, endless: &'m Endless) -> Result<Fixed, SteadyError> {
+    let model = &endless.model;
+    let settled = moment::settle(map, endless.begins, endless.start.clone(), map.settling())?;
+    let section = Section::new(model, settled.state);
+    if let Some((body, axis)) = section.drifts_away() {
+        return Err(SteadyError::Drifts { body, axis });
+    }
+    let from = section.base().clone();
+    map.set(section);
+    newton::fixed_point(map, &from).map_err(|error| match error {
+        SteadyError::NoConvergence { best, periods } if !settled.never_gave_way.is_empty() => {
+            let name = |c: &usize| model.contacts().nth(*c).map(|(name, _)| name.to_owned());
+            let contacts = settled.never_gave_way.iter().filter_map(name).collect();
+            SteadyError::Shakedown { contacts, best, periods }
+        }
+        error => error,
+    })
 }

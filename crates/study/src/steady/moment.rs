@@ -57,11 +57,15 @@ pub(super) fn settle(
     let first = (begins / period).ceil() * period;
     let end = |count: u32| first + f64::from(count) * period;
     let state = map.lead(start, end(periods.max(2) - 2), &mut ())?;
-    let model = map.model();
+    again(map, state)
+}
+
+/// Goes two more plain periods from a state, and stands at the moment of the second at which memories are shortest.
+pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyError> {
+    let (model, period, from) = (map.model(), map.period(), state.time());
     let contacts = model.contacts().count();
     let gave_way = (0..contacts).map(|c| state.has_given_way(model, c)).collect();
     let mut moments = Moments { times: Vec::new(), gave_way };
-    let from = end(periods.max(2) - 2);
     let state = map.lead(state, from + period, &mut moments)?;
     let stretches = stretches(&moments.times, (from, from + period));
     let chosen = choose(map, &state, &stretches)?;
