@@ -1,6 +1,6 @@
 //! `stickslip characterise`: a curve of a machine.
 
-use crate::arguments::CharacteriseArguments;
+use crate::arguments::{CharacteriseArguments, span};
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::{Interrupt, Interrupted};
 use crate::console::progress::Progress;
@@ -85,12 +85,7 @@ fn range(
     let refused = |message: String| CurveFailure::Range { option, message };
     let [from, to] = match text {
         None => curve.range(watcher).ok_or_else(|| CurveError::NoRange(curve.variation.name.clone()))?,
-        Some(text) => {
-            let expected = || refused(format!("expected FROM..TO, such as 0.1..0.6, got \"{text}\""));
-            let (from, to) = text.split_once("..").ok_or_else(expected)?;
-            let read = |end| stickslip_scenario::quantity(end, curve.variation.unit).map_err(refused);
-            [read(from)?, read(to)?]
-        }
+        Some(text) => span(text, curve.variation.unit).map_err(refused)?,
     };
     Ok(Range { from, to, points: arguments.points, decades: arguments.log })
 }
