@@ -150,7 +150,7 @@ fn tell(of: &Continuation, branch: &Branch) {
         vec![shown(mark.value), shown(mark.half_width), step(mark.step), stable, what]
     };
     table.add_row(end(0));
-    branch.marks.iter().for_each(|mark| drop(table.add_row(row(mark))));
+    table.add_rows(branch.marks.iter().map(row));
     table.add_row(end(1));
     say(format_args!("{}: {} steady motions\n\n{table}", of.job.name, branch.points.len()));
     if branch.ends.contains(&End::Interrupted) {
