@@ -100,6 +100,25 @@ fn every_figure_of_a_contact_by_itself_is_defined() {
 }
 
 #[test]
+fn every_figure_of_a_branch_is_defined() {
+    let (file, root) = (scenario("p1"), tempdir().unwrap());
+    let (file, out) = (file.to_str().unwrap(), root.path().join("out"));
+    let range = "waveforms.drive.sawtooth.stroke=30 nm..600 nm";
+    let mut all = answers(&["steady", "--json", file, "--continue", range, "--out", out.to_str().unwrap()]);
+    all.push(serde_json::from_slice(&std::fs::read(out.join("branch.json")).unwrap()).unwrap());
+    assert!(all.len() == 2 && all[0]["marks"][0]["changes"][0]["event"].is_string());
+    assert_eq!(
+        (&all[0]["ends"][0]["kind"], &all[0]["ends"][1]["kind"]),
+        (&json!("shakedown"), &json!("range"))
+    );
+    assert_eq!(lacking("branch.json", &all), Vec::<String>::new());
+    let head = Table::read(&out.join("branch.csv")).head;
+    assert_eq!(head[0], "waveforms.drive.sawtooth.stroke_m");
+    let lacking: Vec<_> = head[1..].iter().filter(|column| !defined("branch.csv", column)).collect();
+    assert!(lacking.is_empty() && head.len() == 10, "{lacking:?}");
+}
+
+#[test]
 fn every_figure_of_a_curve_is_defined() {
     let (file, root) = (scenario("ruby_drive"), tempdir().unwrap());
     let (file, out) = (file.to_str().unwrap(), root.path().join("out"));

@@ -204,3 +204,66 @@ fn what_takes_too_long_beside_a_run_is_said_and_what_is_not_asked_is_not_there()
     let said = line(&["info"], "oblique_impact");
     assert!(said.get("steady_motion").is_none(), "{said}");
 }
+
+const STROKE: &str = "waveforms.drive.sawtooth.stroke";
+
+/// What a branch tells of a stroke is what the command finds there by itself, and files of before are gone.
+#[test]
+fn a_branch_is_written_and_told() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("branch");
+    let range = format!("{STROKE}=30 nm..600 nm");
+    let output = steady("p1", &out, &["--continue", &range, "--theme", "dark"]);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    let output = steady("p1", &out, &["--continue", &range]);
+    assert_eq!(listing(&out), ["branch.csv", "branch.json", "branch.png"]);
+    let said = stdout(&output);
+    for words in [
+        "36.04 nm",
+        "above, gross slip of ball appears (1 a period)",
+        "the end of the range",
+        "a whole family",
+    ] {
+        assert!(said.contains(words), "{words} in\n{said}");
+    }
+    let (strokes, steps) =
+        (numbers(&out, "branch.csv", &format!("{STROKE}_m")), numbers(&out, "branch.csv", "step_m"));
+    assert!(strokes.is_sorted() && strokes.len() > 30);
+    assert!((strokes[strokes.len() - 1] - 600e-9).abs() < 1e-18);
+    let set = format!("{STROKE}={:e}", strokes[strokes.len() / 2]);
+    let alone = found("p1", &root.path().join("alone"), &["--set", &set]);
+    assert!((number(&alone, "/step_m") / steps[steps.len() / 2] - 1.0).abs() < 1e-10);
+}
+
+#[test]
+fn a_branch_that_cannot_be_followed_is_told_and_leaves_nothing() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("out");
+    let refused = |name: &str, options: &[&str], expected: i32, words: &str| {
+        let output = steady(name, &out, options);
+        assert_eq!(code(&output), expected, "{options:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(words), "{options:?}: {}", stderr(&output));
+        assert!(stdout(&output).is_empty() && !out.exists(), "{options:?}");
+    };
+    let range = |range: &str| format!("{STROKE}={range}");
+    refused("p1", &["--continue", "1..2"], 2, "expected PATH=VALUE");
+    refused("p1", &["--continue", &range("1 um")], 2, "expected FROM..TO, such as 0.1..0.6, got \"1 um\"");
+    refused("p1", &["--continue", &range("1 um..2 N")], 2, "--continue  ");
+    refused("p1", &["--continue", &range("1 um..0.1 um")], 2, "a range that rises");
+    refused("p1", &["--continue", &range("1 um..2 um")], 2, "the branch starts there");
+    refused("p1", &["--continue", "contacts.ball.count=1..3"], 2, "counts whole things");
+    refused("p1", &["--continue", "contacts.bal.friction=0..1"], 2, "did you mean \"ball\"?");
+    refused("p1", &["--accuracy", "1e-6"], 2, "--continue");
+    refused("p1", &["--continue", &range("10 nm..1 um"), "--accuracy", "1"], 2, "expected 1e-12 to 1e-3");
+    refused(
+        "bouncing_ball",
+        &["--continue", "gravity.acceleration=5..15"],
+        2,
+        "no waveform of the scene has a period",
+    );
+    let stuck = ["--set", STUCK, "--periods", "60", "--continue", "contacts.ball.friction=0.1..0.2"];
+    refused("p1", &stuck, 3, "[\"ball\"] never slip grossly");
+    fs::write(&out, "a file").unwrap();
+    let output = steady("p1", &out, &["--continue", &range("30 nm..1 um")]);
+    assert_eq!((code(&output), stdout(&output)), (3, String::new()), "{}", stderr(&output));
+}

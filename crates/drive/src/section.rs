@@ -5,6 +5,7 @@
 //! nothing, else the heights of its knots and the slopes of pieces that grew. Places are counted along with the drift: what
 //! is left out is where the drive has got to. Memories of blocks, and of rows of springs, are carried along as they are.
 
+mod adoption;
 mod drift;
 mod gradient;
 mod legs;

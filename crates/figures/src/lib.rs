@@ -5,9 +5,10 @@
 //!
 //! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
 //! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop;
-//! [`steady`], the picture of a motion that repeats itself; [`curve`], those of a machine; [`sensitivity`], what
+//! [`steady`], the picture of a motion that repeats itself; [`branch`], that of many such motions; [`curve`], those of a machine; [`sensitivity`], what
 //! matters to it.
 
+pub mod branch;
 pub mod comparison;
 pub mod curve;
 pub mod gallery;

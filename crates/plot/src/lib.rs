@@ -13,7 +13,7 @@
 //!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
 //!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
 //!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs), [`orbit`] (a motion that repeats itself),
-//!   [`curve`] (what a machine does over something that is varied), [`tornado`] (what matters most);
+//!   [`curve`] (what a machine does over something that is varied), [`branch`] (steady motions over such a thing), [`tornado`] (what matters most);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
@@ -27,6 +27,7 @@
 pub mod anchors;
 mod arrow;
 mod beside;
+pub mod branch;
 mod canvas;
 pub mod carried;
 pub mod compare;
@@ -77,6 +78,7 @@ pub mod work_precision;
 pub mod zoom;
 
 pub use anchors::{AnchorMoment, anchors_figure};
+pub use branch::{BranchCourse, Stretch, branch_figure};
 pub use carried::read_text;
 pub use compare::{ComparedChannel, compare_figure};
 pub use curve::{MachineCourse, MachineCurve, machine_figure};

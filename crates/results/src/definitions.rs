@@ -1,6 +1,7 @@
 //! What every column of every table, every key of `summary.json` and every figure that a command prints is: one table, for
 //! `stickslip explain` and for the page `docs/definitions.md`, which is made from it.
 
+mod branch;
 mod check;
 mod columns;
 mod contact;
@@ -37,6 +38,7 @@ pub fn definitions() -> impl Iterator<Item = &'static Definition> {
         .chain(contact::CONTACT)
         .chain(steady::STEADY)
         .chain(check::CHECK)
+        .chain(branch::BRANCH)
         .chain(curve::CURVE)
         .chain(sensitivity::SENSITIVITY)
 }

@@ -33,6 +33,8 @@ pub const PARTIAL_CURVE: &str = "curve-partial.json";
 pub const SENSITIVITY: &str = "sensitivity.json";
 /// The steady motion of a drive, found without a run.
 pub const STEADY: &str = "steady.json";
+/// Steady motions one after another, as a number of a scenario changes.
+pub const BRANCH: &str = "branch.json";
 
 /// Columns of [`SPRINGS`].
 pub(crate) const SPRING_HEAD: &[&str] =

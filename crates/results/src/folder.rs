@@ -6,7 +6,7 @@
 
 use crate::checkpoint;
 use crate::disk::{Disk, System};
-use crate::files::{CURVE, PARTIAL_CURVE, SENSITIVITY, STEADY, SUMMARY};
+use crate::files::{BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY, STEADY, SUMMARY};
 use crate::theory::CONTACT;
 use std::fs::{self, DirEntry, File};
 use std::io::{self, Write};
@@ -17,9 +17,9 @@ use tempfile::{Builder, NamedTempFile};
 /// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
 const DRAWN: usize = 6;
 
-/// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, of a curve of a machine, whole or
-/// not, and of derivatives.
-const SUMMARIES: [&str; 6] = [SUMMARY, CONTACT, STEADY, CURVE, PARTIAL_CURVE, SENSITIVITY];
+/// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, of a branch of them, of a curve of a
+/// machine, whole or not, and of derivatives.
+const SUMMARIES: [&str; 7] = [SUMMARY, CONTACT, STEADY, BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY];
 
 /// How long a draft was not touched that is taken for one of a command that was killed.
 const LEFT: Duration = Duration::from_secs(60);

@@ -80,9 +80,7 @@ impl Curve {
     /// Name of what heads its column, with the unit as in other tables: `stroke_m`.
     #[must_use]
     pub fn head(&self) -> String {
-        let unit = self.variation.unit.replace([' ', '/'], "_").replace('²', "2").replace('Ω', "Ohm");
-        let name = &self.variation.name;
-        if unit.is_empty() { name.clone() } else { format!("{name}_{unit}") }
+        head(&self.variation.name, self.variation.unit)
     }
 
     /// A range worth looking at, SI: about what the scenario has, and of loads up to a little more than it takes to stall the
@@ -148,4 +146,10 @@ impl Curve {
         (scenario.springs, scenario.memory, scenario.fields) = (None, None, None);
         Job::new(scenario, self.job.name.clone(), PathBuf::new())
     }
+}
+
+/// Name of a number with its unit, as it heads a column.
+pub(crate) fn head(name: &str, unit: &str) -> String {
+    let unit = unit.replace([' ', '/'], "_").replace('²', "2").replace('Ω', "Ohm");
+    if unit.is_empty() { name.to_owned() } else { format!("{name}_{unit}") }
 }

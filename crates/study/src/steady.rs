@@ -8,10 +8,12 @@
 //! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
 //! period the map is taken; `map`, the map and its gradient by differences; `newton`, its fixed point; `multiplier`, what the
 //! gradient means; `bound`, how far the step may be off; `orbit`, the motion from the beginning of a period on, from which a run
-//! goes on; `aftermath`, what a run ends on that leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive.
+//! goes on; `aftermath`, what a run ends on that leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is
+//! about to run the drive; [`continuation`], steady motions one after another, as a number of the scenario changes.
 
 mod aftermath;
 mod bound;
+pub mod continuation;
 mod endless;
 mod error;
 mod map;
@@ -33,13 +35,11 @@ pub use report::Report;
 use crate::grip::{Grip, Loose};
 use endless::Endless;
 use map::Map;
+use newton::Fixed;
 use stickslip_drive::scene::Axis;
 use stickslip_drive::section::Section;
 use stickslip_drive::{Model, State};
 use stickslip_results::Job;
-
-/// What a contact that never slips grossly may slide in a period, in parts of its natural displacement.
-const STILL: f64 = 1e-3;
 
 /// How steady motion is looked for.
 #[derive(Clone, Copy)]
@@ -152,27 +152,13 @@ impl Steady {
 /// stops itself, and no fixed point within the periods allowed, with the best that was found.
 pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     let endless = Endless::of(job)?;
-    let model = endless.model;
+    let model = &endless.model;
     let figures = job.scenario.figures.body;
-    let mut map = Map::new(&model, endless.period, job, options);
-    let settled = moment::settle(&mut map, endless.begins, endless.start, options.settling)?;
-    let section = Section::new(&model, settled.state);
-    if let Some((body, axis)) = section.drifts_away() {
-        return Err(SteadyError::Drifts { body, axis });
-    }
-    let from = section.base().clone();
-    map.set(section);
-    let fixed = newton::fixed_point(&mut map, &from).map_err(|error| match error {
-        SteadyError::NoConvergence { best, periods } if !settled.never_gave_way.is_empty() => {
-            let name = |c: &usize| model.contacts().nth(*c).map(|(name, _)| name.to_owned());
-            let contacts = settled.never_gave_way.iter().filter_map(name).collect();
-            SteadyError::Shakedown { contacts, best, periods }
-        }
-        error => error,
-    })?;
+    let mut map = Map::new(model, endless.period, job, options);
+    let fixed = fixed_point(&mut map, &endless)?;
     let bound = bound::bound(&mut map, &fixed, figures)?;
     let grip = figures.map(|body| Grip::new(job, body));
-    let (mut never_gave_way, loose) = moment::twice(&mut map, &fixed, grip)?;
+    let (never_gave_way, loose) = moment::twice(&mut map, &fixed, grip)?;
     let body = figures.and_then(|body| job.scenario.scene.bodies.get(body));
     if let (Some(Loose::Flies), Some(body)) = (loose, body) {
         return Err(SteadyError::Flies { body: body.name.clone(), periods: map.work() });
@@ -181,10 +167,6 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
     // along, has still to come.
     let slides = |c: usize| section.slides(&fixed.image.way, c).abs();
-    // In a jump a contact gives way without an event.
-    never_gave_way.retain(|c| {
-        model.contact_natural(*c).is_none_or(|natural| slides(*c) <= STILL * natural.displacement)
-    });
     let slid = never_gave_way.iter().map(|c| slides(*c)).fold(0.0, f64::max);
     let found = Steady {
         period: endless.period,
@@ -204,4 +186,24 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         state: fixed.state,
     };
     Ok(found)
+}
+
+/// The fixed point that the start of a drive leads to.
+fn fixed_point<'m>(map: &mut Map<'m>, endless: &'m Endless) -> Result<Fixed, SteadyError> {
+    let model = &endless.model;
+    let settled = moment::settle(map, endless.begins, endless.start.clone(), map.settling())?;
+    let section = Section::new(model, settled.state);
+    if let Some((body, axis)) = section.drifts_away() {
+        return Err(SteadyError::Drifts { body, axis });
+    }
+    let from = section.base().clone();
+    map.set(section);
+    newton::fixed_point(map, &from).map_err(|error| match error {
+        SteadyError::NoConvergence { best, periods } if !settled.never_gave_way.is_empty() => {
+            let name = |c: &usize| model.contacts().nth(*c).map(|(name, _)| name.to_owned());
+            let contacts = settled.never_gave_way.iter().filter_map(name).collect();
+            SteadyError::Shakedown { contacts, best, periods }
+        }
+        error => error,
+    })
 }

@@ -4,6 +4,7 @@ use std::error::Error;
 use std::path::Path;
 use stickslip_drive::{Model, Plan, Run, State, Stepper};
 use stickslip_results::Job;
+use stickslip_study::steady::continuation::{Bifurcation, Continuation, Course};
 use stickslip_study::steady::{self, Kind, Options, Steady, SteadyError, Way};
 
 type Checked = Result<(), Box<dyn Error>>;
@@ -147,7 +148,11 @@ fn strayed(job: &Job, found: &Steady, z: usize, (first, count): (u32, u32)) -> R
 
 /// Over `beats` whole beats a plain run that starts 1e-6 off fades or grows as the largest multiplier says, to 1 %.
 fn turns_as_told(name: &str, stable: bool, beats: f64) -> Checked {
-    let job = job(name, &[])?;
+    turns_as_told_with((name, &[]), stable, beats)
+}
+
+fn turns_as_told_with((name, set): (&str, &[(&str, &str)]), stable: bool, beats: f64) -> Checked {
+    let job = job(name, set)?;
     let found = steady::find(&job, &Options::default())?;
     let largest = found.multipliers.first().ok_or("a multiplier")?;
     assert_eq!((found.is_stable(), largest.kind() == Kind::Grows), (stable, !stable), "{name}");
@@ -168,6 +173,27 @@ fn the_impact_drive_fades_as_its_multiplier_says() -> Checked {
 #[test]
 fn the_climber_grows_as_its_multiplier_says() -> Checked {
     turns_as_told("vertical_climber.json", false, 40.0)
+}
+
+/// A clamp that is damped makes an end of the beat that grows: where the branch says, and plain runs on either side of it grow and
+/// fade.
+#[test]
+fn the_climber_stops_growing_where_its_branch_says() -> Checked {
+    let damping = "springs.clamp.damping";
+    let of =
+        Continuation::new(job("vertical_climber.json", &[(damping, "0.0103")])?, damping, [0.0102, 0.0107])?;
+    let steady = Options { tolerance: 1e-10, ..Options::default() };
+    let branch = of.follow(&Course { steady, accuracy: 1e-6, ..Course::default() })?;
+    let mut beats = branch.marks.iter().filter(|mark| matches!(mark.kind, Bifurcation::NeimarkSacker { .. }));
+    let (Some(mark), None) = (beats.next(), beats.next()) else {
+        return Err(format!("{:?}", branch.marks).into());
+    };
+    assert_eq!(mark.stable, [false, true]);
+    for (share, stable) in [(0.5, false), (1.5, true)] {
+        let value = format!("{:e}", share * mark.value);
+        turns_as_told_with(("vertical_climber.json", &[(damping, &value)]), stable, 40.0)?;
+    }
+    Ok(())
 }
 
 /// Each Newton step by an exact gradient leaves the square of the defect before, times how much the map bends: below 10⁻⁴ a

@@ -11,6 +11,7 @@ use stickslip_drive::scene::Axis;
 use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
 use stickslip_results::Job;
 use stickslip_scenario::Scenario;
+use stickslip_study::steady::continuation::{Bifurcation, Branch, Continuation, Course};
 use stickslip_study::steady::{self, Ending, Multiplier, Options, Steady};
 
 const MASS: f64 = 4e-3;
@@ -136,6 +137,32 @@ impl Table {
         Some(at)
     }
 
+    /// Velocity and amplitude with which a bounce that touches at a time repeats itself, near a guess.
+    fn at_time(t: f64, [mut v, mut amplitude]: [f64; 2]) -> Option<[f64; 2]> {
+        let missed = |v: f64, amplitude: f64| {
+            let [again, speed] = Self { amplitude }.map([t, v])?;
+            Some([(again - t) / PERIOD, (speed - v) / v])
+        };
+        let steps = [1e-6 * v.abs(), 1e-6 * amplitude];
+        for _ in 0..30 {
+            let [r, s] = missed(v, amplitude)?;
+            let slope = |by: [f64; 2]| -> Option<[f64; 2]> {
+                let ahead = missed(v + by[0], amplitude + by[1])?;
+                let behind = missed(v - by[0], amplitude - by[1])?;
+                let length = 2.0 * (by[0] + by[1]);
+                Some([(ahead[0] - behind[0]) / length, (ahead[1] - behind[1]) / length])
+            };
+            let ([a, c], [b, d]) = (slope([steps[0], 0.0])?, slope([0.0, steps[1]])?);
+            let determinant = a * d - b * c;
+            let by = [(d * r - b * s) / determinant, (a * s - c * r) / determinant];
+            (v, amplitude) = (v - by[0], amplitude - by[1]);
+            if by[0].abs() < 1e-13 * v.abs() && by[1].abs() < 1e-13 * amplitude {
+                break;
+            }
+        }
+        Some([v, amplitude])
+    }
+
     /// det(A + 1), which is 0 where a multiplier is -1.
     fn doubles(self, at: [f64; 2]) -> Option<f64> {
         let [[a, b], [c, d]] = self.gradient(at)?;
@@ -144,12 +171,17 @@ impl Table {
 }
 
 fn job(table: Table) -> Result<Job, Box<dyn Error>> {
+    job_from(table, [1e-6, 0.0])
+}
+
+/// The same with the ball's place and velocity at the start.
+fn job_from(table: Table, [z, v]: [f64; 2]) -> Result<Job, Box<dyn Error>> {
     let text = format!(
         r#"{{ "stickslip": 1,
           "materials": {{ "steel": {{ "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 }} }},
           "waveforms": {{ "shake": {{ "sine": {{ "amplitude": {amplitude:e}, "period": {PERIOD:e} }} }} }},
           "bodies": {{ "table": {{ "z": {{ "follows": "shake" }} }},
-                       "ball": {{ "mass": {MASS:e}, "z": "free", "start": {{ "z": "1 um" }} }} }},
+                       "ball": {{ "mass": {MASS:e}, "z": "free", "start": {{ "z": {z:e}, "vz": {v:e} }} }} }},
           "contacts": {{ "end": {{ "between": ["table", "ball"], "materials": ["steel", "steel"],
               "profile": {{ "flat": {{ "radius": "1 um" }} }}, "friction": 0, "normal": "coupled" }} }},
           "springs": {{ "air": {{ "between": ["ground", "ball"], "direction": "z", "stiffness": 0, "damping": {DAMPING:e} }} }},
@@ -193,6 +225,21 @@ fn touch(job: &Job, found: &Steady) -> Result<[f64; 2], Box<dyn Error>> {
     Ok([t % PERIOD, v])
 }
 
+/// The branch of a table's amplitude through the motion at one.
+fn branch(at: Table, range: [f64; 2]) -> Result<Branch, Box<dyn Error>> {
+    let of = Continuation::new(job(at)?, "waveforms.shake.sine.amplitude", range)?;
+    Ok(of.follow(&Course::default())?)
+}
+
+/// Where the only place of a kind lies on a branch.
+fn only(branch: &Branch, kind: &Bifurcation) -> Result<f64, Box<dyn Error>> {
+    let mut found = branch.marks.iter().filter(|mark| mark.kind == *kind);
+    match (found.next(), found.next()) {
+        (Some(mark), None) => Ok(mark.value),
+        _ => Err(format!("one {}: {:?}", kind.name(), branch.marks).into()),
+    }
+}
+
 /// Once a period, and back to it when disturbed.
 const QUIET: Table = Table { amplitude: 7e-6 };
 
@@ -218,10 +265,8 @@ fn a_ball_that_never_lifts_has_the_multipliers_of_its_spring() -> Result<(), Box
     Ok(())
 }
 
-/// Where the bounce doubles its period, by bisection of the equations above and by a parabola through what the search says of
-/// three amplitudes about there.
-#[test]
-fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box<dyn Error>> {
+/// Where the bounce doubles its period, by bisection of the equations above.
+fn own_doubling() -> Result<f64, Box<dyn Error>> {
     let first = touch(&job(QUIET)?, &steady::find(&job(QUIET)?, &Options::default())?)?;
     let (mut low, mut high, mut at) = (7.25e-6, 7.5e-6, first);
     for _ in 0..50 {
@@ -233,7 +278,13 @@ fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box
             high = table.amplitude;
         }
     }
-    let own = 0.5 * (low + high);
+    Ok(0.5 * (low + high))
+}
+
+/// By a parabola through what the search says of three amplitudes about there.
+#[test]
+fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box<dyn Error>> {
+    let own = own_doubling()?;
     // Newton's form through three points, solved for its root from the middle one.
     let apart = 1e-3;
     let at = |share: f64| -> Result<f64, Box<dyn Error>> {
@@ -284,5 +335,105 @@ fn a_ball_bounces_once_a_period_as_its_own_equations_say() -> Result<(), Box<dyn
     }
     let off = [trace - (a + d), product - (a * d - b * c)];
     assert!(off.iter().all(|off| off.abs() < 1e-6), "{off:?}");
+    Ok(())
+}
+
+/// The time of touch at which a bounce once a period takes the least amplitude, and velocity and amplitude there: by golden section
+/// of the equations above, from the bounce at one amplitude on.
+fn own_fold() -> Result<(f64, [f64; 2]), Box<dyn Error>> {
+    let told = touch(&job(QUIET)?, &steady::find(&job(QUIET)?, &Options::default())?)?;
+    let [t, v] = QUIET.fixed(told).ok_or("a bounce")?;
+    let at = |t: f64, near: [f64; 2]| Table::at_time(t, near).ok_or(format!("a bounce at {t:e} s"));
+    // To the side to which the amplitude falls, until it rises again.
+    let step = 2e-3 * PERIOD;
+    let first = [v, QUIET.amplitude];
+    let by = if at(t + step, first)?[1] < first[1] { step } else { -step };
+    let mut ways = vec![(t, first)];
+    while ways.len() < 3 || ways[ways.len() - 1].1[1] < ways[ways.len() - 2].1[1] {
+        let (t, near) = ways[ways.len() - 1];
+        ways.push((t + by, at(t + by, near)?));
+    }
+    let (middle, near) = ways[ways.len() - 2];
+    let (mut low, mut high) = (middle - step, middle + step);
+    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+    for _ in 0..40 {
+        let [one, other] = [high - share * (high - low), low + share * (high - low)];
+        if at(one, near)?[1] < at(other, near)?[1] {
+            high = other;
+        } else {
+            low = one;
+        }
+    }
+    let t = 0.5 * (low + high);
+    Ok((t, at(t, near)?))
+}
+
+/// The bounce once a period begins in a fold, by its own equations the least amplitude over all times of touch, and doubles its period
+/// at a larger one: where no run would have followed it.
+#[test]
+fn a_branch_of_the_bounce_folds_and_doubles_where_its_own_equations_say() -> Result<(), Box<dyn Error>> {
+    let branch = branch(QUIET, [1e-6, 8e-6])?;
+    let doubled = only(&branch, &Bifurcation::PeriodDoubling)? / own_doubling()? - 1.0;
+    assert!(doubled.abs() < 1e-8, "{doubled:e}");
+    let own = own_fold()?.1[1];
+    let off = only(&branch, &Bifurcation::Fold)? / own - 1.0;
+    assert!(off.abs() < 1e-8, "{off:e} of {own:e} m");
+    // Above the fold there are two bounces, one stable and one not.
+    let above = branch.points.iter().filter(|point| (own * 1.001..own * 1.5).contains(&point.value));
+    let stable: Vec<bool> = above.map(|point| point.is_stable()).collect();
+    assert!(stable.contains(&true) && stable.contains(&false));
+    Ok(())
+}
+
+/// Both motions that meet in the fold are found from starts of their own, where the equations above have the ball at the beginning
+/// of a period: one is stable, the other is not, and branches from both come to the same fold.
+#[test]
+fn both_sides_of_the_fold_are_found_from_their_own_starts() -> Result<(), Box<dyn Error>> {
+    let (fold, at) = own_fold()?;
+    let (mut folds, mut stable) = (Vec::new(), Vec::new());
+    for by in [-0.01, 0.01] {
+        let t = fold + by * PERIOD;
+        let [v, amplitude] = Table::at_time(t, at).ok_or("a bounce")?;
+        let table = Table { amplitude };
+        let touches = Place { t, z: table.height(t), v };
+        let lifts = table.meets(|s| table.pressed(touches, s)).ok_or("a lift-off")?;
+        let lifts = Place { z: table.height(lifts.t), ..lifts };
+        let begins = (t / PERIOD).floor() * PERIOD + PERIOD;
+        let start = match lifts.t > begins {
+            true => table.pressed(touches, begins - t),
+            false => Table::flown(lifts, begins - lifts.t),
+        };
+        let job = job_from(table, [start.z, start.v])?;
+        let found = steady::find(&job, &Options::default())?;
+        stable.push(found.is_stable());
+        let off = touch(&job, &found)?[1] / v - 1.0;
+        assert!(off.abs() < 1e-8, "{by}: {off:e}");
+        let of = Continuation::new(job, "waveforms.shake.sine.amplitude", [0.9 * at[1], 1.01 * amplitude])?;
+        folds.push(only(&of.follow(&Course::default())?, &Bifurcation::Fold)?);
+    }
+    assert!(
+        (folds[0] / folds[1] - 1.0).abs() < 1e-10 && (folds[0] / at[1] - 1.0).abs() < 1e-8,
+        "{folds:?} {at:?}"
+    );
+    Ok(())
+}
+
+/// A ball that stays on the table begins to lift off where the amplitude of its force is its weight: z = H A e^{iωt} - mg/k with
+/// H = k/(k - mω² + icω) makes that mg/(k|1 - H|).
+#[test]
+fn a_ball_begins_to_lift_off_where_its_force_vanishes() -> Result<(), Box<dyn Error>> {
+    let omega = TAU / PERIOD;
+    let (inert, damped) = (MASS * omega * omega, DAMPING * omega);
+    let share = inert.hypot(damped) / (STIFFNESS - inert).hypot(damped);
+    let own = MASS * GRAVITY / (STIFFNESS * share);
+    let branch = branch(Table { amplitude: 3e-6 }, [2.9e-6, 6.1e-6])?;
+    let events: Vec<_> =
+        branch.marks.iter().filter(|mark| matches!(mark.kind, Bifurcation::Event(_))).collect();
+    let [mark] = events[..] else { return Err(format!("{:?}", branch.marks).into()) };
+    let Bifurcation::Event(changes) = &mark.kind else { return Err("an event".into()) };
+    let told: Vec<_> = changes.iter().map(|change| (change.kind, change.below, change.above)).collect();
+    assert_eq!(told, [("lift-off", 0, 1), ("touch", 0, 1)]);
+    let off = mark.value / own - 1.0;
+    assert!(off.abs() < 1e-8 && mark.half_width < 1e-8 * own, "{off:e} of {own:e} m");
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! `stickslip steady`: the motion that repeats itself every period.
 
+mod branch;
 mod page;
 
 use crate::arguments::SteadyArguments;
@@ -45,6 +46,9 @@ enum SteadyFailure {
 
 /// Finds the steady motion of a scenario.
 pub(crate) fn steady(arguments: &SteadyArguments) -> Verdict {
+    if let Some((path, range)) = &arguments.continued {
+        return branch::follow(arguments, (path, range));
+    }
     match answer(arguments) {
         Ok(()) => Verdict::Done,
         Err(failure) => {

@@ -36,21 +36,60 @@ pub(super) fn moved(
     gone: (f64, f64),
     numbers: impl Iterator<Item = (Unknown, f64)>,
 ) -> Option<Memory> {
-    let mut memory = memory.clone();
     let to = Apex { d: memory.apex().d + gone.0, u: memory.apex().u + gone.1 };
-    if let Memory::Curve(curve) = &memory
+    if let Memory::Curve(curve) = memory
         && !contact.balanced
     {
         let mut legs = curve.legs();
-        for (unknown, by) in numbers {
-            match unknown {
-                Unknown::Height(c, k) if c == contact.place => *legs.heights.get_mut(k)? += by,
-                Unknown::Slope(c, k) if c == contact.place => *legs.slopes.get_mut(k)? += by,
-                _ => {}
-            }
-        }
+        reform(&mut legs, contact, numbers)?;
         return curve.standing(&contact.interface, to, &legs).map(Memory::Curve);
     }
+    follow(memory, (contact, to), gone)
+}
+
+/// The memory of a contact as that of one of another model, d and u gone on by `gone`, m, and its form another one: its edges are as
+/// steep as the other law has them.
+pub(super) fn take_over(
+    (contact, from): (&Contact, &Contact),
+    memory: &Memory,
+    gone: (f64, f64),
+    numbers: impl Iterator<Item = (Unknown, f64)>,
+) -> Option<Memory> {
+    let to = Apex { d: memory.apex().d + gone.0, u: memory.apex().u + gone.1 };
+    if contact.inert {
+        // It holds nothing, and nobody keeps it where it stands.
+        return Some(contact.engine.memory(&contact.interface, to));
+    }
+    let Memory::Curve(curve) = memory else { return follow(memory, (contact, to), gone) };
+    if contact.balanced {
+        return follow(memory, (contact, to), gone);
+    }
+    let Memory::Curve(fresh) = contact.engine.memory(&contact.interface, to) else { return None };
+    let mut legs = curve.legs();
+    for piece in 0..legs.slopes.len() {
+        if let Some(sense) = legs.sense(&from.interface, piece) {
+            legs.slopes[piece] = sense * contact.interface.stick_slope();
+        }
+    }
+    reform(&mut legs, contact, numbers)?;
+    fresh.standing(&contact.interface, to, &legs).map(Memory::Curve)
+}
+
+/// Moves the numbers of a form that are its contact's.
+fn reform(legs: &mut Legs, contact: &Contact, numbers: impl Iterator<Item = (Unknown, f64)>) -> Option<()> {
+    for (unknown, by) in numbers {
+        match unknown {
+            Unknown::Height(c, k) if c == contact.place => *legs.heights.get_mut(k)? += by,
+            Unknown::Slope(c, k) if c == contact.place => *legs.slopes.get_mut(k)? += by,
+            _ => {}
+        }
+    }
+    Some(())
+}
+
+/// A memory that comes along to an apex, straight where d changes.
+fn follow(memory: &Memory, (contact, to): (&Contact, Apex), gone: (f64, f64)) -> Option<Memory> {
+    let mut memory = memory.clone();
     memory.shift(gone.1);
     if gone.0 != 0.0 {
         memory.commit(&contact.interface, Segment::Straight(to)).ok()?;

@@ -151,6 +151,11 @@ impl<'m> Map<'m> {
         self.scales.len()
     }
 
+    /// Plain periods before it is looked at.
+    pub(super) fn settling(&self) -> u32 {
+        self.options.settling
+    }
+
     /// Local error per step.
     pub(super) fn tolerance(&self) -> f64 {
         self.options.tolerance

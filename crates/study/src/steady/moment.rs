@@ -16,6 +16,8 @@ const MOST: usize = 256;
 const AGAIN: f64 = 1e6;
 /// Most of it, in natural scales.
 const OFF: f64 = 1e-3;
+/// What a contact that never slips grossly may slide in a period, in parts of its natural displacement.
+const STILL: f64 = 1e-3;
 /// Shorter ones are too near to an event on either side, as a part of the period.
 const SHORTEST: f64 = 1e-4;
 
@@ -60,11 +62,15 @@ pub(super) fn settle(
     let first = (begins / period).ceil() * period;
     let end = |count: u32| first + f64::from(count) * period;
     let state = map.lead(start, end(periods.max(2) - 2), &mut ())?;
-    let model = map.model();
+    again(map, state)
+}
+
+/// Goes two more plain periods from a state, and stands at the moment of the second at which memories are shortest.
+pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyError> {
+    let (model, period, from) = (map.model(), map.period(), state.time());
     let contacts = model.contacts().count();
     let gave_way = (0..contacts).map(|c| state.has_given_way(model, c)).collect();
     let mut moments = Moments { times: Vec::new(), gave_way, grip: None };
-    let from = end(periods.max(2) - 2);
     let state = map.lead(state, from + period, &mut moments)?;
     let stretches = stretches(&moments.times, (from, from + period));
     let chosen = choose(map, &state, &stretches)?;
@@ -95,7 +101,13 @@ pub(super) fn twice(
     if off > (AGAIN * map.tolerance().max(fixed.defect.amax())).min(OFF) {
         return Err(SteadyError::NoConvergence { best: off, periods: map.work() });
     }
-    Ok(((0..contacts).filter(|c| !moments.gave_way[*c]).collect(), loose))
+    // In a jump a contact gives way without an event.
+    let still = |c: &usize| {
+        let Some((section, natural)) = map.section().zip(model.contact_natural(*c)) else { return true };
+        section.slides(&fixed.image.way, *c).abs() <= STILL * natural.displacement
+    };
+    let never_gave_way = (0..contacts).filter(|c| !moments.gave_way[*c] && still(c)).collect();
+    Ok((never_gave_way, loose))
 }
 
 /// Stretches between two events as (middle, length), s, by their middle; those that are too short are left out.

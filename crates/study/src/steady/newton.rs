@@ -45,6 +45,7 @@ pub struct Defect {
 }
 
 /// A fixed point.
+#[derive(Clone)]
 pub(super) struct Fixed {
     pub(super) state: State,
     pub(super) image: super::map::Image,

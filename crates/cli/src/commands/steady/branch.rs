@@ -1,0 +1,183 @@
+//! `stickslip steady --continue`: steady motions one after another, as a number of the scenario changes.
+
+use crate::arguments::SteadyArguments;
+use crate::console::answer::{complain, say, say_json, warn};
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::table;
+use crate::console::verdict::Verdict;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_figures::{FigureError, branch as picture};
+use stickslip_results::complaint::words;
+use stickslip_results::files::BRANCH;
+use stickslip_results::folder::{Folder, sweep};
+use stickslip_results::{Job, Real, Refusal, Watcher, quantity};
+use stickslip_study::curve::Range;
+use stickslip_study::steady::continuation::{
+    self, Branch, Continuation, ContinuationError, Course, End, Mark,
+};
+use stickslip_study::steady::{Options, SteadyError};
+use thiserror::Error;
+
+/// Why there is no branch.
+#[derive(Debug, Error)]
+enum BranchFailure {
+    /// The scenario.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// What is asked for, or no motion to start with.
+    #[error(transparent)]
+    Branch(#[from] ContinuationError),
+    /// A range that is none.
+    #[error("--continue  {0}")]
+    Range(String),
+    /// The picture.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The files.
+    #[error("{}: cannot be written: {}", .path.display(), words(.source))]
+    Write { path: PathBuf, source: io::Error },
+}
+
+/// Follows a branch and writes it.
+pub(super) fn follow(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Verdict {
+    answer(arguments, (path, range)).unwrap_or_else(|failure| {
+        complain(format_args!("{failure}"));
+        failure.verdict()
+    })
+}
+
+fn answer(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Result<Verdict, BranchFailure> {
+    let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
+    let unit = job.scenario.parameter(path).map_err(ContinuationError::Path)?.unit;
+    let of = Continuation::new(job, path, Range::ends(range, unit).map_err(BranchFailure::Range)?)?;
+    if !arguments.quiet {
+        warn(&of.job);
+    }
+    let interrupt = Interrupt::install();
+    let folder = Room::make(&folder(arguments, &of))?;
+    let progress = Progress::new(!arguments.quiet);
+    let line = progress.count(&of.path, "motions", &interrupt);
+    let course = Course {
+        steady: Options {
+            tolerance: arguments.tolerance,
+            periods: arguments.periods,
+            goes_on: &|| line.goes_on(),
+            ..Options::default()
+        },
+        accuracy: arguments.accuracy,
+        points: arguments.points,
+        told: &|count| line.reached(count as f64),
+    };
+    let branch = of.follow(&course)?;
+    drop(line);
+    let accuracy = [arguments.tolerance, arguments.accuracy];
+    let out = folder.path.clone();
+    let names = write(arguments, &folder, (&of, &branch), accuracy)?;
+    if arguments.json {
+        say_json(&continuation::json(&of, &branch, accuracy));
+    } else if !arguments.quiet {
+        tell(&of, &branch);
+        say(format_args!("\n{}: {}", out.display(), names.join(", ")));
+    }
+    Ok(if branch.is_cut() { Verdict::Interrupted } else { Verdict::Done })
+}
+
+/// Where the files go.
+fn folder(arguments: &SteadyArguments, of: &Continuation) -> PathBuf {
+    let own = || Path::new("results").join(format!("{}-branch", of.job.name));
+    arguments.out.clone().unwrap_or_else(own)
+}
+
+/// A folder that is made before the first motion is looked for: where nothing can be written nothing is computed. It goes again if it is
+/// new and nothing comes into it.
+struct Room {
+    path: PathBuf,
+    is_new: bool,
+}
+
+impl Room {
+    fn make(path: &Path) -> Result<Self, BranchFailure> {
+        let is_new = !path.exists();
+        let tried = Folder::make(path).and_then(|folder| folder.draft(BRANCH).map(drop));
+        let failed = |source| BranchFailure::Write { path: path.to_owned(), source };
+        tried.map_err(failed)?;
+        Ok(Self { path: path.to_owned(), is_new })
+    }
+}
+
+impl Drop for Room {
+    fn drop(&mut self) {
+        if self.is_new {
+            // Only an empty folder goes.
+            let _ = std::fs::remove_dir(&self.path);
+        }
+    }
+}
+
+fn write(
+    arguments: &SteadyArguments,
+    room: &Room,
+    (of, branch): (&Continuation, &Branch),
+    accuracy: [f64; 2],
+) -> Result<Vec<String>, BranchFailure> {
+    let pictures = picture::draw(of, branch, &arguments.look.look())?;
+    let failed = |source| BranchFailure::Write { path: room.path.clone(), source };
+    let folder = Folder::make(&room.path).map_err(failed)?;
+    // A command that was killed has left its drafts.
+    let stale = picture::all_files();
+    let own = [continuation::TABLE, BRANCH].map(str::to_owned).into_iter();
+    sweep(&room.path, &own.chain(stale.iter().cloned()).collect::<Vec<_>>());
+    continuation::write(folder, (of, branch), accuracy, (&pictures, stale)).map_err(failed)
+}
+
+/// The branch by its ends and what lies between them.
+fn tell(of: &Continuation, branch: &Branch) {
+    let shown = |value: f64| shown(of, value);
+    let heads = [of.path.as_str(), "\u{b1}", "step", "stable below, above", "what happens"];
+    let mut table = table::plain(heads);
+    let step = |step: Option<f64>| step.map_or(String::new(), |step| quantity(Real(step), "m"));
+    let word = |stable: bool| if stable { "stable" } else { "not" };
+    let end = |place: usize| {
+        let point = if place == 0 { branch.points.first() } else { branch.points.last() };
+        let cells = point.map(|point| (shown(point.value), step(point.step), word(point.is_stable())));
+        let (value, step, stable) = cells.unwrap_or_default();
+        vec![value, String::new(), step, stable.to_owned(), format!("end: {}", branch.ends[place].words())]
+    };
+    let row = |mark: &Mark| {
+        let stable = mark.stable.map(word).join(", ");
+        let what = format!("{}: {}", mark.kind.name(), mark.kind.words());
+        vec![shown(mark.value), shown(mark.half_width), step(mark.step), stable, what]
+    };
+    table.add_row(end(0));
+    table.add_rows(branch.marks.iter().map(row));
+    table.add_row(end(1));
+    say(format_args!("{}: {} steady motions\n\n{table}", of.job.name, branch.points.len()));
+    if branch.ends.contains(&End::Interrupted) {
+        complain(format_args!("interrupted: what was found is written"));
+    }
+}
+
+fn shown(of: &Continuation, value: f64) -> String {
+    // A prefix belongs to a unit.
+    if of.unit.is_empty() { format!("{value:.4e}") } else { quantity(Real(value), of.unit) }
+}
+
+impl BranchFailure {
+    fn verdict(&self) -> Verdict {
+        match self {
+            Self::Refused(_) | Self::Range(_) => Verdict::BadInput,
+            Self::Branch(ContinuationError::NoStart { source, .. }) => match **source {
+                SteadyError::Interrupted(_) => Verdict::Interrupted,
+                SteadyError::Run(_) | SteadyError::NoConvergence { .. } | SteadyError::Shakedown { .. } => {
+                    Verdict::Stopped
+                }
+                _ => Verdict::BadInput,
+            },
+            Self::Branch(ContinuationError::Shakedown { .. }) => Verdict::Stopped,
+            Self::Branch(_) => Verdict::BadInput,
+            Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! A branch of steady motions: what they are over something that is varied, and how disturbances come back.
+
+use crate::Label;
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Panel, Reference, Series};
+use crate::theme::{Dash, Ink, Style};
+
+/// A branch of steady motions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchCourse<'a> {
+    /// What is varied, and its unit.
+    pub axis: (&'a str, &'a str),
+    /// What it is in the scene.
+    pub present: f64,
+    /// Stretches of one kind along the branch; each begins with the last motion of the one before, where nothing lies between.
+    pub stretches: Vec<Stretch>,
+    /// Places at which something happens: what, the varied number, and the step where there is one.
+    pub marks: Vec<(String, Vec<[f64; 2]>)>,
+}
+
+/// Motions one after another that are all stable, or all not.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stretch {
+    /// Whether a run that is disturbed a little comes back.
+    pub stable: bool,
+    /// What is varied.
+    pub values: Vec<f64>,
+    /// Steps, m; not finite where there are none.
+    pub steps: Vec<f64>,
+    /// |λ| of the largest multipliers, the largest first, each along the stretch.
+    pub moduli: Vec<Vec<f64>>,
+}
+
+/// Steps over what is varied, and below them |λ| of the largest multipliers: stable motions solid, others dashed, places at which
+/// something happens as dots.
+pub fn branch_figure<'a>(title: &str, branch: &BranchCourse<'a>) -> Figure<'a> {
+    if branch.stretches.iter().all(|stretch| stretch.values.is_empty()) {
+        return Figure::without_data(title, "the branch has no motions");
+    }
+    let has_steps = branch.stretches.iter().any(|stretch| stretch.steps.iter().any(|step| step.is_finite()));
+    let panels: Vec<Panel<'a>> =
+        has_steps.then(|| steps(branch)).into_iter().chain([moduli(branch, !has_steps)]).collect();
+    Figure {
+        title: Label::plain(title),
+        size: Figure::size_for(360, 640, panels.len()),
+        panels,
+        arrangement: Arrangement::Column { share_x: true },
+        ..Figure::default()
+    }
+    .with_room_for_legends()
+}
+
+fn steps<'a>(branch: &BranchCourse<'a>) -> Panel<'a> {
+    let mut lines = Lines::default();
+    for stretch in &branch.stretches {
+        lines.add(stretch, 0, stretch.steps.clone());
+    }
+    panel(branch, Axis::new(Label::plain("step"), "m"), (lines.series, dots(branch, |mark| mark[1])), 0.0)
+}
+
+/// Where there are no steps the places stand here, on the circle.
+fn moduli<'a>(branch: &BranchCourse<'a>, with_marks: bool) -> Panel<'a> {
+    let mut lines = Lines::default();
+    for stretch in &branch.stretches {
+        for (place, moduli) in stretch.moduli.iter().enumerate() {
+            lines.add(stretch, place, moduli.clone());
+        }
+    }
+    let marks = if with_marks { dots(branch, |_| 1.0) } else { Vec::new() };
+    panel(branch, Axis::new(Label::plain("|\u{3bb}|"), ""), (lines.series, marks), 1.0)
+}
+
+fn panel<'a>(
+    branch: &BranchCourse<'a>,
+    y: Axis,
+    (lines, marks): (Vec<Series<'a>>, Vec<Series<'a>>),
+    level: f64,
+) -> Panel<'a> {
+    let (name, unit) = branch.axis;
+    Panel {
+        x: Axis::new(Label::plain(name), unit),
+        y,
+        series: lines.into_iter().chain(marks).collect(),
+        references: vec![
+            Reference::Horizontal { y: level, label: Label::default() },
+            Reference::Vertical { x: branch.present, label: Label::plain("as in the scenario") },
+        ],
+        ..Panel::default()
+    }
+}
+
+/// Lines of which only the first of each kind is named.
+#[derive(Default)]
+struct Lines<'a> {
+    series: Vec<Series<'a>>,
+    named: [bool; 2],
+}
+
+impl Lines<'_> {
+    fn add(&mut self, stretch: &Stretch, place: usize, ys: Vec<f64>) {
+        let (dash, name) =
+            if stretch.stable { (Dash::Solid, "stable") } else { (Dash::Dashed, "a run leaves it") };
+        let named = &mut self.named[usize::from(stretch.stable)];
+        let label = if *named || place > 0 { Label::default() } else { Label::plain(name) };
+        *named |= place == 0;
+        let width = if place == 0 { 1.5 } else { 0.8 };
+        let style =
+            Style { ink: Some(Ink::Palette(if place == 0 { 0 } else { 7 })), dash: Some(dash), width };
+        self.series.push(Series { style, ..Series::new(label, stretch.values.clone(), ys) });
+    }
+}
+
+/// Dots of each kind of place.
+fn dots<'a>(branch: &BranchCourse<'a>, height: impl Fn(&[f64; 2]) -> f64) -> Vec<Series<'a>> {
+    let of = |(kind, (name, places)): (usize, &(String, Vec<[f64; 2]>))| {
+        // A gap after every dot: points that no line joins are marked.
+        let xs: Vec<f64> = places.iter().flat_map(|place| [place[0], f64::NAN]).collect();
+        let ys: Vec<f64> = places.iter().flat_map(|place| [height(place), f64::NAN]).collect();
+        let style = Style { ink: Some(Ink::Palette(1 + kind)), dash: Some(Dash::Solid), width: 1.0 };
+        Series { style, ..Series::new(Label::plain(name), xs, ys) }
+    };
+    branch.marks.iter().enumerate().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stretch(stable: bool, values: [f64; 2]) -> Stretch {
+        let moduli = if stable { vec![vec![0.9, 1.0]] } else { vec![vec![1.0, 1.2]] };
+        Stretch { stable, values: values.to_vec(), steps: vec![1e-9, 2e-9], moduli }
+    }
+
+    #[test]
+    fn what_a_run_leaves_is_dashed_and_places_are_dots() {
+        let branch = BranchCourse {
+            axis: ("load", "N"),
+            present: 1.0,
+            stretches: vec![stretch(true, [1.0, 2.0]), stretch(false, [2.0, 1.5])],
+            marks: vec![("fold".to_owned(), vec![[2.0, 2e-9]])],
+        };
+        let figure = branch_figure("Title", &branch);
+        let [steps, moduli] = &figure.panels[..] else { panic!("{}", figure.panels.len()) };
+        let dashes: Vec<_> = steps.series.iter().map(|series| series.style.dash).collect();
+        assert_eq!(dashes, [Dash::Solid, Dash::Dashed, Dash::Solid].map(Some));
+        assert!(steps.series[2].is_scattered() && steps.series[2].xs[0] == 2.0);
+        assert_eq!(moduli.series.len(), 2);
+        assert!(crate::draw_svg(&figure).is_ok());
+    }
+}

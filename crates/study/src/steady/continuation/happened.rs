@@ -1,0 +1,98 @@
+//! What happens in a period: events by who and what, and how often.
+
+use super::error::Trouble;
+use super::place::{Bench, Place};
+use std::collections::BTreeMap;
+use stickslip_drive::{Event, EventKind, Record, Source};
+
+/// How often something happens in a period, by who and what.
+pub(super) type Happened = BTreeMap<(String, &'static str), usize>;
+
+/// A period of a motion.
+#[derive(Debug, Clone)]
+pub(super) struct Period {
+    pub(super) happened: Happened,
+    /// Where the map's moment lies between the events before and after it: 0.5 in the middle, 0 at one of them.
+    pub(super) margin: f64,
+}
+
+/// What one motion does in a period and its neighbour does not.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// Contact or block.
+    pub source: String,
+    /// What happens.
+    pub kind: &'static str,
+    /// How often below the place of the change.
+    pub below: usize,
+    /// How often above it.
+    pub above: usize,
+}
+
+#[derive(Default)]
+struct Events(Vec<Event>);
+
+impl Record for Events {
+    fn row(&mut self, _: &[f64]) {}
+    fn event(&mut self, event: &Event, _: &[f64]) {
+        self.0.push(*event);
+    }
+    fn wants_event_rows(&self) -> bool {
+        false
+    }
+}
+
+impl Period {
+    /// The period of a place.
+    pub(super) fn of(bench: &Bench<'_>, place: &Place) -> Result<Self, Trouble> {
+        let (state, period) = (&place.fixed.state, place.variant.drive.period);
+        let (from, mut events) = (state.time(), Events::default());
+        bench.map_at(place).lead(state.clone(), from + period, &mut events)?;
+        let names: Vec<&str> = place.variant.drive.model.contacts().map(|(name, _)| name).collect();
+        let blocks = &place.variant.job.scenario.scene.blocks;
+        let mut happened = Happened::new();
+        for event in &events.0 {
+            let source = match event.source {
+                Source::Contact(c) => names.get(c).map(|name| (*name).to_owned()),
+                Source::Block(b) => blocks.get(b).map(|block| block.name.clone()),
+                Source::Waveform(_) => None,
+            };
+            // Corners are the waveform's; turns are told of some contacts alone.
+            let source = source.filter(|_| event.kind != EventKind::Turn);
+            if let Some(source) = source {
+                *happened.entry((source, event.kind.name())).or_default() += 1;
+            }
+        }
+        let times = || events.0.iter().map(|event| event.t - from);
+        let (after, before) = (times().fold(period, f64::min), period - times().fold(0.0, f64::max));
+        let margin = after.min(before) / (after + before);
+        Ok(Self { happened, margin })
+    }
+}
+
+/// What differs between two periods, the one of the smaller value first.
+pub(super) fn changes(below: &Happened, above: &Happened) -> Vec<Change> {
+    let mut keys: Vec<_> = below.keys().chain(above.keys()).collect();
+    keys.sort();
+    keys.dedup();
+    let change = |key: &(String, &'static str)| {
+        let [below, above] = [below, above].map(|of| of.get(key).copied().unwrap_or(0));
+        Change { source: key.0.clone(), kind: key.1, below, above }
+    };
+    keys.into_iter().map(change).filter(|change| change.below != change.above).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bifurcation::Bifurcation;
+    use super::*;
+
+    #[test]
+    fn changes_are_told_from_below() {
+        let touch = |count: usize| Happened::from([(("end".to_owned(), "touch"), count)]);
+        let found = changes(&Happened::new(), &touch(1));
+        assert_eq!((found[0].below, found[0].above), (0, 1));
+        assert_eq!(Bifurcation::Event(found).words(), "above, touch of end appears (1 a period)");
+        assert!(changes(&touch(2), &touch(2)).is_empty());
+    }
+}

@@ -1,0 +1,174 @@
+//! A state of the drive at a value of what is varied, with where a period leads it.
+
+use super::error::Trouble;
+use crate::steady::endless::Endless;
+use crate::steady::map::{Gradient, Map};
+use crate::steady::newton::Fixed;
+use crate::steady::{Options, fixed_point, moment};
+use nalgebra::DVector;
+use std::cell::Cell;
+use std::path::PathBuf;
+use std::rc::Rc;
+use stickslip_drive::State;
+use stickslip_drive::section::Section;
+use stickslip_results::Job;
+use stickslip_scenario::{Scenario, ScenarioError};
+
+/// Change of the defect, in natural scales, that a difference by the varied number aims at: rounding and bends weigh about the same.
+const SEEN: f64 = 1e-4;
+/// Tries to come within ten times of it.
+const TRIES: u32 = 6;
+/// By how little and by how much the varied number is moved, as a share of its range.
+const LEAST: f64 = 1e-10;
+const MOST: f64 = 1e-3;
+
+/// The drive at a value.
+pub(super) struct Variant {
+    pub(super) value: f64,
+    pub(super) job: Job,
+    pub(super) drive: Endless,
+}
+
+/// A state there, and its image.
+#[derive(Clone)]
+pub(super) struct Place {
+    pub(super) variant: Rc<Variant>,
+    pub(super) fixed: Fixed,
+}
+
+/// How a state comes back, to first order.
+#[derive(Clone)]
+pub(super) struct Slopes {
+    pub(super) gradient: Gradient,
+    /// Of the defect by the varied number as a share of its range, in natural scales.
+    pub(super) by_value: DVector<f64>,
+}
+
+/// Where drives are made and led.
+pub(super) struct Bench<'a> {
+    pub(super) job: &'a Job,
+    pub(super) path: &'a str,
+    /// From one end of the range to the other.
+    pub(super) span: f64,
+    pub(super) options: Options<'a>,
+    /// By how much the varied number is moved for a difference, as a share of its range.
+    apart: Cell<f64>,
+}
+
+impl<'a> Bench<'a> {
+    pub(super) fn new((job, path): (&'a Job, &'a str), span: f64, options: Options<'a>) -> Self {
+        Self { job, path, span, options, apart: Cell::new(1e-6) }
+    }
+
+    /// The drive at a value.
+    pub(super) fn variant(&self, value: f64) -> Result<Rc<Variant>, Trouble> {
+        let text = format!("{value:e}");
+        // Whatever is a default in the file stands in the resolved scenario, and the points of tables.
+        let made =
+            Scenario::from_str_with(&self.job.resolved, &self.job.name, "", &[(self.path, text.as_str())]);
+        let made = made.and_then(|mut scenario| {
+            (scenario.springs, scenario.memory, scenario.fields) = (None, None, None);
+            scenario.plan.every = None;
+            Job::new(scenario, self.job.name.clone(), PathBuf::new())
+        });
+        let job = made.map_err(|error: ScenarioError| Trouble::Refused(error.to_string()))?;
+        let drive = Endless::of(&job)?;
+        Ok(Rc::new(Variant { value, job, drive }))
+    }
+
+    fn map<'v>(&'v self, variant: &'v Variant) -> Map<'v> {
+        Map::new(&variant.drive.model, variant.drive.period, &variant.job, &self.options)
+    }
+
+    /// The map at a state.
+    pub(super) fn map_at<'v>(&'v self, place: &'v Place) -> Map<'v> {
+        let mut map = self.map(&place.variant);
+        map.set(Section::new(&place.variant.drive.model, place.fixed.state.clone()));
+        map
+    }
+
+    /// A state and its image.
+    pub(super) fn place(&self, variant: &Rc<Variant>, state: State) -> Result<Place, Trouble> {
+        let mut map = self.map(variant);
+        let section = Section::new(&variant.drive.model, state);
+        let state = section.base().clone();
+        map.set(section);
+        let image = map.image(&state, 1.0)?;
+        let defect = map.difference(&image.state, &state).ok_or(Trouble::OtherForm)?;
+        let fixed = Fixed { state, image, defect, defects: Vec::new() };
+        Ok(Place { variant: Rc::clone(variant), fixed })
+    }
+
+    /// The motion that the start of a drive leads to.
+    pub(super) fn found(&self, variant: &Rc<Variant>) -> Result<Place, Trouble> {
+        let mut map = self.map(variant);
+        let fixed = fixed_point(&mut map, &variant.drive)?;
+        Ok(Place { variant: Rc::clone(variant), fixed })
+    }
+
+    /// The same motion at the moment of the period at which least is remembered.
+    pub(super) fn moment(&self, place: &Place) -> Result<Place, Trouble> {
+        let mut map = self.map_at(place);
+        let state = moment::again(&mut map, place.fixed.state.clone())?.state;
+        drop(map);
+        self.place(&place.variant, state)
+    }
+
+    /// A state of a variant as one of another, its numbers moved, in natural scales.
+    pub(super) fn elsewhere(
+        &self,
+        (state, of): (&State, &Variant),
+        to: &Variant,
+        by: &DVector<f64>,
+    ) -> Result<State, Trouble> {
+        // At the same phase of the period.
+        let t = state.time() * (to.drive.period / of.drive.period);
+        let section = Section::new(&of.drive.model, state.clone());
+        if section.unknowns().len() != by.len() {
+            return Err(Trouble::OtherForm);
+        }
+        let by = DVector::from_vec(section.scales()).component_mul(by);
+        section.elsewhere(state, by.as_slice(), &to.drive.model, t).ok_or(Trouble::OtherForm)
+    }
+
+    /// How the state of a place comes back, to first order.
+    pub(super) fn slopes(&self, place: &Place) -> Result<Slopes, Trouble> {
+        let Fixed { state, image, .. } = &place.fixed;
+        let gradient = self.map_at(place).near_gradient(state, image)?;
+        Ok(Slopes { gradient, by_value: self.by_value(place)? })
+    }
+
+    /// Of the defect by the varied number: by differences to both sides, or to one where the other is of another form.
+    pub(super) fn by_value(&self, place: &Place) -> Result<DVector<f64>, Trouble> {
+        for _ in 0..TRIES {
+            let by = self.apart.get();
+            let [ahead, behind] = [by, -by].map(|by| self.beside(place, by));
+            let (change, apart) = match (ahead, behind) {
+                (Ok(ahead), Ok(behind)) => (ahead - behind, 2.0 * by),
+                (Ok(ahead), Err(_)) => (ahead - &place.fixed.defect, by),
+                (Err(_), Ok(behind)) => (&place.fixed.defect - behind, by),
+                (Err(trouble), Err(_)) if trouble.is_final() => return Err(trouble),
+                (Err(_), Err(_)) => {
+                    self.apart.set(0.1 * by);
+                    continue;
+                }
+            };
+            let share = change.amax() / SEEN;
+            let better = if share > 0.0 { (by / share).clamp(LEAST, MOST) } else { by };
+            self.apart.set(better);
+            if (0.1..=10.0).contains(&(better / by)) {
+                return Ok(change / apart);
+            }
+        }
+        Err(Trouble::OtherForm)
+    }
+
+    /// The defect of the same state at another value.
+    fn beside(&self, place: &Place, by: f64) -> Result<DVector<f64>, Trouble> {
+        let variant = self.variant(place.variant.value + by * self.span)?;
+        let still = DVector::zeros(place.fixed.defect.len());
+        let state = self.elsewhere((&place.fixed.state, &place.variant), &variant, &still)?;
+        let defect = self.place(&variant, state)?.fixed.defect;
+        if defect.len() == still.len() { Ok(defect) } else { Err(Trouble::OtherForm) }
+    }
+}

@@ -1,0 +1,236 @@
+//! What is told of a branch: a table, and all of it in JSON.
+
+use super::{Bifurcation, Branch, Change, Continuation, End, Mark, Point};
+use serde::Serialize;
+use std::fmt::Write;
+use std::io;
+use stickslip_results::files::BRANCH;
+use stickslip_results::folder::Folder;
+use stickslip_results::{Real, hash};
+
+/// Name of the table.
+pub const TABLE: &str = "branch.csv";
+
+/// All numbers of a branch; written last.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    scenario: &'a str,
+    scenario_sha256: &'a str,
+    program: &'a str,
+    varied: &'a str,
+    unit: &'static str,
+    present: Real,
+    from: Real,
+    to: Real,
+    tolerance: Real,
+    accuracy: Real,
+    start: usize,
+    points: Vec<PointReport>,
+    marks: Vec<MarkReport>,
+    ends: [EndReport; 2],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table_sha256: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct PointReport {
+    value: Real,
+    piece: usize,
+    step_m: Option<Real>,
+    step_error_m: Option<Real>,
+    speed_m_s: Option<Real>,
+    period_s: Real,
+    stable: bool,
+    multipliers: Vec<[Real; 2]>,
+    unknowns: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct MarkReport {
+    kind: &'static str,
+    value: Real,
+    half_width: Real,
+    step_m: Option<Real>,
+    stable: [bool; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beat_periods: Option<Real>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    changes: Vec<ChangeReport>,
+    words: String,
+}
+
+#[derive(Debug, Serialize)]
+struct ChangeReport {
+    source: String,
+    event: &'static str,
+    below: usize,
+    above: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct EndReport {
+    value: Real,
+    kind: &'static str,
+    words: String,
+}
+
+impl PointReport {
+    fn of(point: &Point) -> Self {
+        Self {
+            value: Real(point.value),
+            piece: point.piece,
+            step_m: point.step.map(Real),
+            step_error_m: point.step.map(|_| Real(point.bound)),
+            speed_m_s: point.speed().map(Real),
+            period_s: Real(point.period),
+            stable: point.is_stable(),
+            multipliers: point.multipliers.iter().map(|m| [Real(m.re), Real(m.im)]).collect(),
+            unknowns: point.unknowns,
+        }
+    }
+}
+
+impl MarkReport {
+    fn of(mark: &Mark) -> Self {
+        let change = |change: &Change| ChangeReport {
+            source: change.source.clone(),
+            event: change.kind,
+            below: change.below,
+            above: change.above,
+        };
+        let (beat, changes) = match &mark.kind {
+            Bifurcation::NeimarkSacker { beat } => (Some(Real(*beat)), Vec::new()),
+            Bifurcation::Event(changes) => (None, changes.iter().map(change).collect()),
+            Bifurcation::Fold | Bifurcation::PeriodDoubling | Bifurcation::Branching => (None, Vec::new()),
+        };
+        Self {
+            kind: mark.kind.name(),
+            value: Real(mark.value),
+            half_width: Real(mark.half_width),
+            step_m: mark.step.map(Real),
+            stable: mark.stable,
+            beat_periods: beat,
+            changes,
+            words: mark.kind.words(),
+        }
+    }
+}
+
+impl End {
+    /// Its word in files.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Range => "range",
+            Self::Shakedown(_) => "shakedown",
+            Self::Lost(_) => "lost",
+            Self::Refused(_) => "refused",
+            Self::Points => "points",
+            Self::Interrupted => "interrupted",
+        }
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::Range => "the end of the range".to_owned(),
+            Self::Shakedown(contacts) => format!(
+                "beyond, {} never slips grossly: steady motions are a whole family (a shakedown), and no one branch goes on",
+                contacts.join(", ")
+            ),
+            Self::Lost(why) => format!("no motion was found beyond: {why}"),
+            Self::Refused(why) => {
+                format!("the scenario allows no value beyond: {}", why.lines().next().unwrap_or_default())
+            }
+            Self::Points => "as many points as were allowed".to_owned(),
+            Self::Interrupted => "interrupted".to_owned(),
+        }
+    }
+}
+
+/// As CSV: what is varied and the motion there, along the branch. Numbers have as many digits as it takes to read the same bits
+/// back; a cell is empty where there is no such number.
+#[must_use]
+pub fn csv(of: &Continuation, branch: &Branch) -> String {
+    let mut table = of.head();
+    table.push_str(",piece,step_m,step_error_m,speed_m_s,period_s,stable,multiplier,beat_periods,unknowns\n");
+    for point in &branch.points {
+        let _ = write!(table, "{:e},{}", point.value, point.piece);
+        let cells = [point.step, point.step.map(|_| point.bound), point.speed(), Some(point.period)];
+        cells.into_iter().for_each(|n| number(&mut table, n));
+        let _ = write!(table, ",{}", u8::from(point.is_stable()));
+        let largest = point.multipliers.first();
+        number(&mut table, Some(point.radius()));
+        number(&mut table, largest.and_then(super::super::Multiplier::beat));
+        let _ = writeln!(table, ",{}", point.unknowns);
+    }
+    table
+}
+
+fn number(table: &mut String, number: Option<f64>) {
+    let _ = match number {
+        Some(number) => write!(table, ",{number:e}"),
+        None => write!(table, ","),
+    };
+}
+
+/// All numbers on one line of JSON.
+#[must_use]
+pub fn json(of: &Continuation, branch: &Branch, accuracy: [f64; 2]) -> String {
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    serde_json::to_string(&report(of, branch, accuracy)).unwrap_or_default()
+}
+
+/// Writes the table, `branch.json` and pictures into a folder; files of these names that are not among them go. `accuracy` is the
+/// tolerance of the runs and that of places. Returns the names.
+///
+/// # Errors
+/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+pub fn write(
+    mut folder: Folder,
+    (of, branch): (&Continuation, &Branch),
+    accuracy: [f64; 2],
+    (pictures, stale): (&[(String, Vec<u8>)], Vec<String>),
+) -> io::Result<Vec<String>> {
+    let table = csv(of, branch);
+    folder.write(TABLE, table.as_bytes())?;
+    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    let mut files = folder.names();
+    files.push(BRANCH.to_owned());
+    folder.forget(stale);
+    let report =
+        Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(of, branch, accuracy) };
+    let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
+    json.push(b'\n');
+    folder.write(BRANCH, &json)?;
+    folder.publish()?;
+    Ok(files)
+}
+
+fn report<'a>(of: &'a Continuation, branch: &Branch, [tolerance, accuracy]: [f64; 2]) -> Report<'a> {
+    let at = |point: Option<&Point>| Real(point.map_or(f64::NAN, |point| point.value));
+    let values = [at(branch.points.first()), at(branch.points.last())];
+    let end =
+        |k: usize| EndReport { value: values[k], kind: branch.ends[k].name(), words: branch.ends[k].words() };
+    Report {
+        scenario: &of.job.name,
+        scenario_sha256: &of.job.hash,
+        program: &of.job.program,
+        varied: &of.path,
+        unit: of.unit,
+        present: Real(of.present),
+        from: Real(of.range[0]),
+        to: Real(of.range[1]),
+        tolerance: Real(tolerance),
+        accuracy: Real(accuracy),
+        start: branch.start,
+        points: branch.points.iter().map(PointReport::of).collect(),
+        marks: branch.marks.iter().map(MarkReport::of).collect(),
+        ends: [end(0), end(1)],
+        files: Vec::new(),
+        table_sha256: None,
+    }
+}
