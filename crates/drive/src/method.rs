@@ -7,7 +7,7 @@
 //! | method | free coordinates | forces |
 //! | --- | --- | --- |
 //! | [`Method::Walk`] | none | prescribed paths |
-//! | [`Method::Parabola`] | any | constant until the next event |
+//! | [`Method::Parabola`] | any; one over followers on sines | constant until the next event |
 //! | [`Method::Swing`] | one | closed forms of u under straight followers |
 //! | [`Method::Nystrom`] | any | without velocities |
 //! | [`Method::Radau`] | any | of what settles far faster than all else goes on |
@@ -152,9 +152,14 @@ fn velocities(model: &Model) -> Option<Why> {
 }
 
 impl IntervalTraits {
-    /// Whether nothing acts but contacts of closed form and constant loads, and what drags them moves at constant rates.
+    /// Whether nothing acts but contacts of closed form and constant loads.
+    fn is_closed(&self, scene: &SceneTraits) -> bool {
+        !self.general && !scene.links
+    }
+
+    /// The same where what drags them moves at constant rates.
     pub(crate) fn is_simple(&self, scene: &SceneTraits) -> bool {
-        self.straight && !self.general && !scene.links
+        self.straight && self.is_closed(scene)
     }
 
     /// Whether all forces are the same throughout.
@@ -162,10 +167,12 @@ impl IntervalTraits {
         self.slides && self.is_simple(scene) && !scene.loads
     }
 
-    /// Whether the interval of a single slider is to be taken in one leap to its next event.
+    /// Whether the interval of a single slider is to be taken in one leap to its next event: in gross slip also over followers
+    /// on sines, which change nothing of the forces.
     #[inline(always)]
     pub(crate) fn leaps(&self, scene: &SceneTraits) -> bool {
-        scene.free == 1 && scene.velocities.is_none() && self.is_simple(scene) && !self.gap && !self.asked
+        let has_form = self.is_closed(scene) && (self.straight || self.slides);
+        scene.free == 1 && scene.velocities.is_none() && has_form && !self.gap && !self.asked
     }
 }
 
@@ -175,7 +182,11 @@ pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method,
     if scene.free > 0 && interval.is_constant(scene) {
         (Method::Parabola, Why::ConstantForces)
     } else if interval.leaps(scene) {
-        (Method::Swing, Why::OneQuadrature)
+        if interval.slides {
+            (Method::Parabola, Why::ConstantForces)
+        } else {
+            (Method::Swing, Why::OneQuadrature)
+        }
     } else {
         stepping(scene)
     }

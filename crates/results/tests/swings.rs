@@ -1,4 +1,5 @@
-//! The benchmark drive with other profiles, by swings from event to event, against steps of a Runge–Kutta–Nyström pair.
+//! The benchmark drive with other profiles, by swings from event to event, and on a sine, by slides of one leap, against steps of
+//! a Runge–Kutta–Nyström pair.
 
 #![allow(
     clippy::unwrap_used,
@@ -43,5 +44,21 @@ fn other_profiles_swing_to_where_steps_lead() {
             let leaps = state.tally().steps(Method::Swing) + state.tally().steps(Method::Parabola);
             assert_eq!(leaps, state.counts().steps, "{name} at {tolerance}");
         }
+    }
+}
+
+/// Where P1 on a sine ends, m, by the version before slides over sines were leaps, at 1e-13: 4e-22 m from its run at 1e-12.
+const SINE: f64 = -1.4017567711419356e-7;
+
+/// Errors are below a fifteenth of the tolerance in u_c, and every slide is one leap.
+#[test]
+fn slides_over_a_sine_end_where_steps_lead() {
+    for (tolerance, allowed) in [("1e-3", 1e-3), ("1e-6", 1e-6), ("1e-9", 1e-9), ("1e-12", 1e-11)] {
+        let (state, place) = ended("p1_sine", tolerance);
+        let off = (place - SINE).abs();
+        println!("p1_sine at {tolerance}: {off:e} m");
+        assert!(off < allowed * LENGTH, "{tolerance}: {off:e} m");
+        // 41 begin, and the last one has no end.
+        assert_eq!(state.tally().steps(Method::Parabola), 40, "{tolerance}: {:?}", state.tally());
     }
 }

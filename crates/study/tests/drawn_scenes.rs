@@ -113,9 +113,6 @@ fn no_plain_run_contradicts_a_steady_step() -> Result<(), Box<dyn Error>> {
         };
         told[place] += 1;
         let all: Set = set.into_iter().chain(point.set.clone()).collect();
-        if std::env::var("DRAWN").is_ok() {
-            eprintln!("{k} {name} {all:?}\n   {:?}", point.motion);
-        }
         let Ok(motion) = &point.motion else { continue };
         if motion.course != Course::Steady {
             continue;

@@ -20,6 +20,7 @@
 mod course;
 mod slip;
 mod stretch;
+mod sway;
 mod time;
 mod turning;
 
@@ -30,6 +31,7 @@ use crate::model::Free;
 use slip::PartialSlip;
 use std::f64::consts::PI;
 use stickslip_contact::RootSeries;
+use sway::Sway;
 use turning::{EXACT, ROUGH, softer};
 
 /// Part of its height at the start below which a slip front comes so near to the centre that its branch point is felt.
@@ -44,11 +46,13 @@ const SMALLEST: f64 = 1e-9;
 
 /// Motion of the slider until its next event. Scratch: made anew after each event.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Swing {
+pub(crate) struct Swing<'a> {
     /// Direction of the slide along the coordinate, ±1.
     sense: f64,
     /// Speed of the followers along the coordinate, m/s: q̇ = ±(ẋ + drift).
     drift: f64,
+    /// What takes its place where they follow sines: in gross slip.
+    sway: Option<Sway<'a>>,
     /// Where and when it begins.
     start: PhasePoint,
     mobility: f64,
@@ -103,7 +107,7 @@ pub(crate) struct PhasePoint {
     pub(crate) v: f64,
 }
 
-impl Swing {
+impl<'a> Swing<'a> {
     /// Room for the contacts of a model; places in parts of its natural length to a `tolerance`.
     pub(crate) fn of(model: &Model, tolerance: f64) -> Self {
         Self::default().renewed(model, tolerance)
@@ -124,19 +128,25 @@ impl Swing {
         Self { tolerance, last, near, laws, slips, ..Self::default() }
     }
 
+    /// The room that it takes: it knows no interval.
+    pub(crate) fn emptied(self) -> Swing<'static> {
+        Swing { laws: self.laws, slips: self.slips, ..Swing::default() }
+    }
+
     /// Takes up what an interval has become; false where it has no such form.
-    pub(crate) fn begin(&mut self, interval: &Interval<'_>, slider: &Free, start: PhasePoint) -> bool {
-        let Some(pull) = &interval.slider else { return false };
+    pub(crate) fn begin(&mut self, interval: &Interval<'a>, slider: &Free, start: PhasePoint) -> bool {
         let Some(first) = interval.closed.first() else { return false };
         // The slider does not move this contact: the followers alone end its pieces.
         if first.arm == 0.0 {
             return false;
         }
-        let Some(rate) = first.constant_rate() else { return false };
         self.sense = (first.sense() * first.arm).signum();
-        self.drift = rate / first.arm;
         self.start = start;
         (self.mobility, self.load) = (slider.mobility, slider.force);
+        self.sway = None;
+        let Some(pull) = &interval.slider else { return self.begin_swayed(interval) };
+        let Some(rate) = first.constant_rate() else { return false };
+        self.drift = rate / first.arm;
         self.push = self.sense * pull.acceleration;
         self.reach = f64::INFINITY;
         for steady in &interval.closed {
@@ -180,7 +190,16 @@ impl Swing {
 
     /// Speed of the slide at the start, m/s.
     fn speed(&self) -> f64 {
-        self.sense * (self.start.v + self.drift)
+        self.sense * (self.start.v + self.drift_at(self.start.t))
+    }
+
+    /// Speed of the followers along the coordinate at time t, m/s.
+    #[inline(always)]
+    fn drift_at(&self, t: f64) -> f64 {
+        match &self.sway {
+            None => self.drift,
+            Some(sway) => sway.at(t).rate,
+        }
     }
 
     /// Finds the event that ends the motion; false where that fails. `length` is the natural one, m.
@@ -268,6 +287,9 @@ impl Swing {
 
     /// The same in gross slip: a parabola.
     fn aim_free(&mut self, speed: f64, length: f64) -> bool {
+        if let Some(sway) = self.sway {
+            return self.aim_swayed(&sway, length);
+        }
         self.turns = self.push < 0.0;
         let way = 0.5 * speed * speed / -self.push;
         self.duration = if self.turns { speed / -self.push } else { f64::INFINITY };
@@ -313,7 +335,7 @@ mod tests {
     use super::*;
 
     /// Sets out at a speed against one contact, N = h^{2+1/n} and all else 1, whose piece of memory ends in the centre.
-    fn swing(root: u32, push: f64, speed: f64) -> Swing {
+    fn swing(root: u32, push: f64, speed: f64) -> Swing<'static> {
         let law = RootSeries { root, factor: 1.0, curvature: 0.0, terms: &[1.0] };
         Swing {
             sense: 1.0,

@@ -142,7 +142,7 @@ impl Model {
     }
 
     /// Asks what is done in an interval that begins in a state.
-    fn ask(&self, scene: &SceneTraits, state: &State, swing: &mut Swing, expected: &mut Expected) {
+    fn ask<'a>(&'a self, scene: &SceneTraits, state: &State, swing: &mut Swing<'a>, expected: &mut Expected) {
         let mut interval = Interval::of(self);
         interval.begin(self, state);
         let mut traits = interval.traits;

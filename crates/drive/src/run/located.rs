@@ -85,7 +85,7 @@ pub(super) struct Located<'a, A> {
     /// What stays the same until the next event.
     interval: Interval<'a>,
     /// The motion of a single slider until then, where the interval leaps.
-    swing: Swing,
+    swing: Swing<'a>,
     /// Work put in before it began, J, while it is under way.
     takeoff: Option<f64>,
     /// The stretch that is taken by the whole law, and room for its steps.

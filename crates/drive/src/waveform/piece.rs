@@ -85,6 +85,14 @@ impl Waveform {
         }
     }
 
+    /// A bound of the third derivative of its sines, per s³; 0 where it has none.
+    pub(crate) fn sines_jerk(&self) -> f64 {
+        match &self.course.chain {
+            Chain::Sines(sines) => sines.jerk(&self.timing),
+            _ => 0.0,
+        }
+    }
+
     /// The piece with this index, the same to the bit however it was reached; none where the chain has no such piece, and
     /// none of an input, whose pieces only their caller knows.
     pub(crate) fn piece(&self, index: u64) -> Option<Piece> {

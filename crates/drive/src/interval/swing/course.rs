@@ -6,7 +6,7 @@ use super::{PhasePoint, Swing};
 // Two give the same bits as eight; one leaves P1 at 1e-9 an error of 1.5e-6 u_c instead of 3e-13.
 const NEWTON: usize = 8;
 
-impl Swing {
+impl Swing<'_> {
     /// Place and velocity at the event.
     pub(crate) fn end(&self) -> PhasePoint {
         let t = self.start.t + self.duration;
@@ -79,7 +79,11 @@ impl Swing {
         let PhasePoint { x, v, .. } = self.start;
         let gain = self.sense * self.push * passed;
         let turned = self.turns && passed == self.duration;
-        PhasePoint { t, x: x + (v + 0.5 * gain) * passed, v: if turned { -self.drift } else { v + gain } }
+        PhasePoint {
+            t,
+            x: x + (v + 0.5 * gain) * passed,
+            v: if turned { -self.drift_at(t) } else { v + gain },
+        }
     }
 
     /// `passed` is what `t` would be from the start on without its rounding: a fast follower's way depends on it.
@@ -88,8 +92,11 @@ impl Swing {
     }
 
     /// Work that the followers have put in up to a place, J: their speed times what the slider's momentum lacks of the
-    /// impulse of its load.
+    /// impulse of its load; on sines, under constant forces, their way times what holds the slider back.
     pub(crate) fn work(&self, to: &PhasePoint) -> f64 {
+        if let Some(sway) = &self.sway {
+            return self.held() * (sway.at(to.t).value - sway.at(self.start.t).value);
+        }
         self.drift * (self.load * (to.t - self.start.t) - (to.v - self.start.v) / self.mobility)
     }
 }

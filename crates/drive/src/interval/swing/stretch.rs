@@ -6,13 +6,13 @@ use crate::record::Stride;
 /// From one moment of a swing to another. Its parts go with the clock, or with the root of what is left on it where slip reaches a
 /// centre at the end: no moment is searched for.
 pub(crate) struct Stretch<'s> {
-    swing: &'s Swing,
+    swing: &'s Swing<'s>,
     /// Where the clock stands at both ends, and when, s.
     clock: [f64; 2],
     time: [f64; 2],
 }
 
-impl Swing {
+impl Swing<'_> {
     /// The stretch between two moments, s, the second of them the event where that `is_end`.
     pub(crate) fn stretch(&mut self, [from, to]: [f64; 2], is_end: bool) -> Stretch<'_> {
         let begin = self.clock_when(from, (from == self.start.t).then_some(self.from));

@@ -5,7 +5,7 @@ use crate::quadrature::{self, Lanes};
 use std::array;
 use std::f64::consts::PI;
 
-impl Swing {
+impl Swing<'_> {
     /// Time from one position of the clock to another, s, `part` of the whole way, and whether its relative error is as
     /// allowed.
     #[inline(always)]

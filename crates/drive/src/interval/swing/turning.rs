@@ -15,7 +15,7 @@ const HALLEY: usize = 30;
 pub(super) const EXACT: f64 = 1e-5;
 pub(super) const ROUGH: f64 = 0.02;
 
-impl Swing {
+impl Swing<'_> {
     /// The turning points near two guesses: ν₀² + 2∫b = 0 by Halley's method, m.
     #[inline(always)]
     pub(super) fn turning(&mut self, speed: f64, guesses: [f64; 2]) -> Option<[f64; 2]> {

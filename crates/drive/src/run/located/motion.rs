@@ -5,7 +5,7 @@
 //! leaves to the next; at an event it begins anew.
 
 use super::Setting;
-use super::aim::{Aim, SHRINK};
+use super::aim::{Aim, SHRINK, reach};
 use super::allowance::Allowance;
 use crate::Waveform;
 use crate::contact::Contact;
@@ -49,6 +49,8 @@ pub(super) struct Pace {
     first: f64,
     /// Longest step, s, of few stages, for what something near will end; 0 where the method has no other.
     pub(super) short: f64,
+    /// Longest graded step, as a part of an even one.
+    pub(super) reach: f64,
     /// How near to a singular moment a step must end, as a part of it.
     pub(super) closeness: f64,
     /// How much must be left before such a moment for its law to matter, in natural lengths.
@@ -65,6 +67,7 @@ impl<A> Motion<A> {
             longest: longest(model),
             first: scene_time(model),
             short: short(setting.method, model, tolerance),
+            reach: reach(tolerance),
             closeness: closeness(model, tolerance),
             resolved: tolerance.powf(2.0 / 3.0),
             gait: Gait::FRESH,

@@ -25,7 +25,7 @@ pub(super) struct Room<A> {
     /// Absolute errors allowed.
     pub(super) scale: Vec<f64>,
     pub(super) interval: Interval<'static>,
-    pub(super) swing: Swing,
+    pub(super) swing: Swing<'static>,
     pub(super) watch: Watch,
     pub(super) ledger: Ledger,
     pub(super) turning: Turning,
@@ -98,7 +98,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             solver: self.motion.solver,
             scale: self.motion.allowance.allowed.scale,
             interval: self.interval.emptied(),
-            swing: self.swing,
+            swing: self.swing.emptied(),
             watch: self.watch,
             ledger: self.ledger,
             turning: self.turning,

@@ -8,6 +8,7 @@ use super::sine::Sine;
 use super::turn::Turn;
 use crate::waveform::straight::Straight;
 use crate::waveform::{Sample, Timing};
+use std::f64::consts::TAU;
 
 /// Law of one piece.
 ///
@@ -146,6 +147,15 @@ impl Sines {
         match self {
             Self::One(sine) => sine.at(turn),
             Self::Sum(terms) => harmonics::at(terms, turn),
+        }
+    }
+
+    /// A bound of the third derivative, per s³: Σ |amplitude| (order ω)³, reached by a single sine.
+    pub(in crate::waveform) fn jerk(&self, timing: &Timing) -> f64 {
+        let of = |amplitude: f64, order: f64| amplitude.abs() * (order * TAU / timing.period).powi(3);
+        match self {
+            Self::One(sine) => of(sine.amplitude, 1.0),
+            Self::Sum(terms) => terms.iter().map(|term| of(term.amplitude, term.order)).sum(),
         }
     }
 }
