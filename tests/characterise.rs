@@ -24,7 +24,9 @@ fn a_point_is_what_a_run_of_it_comes_to() {
     let out = root.path().join("curve");
     let arguments = ["--vary", "waveforms.drive.sawtooth.stroke=60 nm..300 nm", "--points", "3"];
     let output = characterise("ruby_drive", &out, &arguments);
-    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    // Nobody sees a bar here.
+    let said = "ruby_drive: vary, 3 points\nruby_drive: vary, 3 of 3 points done\n";
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, said));
     assert_eq!(listing(&out), ["curve.csv", "curve.json", "curve.png"]);
     let table = Table::read(&out.join("curve.csv"));
     let steps: Vec<f64> = table.column("step_m").iter().map(|step| step.parse().unwrap()).collect();
@@ -68,7 +70,9 @@ fn what_a_value_does_not_allow_is_said_beside_the_others() {
     let output = characterise("quickstart", &root.path().join("some"), &arguments);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let said = stderr(&output);
-    assert!(said.contains("1 of 3 points have no motion; at -0.2000: "), "{said}");
+    // The one without friction is dragged away by the load.
+    assert!(said.contains("2 of 3 points have no motion; at -0.2000: "), "{said}");
+    assert!(stdout(&output).contains("slides away"), "{}", stdout(&output));
     assert!(said.contains("expected a number between 0 and 1000, got -2e-1"), "{said}");
     assert!(stdout(&output).contains("refused"), "{}", stdout(&output));
     let none = ["--vary", "contacts.ball.friction=-0.3..-0.2", "--points", "2", "--json"];
@@ -96,6 +100,8 @@ fn bad_input_is_told_and_writes_nothing() {
         "expected FROM..TO, such as 0.1..0.6, got \"1\"",
     );
     refused("quickstart", &["--curve", "force-speed", "--range", "1 N..2 nm"], "--range  ");
+    let both = "--vary  expected a unit at both ends or at none, which is kg, got \"1 g..2\"";
+    refused("quickstart", &["--vary", "bodies.slider.mass=1 g..2"], both);
     refused("quickstart", &["--curve", "force-speed", "--range", "2 mN..1 mN"], "a range that rises");
     refused("quickstart", &["--curve", "force-speed", "--range", "0..1 N", "--log"], "above 0");
     refused("quickstart", &["--curve", "preload", "--points", "1"], "expected 2 to 10000 points, got 1");
@@ -104,4 +110,57 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("quickstart", &["--vary", "contacts.ball.count=1..3"], "counts whole things");
     refused("bouncing_ball", &["--curve", "step-amplitude"], "nothing here repeats itself");
     refused("walking_drive", &["--curve", "preload"], "pressed by a constant force");
+}
+
+#[test]
+fn a_place_that_cannot_be_written_into_is_told_before_the_first_point() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("file");
+    std::fs::write(&out, "somebody's").unwrap();
+    let output = characterise("quickstart", &out, &["--curve", "force-speed"]);
+    let said = stderr(&output);
+    assert_eq!(code(&output), 2, "{said}");
+    assert!(said.contains("cannot be written into: ") && !said.contains("points"), "{said}");
+    assert_eq!(std::fs::read(&out).unwrap(), b"somebody's");
+}
+
+/// A finished curve is not lost to one that somebody ends; what that has done is beside it until the next is finished.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_curve_leaves_a_finished_one() {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::{Command, Stdio};
+    let root = tempdir().unwrap();
+    let out = root.path().join("curve");
+    let short = ["--vary", "contacts.ball.friction=0.1..0.3", "--points", "3", "--theme", "light,dark"];
+    assert_eq!(code(&characterise("ruby_drive", &out, &short)), 0);
+    let read = |name: &str| std::fs::read(out.join(name)).unwrap();
+    let finished = [read("curve.csv"), read("curve.json"), read("curve.png")];
+    let mut command = stickslip();
+    command.arg("characterise").arg(scenario("ruby_drive"));
+    command.args(["--vary", "contacts.ball.friction=0.1..0.3", "--points", "10000", "--threads", "1"]);
+    let mut child =
+        command.arg("--out").arg(&out).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut said = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    said.read_line(&mut line).unwrap();
+    assert_eq!(line, "ruby_drive: vary, 10000 points\n");
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    said.read_to_string(&mut line).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{line}");
+    assert!(line.contains(" of 10000 points done"), "{line}");
+    assert_eq!([read("curve.csv"), read("curve.json"), read("curve.png")], finished);
+    // As many rows as points, those that were not run say so.
+    let table = Table::read(&out.join("curve-partial.csv"));
+    assert!(table.column("fault").contains(&"not run"));
+    let partial: Value = serde_json::from_slice(&read("curve-partial.json")).unwrap();
+    assert_eq!(
+        (&partial["status"], &partial["landmarks"][0]["fault"]),
+        (&"interrupted".into(), &"not run".into())
+    );
+    assert!(out.join("curve-partial.png").exists());
+    // The next that comes to its end clears up.
+    assert_eq!(code(&characterise("ruby_drive", &out, &short)), 0);
+    assert_eq!(listing(&out), ["curve-dark.png", "curve.csv", "curve.json", "curve.png"]);
 }

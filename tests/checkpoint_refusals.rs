@@ -170,7 +170,7 @@ fn a_checkpoint_of_another_run_is_refused() {
 fn only_the_end_and_the_limits_can_be_changed() {
     let kept = Kept::new("p1", &["run.cycles=3"]);
     let help = "   help: run the scenario anew to change anything else\n";
-    for set in ["contacts.ball.friction=0.2", "run.duration=1 s", "run.limitsx=9", "title=x"] {
+    for set in ["contacts.ball.friction=0.2", "run.limitsx=9", "title=x"] {
         assert_eq!(
             kept.refused(&["--set", set]),
             format!(
@@ -179,6 +179,10 @@ fn only_the_end_and_the_limits_can_be_changed() {
             )
         );
     }
+    assert_eq!(
+        kept.refused(&["--set", "run.duration=1 s"]),
+        "--set run.duration=1 s  the scenario of this run gives its end by run.cycles\n   help: --set run.cycles=…\n"
+    );
     let said = kept.refused(&["--set", "run.cycles=-1"]);
     assert!(said.starts_with("--set run.cycles=-1  run.cycles: expected a number above 0"), "{said}");
     let said = kept.refused(&["--set", "run.cycles=1"]);

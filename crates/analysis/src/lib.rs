@@ -8,11 +8,13 @@
 //! * [`regime`] – thresholds between partial and gross slip, and on which side a cycle lies;
 //! * [`sequence`] – values in order, in memory or on a disk;
 //! * [`settling`] – whether a sequence has settled, and where it goes;
+//! * [`mean`] – the mean of values that go on changing, and how far it may be off;
 //! * [`steps`] – the quantities of a drive: step length, back-step, mean speed, repeatability;
 //! * [`prefix`] – the SI prefix that makes a series readable.
 
 pub mod cycles;
 pub mod fretting;
+pub mod mean;
 pub mod prefix;
 pub mod regime;
 pub mod sequence;
@@ -22,6 +24,7 @@ pub mod steps;
 
 pub use cycles::{Cut, split_cycles};
 pub use fretting::Cycle;
+pub use mean::Mean;
 pub use prefix::Prefix;
 pub use regime::{Regime, Thresholds};
 pub use sequence::Sequence;

@@ -262,14 +262,6 @@ pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// Reads a range of a number with a unit, SI; it need not rise.
-pub(crate) fn span(text: &str, unit: &str) -> Result<[f64; 2], String> {
-    let (from, to) = text
-        .split_once("..")
-        .ok_or_else(|| format!("expected FROM..TO, such as 0.1..0.6, got \"{text}\""))?;
-    Ok([stickslip_scenario::quantity(from, unit)?, stickslip_scenario::quantity(to, unit)?])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -93,6 +93,16 @@ pub trait Record {
         let _ = state;
     }
 
+    /// Whether the record reads every step between two located events; asked where a run begins.
+    fn strides(&self) -> bool {
+        false
+    }
+
+    /// A step, before memories move, or a whole interval whose motion has a closed form.
+    fn stride(&mut self, stride: &mut dyn Stride) {
+        let _ = stride;
+    }
+
     /// Whether events are wanted; their rows cost an evaluation each.
     fn wants_events(&self) -> bool {
         true
@@ -102,6 +112,16 @@ pub trait Record {
     fn wants_event_rows(&self) -> bool {
         true
     }
+}
+
+/// A stretch of a motion on the laws of one interval, its parts counted from 0 to 1: evenly in whatever the motion is smooth in.
+pub trait Stride {
+    /// The time at a part of it, s, and how fast time goes there, s per part. Places and velocities of the free coordinates go to the
+    /// beginning of `y`.
+    fn at(&mut self, part: f64, y: &mut [f64]) -> [f64; 2];
+
+    /// Parts of it at which the path of a growing contact, by its place in the scene, has a knot, in order for each of them.
+    fn knots(&self) -> &[(usize, f64)];
 }
 
 /// Keeps nothing.

@@ -181,6 +181,17 @@ impl<'m> Section<'m> {
         }
     }
 
+    /// How far contact `c` slides along x on a way of all free coordinates, m, if it is pressed evenly: then that is 0 in the long
+    /// run where it never slips grossly. Under a normal force that varies it may walk all the same, and 0 is told.
+    #[must_use]
+    pub fn slides(&self, way: &[f64], c: usize) -> f64 {
+        let is_even = |contact: &&crate::contact::Contact| {
+            contact.coupling().is_none() && contact.press.waveform().is_none()
+        };
+        let contact = self.model.contacts.get(c).filter(is_even);
+        contact.map_or(0.0, |contact| contact.u.free.iter().map(|(i, a)| a * way[*i]).sum())
+    }
+
     /// Name of a number: that of its coordinate, its block or its contact.
     #[must_use]
     pub fn name(&self, unknown: Unknown) -> String {

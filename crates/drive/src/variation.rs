@@ -6,7 +6,7 @@
 //!
 //! h the height of the slip front, u, d and e linear in the coordinates. The last term is what the contact remembers: the anchors
 //! p of its springs below the front, each moved by δp ([`Anchors`]). The equations are integrated beside the motion they belong to,
-//! from event to event, all numbers in one pass.
+//! step by step of the run, all numbers in one pass.
 //!
 //! At an event nothing jumps. Forces are continuous in places, velocities and the memory curve, so a law that ends a little
 //! earlier or later changes nothing to first order; where an edge turns, its level stands still, so that the knot it leaves
@@ -15,32 +15,36 @@
 mod anchors;
 mod error;
 mod growth;
-mod singular;
 mod tangent;
 mod turning;
 
 pub use error::VariationError;
 
+use crate::Model;
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::event::Event;
 use crate::model::Binding;
-use crate::record::Record;
+use crate::record::{Record, Stride};
 use crate::scene::Axis;
 use crate::state::{Layout, State};
-use crate::{Model, Waveform};
 pub(crate) use anchors::Anchors;
-use singular::Singular;
-use stickslip_stepper::{
-    Attempt, Completion, DOP853_ORDER, DormandPrince, Step, StepControl, StepHistory, StepLimits, Target,
-};
-use tangent::{Tangent, Varied};
+use anchors::Held;
+use stickslip_stepper::{Coefficients, Components, Gauss, NODES};
+use tangent::Laws;
 
-/// Tightest tolerance of the variation's own steps: multipliers of the impact drive, the climber and the three-ball stage are those of
-/// 1e-12 to 1e-10, at half the cost.
-const TIGHTEST: f64 = 1e-10;
-/// Steps per interval at which the variation is given up: the run takes far fewer.
-const MOST_STEPS: u32 = 100_000;
+/// What a step of the variation may miss, in natural scales: multipliers of the impact drive, the climber and the three-ball stage are
+/// those of 1e-12 to ten digits.
+const ALLOWED: f64 = 1e-10;
+/// What a step of a swing misses whose slopes have the last Legendre coefficient c, in natural scales, is 1.25e-3 c^2.2: a swing by one
+/// radian 1e-10.
+const MISSED: (f64, f64) = (1.25e-3, 2.2);
+/// It falls with the power 11 of the step. Part of the step that would just do, the strongest shortening at once, and the shortest step
+/// that is tried, as a part of the run's.
+const FALLS: f64 = 1.0 / 11.0;
+const SAFETY: f64 = 0.9;
+const SHRINK: f64 = 0.2;
+const SHORTEST: f64 = 1e-3;
 
 /// How a run's state changes with a few numbers: a record that a run is told to.
 ///
@@ -61,13 +65,17 @@ pub struct Variation<'m> {
     left: Option<State>,
     outcome: Result<(), VariationError>,
     tolerance: f64,
-    solver: DormandPrince,
-    control: StepControl,
-    /// Next step, s; 0 before the first one.
-    step: f64,
-    /// Absolute error allowed of each component, of the motion and of its derivatives.
+    /// What the contacts hold in the interval, and which of them act on the derivatives; what links make of these.
+    held: Vec<Held>,
+    acting: Vec<usize>,
+    links: Vec<f64>,
+    /// Whether the run has told a step of it.
+    strode: bool,
+    method: Gauss,
+    nodes: [Coefficients; NODES],
+    /// Natural scales of velocities and forces.
     scale: Vec<f64>,
-    /// The motion and its derivatives.
+    /// The motion at a node.
     y: Vec<f64>,
 }
 
@@ -85,17 +93,15 @@ impl<'m> Variation<'m> {
     ) -> Result<Self, VariationError> {
         check(model)?;
         let layout = model.layout();
-        let (dimension, steps) = (layout.dimension(), tolerance.max(TIGHTEST));
-        let longest = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
-        let own = natural(model, layout);
-        let count = columns.len().checked_div(dimension).unwrap_or(0);
-        let all = dimension * (1 + count);
         Ok(Self {
-            solver: DormandPrince::new(all, all.max(layout.total())),
-            control: StepControl::new(DOP853_ORDER, StepLimits { longest, ..StepLimits::default() }),
-            step: 0.0,
-            scale: own.iter().map(|natural| steps * natural).cycle().take(all).collect(),
-            y: Vec::with_capacity(all),
+            held: Vec::new(),
+            acting: Vec::new(),
+            links: tangent::links(model),
+            strode: false,
+            method: Gauss::default(),
+            nodes: Default::default(),
+            scale: natural(model, layout).split_off(layout.free),
+            y: vec![0.0; 2 * layout.free],
             model,
             layout,
             columns,
@@ -160,14 +166,15 @@ impl<'m> Variation<'m> {
         if to.memories.iter().any(|memory| memory.merged().knots > 0) {
             return Err(VariationError::Accumulates { t: to.t });
         }
-        if to.t > from.t && !self.columns.is_empty() {
-            self.integrate(from, to)?;
+        if !self.acts() {
+            self.drift(to.t - from.t);
+        } else if to.t > from.t && !self.strode {
+            return Err(VariationError::Unlocated);
         }
         for (c, contact) in self.model.contacts.iter().enumerate() {
             // Memories of others wait for an event of their own.
             if !contact.inert && to.memories[c].apex() != from.memories[c].apex() {
-                let moved = Tangent::moved(contact, &self.columns, self.layout);
-                self.reach_end(contact, (from, to), &moved);
+                let moved = tangent::moved(contact, &self.columns, self.layout);
                 let has_edge = self.has_edge(contact, from, to);
                 self.anchors[c].follow(&to.memories[c], &moved, has_edge);
             }
@@ -175,46 +182,87 @@ impl<'m> Variation<'m> {
         Ok(())
     }
 
-    /// Integrates the motion and its derivatives over an interval.
-    fn integrate(&mut self, from: &State, to: &State) -> Result<(), VariationError> {
-        let dimension = self.layout.dimension();
-        self.y.clear();
-        self.y.extend_from_slice(&from.y[..dimension]);
-        self.y.extend_from_slice(&self.columns);
-        let eq = Equations::on(self.model, from, self.layout, false);
-        let tangents = Tangent::all(&eq, &self.anchors);
-        let varied = Varied { eq, tangents, dimension, count: self.count() };
-        let singular = Singular::of(self.model, from, to);
-        self.solver.start(&varied, from.t, &self.y);
-        if self.step == 0.0 {
-            self.step = self.solver.first_step(&varied, to.t - from.t, &self.scale);
+    /// Whether anything acts on the derivatives: else velocities stay as they are.
+    fn acts(&self) -> bool {
+        !self.acting.is_empty() || !self.model.links.is_empty()
+    }
+
+    /// Leads the derivatives over a time in which nothing acts on them, s.
+    fn drift(&mut self, time: f64) {
+        let free = self.layout.free;
+        for column in self.columns.chunks_exact_mut(self.layout.dimension().max(1)) {
+            let (x, rest) = column.split_at_mut(free);
+            x.iter_mut().zip(rest).for_each(|(x, v)| *x += time * *v);
         }
-        self.control.set_history(StepHistory::BLANK);
-        let (mut t, mut made, mut refused) = (from.t, 0, false);
-        while t < to.t {
-            let (end, grade) = singular.aim((from.t, t, to.t), self.step, refused);
-            let error = self.solver.attempt(&varied, Target { end, grade }, &self.scale);
-            let h = end - t;
-            let verdict = self.control.propose(error, h);
-            (made, refused) = (made + 1, !verdict.accepted);
-            let stuck = !verdict.accepted && verdict.next <= 4.0 * f64::EPSILON * t.abs();
-            if made > MOST_STEPS || stuck {
-                return Err(VariationError::NotSmooth { t });
-            }
-            if verdict.accepted {
-                self.solver.complete(&varied, Completion::EndSlopes);
-                self.grow((from, to), &varied);
-                self.solver.accept();
-                t = end;
-                // A step that the end of the interval cut says little about the next.
-                self.step = if h < self.step { self.step.max(verdict.next) } else { verdict.next };
+    }
+
+    /// The laws of an interval begin.
+    fn take_up(&mut self, state: &State) {
+        self.strode = false;
+        self.held.clear();
+        self.acting.clear();
+        for (c, contact) in self.model.contacts.iter().enumerate() {
+            let held = if contact.inert {
+                Held::default()
             } else {
-                self.step = verdict.next;
+                Held::of(&self.anchors[c], contact, &state.memories[c])
+            };
+            self.held.push(held);
+            if tangent::acts(contact, &state.modes[c]) {
+                self.acting.push(c);
             }
         }
-        let all = dimension + self.columns.len();
-        self.columns.copy_from_slice(&self.solver.span().begin[dimension..all]);
+    }
+
+    /// Leads the derivatives along a step of the run, in as many steps as it takes.
+    fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
+        let (mut at, mut length) = (0.0, 1.0);
+        while self.acts() && at < 1.0 {
+            // No stub is left for the last step.
+            let to = if at + 1.01 * length >= 1.0 { 1.0 } else { at + length };
+            let missed = self.attempt(from, stride, (at, to)) / ALLOWED;
+            if missed <= 1.0 {
+                self.grow(from, stride, (at, to));
+                self.columns.copy_from_slice(self.method.end());
+                at = to;
+                continue;
+            }
+            let shorter = (SAFETY * missed.powf(-FALLS)).max(SHRINK) * (to - at);
+            if shorter.is_nan() || shorter < SHORTEST {
+                return Err(VariationError::NotSmooth { t: from.t });
+            }
+            // As many steps as it takes, of one length.
+            length = (1.0 - at) / ((1.0 - at) / shorter).ceil();
+        }
         Ok(())
+    }
+
+    /// The components of an interval: the forces of growing contacts are led along where one grows.
+    fn components(&self, from: &State) -> Components {
+        let grows = from.modes.contains(&Mode::Grow);
+        let rates = if grows { self.layout.dimension() - self.layout.free } else { self.layout.free };
+        Components { positions: self.layout.free, rates, stride: self.layout.dimension() }
+    }
+
+    /// Tries one step between two parts of a stride and tells what it misses, in natural scales.
+    fn attempt(&mut self, from: &State, stride: &mut dyn Stride, (begin, end): (f64, f64)) -> f64 {
+        let components = self.components(from);
+        let laws = Laws {
+            eq: Equations::on(self.model, from, self.layout, false),
+            held: &self.held,
+            acting: &self.acting,
+            links: &self.links,
+            components,
+            count: self.columns.len().checked_div(self.layout.dimension()).unwrap_or(0),
+        };
+        let mut paces = [0.0; NODES];
+        for ((place, pace), node) in Gauss::places().into_iter().zip(&mut paces).zip(&mut self.nodes) {
+            let [t, rate] = stride.at(begin + place * (end - begin), &mut self.y);
+            *pace = rate * (end - begin);
+            laws.lay_out((t, &self.y), node);
+        }
+        let last = self.method.attempt((paces, &self.nodes), components, &self.columns, &self.scale);
+        MISSED.0 * last.powf(MISSED.1)
     }
 }
 
@@ -225,6 +273,19 @@ impl Record for Variation<'_> {
 
     fn wants_events(&self) -> bool {
         false
+    }
+
+    fn strides(&self) -> bool {
+        true
+    }
+
+    fn stride(&mut self, stride: &mut dyn Stride) {
+        let Some(from) = self.from.take() else { return };
+        if self.outcome.is_ok() && !self.columns.is_empty() {
+            self.outcome = self.follow(&from, stride);
+        }
+        self.strode = true;
+        self.from = Some(from);
     }
 
     fn leaves(&mut self, state: &State) {
@@ -243,6 +304,7 @@ impl Record for Variation<'_> {
             self.outcome = self.check_turns(left, state);
         }
         self.begin_growth(left.as_ref(), state);
+        self.take_up(state);
         self.from = Some(state.clone());
     }
 }

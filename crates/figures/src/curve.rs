@@ -7,12 +7,12 @@ use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_results::{Real, quantity};
 use stickslip_study::curve::{Curve, Motion, Motionless, Traced};
 
-/// Name of the picture.
-const NAME: &str = "curve";
+/// Name of the picture, and of that of a curve that was interrupted, beside which a finished one stays.
+const NAMES: [&str; 2] = ["curve", "curve-partial"];
 
-/// Names of all files that any look gives to it.
-pub fn all_files() -> Vec<String> {
-    Look::all_files_of(&[NAME])
+/// Names of all files that any look gives to it, and that go where it is written: a whole curve takes the place of both.
+pub fn all_files(traced: &Traced) -> Vec<String> {
+    Look::all_files_of(&NAMES[usize::from(traced.is_cut())..])
 }
 
 /// Draws it: speeds, steps or powers over what is varied, with the points that have no motion.
@@ -49,8 +49,17 @@ pub fn draw(
         faults: faults(traced),
     };
     let pen = Pen { look, provenance, kept: None };
-    let figure = machine_figure(curve.job.title(), &machine);
-    pen.draw_as(NAME, figure).map_err(|source| FigureError::Plot { plot: NAME, source })
+    let plot = NAMES[usize::from(traced.is_cut())];
+    let figure = machine_figure(&title(curve, traced), &machine);
+    pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
+}
+
+fn title(curve: &Curve, traced: &Traced) -> String {
+    let title = curve.job.title();
+    match (traced.done(), traced.points.len()) {
+        _ if !traced.is_cut() => title.to_owned(),
+        (done, all) => format!("{title} (interrupted: {done} of {all} points)"),
+    }
 }
 
 /// What the curve is of, and what it is as well.
@@ -92,7 +101,12 @@ fn courses(curve: &Curve, traced: &Traced) -> Vec<MachineCourse<'static>> {
 fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
     let found = traced.landmarks.iter().filter_map(|landmark| {
         let at = *landmark.at.as_ref().ok()?;
-        Some((format!("{}: {}", landmark.words(), quantity(Real(at), curve.variation.unit)), at))
+        // A prefix belongs to a unit.
+        let place = match curve.variation.unit {
+            "" => format!("{at:.4}"),
+            unit => quantity(Real(at), unit),
+        };
+        Some((format!("{}: {place}", landmark.words()), at))
     });
     found.collect()
 }

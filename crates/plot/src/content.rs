@@ -119,8 +119,9 @@ impl<B: DrawingBackend> Painter<'_, B> {
         }
         let (base, full) = (bottom - LANE_GAP * height, (1.0 - 2.0 * LANE_GAP) * height);
         let colour = self.theme.colour(lane.ink);
-        let marks = lane.marks.iter().filter(|mark| is_drawable(mark.from) && is_drawable(mark.to));
-        let marks: Vec<Mark> = marks.copied().collect();
+        let laid = |end: f64| place.panel.x.measure(end);
+        let marks = lane.marks.iter().map(|mark| Mark { from: laid(mark.from), to: laid(mark.to), ..*mark });
+        let marks: Vec<Mark> = marks.filter(|mark| is_drawable(mark.from) && is_drawable(mark.to)).collect();
         let pixel = |x: f64| frame.left + frame.width * place.x.place(x);
         let top = |mark: &Mark| base - full * mark.height.clamp(0.0, 1.0);
         // Marks that touch are one area: side by side they would show seams.

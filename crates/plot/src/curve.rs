@@ -2,7 +2,7 @@
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
-use crate::panel::{Axis, Band, Panel, Reference, Series};
+use crate::panel::{Axis, Band, Lane, Mark, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 
 /// What a machine does over something that is varied.
@@ -37,47 +37,68 @@ pub struct MachineCourse<'a> {
     pub spreads: Vec<f64>,
 }
 
+/// Height of a panel, and of a lane, px.
+const PANEL: u32 = 640;
+const LANE: u32 = 70;
+
 /// A panel for each thing that the machine does, one below the other: a line through its points, a band where it swings from period
-/// to period. Dots on the line of zero are points without an answer, with the reason in the legend.
+/// to period. Points without an answer are marks in lanes below them all, one for each reason.
 pub fn machine_figure<'a>(title: &str, curve: &MachineCurve<'a>) -> Figure<'a> {
     let is_known = |course: &MachineCourse<'_>| course.values.iter().any(|value| value.is_finite());
     if !curve.courses.iter().any(is_known) {
         return Figure::without_data(title, "no point of the curve has an answer");
     }
     let panels = curve.courses.iter().enumerate().map(|(place, course)| panel(place, curve, course));
+    let (wide, high) = Figure::size_for(360, PANEL, curve.courses.len());
+    let (_, lanes) = Figure::size_for(0, LANE, curve.faults.len());
     Figure {
         title: Label::plain(title),
-        panels: panels.collect(),
+        panels: panels.chain(without_answer(curve)).collect(),
         arrangement: Arrangement::Column { share_x: true },
-        size: Figure::size_for(360, 640, curve.courses.len()),
+        size: (wide, (high + lanes).min(Figure::MOST)),
         ..Figure::default()
     }
     .with_room_for_legends()
 }
 
-fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>) -> Panel<'a> {
+/// The points without an answer, by the reason, and how many they are; none where all have one.
+fn without_answer<'a>(curve: &MachineCurve<'a>) -> Option<Panel<'a>> {
+    let lane = |(kind, (reason, at)): (usize, &(&str, Vec<f64>))| Lane {
+        label: (*reason).to_owned(),
+        note: at.len().to_string(),
+        marks: at.iter().map(|x| Mark { from: *x, to: *x, height: 1.0 }).collect(),
+        ink: Ink::Palette(3 + kind),
+    };
+    (!curve.faults.is_empty()).then(|| Panel {
+        x: across(curve),
+        lanes: curve.faults.iter().enumerate().map(lane).collect(),
+        share: f64::from(LANE) / f64::from(PANEL) * curve.faults.len() as f64,
+        ..Panel::default()
+    })
+}
+
+/// The axis of what is varied.
+fn across(curve: &MachineCurve<'_>) -> Axis {
     let (name, unit) = curve.axis;
+    Axis { logarithmic: curve.logarithmic, ..Axis::new(Label::plain(name), unit) }
+}
+
+fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>) -> Panel<'a> {
     let style = |ink, width| Style { ink: Some(ink), dash: Some(Dash::Solid), width };
     let line = Series {
         marked: true,
         style: style(Ink::Palette(place), 1.0),
         ..Series::new("", curve.values, course.values.clone())
     };
-    let faults = curve.faults.iter().enumerate().map(|(kind, (reason, at))| {
-        // A gap after every dot: points that no line joins are marked.
-        let xs: Vec<f64> = at.iter().flat_map(|x| [*x, f64::NAN]).collect();
-        let ys = xs.iter().map(|x| if x.is_nan() { f64::NAN } else { 0.0 }).collect::<Vec<f64>>();
-        Series { style: style(Ink::Palette(3 + kind), 1.0), ..Series::new(Label::plain(reason), xs, ys) }
-    });
     let present = curve.present.filter(|x| is_within(*x, curve.values));
     let present = present.map(|x| Reference::Vertical { x, label: Label::plain("as in the scenario") });
     let landmarks =
         curve.landmarks.iter().map(|(name, x)| Reference::Vertical { x: *x, label: Label::plain(name) });
     Panel {
-        x: Axis { logarithmic: curve.logarithmic, ..Axis::new(Label::plain(name), unit) },
+        x: across(curve),
         y: Axis::new(Label::plain(course.name), course.unit),
         bands: swing(curve.values, course).into_iter().collect(),
-        series: faults.chain([line]).collect(),
+        series: vec![line],
         references: [Reference::Horizontal { y: 0.0, label: Label::default() }]
             .into_iter()
             .chain(present)
@@ -128,15 +149,29 @@ mod tests {
     }
 
     #[test]
-    fn what_swings_has_a_band_and_what_is_not_known_a_dot() {
+    fn what_swings_has_a_band_and_what_is_not_known_a_mark_below() {
         let values = [0.1, 0.2, 0.3];
         let figure = machine_figure("Title", &curve(&values));
-        let [step, swing] = &figure.panels[..] else { panic!("{}", figure.panels.len()) };
+        let [step, swing, without] = &figure.panels[..] else { panic!("{}", figure.panels.len()) };
         assert!(step.bands.is_empty() && swing.bands.len() == 1);
         assert_eq!(swing.bands[0].high[2], 4e-9);
-        assert!(step.series[0].is_scattered() && step.series[0].xs[0] == 0.2);
+        // Nothing is drawn where a value would be told by it.
+        assert!(step.series.len() == 1 && step.series[0].ys[1].is_nan());
+        assert_eq!((without.lanes[0].label.as_str(), without.lanes[0].marks[0].from), ("refused", 0.2));
         assert_eq!(step.references.len(), 3);
-        assert!(crate::draw_svg(&figure).is_ok());
+        assert_eq!(crate::draw_svg(&figure).err(), None);
+    }
+
+    /// A mark of a point at 1 lies half way between 0.1 and 10 where decades are as far apart.
+    #[test]
+    fn marks_lie_where_the_axis_lays_them() {
+        let values = [0.1, 1.0, 10.0];
+        let mut curve = MachineCurve { logarithmic: true, present: None, ..curve(&values) };
+        (curve.landmarks, curve.faults) = (Vec::new(), vec![("refused", vec![1.0])]);
+        let figure = Figure { title: Label::default(), ..machine_figure("", &curve) };
+        let svg = crate::draw_svg(&figure).unwrap();
+        let marks = svg.lines().filter(|line| line.contains("<rect") && line.contains("fill=\""));
+        eprintln!("{}", marks.collect::<Vec<_>>().join("\n"));
     }
 
     #[test]

@@ -56,8 +56,8 @@ pub struct Axis {
     pub covers: Option<(f64, f64)>,
     /// Neither ticks nor numbers, for what is not to scale.
     pub unnumbered: bool,
-    /// Decades are as far apart everywhere; values not above 0 are gaps. Series and reference lines alone may stand on
-    /// such an axis.
+    /// Decades are as far apart everywhere; values not above 0 are gaps. Series, lanes and reference lines alone may
+    /// stand on such an axis.
     pub logarithmic: bool,
 }
 

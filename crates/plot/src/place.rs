@@ -23,6 +23,7 @@ pub(crate) struct Request<'f, 'a> {
 const MARGIN: f64 = 0.04;
 /// A frame smaller than this, em of the tick labels, shows nothing.
 const LEAST_FRAME: f64 = 3.0;
+const LEAST_LANE: f64 = 1.5;
 /// Heights of a line of tick labels and of an axis label, em.
 pub(crate) const TICK_LINE: f64 = 1.45;
 pub(crate) const LABEL_LINE: f64 = 1.4;
@@ -50,7 +51,10 @@ pub(crate) fn panels<'f, 'a>(
     let placed = placer.placed;
     for (panel, place) in placed.iter().enumerate() {
         let Area { width, height, .. } = place.frame;
-        if width.min(height) < LEAST_FRAME * sizes.tick {
+        // A lane is as high as its name needs.
+        let lanes = placed[panel].panel.lanes.len();
+        let least = if lanes > 0 { (lanes as f64 * LEAST_LANE).min(LEAST_FRAME) } else { LEAST_FRAME };
+        if width < LEAST_FRAME * sizes.tick || height < least * sizes.tick {
             return Err(PlotError::NoRoom { panel, width, height });
         }
     }

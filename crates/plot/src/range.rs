@@ -62,7 +62,8 @@ pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
         mosaic.row_edges().into_iter().for_each(|edge| y.include(edge));
     }
     for mark in panel.lanes.iter().flat_map(|lane| &lane.marks) {
-        [mark.from, mark.to].into_iter().filter(|&end| is_drawable(end)).for_each(|end| x.include(end));
+        let ends = [mark.from, mark.to].map(|end| panel.x.measure(end));
+        ends.into_iter().filter(|&end| is_drawable(end)).for_each(|end| x.include(end));
     }
     for (extent, axis) in [(&mut x, &panel.x), (&mut y, &panel.y)] {
         let ends = axis.covers.into_iter().flat_map(|(from, to)| [axis.measure(from), axis.measure(to)]);

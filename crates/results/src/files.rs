@@ -27,6 +27,8 @@ pub const SCENARIO: &str = "scenario.json";
 pub const SUMMARY: &str = "summary.json";
 /// What the points of a curve of a machine came to.
 pub const CURVE: &str = "curve.json";
+/// The same of a curve that was interrupted: a finished one stays beside it.
+pub const PARTIAL_CURVE: &str = "curve-partial.json";
 /// By how much figures change with the numbers of a scenario.
 pub const SENSITIVITY: &str = "sensitivity.json";
 /// The steady motion of a drive, found without a run.

@@ -6,7 +6,7 @@
 
 use crate::checkpoint;
 use crate::disk::{Disk, System};
-use crate::files::{BRANCH, CURVE, SENSITIVITY, STEADY, SUMMARY};
+use crate::files::{BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY, STEADY, SUMMARY};
 use crate::theory::CONTACT;
 use std::fs::{self, DirEntry, File};
 use std::io::{self, Write};
@@ -17,9 +17,9 @@ use tempfile::{Builder, NamedTempFile};
 /// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
 const DRAWN: usize = 6;
 
-/// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, of a branch of them, of a curve of a machine,
-/// and of derivatives.
-const SUMMARIES: [&str; 6] = [SUMMARY, CONTACT, STEADY, BRANCH, CURVE, SENSITIVITY];
+/// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, of a branch of them, of a curve of a
+/// machine, whole or not, and of derivatives.
+const SUMMARIES: [&str; 7] = [SUMMARY, CONTACT, STEADY, BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY];
 
 /// How long a draft was not touched that is taken for one of a command that was killed.
 const LEFT: Duration = Duration::from_secs(60);
@@ -29,6 +29,8 @@ const LEFT: Duration = Duration::from_secs(60);
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
+    /// Whether it was not there before.
+    is_new: bool,
     staged: Vec<(String, NamedTempFile)>,
     /// Files of an earlier run that must not be taken for this one's.
     stale: Vec<String>,
@@ -48,10 +50,30 @@ impl Folder {
         Self::on(path, Box::new(System))
     }
 
+    /// The same for work whose results come much later: a folder that nothing can be written into is told before. So many bytes are
+    /// kept for them, until [`Self::release`]. If nothing comes, nothing is left of a folder that was not there.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn ready(path: &Path, bytes: usize) -> io::Result<Self> {
+        let mut folder = Self::make(path)?;
+        folder.reserve(bytes)?;
+        Ok(folder)
+    }
+
     fn on(path: &Path, disk: Box<dyn Disk>) -> io::Result<Self> {
+        let is_new = !path.exists();
         fs::create_dir_all(path)?;
         let (staged, stale) = (Vec::new(), Vec::new());
-        Ok(Self { path: path.to_owned(), staged, stale, stale_checkpoint: false, reserve: None, disk })
+        Ok(Self {
+            path: path.to_owned(),
+            is_new,
+            staged,
+            stale,
+            stale_checkpoint: false,
+            reserve: None,
+            disk,
+        })
     }
 
     /// Keeps so many bytes of the disk for the files that come last. The file that holds them has no name: nothing is left
@@ -161,6 +183,16 @@ impl Folder {
         match self.disk.remove(&self.path.join(name)) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
             result => result.map(|()| true),
+        }
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        if self.is_new {
+            self.staged.clear();
+            // Of one that holds something the system leaves all.
+            let _ = fs::remove_dir(&self.path);
         }
     }
 }
@@ -380,6 +412,25 @@ mod tests {
         folder.write("loop.png", b"new").unwrap();
         folder.publish().unwrap();
         assert_eq!(listing(root.path()), ["loop.png", SUMMARY]);
+    }
+
+    #[test]
+    fn nothing_is_left_of_a_new_folder_that_nothing_came_into() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("new");
+        let mut folder = Folder::ready(&path, 1 << 16).unwrap();
+        assert!(path.exists());
+        folder.write("trace.csv", b"t\n").unwrap();
+        drop(folder);
+        assert!(!path.exists());
+        // One that was there stays, and what was published.
+        drop(Folder::ready(root.path(), 1).unwrap());
+        assert!(root.path().exists());
+        let mut folder = Folder::ready(&path, 1).unwrap();
+        folder.write("trace.csv", b"t\n").unwrap();
+        folder.publish().unwrap();
+        assert_eq!(listing(&path), ["trace.csv"]);
+        assert!(Folder::ready(&path.join("trace.csv"), 1).is_err());
     }
 
     #[test]

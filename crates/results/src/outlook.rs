@@ -1,5 +1,6 @@
 //! What a drive would settle on, told before a run and beside it.
 
+use crate::quantity;
 use crate::real::Real;
 use serde::Serialize;
 
@@ -40,4 +41,33 @@ pub struct Repetition {
     pub fold: Option<Real>,
     /// What becomes of that disturbance, in words.
     pub words: String,
+    /// Contacts whose memories were led along: nothing is known of their disturbances.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub carried: Vec<String>,
+    /// Contacts that never slip grossly.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub shaken_down: Vec<String>,
+}
+
+impl Repetition {
+    /// Whether there is a step, longer than it may be off.
+    #[must_use]
+    pub fn steps(&self) -> bool {
+        self.step.0.abs() > self.error.0
+    }
+
+    /// The step in words: `1.2 µm a period`, or that there is none, where it is no longer than it may be off.
+    #[must_use]
+    pub fn step_words(&self) -> String {
+        step_words(self.step, self.error)
+    }
+}
+
+/// A step and how far it may be off, m, in words.
+#[must_use]
+pub fn step_words(step: Real, error: Real) -> String {
+    if step.0.abs() <= error.0 {
+        return format!("no step, less than {} a period", quantity(Real(step.0.abs() + error.0), "m"));
+    }
+    format!("{} ± {} a period", quantity(step, "m"), quantity(error, "m"))
 }

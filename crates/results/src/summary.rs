@@ -33,7 +33,7 @@ pub use drivers::DriverSummary;
 pub use fretting::Fretting;
 pub use period::{ContactPeriod, LastPeriod, PeriodWork, Way};
 pub(crate) use steps::flight;
-pub use steps::{DriveSummary, SettlingSummary, Steady};
+pub use steps::{DriveSummary, SettlingSummary, Steady, step_bounds};
 
 /// Most numbers that are not finite of which a note gives the names.
 const NAMED: usize = 5;

@@ -58,7 +58,7 @@ impl Scenario {
         };
         let Some(schema) = schema else { return refused("there is nothing under this path", None) };
         if is_whole(schema) {
-            let message = "it counts whole things: a curve needs a number that can change by any amount";
+            let message = "it counts whole things: a number that can change by any amount is needed here";
             return refused(message, None);
         }
         let (kind, is_number) = dimension(schema, DEEPEST);

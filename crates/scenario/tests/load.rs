@@ -620,3 +620,18 @@ fn a_column_of_volts_is_a_voltage() {
         .replace(r#""foot":   { "mass": "5 g", "x": "free" }"#, r#""foot": { "x": { "follows": "drive" } }"#);
     assert!(moved != text && Scenario::from_str(&moved, "moved.json", base).is_err());
 }
+
+/// Of a body that one link alone acts on, in equilibrium with nothing, rounding of what stands at the link's other end is all that
+/// acts: radii at which that was taken for no equilibrium, and some beside them.
+#[test]
+fn an_equilibrium_is_not_refused_for_rounding() {
+    let beside = (0..40).map(|k| 2e-3 * (1.0 + f64::from(k) * 2.75e-6));
+    for radius in [0.002_000_122_070_312_5, 0.002_000_22].into_iter().chain(beside) {
+        let radius = format!("{radius:e}");
+        let set = [("contacts.front.profile.paraboloid.radius", radius.as_str())];
+        let read = Scenario::load_with("../../scenarios/impact_drive.json", &set);
+        let scenario = read.unwrap_or_else(|error| panic!("{error}"));
+        let begun = Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan));
+        assert!(begun.is_ok(), "{radius}: {:?}", begun.err());
+    }
+}

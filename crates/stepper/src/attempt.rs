@@ -40,6 +40,8 @@ pub trait Step {
     }
     /// Where in it time `t` lies, as the dense output counts: asked once for all components of a moment.
     fn part(&self, t: f64) -> f64;
+    /// The time at such a part of it, s, and how fast time goes there, s per part.
+    fn moment(&self, part: f64) -> [f64; 2];
     /// Component `i` at such a part of it.
     fn value_at(&self, i: usize, part: f64) -> f64;
     /// Ends it at an earlier time `t`, in the state of the dense output.

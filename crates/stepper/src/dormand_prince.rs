@@ -167,6 +167,11 @@ impl Step for DormandPrince {
         self.fraction(t)
     }
 
+    fn moment(&self, part: f64) -> [f64; 2] {
+        let Extent { time, step, grade, .. } = self.extent;
+        [time + step * grade.time(part), step * grade.pace(part)]
+    }
+
     /// For an event: its state by the dense output is as good as one more attempt up to it, and free. Without dense
     /// output nothing happens.
     fn cut(&mut self, t: f64) {

@@ -12,6 +12,7 @@
 //! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities.
 //! * [`Paired`]: both, for conservative systems with singular moments.
 //! * [`Radau`]: implicit, order 9, for stiff systems.
+//! * [`Gauss`]: order 10, for linear equations along a motion that is known.
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`narrow`], [`Cubic`]: where inside a step a guard crosses zero.
 //! * [`FixedStep`], [`Rk4`], [`Verlet`]: steps of a given length.
@@ -59,6 +60,8 @@ mod nystrom;
 pub use nystrom::{Conservative, Many, Nystrom, ORDER as NYSTROM_ORDER, One, Storage, Track, Values};
 mod paired;
 pub use paired::Paired;
+mod gauss;
+pub use gauss::{Coefficients, Components, Each, Gauss, NODES};
 mod radau;
 pub use radau::{ORDER as RADAU_ORDER, Radau};
 mod control;

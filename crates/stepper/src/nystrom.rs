@@ -204,6 +204,10 @@ impl<N: Storage> Step for Nystrom<N> {
         (t - self.time) / self.step
     }
 
+    fn moment(&self, part: f64) -> [f64; 2] {
+        [self.time + part * self.step, self.step]
+    }
+
     fn cut(&mut self, t: f64) {
         let share = (t - self.time) / self.step;
         for i in 0..self.end.as_ref().len() {

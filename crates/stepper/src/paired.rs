@@ -136,6 +136,10 @@ impl<N: Storage> Step for Paired<N> {
         last!(self, part(t))
     }
 
+    fn moment(&self, part: f64) -> [f64; 2] {
+        last!(self, moment(part))
+    }
+
     fn cut(&mut self, t: f64) {
         last!(self, cut(t));
     }

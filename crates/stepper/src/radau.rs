@@ -197,6 +197,10 @@ impl Step for Radau {
         self.fraction(t)
     }
 
+    fn moment(&self, part: f64) -> [f64; 2] {
+        [self.extent.time + part * self.extent.step, self.extent.step]
+    }
+
     /// Its state and its slopes by the dense output. Without dense output nothing happens.
     fn cut(&mut self, t: f64) {
         if !self.dense_known {

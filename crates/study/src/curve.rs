@@ -24,10 +24,10 @@ pub use error::CurveError;
 pub use kind::Kind;
 pub use landmark::{Landmark, Unfound};
 pub use motion::{Course, Motion, Motionless};
-pub use peak::Peak;
+pub use peak::{Peak, Seen};
 pub use point::Point;
 pub use range::Range;
-pub use table::{TABLE, csv, json, write};
+pub use table::{all_files, csv, json, write};
 pub use variation::Variation;
 
 use crate::each::each;
@@ -99,6 +99,12 @@ impl Curve {
         let known = unloaded.steps(sense).then_some((from, sense * unloaded.step));
         let stall = Bracket::narrow(known.into_iter().collect(), to, ROUGHLY, try_at);
         Some([from, stall.ok().flatten().map_or(to, |stall| BEYOND * stall.still)])
+    }
+
+    /// Why there is no range by default.
+    #[must_use]
+    pub fn no_range(&self) -> CurveError {
+        CurveError::NoRange { file: self.job.name.clone(), varied: self.variation.name.clone() }
     }
 
     /// The points at some values, on so many cores; the same for any number. The watcher is told how many are done; where it wants

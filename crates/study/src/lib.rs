@@ -6,12 +6,14 @@
 //! In reading order: `number` (numbers of a scene that a batch sets) and `sketch` (those of its waveforms), `figure` (what is kept of
 //! a run), `line` (what is told of it), `batch` (the runs); [`steady`], the motion that repeats itself every period, and how it
 //! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
-//! figure changes with each number of the scenario. `each` does many things side by side.
+//! figure changes with each number of the scenario. `each` does many things side by side, `grip` tells whether something holds a
+//! body.
 
 mod batch;
 pub mod curve;
 mod each;
 mod figure;
+mod grip;
 mod line;
 mod number;
 pub mod sensitivity;

@@ -140,17 +140,15 @@ impl Sensitivity {
             bench.run(&scales, &variants)
         };
         let mut tried = all(|| ladder::first().collect(), &|_| true);
-        let near = all(|| ladder::finer().collect(), &|q| self.needs_finer(&tried[q]));
+        let near = all(|| ladder::finer().collect(), &|q| {
+            self.needs_finer(&tried[q]) || {
+                let noise = self.noises(&tried);
+                (0..self.figures.len()).any(|f| self.near(&tried[q], f, noise[f]).bends_near_by())
+            }
+        });
         tried.iter_mut().zip(near).for_each(|(tried, finer)| tried.extend(finer));
-        let noise: Vec<_> = (0..self.figures.len()).map(|f| self.noise(f, &tried)).collect();
-        let derivative = |f: usize, q: usize| {
-            let figure = &self.figures[f];
-            let unmeasured = UNMEASURED * self.tolerance * figure.value.abs();
-            let common = noise[f].unwrap_or(unmeasured);
-            let own = self.own_noise(f, &tried[q]).unwrap_or(common);
-            let noise = own.max(common).max(f64::EPSILON * figure.value.abs());
-            Near { tried: &tried[q], figure: f, own: (figure.value, &self.happened), noise }.derivative()
-        };
+        let noise = self.noises(&tried);
+        let derivative = |f: usize, q: usize| self.near(&tried[q], f, noise[f]).derivative();
         let of = |f: usize| (0..self.quantities.len()).map(|q| derivative(f, q)).collect();
         let derivatives = (0..self.figures.len()).map(of).collect();
         Taken { derivatives, noise, runs: bench.done.into_inner() }
@@ -176,6 +174,20 @@ impl Sensitivity {
             sample.figures.get(f).copied().flatten().filter(|_| belongs)
         };
         ladder::neighbours(tried, self.figures[f].value, value).and_then(|values| stencil::noise(&values))
+    }
+
+    /// What is known about a figure near a quantity, by the noise that it has elsewhere.
+    fn near<'a>(&'a self, tried: &'a [Tried], f: usize, noise: Option<f64>) -> Near<'a> {
+        let figure = &self.figures[f];
+        let common = noise.unwrap_or(UNMEASURED * self.tolerance * figure.value.abs());
+        let own = self.own_noise(f, tried).unwrap_or(common);
+        let noise = own.max(common).max(f64::EPSILON * figure.value.abs());
+        Near { tried, figure: f, own: (figure.value, &self.happened), noise }
+    }
+
+    /// Noise of all figures.
+    fn noises(&self, tried: &[Vec<Tried>]) -> Vec<Option<f64>> {
+        (0..self.figures.len()).map(|f| self.noise(f, tried)).collect()
     }
 
     /// Noise of a figure: the middle of what it is near each quantity.

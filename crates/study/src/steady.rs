@@ -32,6 +32,7 @@ pub use orbit::Orbit;
 pub use outlook::outlook;
 pub use report::Report;
 
+use crate::grip::{Grip, Loose};
 use endless::Endless;
 use map::Map;
 use newton::Fixed;
@@ -98,6 +99,8 @@ pub struct Steady {
     /// Contacts that never slip grossly in a period: what their springs near the centre hold, they hold for ever. Of such
     /// motions there is a whole family, and this one is the one that was nearest: a shakedown.
     pub shaken_down: Vec<usize>,
+    /// Whether the figures' body slips on all its contacts all through the period: it is dragged along, and makes no step.
+    pub is_dragged: bool,
     /// Largest defect of every period on the way, in natural scales, and how the one before was left.
     pub defects: Vec<Defect>,
     /// Periods that were computed.
@@ -105,6 +108,19 @@ pub struct Steady {
 }
 
 impl Steady {
+    /// Whether there is a step, farther than it may be off.
+    #[must_use]
+    pub fn steps(&self) -> bool {
+        self.step.is_some_and(|step| step.abs() > self.bound)
+    }
+
+    /// Names of contacts by their places.
+    #[must_use]
+    pub fn named(&self, contacts: &[usize]) -> Vec<String> {
+        let names: Vec<&str> = self.model.contacts().map(|(name, _)| name).collect();
+        contacts.iter().filter_map(|c| names.get(*c)).map(|name| (*name).to_owned()).collect()
+    }
+
     /// Speed, m/s: step over period.
     #[must_use]
     pub fn speed(&self) -> Option<f64> {
@@ -141,19 +157,29 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     let mut map = Map::new(model, endless.period, job, options);
     let fixed = fixed_point(&mut map, &endless)?;
     let bound = bound::bound(&mut map, &fixed, figures)?;
-    let never_gave_way = moment::twice(&mut map, &fixed)?;
+    let grip = figures.map(|body| Grip::new(job, body));
+    let (never_gave_way, loose) = moment::twice(&mut map, &fixed, grip)?;
+    let body = figures.and_then(|body| job.scenario.scene.bodies.get(body));
+    if let (Some(Loose::Flies), Some(body)) = (loose, body) {
+        return Err(SteadyError::Flies { body: body.name.clone(), periods: map.work() });
+    }
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
+    // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
+    // along, has still to come.
+    let slides = |c: usize| section.slides(&fixed.image.way, c).abs();
+    let slid = never_gave_way.iter().map(|c| slides(*c)).fold(0.0, f64::max);
     let found = Steady {
         period: endless.period,
         begins: endless.begins,
         tolerance: options.tolerance,
         step: figures.and_then(|body| section.of_body(&fixed.image.way, body, Axis::X)),
-        bound: bound.step,
+        bound: bound.step + slid,
         multipliers: multiplier::of(&bound.gradient.numbers),
         drifts: section.drifts(),
         unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),
         carried: section.carried().to_vec(),
         shaken_down: never_gave_way,
+        is_dragged: loose == Some(Loose::Slides),
         defects: fixed.defects,
         work: map.work(),
         model: model.clone(),

@@ -13,6 +13,10 @@ fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
 }
 
+fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes").join(name)
+}
+
 fn curve(name: &str, set: &[(&str, &str)], kind: Kind) -> Result<Curve, CurveError> {
     let set: Vec<(String, String)> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
     Curve::new(&file(name), &set, kind)
@@ -109,6 +113,35 @@ fn a_preload_is_the_sum_of_all_contacts() -> Checked {
     let traced = curve.trace(&[1.8], 1, &());
     let job = Job::prepare(&file("ruby_drive.json"), &traced.points[0].set, Path::new(""))?;
     assert!((job.contact_scale(0).1 - 0.6).abs() < 1e-12);
+    Ok(())
+}
+
+/// Beyond μF_N = 0.173 · 1.66 N, or with less friction than a load of 17 mN needs, nothing holds the body: it accelerates for ever.
+/// Once the limit of steps that grow evenly was told where they were rounded so: -164 Mm.
+#[test]
+fn what_no_friction_holds_slides_away() -> Checked {
+    let friction = Kind::Vary("contacts.c.friction".to_owned());
+    for (kind, values) in [(friction, [0.0, 0.005, 0.01]), (Kind::ForceSpeed, [0.3, 0.6, 1.6])] {
+        let curve = Curve::new(&scene("loaded_sawtooth.json"), &[], kind)?;
+        for point in &curve.trace(&values, 2, &()).points {
+            let found = motion(point);
+            let slides = matches!(found, Err(Motionless::SlidesAway { step, .. }) if step < 0.0);
+            assert!(slides, "{:e}: {found:?}", point.value);
+        }
+    }
+    Ok(())
+}
+
+/// A slider that hops: a run of it says "irregular" and warns of flight. Once the stretches in the air, even by themselves, were
+/// told for its steady step.
+#[test]
+fn what_it_flies_in_a_period_is_no_steady_step() -> Checked {
+    let curve = Curve::new(&scene("hopper.json"), &[], Kind::StepAmplitude)?;
+    for point in &curve.trace(&[3.5e-8, 3.08e-7, 1.4e-6], 2, &()).points {
+        let found = motion(point)?;
+        assert_eq!(found.course, Course::Irregular, "{:e}: {found:?}", point.value);
+        assert!(found.error > 0.0 && found.error < found.spread, "{:e}: {found:?}", point.value);
+    }
     Ok(())
 }
 

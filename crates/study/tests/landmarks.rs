@@ -52,7 +52,7 @@ fn only<'a>(landmarks: &'a [Landmark], name: &str) -> Result<&'a Landmark, Box<d
 fn the_zero_step_stroke_is_that_of_the_closed_form() -> Checked {
     let (curve, natural) = ideal(Kind::StepAmplitude, 40e-9)?;
     let mut traced = curve.trace(&[0.5, 0.7, 0.9, 1.1].map(|share| share * natural), 2, &());
-    curve.mark(&mut traced, 1e-4, &())?;
+    curve.mark(&mut traced, 1e-4, 2, &())?;
     let found = only(&traced.landmarks, "zero_step")?;
     let at = found.at.clone()? / natural;
     assert!((zero_step(0.0) - 0.74008).abs() < 5e-6);
@@ -73,7 +73,7 @@ fn the_stall_is_that_of_the_closed_form() -> Checked {
     assert!(from == 0.0 && (1.05..1.2).contains(&(to / wanted)), "{to} {wanted}");
     let values: Vec<f64> = (0..8).map(|k| f64::from(k) / 7.0 * to).collect();
     let mut traced = curve.trace(&values, 2, &());
-    curve.mark(&mut traced, 1e-4, &())?;
+    curve.mark(&mut traced, 1e-4, 2, &())?;
     let stall = only(&traced.landmarks, "stall")?;
     let at = stall.at.clone()?;
     assert!((at / wanted - 1.0).abs() < 1e-4, "{at} {wanted}");
@@ -92,11 +92,11 @@ fn what_is_not_within_the_range_is_said() -> Checked {
     let (curve, natural) = ideal(Kind::StepAmplitude, 40e-9)?;
     for (shares, words) in [([0.9, 1.1], "at all points"), ([0.3, 0.5], "no step at the end of the range")] {
         let mut traced = curve.trace(&shares.map(|share| share * natural), 1, &());
-        curve.mark(&mut traced, 1e-4, &())?;
+        curve.mark(&mut traced, 1e-4, 2, &())?;
         let why = traced.landmarks[0].at.clone().err().map(|why| why.to_string()).unwrap_or_default();
         assert!(why.contains(words), "{why}");
     }
     let mut traced = curve.trace(&[0.9 * natural], 1, &());
-    assert_eq!(curve.mark(&mut traced, 0.5, &()), Err(CurveError::Tolerance(0.5)));
+    assert_eq!(curve.mark(&mut traced, 0.5, 1, &()), Err(CurveError::Tolerance(0.5)));
     Ok(())
 }

@@ -12,7 +12,7 @@ Trace a curve of a drive: step over amplitude, speed over frequency, speed again
 
 Each point is the scenario with something else in it, as --set would put it there, and its steady motion: found directly, as \
 the state that a period of the waveform brings back, or by a run that waits for it, where it is not found \
-or where no run would stay in it. Of steps that swing from period to period the mean is told, and by how much they swing.
+or where no run would stay in it. Of steps that swing from period to period the mean is told, how far it may be off, and by how much they swing.
 
   step-amplitude   step over the stroke, or amplitude, of the waveform of the steps; S₀, below which there is none
   speed-frequency  mean speed over its frequency; the fastest
@@ -26,8 +26,9 @@ S₀ and stall are brackets: the drive steps at one end and not at the other. Be
 the same axis, go together. A driver keeps its limits at every point. How long the scenario itself runs, and what it writes, does not count.
 
 Writes curve.csv, curve.json and the picture curve.png into results/NAME-CURVE. A point that the scenario does not allow, or that \
-does not become steady, is a row with its reason. The same bytes for any number of threads. Exit codes: 0 done, 2 bad input, 3 no \
-point has a motion, or the files cannot be written, 130 interrupted; the points that were done are written.";
+does not become steady, is a row with its reason. The same bytes for any number of threads. Where it is interrupted the points \
+that were done are written to curve-partial.csv, .json and .png; a finished curve stays beside them. Exit codes: 0 done, 2 bad input, \
+or the folder cannot be written into, 3 no point has a motion, or the files cannot be written, 130 interrupted.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -45,10 +46,10 @@ pub(crate) struct CharacteriseArguments {
     /// Which curve
     #[arg(long, value_name = "NAME", value_parser = kinds(), required_unless_present = "vary", conflicts_with = "vary")]
     pub(crate) curve: Option<Kind>,
-    /// Step over a number of the scenario in a range, such as contacts.ball.friction=0.1..0.6
+    /// Step over a number of the scenario in a range, such as contacts.ball.friction=0.1..0.6; units at both ends or at none
     #[arg(long, value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = assignment, conflicts_with = "range")]
     pub(crate) vary: Option<(String, String)>,
-    /// In which range, such as "10 Hz..5 kHz" [default: about what the scenario has]
+    /// In which range, such as "10 Hz..5 kHz", units at both ends or at none [default: about what the scenario has]
     #[arg(long, value_name = "FROM..TO", allow_hyphen_values = true)]
     pub(crate) range: Option<String>,
     /// How many points, ends and all

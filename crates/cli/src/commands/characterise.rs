@@ -1,6 +1,6 @@
 //! `stickslip characterise`: a curve of a machine.
 
-use crate::arguments::{CharacteriseArguments, span};
+use crate::arguments::CharacteriseArguments;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::{Interrupt, Interrupted};
 use crate::console::progress::Progress;
@@ -10,11 +10,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, curve as picture};
 use stickslip_results::complaint::words;
-use stickslip_results::files::CURVE;
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Real, Watcher, quantity};
-use stickslip_study::curve::{self, Curve, CurveError, Kind, Point, Range, Traced};
+use stickslip_results::{Real, quantity};
+use stickslip_study::curve::{self, Course, Curve, CurveError, Kind, Point, Range, Traced};
 use thiserror::Error;
+
+/// Bytes of the disk that are kept for the files from the beginning on: a curve of a few hundred points with its picture.
+const RESERVE: usize = 1 << 18;
+/// An error below this share of the step does not show in its digits.
+const SHOWN: f64 = 1e-4;
 
 /// Why there is no curve.
 #[derive(Debug, Error)]
@@ -28,6 +32,9 @@ enum CurveFailure {
     /// The picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// Where the files are to go.
+    #[error("{}: cannot be written into: {}\n   help: choose another place with --out", .path.display(), words(.source))]
+    Folder { path: PathBuf, source: io::Error },
     /// The files.
     #[error("{}: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
@@ -38,7 +45,9 @@ pub(crate) fn characterise(arguments: &CharacteriseArguments) -> Verdict {
     answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
         match failure {
-            CurveFailure::Curve(_) | CurveFailure::Range { .. } => Verdict::BadInput,
+            CurveFailure::Curve(_) | CurveFailure::Range { .. } | CurveFailure::Folder { .. } => {
+                Verdict::BadInput
+            }
             CurveFailure::Figure(_) | CurveFailure::Write { .. } => Verdict::Stopped,
         }
     })
@@ -51,43 +60,62 @@ fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
     if !arguments.quiet {
         warn(&curve.job);
     }
+    let asked = range(arguments, &curve)?;
+    // Before the first point, which may take long.
+    let out = folder(arguments, &curve);
+    let folder =
+        Folder::ready(&out, RESERVE).map_err(|source| CurveFailure::Folder { path: out.clone(), source })?;
     let interrupt = Interrupt::install();
-    let values = range(arguments, &curve, &Interrupted(&interrupt))?.values()?;
     let progress = Progress::new(!arguments.quiet);
-    let bar = progress.budget(curve.kind.name(), values.len() as f64, &interrupt);
+    let (name, what) = (&curve.job.name, curve.kind.name());
+    progress.tell(format_args!("{name}: {what}, {} points", arguments.points));
+    let values = match asked {
+        Some(range) => range.values()?,
+        None => curve
+            .range(&Interrupted(&interrupt))
+            .map_or(Ok(Vec::new()), |range| of(arguments, range).values())?,
+    };
+    let bar = progress.budget(what, values.len() as f64, &interrupt);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut traced = curve.trace(&values, arguments.threads.map_or(cores, usize::from), &bar);
+    let cores = arguments.threads.map_or(cores, usize::from);
+    let mut traced = curve.trace(&values, cores, &bar);
     drop(bar);
-    // Of half a curve nobody knows where it is best.
-    if !interrupt.is_raised() {
-        curve.mark(&mut traced, arguments.tolerance, &Interrupted(&interrupt))?;
+    let line = progress.count(what, "points for stall, S\u{2080} and best points", &interrupt);
+    curve.mark(&mut traced, arguments.tolerance, cores, &line)?;
+    drop(line);
+    let (done, all) = (traced.done(), traced.points.len());
+    progress.tell(format_args!("{name}: {what}, {done} of {all} points done"));
+    if done == 0 {
+        return Ok(Verdict::Interrupted);
     }
-    let names = write(arguments, &curve, &traced)?;
+    let names = write(arguments, (&curve, &traced), folder)?;
     if arguments.json {
         say_json(&curve::json(&curve, &traced));
     } else if !arguments.quiet {
         tell(&curve, &traced);
-        say(format_args!("\n{}: {}", folder(arguments, &curve).display(), names.join(", ")));
+        say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
-    Ok(verdict(&traced, interrupt.is_raised()))
+    Ok(verdict(&traced))
 }
 
-/// The range asked for, or what is worth looking at.
-fn range(
-    arguments: &CharacteriseArguments,
-    curve: &Curve,
-    watcher: &dyn Watcher,
-) -> Result<Range, CurveFailure> {
+/// The range asked for; none where it is to be found what is worth looking at.
+fn range(arguments: &CharacteriseArguments, curve: &Curve) -> Result<Option<Range>, CurveFailure> {
     let (option, text) = match (&arguments.vary, &arguments.range) {
         (Some((_, range)), _) => ("--vary", Some(range.as_str())),
         (None, range) => ("--range", range.as_deref()),
     };
     let refused = |message: String| CurveFailure::Range { option, message };
-    let [from, to] = match text {
-        None => curve.range(watcher).ok_or_else(|| CurveError::NoRange(curve.variation.name.clone()))?,
-        Some(text) => span(text, curve.variation.unit).map_err(refused)?,
+    let ends = match text {
+        None => curve.variation.range.ok_or_else(|| curve.no_range())?,
+        Some(text) => Range::ends(text, curve.variation.unit).map_err(refused)?,
     };
-    Ok(Range { from, to, points: arguments.points, decades: arguments.log })
+    let range = of(arguments, ends);
+    range.values()?;
+    Ok(text.map(|_| range))
+}
+
+fn of(arguments: &CharacteriseArguments, [from, to]: [f64; 2]) -> Range {
+    Range { from, to, points: arguments.points, decades: arguments.log }
 }
 
 /// Where the files go.
@@ -98,28 +126,26 @@ fn folder(arguments: &CharacteriseArguments, curve: &Curve) -> PathBuf {
 
 fn write(
     arguments: &CharacteriseArguments,
-    curve: &Curve,
-    traced: &Traced,
+    (curve, traced): (&Curve, &Traced),
+    folder: Folder,
 ) -> Result<Vec<String>, CurveFailure> {
-    let out = folder(arguments, curve);
+    let out = self::folder(arguments, curve);
     let pictures = picture::draw((curve, traced), arguments.log, &arguments.look.look())?;
-    let failed = |source| CurveFailure::Write { path: out.clone(), source };
-    let folder = Folder::make(&out).map_err(failed)?;
     // A command that was killed has left its drafts.
-    let stale = picture::all_files();
-    let own = [curve::TABLE, CURVE].map(str::to_owned).into_iter();
-    sweep(&out, &own.chain(stale.iter().cloned()).collect::<Vec<_>>());
-    curve::write(folder, (curve, traced), &pictures, stale).map_err(failed)
+    let stale = picture::all_files(traced);
+    sweep(&out, &curve::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    curve::write(folder, (curve, traced), &pictures, stale)
+        .map_err(|source| CurveFailure::Write { path: out, source })
 }
 
 /// The points as a table, and what is wrong with some of them.
 fn tell(curve: &Curve, traced: &Traced) {
-    let heads = [curve.variation.name.as_str(), "step", "mean speed"].into_iter();
+    let heads = [curve.variation.name.as_str(), "step", "\u{b1}", "swings by", "mean speed"].into_iter();
     let mut table = table::plain(heads.chain(curve.kind.is_of_load().then_some("power")).chain(["motion"]));
     for (place, point) in traced.points.iter().enumerate() {
         table.add_row(row(curve, traced, (place, point)));
     }
-    table::to_the_right(&mut table, 0..=if curve.kind.is_of_load() { 3 } else { 2 });
+    table::to_the_right(&mut table, 0..=if curve.kind.is_of_load() { 5 } else { 4 });
     say(format_args!("{table}"));
     for landmark in &traced.landmarks {
         match &landmark.at {
@@ -150,14 +176,23 @@ fn tell(curve: &Curve, traced: &Traced) {
 
 fn row(curve: &Curve, traced: &Traced, (place, point): (usize, &Point)) -> Vec<String> {
     let value = shown(point.value, curve.variation.unit);
+    let nothing = || [const { String::new() }; 4];
+    let length = |length| shown(length, "m");
+    let ([step, error, spread, speed], word) = match &point.motion {
+        Ok(motion) if motion.course == Course::Steady && motion.is_still() => {
+            ([length(0.0), String::new(), String::new(), shown(0.0, "m/s")], "no step")
+        }
+        Ok(motion) => {
+            let error = Some(motion.error).filter(|error| *error > SHOWN * motion.step.abs());
+            let spread = Some(motion.spread).filter(|spread| *spread > 0.0);
+            let [error, spread] = [error, spread].map(|some| some.map(length).unwrap_or_default());
+            ([length(motion.step), error, spread, shown(motion.speed(), "m/s")], motion.course.word())
+        }
+        Err(fault) => (nothing(), fault.kind()),
+    };
     let power = |place| traced.power(curve, place).map_or(String::new(), |power| shown(power, "W"));
     let power = curve.kind.is_of_load().then(|| power(place));
-    let (step, speed, word) = match &point.motion {
-        Ok(motion) if motion.is_still() => (shown(0.0, "m"), shown(0.0, "m/s"), "no step"),
-        Ok(motion) => (shown(motion.step, "m"), shown(motion.speed(), "m/s"), motion.course.word()),
-        Err(fault) => (String::new(), String::new(), fault.kind()),
-    };
-    [value, step, speed].into_iter().chain(power).chain([word.to_owned()]).collect()
+    [value, step, error, spread, speed].into_iter().chain(power).chain([word.to_owned()]).collect()
 }
 
 fn shown(value: f64, unit: &str) -> String {
@@ -166,9 +201,9 @@ fn shown(value: f64, unit: &str) -> String {
 }
 
 /// How the command ends.
-fn verdict(traced: &Traced, is_interrupted: bool) -> Verdict {
+fn verdict(traced: &Traced) -> Verdict {
     match () {
-        () if is_interrupted => Verdict::Interrupted,
+        () if traced.is_cut() => Verdict::Interrupted,
         () if traced.faults() == traced.points.len() => Verdict::Stopped,
         () => Verdict::Done,
     }

@@ -17,6 +17,9 @@ use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, T
 use stickslip_study::steady::SteadyError;
 use thiserror::Error;
 
+/// Bytes of the disk that are kept for the files from the beginning on.
+const RESERVE: usize = 1 << 18;
+
 /// Why there is no answer.
 #[derive(Debug, Error)]
 enum SensitivityFailure {
@@ -26,6 +29,9 @@ enum SensitivityFailure {
     /// The picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// Where the files are to go.
+    #[error("{}: cannot be written into: {}\n   help: choose another place with --out", .path.display(), words(.source))]
+    Folder { path: PathBuf, source: io::Error },
     /// The files.
     #[error("{}: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
@@ -37,6 +43,7 @@ pub(crate) fn sensitivity(arguments: &SensitivityArguments) -> Verdict {
         complain(format_args!("{failure}"));
         match failure {
             SensitivityFailure::Asked(error) => verdict(&error),
+            SensitivityFailure::Folder { .. } => Verdict::BadInput,
             SensitivityFailure::Figure(_) | SensitivityFailure::Write { .. } => Verdict::Stopped,
         }
     })
@@ -49,7 +56,11 @@ fn verdict(error: &SensitivityError) -> Verdict {
         | SensitivityError::NotSteady { source: SteadyError::Interrupted(_), .. } => Verdict::Interrupted,
         SensitivityError::Stopped { .. }
         | SensitivityError::NotSteady {
-            source: SteadyError::Run(_) | SteadyError::NoConvergence { .. } | SteadyError::Shakedown { .. },
+            source:
+                SteadyError::Run(_)
+                | SteadyError::NoConvergence { .. }
+                | SteadyError::Shakedown { .. }
+                | SteadyError::Flies { .. },
             ..
         } => Verdict::Stopped,
         _ => Verdict::BadInput,
@@ -64,19 +75,26 @@ fn answer(arguments: &SensitivityArguments) -> Result<Verdict, SensitivityFailur
     if !arguments.quiet {
         warn(&asked.job);
     }
+    // Before the first run.
+    let out = folder(arguments, &asked);
+    let folder = Folder::ready(&out, RESERVE)
+        .map_err(|source| SensitivityFailure::Folder { path: out.clone(), source })?;
+    let (name, runs) = (&asked.job.name, asked.runs());
     let progress = Progress::new(!arguments.quiet);
-    let bar = progress.budget(&asked.job.name, asked.runs() as f64, &interrupt);
+    progress.tell(format_args!("{name}: derivatives, {runs} runs"));
+    let bar = progress.budget(name, runs as f64, &interrupt);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let taken = asked.take(arguments.threads.map_or(cores, usize::from), &bar);
     drop(bar);
-    let names = write(arguments, &asked, &taken)?;
+    let all = asked.figures.len() * asked.quantities.len();
+    progress.tell(format_args!("{name}: {} of {all} derivatives are known", all - taken.faults()));
+    let names = write(arguments, (&asked, &taken), folder)?;
     if arguments.json {
         say_json(&sensitivity::json(&asked, &taken));
     } else if !arguments.quiet {
         tell(&asked, &taken);
-        say(format_args!("{}: {}", folder(arguments, &asked).display(), names.join(", ")));
+        say(format_args!("{}: {}", out.display(), names.join(", ")));
     }
-    let all = asked.figures.len() * asked.quantities.len();
     Ok(match () {
         () if interrupt.is_raised() => Verdict::Interrupted,
         () if taken.faults() == all => Verdict::Stopped,
@@ -92,13 +110,13 @@ fn folder(arguments: &SensitivityArguments, asked: &Sensitivity) -> PathBuf {
 
 fn write(
     arguments: &SensitivityArguments,
-    asked: &Sensitivity,
-    taken: &Taken,
+    (asked, taken): (&Sensitivity, &Taken),
+    mut folder: Folder,
 ) -> Result<Vec<String>, SensitivityFailure> {
-    let out = folder(arguments, asked);
+    let out = self::folder(arguments, asked);
     let pictures = picture::draw((asked, taken), &arguments.look.look())?;
     let failed = |source| SensitivityFailure::Write { path: out.clone(), source };
-    let folder = Folder::make(&out).map_err(failed)?;
+    folder.release();
     // A command that was killed has left its drafts.
     let stale = picture::all_files();
     let own = [sensitivity::TABLE, SENSITIVITY].map(str::to_owned).into_iter();

@@ -15,12 +15,14 @@ use stickslip_results::checkpoint::{self, Keeper};
 use stickslip_results::complaint::words;
 use stickslip_results::files::STEADY;
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Job, Refusal};
+use stickslip_results::{Job, Refusal, Watcher};
 use stickslip_study::steady::{Aftermath, Options, Orbit, Report, Steady, SteadyError, find};
 use thiserror::Error;
 
 /// Wall time between two checkpoints of a run that goes on, s.
 const EVERY: f64 = 30.0;
+/// Bytes of the disk that are kept for the files from the beginning on.
+const RESERVE: usize = 1 << 18;
 
 /// Why there is no answer.
 #[derive(Debug, Error)]
@@ -34,6 +36,9 @@ enum SteadyFailure {
     /// The picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// Where the files are to go.
+    #[error("{}: cannot be written into: {}\n   help: choose another place with --out", .folder.display(), words(.source))]
+    Folder { folder: PathBuf, source: io::Error },
     /// A file.
     #[error("{}: cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
@@ -60,13 +65,16 @@ fn answer(arguments: &SteadyArguments) -> Result<(), SteadyFailure> {
         warn(&job);
     }
     let not_found = |source| SteadyFailure::NotFound { name: job.name.clone(), source };
-    let (found, aftermath) = search(arguments, &job, &interrupt).map_err(not_found)?;
-    let orbit = found.orbit(&job, picture::ROWS).map_err(not_found)?;
     let out =
         arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-steady", job.name)));
+    // Before the first period: of some drives it takes thousands.
+    let folder = Folder::ready(&out, RESERVE)
+        .map_err(|source| SteadyFailure::Folder { folder: out.clone(), source })?;
+    let (found, aftermath) = search(arguments, &job, &interrupt).map_err(not_found)?;
+    let orbit = found.orbit(&job, picture::ROWS).map_err(not_found)?;
     let lasting = found.job(&job, out.clone()).map_err(not_found)?;
     let aftermath = aftermath.as_ref();
-    let report = write(arguments, (&job, &lasting), (&found, aftermath), &orbit)?;
+    let report = write(arguments, (&job, &lasting), (&found, aftermath, &orbit), folder)?;
     if arguments.json {
         say_json(&report.line());
     } else if !arguments.quiet {
@@ -88,15 +96,17 @@ fn search(
     interrupt: &Interrupt,
 ) -> Result<(Steady, Option<Aftermath>), SteadyError> {
     let progress = Progress::new(!arguments.quiet);
-    let line = progress.count(&job.name, "periods");
+    progress.tell(format_args!("{}: looking for its steady motion", job.name));
+    let line = progress.count(&job.name, "periods", interrupt);
     let options = Options {
         tolerance: arguments.tolerance,
         periods: arguments.periods,
-        goes_on: &|| !interrupt.is_raised(),
-        told: &|periods| line.reached(periods),
+        goes_on: &|| line.goes_on(),
+        told: &|periods| line.reached(f64::from(periods)),
         ..Options::default()
     };
     let found = find(job, &options)?;
+    progress.tell(format_args!("{}: found in {} periods", job.name, found.work));
     let aftermath = found.aftermath(job, &options)?;
     Ok((found, aftermath))
 }
@@ -105,8 +115,8 @@ fn search(
 fn write(
     arguments: &SteadyArguments,
     (job, lasting): (&Job, &Job),
-    (found, aftermath): (&Steady, Option<&Aftermath>),
-    orbit: &Orbit,
+    (found, aftermath, orbit): (&Steady, Option<&Aftermath>, &Orbit),
+    mut folder: Folder,
 ) -> Result<Report, SteadyFailure> {
     let pictures = picture::draw(job, found, &orbit.series, &arguments.look.look())?;
     let mut report = Report::of(job, found, aftermath);
@@ -116,8 +126,8 @@ fn write(
         report.notes.push(format!("no checkpoint to go on from: the stepper \"{stepper}\" keeps none"));
     }
     let failed = |source| SteadyFailure::Write { folder: lasting.folder.clone(), source };
-    let mut write = || -> io::Result<()> {
-        let mut folder = Folder::make(&lasting.folder)?;
+    let write = || -> io::Result<()> {
+        folder.release();
         // A command that was killed has left its drafts.
         let stale = picture::all_files();
         sweep(&lasting.folder, &stale.iter().cloned().chain([STEADY.to_owned()]).collect::<Vec<_>>());
@@ -144,12 +154,13 @@ fn write(
 impl SteadyFailure {
     fn verdict(&self) -> Verdict {
         match self {
-            Self::Refused(_) => Verdict::BadInput,
+            Self::Refused(_) | Self::Folder { .. } => Verdict::BadInput,
             Self::NotFound { source, .. } => match source {
                 SteadyError::Interrupted(_) => Verdict::Interrupted,
-                SteadyError::Run(_) | SteadyError::NoConvergence { .. } | SteadyError::Shakedown { .. } => {
-                    Verdict::Stopped
-                }
+                SteadyError::Run(_)
+                | SteadyError::NoConvergence { .. }
+                | SteadyError::Shakedown { .. }
+                | SteadyError::Flies { .. } => Verdict::Stopped,
                 _ => Verdict::BadInput,
             },
             Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,

@@ -1,9 +1,10 @@
-//! Progress of the runs, on a terminal only.
+//! Progress of the runs: bars on a terminal, else a line where something begins and ends.
 
+use crate::console::answer::complain;
 use crate::console::interrupt::Interrupt;
 use crate::console::visible::{Spelling, visible};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use std::fmt::Write;
+use std::fmt::{Arguments, Write};
 use std::io::IsTerminal;
 use stickslip_results::Watcher;
 
@@ -13,6 +14,8 @@ const TICKS: u64 = 10_000;
 /// The bars of all runs.
 pub(crate) struct Progress {
     bars: MultiProgress,
+    /// Whether there is somebody to be told who sees no bars.
+    by_lines: bool,
 }
 
 /// The bar of one run, and the signal that ends it.
@@ -24,19 +27,23 @@ pub(crate) struct Bar<'a> {
     interrupt: &'a Interrupt,
 }
 
-/// A line that counts what has been done.
-pub(crate) struct Counter {
+/// A line that counts what has been done, and the signal that ends it.
+pub(crate) struct Counter<'a> {
     bar: ProgressBar,
+    interrupt: &'a Interrupt,
 }
 
-impl Counter {
-    /// So many have been done.
-    pub(crate) fn reached(&self, count: u32) {
-        self.bar.set_position(u64::from(count));
+impl Watcher for Counter<'_> {
+    fn reached(&self, count: f64) {
+        self.bar.set_position(count as u64);
+    }
+
+    fn goes_on(&self) -> bool {
+        !self.interrupt.is_raised()
     }
 }
 
-impl Drop for Counter {
+impl Drop for Counter<'_> {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
@@ -47,7 +54,14 @@ impl Progress {
     pub(crate) fn new(wanted: bool) -> Self {
         let shown = wanted && std::io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        Self { bars: MultiProgress::with_draw_target(target) }
+        Self { bars: MultiProgress::with_draw_target(target), by_lines: wanted && !shown }
+    }
+
+    /// Says a line where no bar is seen.
+    pub(crate) fn tell(&self, line: Arguments<'_>) {
+        if self.by_lines {
+            complain(line);
+        }
     }
 
     /// A bar for a run from one time to another, s, of a bar from 0 on.
@@ -78,12 +92,12 @@ impl Progress {
     }
 
     /// A line for work whose end nobody knows: how many of these have been done.
-    pub(crate) fn count(&self, name: &str, of: &'static str) -> Counter {
+    pub(crate) fn count<'a>(&self, name: &str, of: &'static str, interrupt: &'a Interrupt) -> Counter<'a> {
         let bar = self.bars.add(ProgressBar::no_length());
         bar.set_style(style("{prefix} {pos} {msg}"));
         bar.set_prefix(visible(name, Spelling::Text).into_owned());
         bar.set_message(of);
-        Counter { bar }
+        Counter { bar, interrupt }
     }
 
     /// Does something with the bars out of the way.

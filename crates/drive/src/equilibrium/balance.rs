@@ -18,6 +18,8 @@ const HALVINGS: u32 = 40;
 /// Largest imbalance of an equilibrium, in units of what acts on a coordinate.
 // Decides only whether there is one: Newton's method goes on to rounding, and no start differs at 1e-8 or 1e-10.
 const BALANCED: f64 = 1e-9;
+/// Forces that are added up on a coordinate, about.
+const ROUNDED: f64 = 4.0;
 /// A step this long finds nothing that holds a body any more, m or rad.
 // Bounds the search where there is no equilibrium: no start differs with 100 m.
 const LOST: f64 = 1e3;
@@ -158,12 +160,17 @@ impl<'a> Search<'a> {
         let statics = self.settling.statics(self.state, &y);
         let residual = &statics.net - self.missing;
         let (mut size, mut holds) = (0.0_f64, true);
+        // What acts on one coordinate is rounded, and a link hands that on to another on which nothing else acts: by works
+        // along natural lengths they are of one kind.
+        let free = &self.settling.model.free;
+        let works = free.iter().zip(&statics.acting).map(|(free, acting)| free.scale.0 * acting);
+        let rounding = ROUNDED * f64::EPSILON * works.fold(0.0, f64::max);
         for i in (0..residual.len()).filter(|i| !self.held[*i] && residual[*i] != 0.0) {
             let (left, acting) = (residual[i].abs(), statics.acting[i] + self.missing[i].abs());
             size = size.max(left / acting);
             // Rounding of a place far away is a force of a stiff contact: it is allowed beside the share of
             // what acts.
-            holds &= left <= BALANCED * acting + statics.noise[i];
+            holds &= left <= BALANCED * acting + statics.noise[i] + rounding / free[i].scale.0;
         }
         Balance { y, residual, holds, size, statics }
     }

@@ -19,6 +19,7 @@
 
 mod course;
 mod slip;
+mod stretch;
 mod time;
 mod turning;
 

@@ -26,6 +26,7 @@ mod search;
 mod shift;
 mod steady;
 mod step;
+mod stride;
 #[cfg(test)]
 mod tests;
 mod turning;

@@ -26,6 +26,8 @@ pub(super) struct Output {
     pub(super) looks: Looks,
     pub(super) marks: Marks,
     pub(super) turns: Turns,
+    /// Whether the record reads every step.
+    pub(super) strides: bool,
     row: Vec<f64>,
     /// Scratch: components of a moment, or their slopes.
     pub(super) components: Vec<f64>,
@@ -38,7 +40,8 @@ impl Output {
         let grid = Grid::new(None, 0.0, EVERYWHERE);
         let (row, components) = (Vec::new(), Vec::new());
         let (looks, marks, turns) = (Looks::NONE, Marks::none(), Turns::default());
-        let blank = Self { every, grid, looks, marks, turns, row, components, evaluations: 0 };
+        let blank =
+            Self { every, grid, looks, marks, turns, strides: false, row, components, evaluations: 0 };
         blank.renewed(every, layout)
     }
 
@@ -48,13 +51,14 @@ impl Output {
         self.components.resize(layout.total(), 0.0);
         let grid = Grid { row: self.grid.row, ..Grid::new(None, 0.0, EVERYWHERE) };
         let (marks, turns) = (self.marks.renewed(), self.turns.renewed());
-        Self { every, grid, looks: Looks::NONE, marks, turns, evaluations: 0, ..self }
+        Self { every, grid, looks: Looks::NONE, marks, turns, strides: false, evaluations: 0, ..self }
     }
 
     /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
     pub(super) fn set_out(&mut self, from: f64, record: &dyn Record) {
         let row = std::mem::take(&mut self.grid.row);
         self.grid = Grid { row, ..Grid::new(self.every, from, record.rows_within()) };
+        self.strides = record.strides();
     }
 
     /// Asks for the first look and the first mark, and takes them if they are at hand.

@@ -16,8 +16,8 @@ pub struct Gradient {
 }
 
 impl<'m> Section<'m> {
-    /// The variation of a run that begins with a state at the section, by all its numbers in natural scales, at the local error per
-    /// step `tolerance`.
+    /// The variation of a run that begins with a state at the section, by all its numbers in natural scales. The run's own local error
+    /// per step, `tolerance`, tells which turns are as good as none.
     ///
     /// # Errors
     ///

@@ -16,7 +16,7 @@ pub(crate) struct Anchors {
     count: usize,
     /// [a, b] of all numbers, piece by piece from the centre.
     lines: Vec<[f64; 2]>,
-    /// Heights of the knots of a path of growth under way, m, the one at which it began first …
+    /// Heights of some knots of a path of growth under way, m, the one at which it began first …
     heights: Vec<f64>,
     /// … and δp there, of all numbers, knot by knot.
     grown: Vec<f64>,
@@ -46,7 +46,7 @@ impl Anchors {
             self.lines.clear();
             return;
         };
-        self.end_growth();
+        self.end_growth(curve);
         if !has_edge && self.pieces() >= slopes.len() {
             return self.lines.truncate(slopes.len() * self.count);
         }
@@ -69,29 +69,45 @@ impl Anchors {
         self.grow(height, slope, moved);
     }
 
-    /// It has come to a knot.
+    /// It has come to a knot; what is no higher than the last one is that.
     pub(super) fn grow(&mut self, height: f64, slope: f64, moved: &[(f64, f64)]) {
+        if self.heights.last().is_some_and(|last| height <= *last) {
+            return;
+        }
         self.heights.push(height);
         self.grown.extend(moved.iter().map(|(du, dd)| du - slope * dd));
     }
 
-    /// The next knot that the memory has of it, m.
-    pub(super) fn next_knot(&self, curve: &Curve) -> Option<f64> {
-        let last = self.heights.last()?;
-        curve.knots().map(|(h, _)| h).find(|h| h > last)
-    }
-
-    /// The path has ended: its pieces become lines.
-    fn end_growth(&mut self) {
-        for (k, pair) in self.heights.windows(2).enumerate() {
-            for j in 0..self.count {
-                let [low, high] = [k, k + 1].map(|k| self.grown[k * self.count + j]);
-                let slope = (high - low) / (pair[1] - pair[0]);
-                self.lines.push([low - slope * pair[0], slope]);
+    /// The path has ended: its pieces, up to the knots that the memory has of it, become lines.
+    fn end_growth(&mut self, curve: &Curve) {
+        let Some(base) = self.heights.first().copied() else { return };
+        let (mut low, mut from) = (base, self.grown_at(base));
+        for (high, _) in curve.knots().filter(|(h, _)| *h > base) {
+            let to = self.grown_at(high);
+            for (from, to) in from.iter().zip(&to) {
+                let slope = (to - from) / (high - low);
+                self.lines.push([from - slope * low, slope]);
             }
+            (low, from) = (high, to);
         }
         self.heights.clear();
         self.grown.clear();
+    }
+
+    /// δp of the path at a height, m, by all numbers: the cubic through the four knots about it, or what there are.
+    fn grown_at(&self, height: f64) -> Vec<f64> {
+        let above = self.heights.partition_point(|h| *h < height);
+        let first = above.saturating_sub(2).min(self.heights.len().saturating_sub(4));
+        let about = first..self.heights.len().min(first + 4);
+        let mut sum = vec![0.0; self.count];
+        for k in about.clone() {
+            let at = |i: usize| self.heights[i];
+            let others = about.clone().filter(|i| *i != k);
+            let share: f64 = others.map(|i| (height - at(i)) / (at(k) - at(i))).product();
+            let grown = &self.grown[k * self.count..(k + 1) * self.count];
+            sum.iter_mut().zip(grown).for_each(|(sum, grown)| *sum += share * grown);
+        }
+        sum
     }
 }
 
@@ -115,6 +131,9 @@ impl Held {
         let foot = |h: f64| [h, profile.reduced_stiffness(h), profile.reduced_force(h)];
         let feet: Vec<[f64; 3]> = curve.knots().map(|(h, _)| foot(h)).take(anchors.pieces()).collect();
         let lines = anchors.lines[..feet.len() * count].to_vec();
+        if lines.iter().all(|line| *line == [0.0; 2]) {
+            return Self::default();
+        }
         let mut held = Self { count, feet, lines, sums: vec![0.0; count] };
         for piece in 1..held.feet.len() {
             for j in 0..count {

@@ -2,13 +2,17 @@
 
 use super::Variation;
 use super::anchors::Held;
-use super::singular::NOTHING;
-use super::tangent::{Tangent, Varied};
+use super::tangent;
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
+use crate::record::Stride;
 use crate::state::State;
-use stickslip_contact::Memory;
-use stickslip_stepper::{Attempt, Bracket, Completion, Point, Step, root};
+
+/// A height, as a part of the depth, that is as good as none.
+const NOTHING: f64 = 1e-6;
+
+/// Knots of a path of growth that are looked at in a step: those between lie on cubics.
+const MOST_KNOTS: usize = 32;
 
 impl Variation<'_> {
     /// Whether an edge lies between what a contact remembers of before the interval and its apex: not where it grows, nor where a
@@ -34,7 +38,7 @@ impl Variation<'_> {
             let at = |i: usize| state.y[i];
             let motion = Equations::on(self.model, state, self.layout, false).motion(contact, state.t, at);
             let (slope, memory) = (motion.du / motion.dd, &state.memories[c]);
-            let moved = Tangent::moved(contact, &self.columns, self.layout);
+            let moved = tangent::moved(contact, &self.columns, self.layout);
             self.anchors[c].begin_growth(memory.apex().d.max(0.0), slope, &moved);
             if left.is_some_and(|left| left.modes[c] == Mode::Grow) {
                 continue;
@@ -54,46 +58,26 @@ impl Variation<'_> {
         }
     }
 
-    /// Notes how far growing contacts have led the knots that the run's memory has in the step just tried.
-    pub(super) fn grow(&mut self, (from, to): (&State, &State), varied: &Varied<'_>) {
-        for (c, contact) in self.model.contacts.iter().enumerate() {
-            if from.modes[c] != Mode::Grow {
-                continue;
-            }
-            self.solver.complete(varied, Completion::Dense);
-            let span = self.solver.span();
-            let (t0, t1) = (span.time, span.end_time);
-            let at = |t: f64| varied.eq.motion(contact, t, |i| self.solver.value(i, t));
-            let Memory::Curve(curve) = &to.memories[c] else { continue };
-            let reached = at(t1).d;
-            while let Some(height) = self.anchors[c].next_knot(curve).filter(|height| *height <= reached) {
-                let point = |t: f64| Point { x: t, y: at(t).d - height };
-                let bracket = Bracket { from: point(t0), to: point(t1) };
-                let t = root(|t| at(t).d - height, bracket, f64::EPSILON * t1.abs());
-                let motion = at(t);
-                let dimension = self.layout.dimension();
-                let column = |k: usize| self.solver.value(dimension + k, t);
-                let columns: Vec<f64> = (0..self.columns.len()).map(column).collect();
-                let moved = Tangent::moved(contact, &columns, self.layout);
-                self.anchors[c].grow(height, motion.du / motion.dd, &moved);
-            }
+    /// Notes how far growing contacts have led knots of their paths in the step just tried, between two parts of a stride.
+    pub(super) fn grow(&mut self, from: &State, stride: &mut dyn Stride, (begin, end): (f64, f64)) {
+        if stride.knots().is_empty() {
+            return;
         }
-    }
-
-    /// The last knot of a path of growth that rounding has stopped short of.
-    pub(super) fn reach_end(
-        &mut self,
-        contact: &Contact,
-        (from, to): (&State, &State),
-        moved: &[(f64, f64)],
-    ) {
-        let c = contact.place;
-        if let (Mode::Grow, Memory::Curve(curve)) = (&from.modes[c], &to.memories[c])
-            && let Some(height) = self.anchors[c].next_knot(curve)
-        {
-            let eq = Equations { pieces: &from.pieces, ..Equations::on(self.model, to, self.layout, false) };
-            let motion = eq.motion(contact, to.t, |i| to.y[i]);
-            self.anchors[c].grow(height, motion.du / motion.dd, moved);
+        let (components, mut columns) = (self.components(from), Vec::new());
+        for (c, contact) in self.model.contacts.iter().enumerate() {
+            let own = |knot: &&(usize, f64)| knot.0 == c && knot.1 > begin && knot.1 <= end;
+            let parts: Vec<f64> = stride.knots().iter().filter(own).map(|knot| knot.1).collect();
+            let every = parts.len().div_ceil(MOST_KNOTS).max(1);
+            // The last one is among them.
+            for part in parts.into_iter().rev().step_by(every).rev() {
+                let share = (part - begin) / (end - begin);
+                self.method.positions(share, components, &self.columns, &mut columns);
+                let [t, _] = stride.at(part, &mut self.y);
+                let eq = Equations::on(self.model, from, self.layout, false);
+                let motion = eq.motion(contact, t, |i| self.y[i]);
+                let moved = tangent::moved(contact, &columns, self.layout);
+                self.anchors[c].grow(motion.d, motion.du / motion.dd, &moved);
+            }
         }
     }
 }

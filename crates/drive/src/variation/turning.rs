@@ -18,7 +18,8 @@ impl Variation<'_> {
                 (Mode::Slip(before), Mode::Slip(after)) => before.sense() != after.sense(),
                 _ => false,
             };
-            if turned && self.stands(contact, state, f64::INFINITY) {
+            // What no free coordinate moves turns at a time that nothing moves.
+            if turned && !contact.u.free.is_empty() && self.stands(contact, state, f64::INFINITY) {
                 return Err(VariationError::Grazes { contact: contact.name.clone(), t: state.t });
             }
         }

@@ -51,4 +51,5 @@ mod swings;
 mod unfed_inputs;
 mod units;
 mod variations;
+mod variations_at_events;
 mod vibrated;

@@ -8,10 +8,10 @@ use stickslip_drive::section::Section;
 use stickslip_drive::{Model, Plan, Run, State, Stepper, VariationError};
 
 /// Derivatives, by one number each.
-type Columns = Vec<Vec<f64>>;
+pub(crate) type Columns = Vec<Vec<f64>>;
 
 /// A state led on to a time, its memories where it stands.
-fn led(model: &Model, plan: &Plan, state: State, until: f64) -> State {
+pub(crate) fn led(model: &Model, plan: &Plan, state: State, until: f64) -> State {
     let mut run = Run::new(model, plan, state).unwrap();
     run.advance(until, &mut ()).unwrap();
     run.stop(&mut ());
@@ -19,7 +19,7 @@ fn led(model: &Model, plan: &Plan, state: State, until: f64) -> State {
 }
 
 /// Derivatives of x and ẋ of all bodies at a time by every number of a section's state, and the state there.
-fn varied(
+pub(crate) fn varied(
     (model, plan): (&Model, &Plan),
     section: &Section<'_>,
     until: f64,
@@ -43,7 +43,7 @@ fn motions(model: &Model, state: &State) -> Vec<f64> {
 }
 
 /// The same derivatives by central differences over h and h/2, extrapolated, and by how much the shorter ones were mended.
-fn differences(
+pub(crate) fn differences(
     (model, plan): (&Model, &Plan),
     section: &Section<'_>,
     until: f64,
@@ -69,7 +69,7 @@ fn differences(
 }
 
 /// The largest entry, each row in units of its largest or of a natural scale, whichever is larger.
-fn size(entries: impl Iterator<Item = Vec<f64>>, beside: &[Vec<f64>], natural: [f64; 2]) -> f64 {
+pub(crate) fn size(entries: impl Iterator<Item = Vec<f64>>, beside: &[Vec<f64>], natural: [f64; 2]) -> f64 {
     let largest = |i: usize| beside.iter().map(|column| column[i].abs()).fold(natural[i % 2], f64::max);
     let of = |column: Vec<f64>| {
         column.iter().enumerate().map(|(i, x)| x.abs() / largest(i)).fold(0.0_f64, f64::max)

@@ -84,6 +84,9 @@ pub enum CheckpointError {
         "--set {0}  a run that goes on is the same run: only its end can be changed, by {1}, and run.limits\n   help: run the scenario anew to change anything else"
     )]
     NotTheEnd(String, &'static str),
+    /// The other of the two keys that can give a run its end.
+    #[error("--set {0}  the scenario of this run gives its end by {1}\n   help: --set {1}=…")]
+    OtherEnd(String, &'static str),
     /// An end that the run has passed.
     #[error("{}: the run has come to t = {reached:e} s, it cannot end at {end:e} s\n   help: give a later end, or run the scenario anew", .folder.display())]
     Passed {

@@ -27,6 +27,11 @@ pub(super) fn is_limit(path: &str) -> bool {
     path.strip_prefix(LIMITS).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
+/// Whether a path is one that can give a run its end.
+pub(super) fn is_end(path: &str) -> bool {
+    END.contains(&path)
+}
+
 /// Which key gives a scenario its end.
 pub(super) fn end_of(scenario: &Scenario) -> &'static str {
     let value: Value = serde_json::from_str(&scenario.resolved()).unwrap_or_default();

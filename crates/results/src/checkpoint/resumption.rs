@@ -3,7 +3,7 @@
 use super::error::CheckpointError;
 use super::journal::Journal;
 use super::keeper::Keeper;
-use super::key::{end_of, is_limit, model_key, run_key};
+use super::key::{end_of, is_end, is_limit, model_key, run_key};
 use super::playback::Told;
 use super::stub::Stub;
 use super::{JOURNAL, STATE, place, plain, playback};
@@ -102,7 +102,11 @@ fn job(path: &Path, set: &[(String, String)], stub: &Stub, results: &Path) -> Re
     }
     let end = end_of(&kept);
     if let Some((path, value)) = set.iter().find(|(path, _)| path != end && !is_limit(path)) {
-        return Err(CheckpointError::NotTheEnd(format!("{path}={value}"), end));
+        let given = format!("{path}={value}");
+        return Err(match is_end(path) {
+            true => CheckpointError::OtherEnd(given, end),
+            false => CheckpointError::NotTheEnd(given, end),
+        });
     }
     let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();
     let scenario = Scenario::load_with(path, &overrides)?;

@@ -11,8 +11,8 @@ const fn key(name: &'static str, text: &'static str) -> Definition {
 }
 
 const STEP: &str = "step along x of the figures' body in a period of the figures' waveform, in steady motion; the mean of steps that swing";
-const ERROR: &str =
-    "how far the step may be off, an estimate: of what was left of the way to it, and of the run's tolerance";
+const ERROR: &str = "how far the step may be off, an estimate: of what was left of the way to it, and of the run's tolerance; of steps that \
+     swing how far the mean of endlessly many may lie from it, by 95 %";
 const SPREAD: &str = "by how much steps swing about their mean from period to period; 0 of steady ones";
 const SPEED: &str = "mean speed along x: step over period";
 const POWER: &str = "load times mean speed, above 0 where the drive moves against the load; of loads only";
@@ -38,6 +38,7 @@ pub(super) const CURVE: &[Definition] = &[
     key("scenario", "name of the scenario"),
     key("scenario_sha256", "SHA-256 of the resolved scenario, as it is without what the curve varies"),
     key("program", "name and version of the program"),
+    key("status", "`done`, or `interrupted`: then the file is `curve-partial.json`"),
     key("curve", "name of the curve; `vary` of a number by its path"),
     key("varied", "what is varied; it heads the first column of `curve.csv`, with its unit"),
     key("unit", "its SI unit; empty of a plain number"),
@@ -62,10 +63,13 @@ pub(super) const CURVE: &[Definition] = &[
          `best_power` or `best_step`",
     ),
     key("landmarks.at", "what is varied, there"),
-    key("landmarks.half_width", "how far that may be off: half of the bracket in which it lies"),
+    key(
+        "landmarks.half_width",
+        "how far that may be off: half of the bracket in which it lies, and what the errors of the steps there add",
+    ),
     key("landmarks.value", "speed in m/s, power in W or step in m there; of best points only"),
     key("landmarks.runs", "points that were computed for it, beside those of the curve"),
     key("landmarks.fault", "why it is not known"),
     key("files", "names of all files that were written together"),
-    key("table_sha256", "SHA-256 of `curve.csv`"),
+    key("table_sha256", "SHA-256 of the table"),
 ];

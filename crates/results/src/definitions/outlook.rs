@@ -2,7 +2,7 @@
 
 use super::Definition;
 
-const KEYS: [(&str, &str); 9] = [
+const KEYS: [(&str, &str); 11] = [
     (
         "steady_motion.step_m",
         "way of the body of the figures along x in a period of the steady motion, [found directly](steady.md), as if waveforms never ended",
@@ -20,14 +20,22 @@ const KEYS: [(&str, &str); 9] = [
     ),
     ("steady_motion.fold_periods", "periods in which that disturbance falls, or grows, by e"),
     ("steady_motion.words", "what becomes of that disturbance, in words"),
+    (
+        "steady_motion.carried",
+        "contacts whose memories were led along: disturbances of what they remember may stay longer",
+    ),
+    (
+        "steady_motion.shaken_down",
+        "contacts that never slip grossly: the motion is one of a whole family, and what they slide in a period counts as its error",
+    ),
     ("steady_motion.fault", "why it was not found at little cost; the others are left out then"),
 ];
 
 pub(super) const SUMMARY: &[Definition] = &of("summary.json");
 pub(super) const INFO: &[Definition] = &of("info --json");
 
-const fn of(file: &'static str) -> [Definition; 9] {
-    let mut keys = [Definition { file, name: "", text: "" }; 9];
+const fn of(file: &'static str) -> [Definition; 11] {
+    let mut keys = [Definition { file, name: "", text: "" }; 11];
     let mut at = 0;
     while at < keys.len() {
         keys[at].name = KEYS[at].0;

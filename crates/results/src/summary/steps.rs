@@ -171,8 +171,8 @@ pub(super) fn of(
     };
     let bounds = match flight(job, outcome) {
         // Nothing holds it any more: whatever it does in a period is no step.
-        Some(_) => Bounds { most: 0.0, ..bounds(job) },
-        None => bounds(job),
+        Some(_) => Bounds { most: 0.0, ..step_bounds(job) },
+        None => step_bounds(job),
     };
     let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds);
     let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
@@ -198,7 +198,8 @@ pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
 ///
 /// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke
 /// without being carried away; each may be off by the error that the stepper promises.
-fn bounds(job: &Job) -> Bounds {
+#[must_use]
+pub fn step_bounds(job: &Job) -> Bounds {
     let natural = (0..job.scenario.scene.contacts.len()).filter_map(|c| job.model.contact_natural(c));
     let natural = natural.map(|natural| natural.displacement).fold(0.0, f64::max);
     let promised = match job.stepper() {

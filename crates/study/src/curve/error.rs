@@ -44,8 +44,15 @@ pub enum CurveError {
         help: String,
     },
     /// Nobody knows in which range to vary something.
-    #[error("{0} says nothing of the range of its curve\n   help: give one, FROM..TO")]
-    NoRange(String),
+    #[error(
+        "{file}: in which range the {varied} is to be varied is not known: nothing holds the body\n   help: give one, --range FROM..TO"
+    )]
+    NoRange {
+        /// The scenario.
+        file: String,
+        /// What is varied.
+        varied: String,
+    },
     /// A range that holds nothing.
     #[error("expected a range that rises from one finite value to another, got {from} to {to}")]
     Range {

@@ -33,7 +33,8 @@ pub enum Course {
 pub struct Motion {
     /// Step along x in a period of the figures' waveform, m: of steps that swing or change without a pattern their mean.
     pub step: f64,
-    /// How far the step may lie from its limit, m: an estimate.
+    /// How far the step may lie from its limit, m: an estimate. Of steps that swing or change without a pattern by 95 % how far
+    /// the mean of all later ones may lie from it, which is not by how much they swing.
     pub error: f64,
     /// Amplitude of steps that swing, half the range of irregular ones, m; 0 of steady ones.
     pub spread: f64,
@@ -70,7 +71,25 @@ pub enum Motionless {
     /// The search, where waiting does not help either.
     #[error(transparent)]
     Search(SteadyError),
-    /// Steps on their way, or away.
+    /// A load, or what else pulls, drags the body away: it accelerates, or slips all through and goes as far in every period.
+    #[error("slides away: after {periods} periods {step:.3e} m a period, {}", away(*step, *change))]
+    SlidesAway {
+        /// Periods that were run.
+        periods: u32,
+        /// The last step, m.
+        step: f64,
+        /// What it has changed, m.
+        change: f64,
+    },
+    /// All contacts of the body are open: how far it flies in a period is no step.
+    #[error(
+        "in the air: after {periods} periods all contacts of the body are open, and what it flies in a period is no step"
+    )]
+    Flies {
+        /// Periods that were run.
+        periods: u32,
+    },
+    /// Steps on their way.
     #[error(
         "steps go on changing: after {periods} periods {step:.3e} m, by {change:.1e} m from the last to this one"
     )]
@@ -84,8 +103,18 @@ pub enum Motionless {
     },
 }
 
+/// Changes below this share of a step are none.
+const EVEN: f64 = 1e-6;
 /// A step below this share of the natural length is none.
 pub(super) const STILL: f64 = 1e-5;
+
+/// How a body goes on that slides away.
+fn away(step: f64, change: f64) -> String {
+    match change.abs() <= EVEN * step.abs() {
+        true => "slipping all through".to_owned(),
+        false => format!("{change:.1e} m more than in the one before: friction does not hold it"),
+    }
+}
 
 impl Motion {
     /// The steady motion of a job, or the course that its steps take instead.
@@ -106,6 +135,7 @@ impl Motion {
                 | SteadyError::Commanded(_)
                 | SteadyError::Endless(_)
                 | SteadyError::Incommensurate { .. }
+                | SteadyError::Flies { .. }
                 | SteadyError::Run(_),
             ) => waited(job, watcher),
             Err(error) => Err(Motionless::Search(error)),
@@ -118,6 +148,10 @@ impl Motion {
         // All waveforms together may take several periods of this one.
         let share = 1.0 / (found.period / period).round().max(1.0);
         let step = share * found.step.ok_or(Motionless::NoSteps)?;
+        let natural = natural(job, body);
+        if found.is_dragged && step.abs() > STILL * natural {
+            return Err(Motionless::SlidesAway { periods: found.work, step, change: 0.0 });
+        }
         Ok(Self {
             step,
             error: share * found.bound,
@@ -126,7 +160,7 @@ impl Motion {
             course: Course::Steady,
             multiplier: found.multipliers.first().copied(),
             work: found.work,
-            natural: natural(job, body),
+            natural,
         })
     }
 
@@ -156,6 +190,19 @@ impl Motion {
 }
 
 impl Motionless {
+    /// Whether there is no steady step, for what is known: a load drags the drive away, or its steps become less so slowly that
+    /// they do not end within the periods that were run, but would not last as many again.
+    #[must_use]
+    pub fn makes_no_step(&self) -> bool {
+        match self {
+            Self::SlidesAway { .. } => true,
+            Self::Unsettled { periods, step, change } => {
+                -change * step.signum() * f64::from(*periods) >= 0.5 * step.abs()
+            }
+            _ => false,
+        }
+    }
+
     /// The kind of reason, in a word or two.
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -164,6 +211,8 @@ impl Motionless {
             Self::Scenario(_) => "refused",
             Self::NoSteps | Self::Ends(_) => "no steps to count",
             Self::Run(_) | Self::Search(_) => "stopped",
+            Self::SlidesAway { .. } => "slides away",
+            Self::Flies { .. } => "in the air",
             Self::Unsettled { .. } => "not settled",
         }
     }

@@ -19,6 +19,25 @@ pub struct Range {
 }
 
 impl Range {
+    /// Its ends as somebody writes them, `0.1..0.6` or `10 Hz..5 kHz`, SI; `unit` is that of a bare number. A unit at one end only
+    /// is refused, for nobody knows whether it is meant for both; 0 needs none.
+    ///
+    /// # Errors
+    /// What is expected, in words.
+    pub fn ends(text: &str, unit: &str) -> Result<[f64; 2], String> {
+        let expected = || format!("expected FROM..TO, such as 0.1..0.6, got \"{text}\"");
+        let (from, to) = text.split_once("..").ok_or_else(expected)?;
+        let ends = [stickslip_scenario::quantity(from, unit)?, stickslip_scenario::quantity(to, unit)?];
+        let bare = [from, to].map(|end| end.trim().parse::<f64>().is_ok());
+        match bare[0] == bare[1] || bare.iter().zip(ends).any(|(bare, end)| *bare && end == 0.0) {
+            true => Ok(ends),
+            false => Err(format!(
+                "expected a unit at both ends or at none, which is {}, got \"{text}\"",
+                if unit.is_empty() { "a plain number" } else { unit }
+            )),
+        }
+    }
+
     /// Its values, ascending; the ends are what was asked for to the last bit.
     ///
     /// # Errors
@@ -61,6 +80,22 @@ mod tests {
         let wanted = [0.1, 1.0, 10.0, 100.0, 1e3];
         assert!(decades.iter().zip(wanted).all(|(found, wanted)| (found / wanted - 1.0).abs() < 1e-14));
         assert_eq!((decades[0], decades[4]), (0.1, 1e3));
+    }
+
+    /// Once "1 g..2" was 1 g to 2 kg.
+    #[test]
+    fn a_unit_at_one_end_only_is_refused() {
+        let ends = |text, unit| Range::ends(text, unit);
+        assert_eq!(ends("1 g..2 g", "kg"), Ok([1e-3, 2e-3]));
+        assert_eq!(ends("0.001..2e-3", "kg"), Ok([1e-3, 2e-3]));
+        assert_eq!(ends("0..2 g", "kg"), Ok([0.0, 2e-3]));
+        assert_eq!(ends("-2 mN..0", "N"), Ok([-2e-3, 0.0]));
+        for text in ["1 g..2", "1..2 g", "1e-3 ..2 kg"] {
+            let refused = ends(text, "kg").unwrap_err();
+            assert!(refused.starts_with("expected a unit at both ends or at none, which is kg"), "{refused}");
+        }
+        assert!(ends("1", "kg").unwrap_err().contains("expected FROM..TO"));
+        assert!(ends("1..2..3", "").is_err());
     }
 
     #[test]

@@ -1,15 +1,20 @@
 //! What is told of a curve: a table, and all of it in JSON.
 
-use super::{Curve, Landmark, Motion, Motionless, Traced};
+use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::files::CURVE;
+use stickslip_results::files::{CURVE, PARTIAL_CURVE};
 use stickslip_results::folder::Folder;
 use stickslip_results::{Real, hash};
 
-/// Name of the table.
-pub const TABLE: &str = "curve.csv";
+/// Names of the table and of what is told of all: of a curve, and of one that was interrupted, beside which a finished one stays.
+const NAMES: [[&str; 2]; 2] = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];
+
+/// Names of all files that any curve is written to, its pictures apart.
+pub fn all_files() -> impl Iterator<Item = String> {
+    NAMES.into_iter().flatten().map(str::to_owned)
+}
 
 /// All numbers of a curve; written last.
 #[derive(Debug, Serialize)]
@@ -17,6 +22,7 @@ struct Report<'a> {
     scenario: &'a str,
     scenario_sha256: &'a str,
     program: &'a str,
+    status: &'static str,
     curve: &'static str,
     varied: &'a str,
     unit: &'static str,
@@ -122,10 +128,17 @@ impl Traced {
         self.points.iter().filter(|point| point.motion.is_err()).count()
     }
 
-    /// Whether points were left undone.
+    /// How many points are done, with a motion or without.
+    #[must_use]
+    pub fn done(&self) -> usize {
+        self.points.iter().filter(|point| point.motion != Err(Motionless::NotRun)).count()
+    }
+
+    /// Whether points were left undone, or places with a name.
     #[must_use]
     pub fn is_cut(&self) -> bool {
-        self.points.iter().any(|point| point.motion == Err(Motionless::NotRun))
+        let is_undone = |landmark: &Landmark| landmark.at == Err(Unfound::NotRun);
+        self.done() < self.points.len() || self.landmarks.iter().any(is_undone)
     }
 }
 
@@ -185,7 +198,8 @@ pub fn json(curve: &Curve, traced: &Traced) -> String {
     serde_json::to_string(&report(curve, traced)).unwrap_or_default()
 }
 
-/// Writes the table, `curve.json` and pictures into a folder; files of these names that are not among them go. Returns the names.
+/// Writes the table, `curve.json` and pictures into a folder; pictures of the names `stale` that are not among them go. What was
+/// interrupted is written to `curve-partial.csv` and `curve-partial.json`, and goes with the next whole curve. Returns the names.
 ///
 /// # Errors
 /// What the system says; nothing that was there is gone then, unless it says so while names are given.
@@ -193,18 +207,22 @@ pub fn write(
     mut folder: Folder,
     (curve, traced): (&Curve, &Traced),
     pictures: &[(String, Vec<u8>)],
-    stale: Vec<String>,
+    mut stale: Vec<String>,
 ) -> io::Result<Vec<String>> {
-    let table = csv(curve, traced);
-    folder.write(TABLE, table.as_bytes())?;
+    let (table, [name, summary]) = (csv(curve, traced), NAMES[usize::from(traced.is_cut())]);
+    folder.release();
+    folder.write(name, table.as_bytes())?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let mut files = folder.names();
-    files.push(CURVE.to_owned());
+    files.push(summary.to_owned());
+    if !traced.is_cut() {
+        stale.extend(NAMES[1].map(str::to_owned));
+    }
     folder.forget(stale);
     let report = Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(curve, traced) };
     let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
     json.push(b'\n');
-    folder.write(CURVE, &json)?;
+    folder.write(summary, &json)?;
     folder.publish()?;
     Ok(files)
 }
@@ -224,6 +242,7 @@ fn report<'a>(curve: &'a Curve, traced: &'a Traced) -> Report<'a> {
         scenario: &curve.job.name,
         scenario_sha256: &curve.job.hash,
         program: &curve.job.program,
+        status: if traced.is_cut() { "interrupted" } else { "done" },
         curve: curve.kind.name(),
         varied: &curve.variation.name,
         unit: curve.variation.unit,

@@ -3,11 +3,16 @@
 //! Lengths of steps s₀, s₁, … are those of the periods of the figures' waveform. They are steady where what is still to come is
 //! known to be nothing: near a steady motion the changes eₖ = sₖ - sₖ₋₁ fall by a fixed share r from period to period, so that
 //! eₖ r/(1-r) is left of the way to the limit (Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289). Creep falls so slowly that it is
-//! not waited for: where three limits by Aitken's rule agree, that is the step.
+//! not waited for: where three limits by Aitken's rule agree, that is the step, unless rounding could have made them agree: what it
+//! does to a limit grows as 1/(1-r)², and steps that grow evenly, as where a load drags the body away, have r = 1.
+//!
+//! What a body flies or slides in a period may be even by itself: only steps in which a contact holds it are taken for steady.
 
 use super::motion::{Course, Motion, Motionless, STILL, natural, waveform};
-use stickslip_analysis::{Bounds, Settling};
+use crate::grip::{Grip, Loose};
+use stickslip_analysis::{Bounds, Mean, Settling};
 use stickslip_drive::{Event, Plan, Record, Run, RunError};
+use stickslip_results::summary::step_bounds;
 use stickslip_results::{Job, Watcher};
 
 /// Most periods that are waited for.
@@ -19,6 +24,8 @@ const LEFT: f64 = 1e-6;
 const FEWEST: usize = 5;
 /// How many limits must agree.
 const AGREEING: usize = 3;
+/// By which share a beat that stays as it is may be larger or smaller in the last quarter of the periods than in the one before.
+const STAYS: f64 = 0.05;
 /// Where the changes of steps are rounding, as a share of their scale.
 const ROUNDING: f64 = 1e-11;
 
@@ -39,41 +46,55 @@ pub(super) fn waited(job: &Job, watcher: &dyn Watcher) -> Result<Motion, Motionl
     };
     let plan = Plan { every: None, until_steady: None, ..job.scenario.plan };
     let mut run = Run::new(&job.model, &plan, job.start.clone()).map_err(failed)?;
-    let mut looker = Looker(watcher);
-    let mut place = |k: u32| -> Result<f64, Motionless> {
+    let mut looker = Looker { watcher, grip: Grip::new(job, body) };
+    let mut place = |k: u32| -> Result<(f64, Option<Loose>), Motionless> {
         // A cheap period is over before its run asks.
         if !watcher.goes_on() {
             return Err(Motionless::NotRun);
         }
+        looker.grip.begin();
         run.advance(start + f64::from(k) * period, &mut looker).map_err(failed)?;
-        run.state().body(&job.model, body).map(|(x, _)| x).ok_or(Motionless::NoSteps)
+        let x = run.state().body(&job.model, body).map(|(x, _)| x).ok_or(Motionless::NoSteps)?;
+        Ok((x, looker.grip.loose(&job.model, &run)))
     };
     let natural = natural(job, body);
-    let motion = |step, error, spread, course, work| Motion {
-        step,
-        error,
-        spread,
-        period,
-        course,
-        multiplier: None,
-        work,
-        natural,
+    let bounds = Bounds { least: STILL * natural, error: 0.0, ..step_bounds(job) };
+    let motion = |(course, mean, spread): (Course, Mean, f64), work| {
+        let (step, error, multiplier) = (mean.value, mean.error, None);
+        Motion { step, error, spread, period, course, multiplier, work, natural }
     };
-    let (mut before, mut steps) = (place(0)?, Vec::new());
+    let ((mut before, _), mut steps, mut hold) = (place(0)?, Vec::new(), Hold::default());
     for k in 1..=most {
-        let x = place(k)?;
+        let (x, loose) = place(k)?;
         steps.push(x - before);
         before = x;
-        if let Some((limit, error)) = limit(&steps, natural, LEFT) {
-            return Ok(motion(limit, error, 0.0, Course::Steady, k));
+        hold.note(k as usize, loose);
+        if let Some(limit) = limit(&steps[hold.loose_until..], natural, LEFT) {
+            return Ok(motion((Course::Steady, limit, 0.0), k));
         }
     }
-    let (course, step, error, spread) = judged(&steps, natural)?;
-    Ok(motion(step, error, spread, course, most))
+    Ok(motion(judged(&steps, hold, bounds)?, most))
+}
+
+/// In which periods something held the body.
+#[derive(Debug, Clone, Copy, Default)]
+struct Hold {
+    /// How many there were when the last was over in which nothing did, and in which something did.
+    loose_until: usize,
+    held_until: usize,
+    /// What it did in the last, if nothing held it.
+    loose: Option<Loose>,
+}
+
+impl Hold {
+    fn note(&mut self, count: usize, loose: Option<Loose>) {
+        let until = if loose.is_some() { &mut self.loose_until } else { &mut self.held_until };
+        (*until, self.loose) = (count, loose);
+    }
 }
 
 /// The limit of steps and how far it may be off, where they are steady.
-fn limit(steps: &[f64], natural: f64, change: f64) -> Option<(f64, f64)> {
+fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
     if steps.len() < FEWEST {
         return None;
     }
@@ -82,7 +103,7 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<(f64, f64)> {
     let changes: Vec<f64> = steps.windows(2).rev().take(AGREEING + 1).map(|pair| pair[1] - pair[0]).collect();
     let largest = changes.iter().take(AGREEING).fold(0.0, |most: f64, e| most.max(e.abs()));
     if largest <= ROUNDING * scale {
-        return Some((last, largest));
+        return Some(Mean { value: last, error: largest });
     }
     let shares: Vec<f64> = changes.windows(2).map(|pair| pair[0] / pair[1]).collect();
     let slowest = shares.iter().fold(0.0, |most: f64, share| most.max(share.abs()));
@@ -91,45 +112,86 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<(f64, f64)> {
     }
     let left = changes[0].abs() * slowest / (1.0 - slowest);
     if left <= change * scale {
-        return Some((last, left));
+        return Some(Mean { value: last, error: left });
     }
     // Aitken's rule from each of the last periods.
     let limits: Vec<f64> = (0..AGREEING)
         .map(|back| steps[steps.len() - 1 - back] + changes[back] * shares[back] / (1.0 - shares[back]))
         .collect();
     let apart = limits.iter().fold(0.0, |most: f64, limit| most.max((limit - limits[0]).abs()));
+    let rounding = ROUNDING * scale / (1.0 - slowest).powi(2);
     let is_creep = shares.iter().all(|share| *share > 0.0);
-    (is_creep && apart <= 0.1 * change * scale).then_some((limits[0], 10.0 * apart))
+    let agree = apart <= 0.1 * change * scale && rounding <= change * scale;
+    (is_creep && agree).then(|| Mean { value: limits[0], error: 10.0 * apart + rounding })
 }
 
-/// What steps do that have not become steady: with a step, its error and the spread.
-fn judged(steps: &[f64], natural: f64) -> Result<(Course, f64, f64, f64), Motionless> {
+/// What steps do that have not become steady: with their mean and by how much they swing about it.
+fn judged(steps: &[f64], hold: Hold, bounds: Bounds) -> Result<(Course, Mean, f64), Motionless> {
+    let periods = steps.len() as u32;
     let half = &steps[steps.len() / 2..];
-    let mean = half.iter().sum::<f64>() / half.len() as f64;
-    let bounds = Bounds { least: STILL * natural, most: f64::INFINITY, error: 0.0 };
-    match Settling::of(steps, bounds) {
-        Settling::Settled(settled) => Ok((Course::Steady, settled.value, settled.error, 0.0)),
-        Settling::Beats { about, amplitude, .. } => Ok((Course::Beats, about, amplitude, amplitude)),
-        Settling::Irregular { spread } => Ok((Course::Irregular, mean, spread, spread)),
+    let last = steps.last().copied().unwrap_or(0.0);
+    let change = steps.windows(2).last().map_or(0.0, |pair| pair[1] - pair[0]);
+    // Even steps are what they are, however long: whether they are none is a matter of what holds the body.
+    let settling = Settling::of(steps, Bounds { most: f64::INFINITY, ..bounds });
+    let slides = Motionless::SlidesAway { periods, step: last, change };
+    let swings = matches!(settling, Settling::Beats { .. } | Settling::Irregular { .. });
+    let is_loose = !swings || steps.len() - hold.held_until >= half.len();
+    match hold.loose.filter(|_| is_loose && last.abs() > bounds.least) {
+        Some(Loose::Flies) => return Err(Motionless::Flies { periods }),
+        Some(Loose::Slides) => return Err(slides),
+        None => {}
+    }
+    let plain = half.iter().sum::<f64>() / half.len() as f64;
+    // Too few swings say no more than that the mean lies between their ends.
+    let mean = |period, spread| Mean::of(half, period).unwrap_or(Mean { value: plain, error: spread });
+    match settling {
+        Settling::Settled(settled) => {
+            Ok((Course::Steady, Mean { value: settled.value, error: settled.error }, 0.0))
+        }
+        Settling::Beats { period, amplitude, .. } => {
+            // One that goes on growing or fading takes the mean with it, and nobody knows how far.
+            let [before, after] = [&half[..half.len() / 2], &half[half.len() / 2..]].map(extent);
+            let Mean { value, error } = mean(period, amplitude);
+            let stays = (after - before).abs() <= STAYS * before;
+            let error = if stays { error } else { error.max(amplitude) };
+            Ok((Course::Beats, Mean { value, error }, amplitude))
+        }
+        Settling::Irregular { spread } => Ok((Course::Irregular, mean(0.0, spread), spread)),
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
-            let step = steps.last().copied().unwrap_or(0.0);
-            let change = steps.windows(2).last().map_or(0.0, |pair| pair[1] - pair[0]);
-            Err(Motionless::Unsettled { periods: steps.len() as u32, step, change })
+            // Where nobody knows how long a step can be, one that grows to no limit that is foreseen.
+            let is_foreseen = matches!(settling, Settling::NotSettled { limit: Some(_), .. });
+            let grows = bounds.most == f64::INFINITY && change * last > 0.0 && !is_foreseen;
+            Err(match grows || last.abs() > bounds.most {
+                true => slides,
+                false => Motionless::Unsettled { periods, step: last, change },
+            })
         }
     }
 }
 
-/// A record that keeps nothing and hears when it is to end.
-struct Looker<'a>(&'a dyn Watcher);
+/// How far apart the longest and the shortest step are.
+fn extent(steps: &[f64]) -> f64 {
+    let bounds = |(low, high): (f64, f64), step: &f64| (low.min(*step), high.max(*step));
+    let (low, high) = steps.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+    high - low
+}
+
+/// A record that keeps nothing, hears when it is to end, and what happens to contacts.
+struct Looker<'a> {
+    watcher: &'a dyn Watcher,
+    grip: Grip,
+}
 
 impl Record for Looker<'_> {
     fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
+    fn event(&mut self, event: &Event, _: &[f64]) {
+        self.grip.event(event);
+    }
+    fn wants_event_rows(&self) -> bool {
         false
     }
     fn goes_on(&mut self, _: f64) -> bool {
-        self.0.goes_on()
+        self.watcher.goes_on()
     }
 }
 
@@ -137,16 +199,18 @@ impl Record for Looker<'_> {
 mod tests {
     use super::*;
 
+    const FREE: Bounds = Bounds { least: 0.0, most: f64::INFINITY, error: 0.0 };
+
     /// s + a rᵏ: the limit s is known after few values, long before they have come there.
     #[test]
     fn a_slow_approach_is_not_waited_for() {
         let steps = |count: i32, share: f64| -> Vec<f64> {
             (0..count).map(|k| 3e-8 + 1e-8 * share.powi(k)).collect()
         };
-        let (found, error) = limit(&steps(8, 0.99), 4e-8, 1e-6).unwrap();
-        assert!((found - 3e-8).abs() < 1e-14 && error < 1e-13, "{found} {error}");
-        let (found, error) = limit(&steps(60, 0.7), 4e-8, 1e-6).unwrap();
-        assert!((found - 3e-8).abs() <= error.max(1e-22), "{found} {error}");
+        let found = limit(&steps(8, 0.99), 4e-8, 1e-6).unwrap();
+        assert!((found.value - 3e-8).abs() < 1e-14 && found.error < 1e-13, "{found:?}");
+        let found = limit(&steps(60, 0.7), 4e-8, 1e-6).unwrap();
+        assert!((found.value - 3e-8).abs() <= found.error.max(1e-22), "{found:?}");
         // Two rates at once follow no single share.
         let mixed: Vec<f64> = (0..8).map(|k| 1e-8 * (0.9_f64.powi(k) + 0.5_f64.powi(k))).collect();
         assert_eq!(limit(&mixed, 4e-8, 1e-6), None);
@@ -156,11 +220,49 @@ mod tests {
     fn what_grows_or_swings_is_no_limit() {
         let grows: Vec<f64> = (0..50).map(|k| 1e-9 * 1.01_f64.powi(k)).collect();
         assert_eq!(limit(&grows, 4e-8, 1e-6), None);
-        let swings: Vec<f64> = (0..50).map(|k| 1e-8 * (1.0 + 0.1 * f64::from(k).sin())).collect();
+        let swings: Vec<f64> = (0..200).map(|k| 1e-8 * (1.0 + 0.1 * f64::from(k).sin())).collect();
         assert_eq!(limit(&swings, 4e-8, 1e-6), None);
-        let (course, step, ..) = judged(&swings, 4e-8).unwrap();
-        assert!(matches!(judged(&grows, 4e-8), Err(Motionless::Unsettled { periods: 50, .. })));
+        let judged_so = judged(&grows, Hold::default(), FREE);
+        assert!(matches!(judged_so, Err(Motionless::SlidesAway { periods: 50, .. })), "{judged_so:?}");
+        let (course, mean, spread) = judged(&swings, Hold::default(), FREE).unwrap();
         assert_eq!(course, Course::Beats);
-        assert!((step - 1e-8).abs() < 1e-11, "{step}");
+        // 15 swings in 100 values: their mean is known to less than a tenth of the swing.
+        assert!((mean.value - 1e-8).abs() <= mean.error && mean.error < 1e-10, "{mean:?}");
+        assert!((spread - 1e-9).abs() < 1e-11, "{spread}");
+        // Its mean goes with the square of its amplitude, as long as it grows.
+        let of = |k: i32| 1e-10 * 1.004_f64.powi(k);
+        let grows: Vec<f64> =
+            (0..400).map(|k| 1e-8 - 1e8 * of(k).powi(2) + of(k) * f64::from(k).sin()).collect();
+        let (_, mean, spread) = judged(&grows, Hold::default(), FREE).unwrap();
+        assert!(mean.error >= spread && spread > 0.9 * of(399), "{mean:?} {spread}");
+    }
+
+    /// A constant force: each step is longer than the one before by F T²/m. Differences of such places are rounded, and by chance
+    /// three of them in a row fall by the same last place: once the limit of that was told, 10⁸ m.
+    #[test]
+    fn even_growth_is_no_limit_however_it_is_rounded() {
+        for stretch in 0..400 {
+            let place = |k: u32| -0.5 * 7.25e-4 * (1.0 + f64::from(stretch) / 997.0) * f64::from(k).powi(2);
+            let steps: Vec<f64> = (0..400).map(|k| place(k + 1) - place(k)).collect();
+            for count in FEWEST..steps.len() {
+                assert_eq!(limit(&steps[..count], 4e-8, 1e-6), None, "{stretch} {count}");
+            }
+            let judged = judged(&steps, Hold::default(), FREE);
+            assert!(matches!(judged, Err(Motionless::SlidesAway { .. })), "{judged:?}");
+        }
+    }
+
+    /// Even steps are none where nothing holds the body; that it stands still is none of that.
+    #[test]
+    fn what_is_dragged_or_flies_is_not_steady() {
+        let loose = |loose| Hold { loose_until: 20, held_until: 17, loose: Some(loose) };
+        let of = |step: f64, hold| judged(&[step; 20], hold, Bounds { least: 1e-12, ..FREE });
+        assert_eq!(of(5e-8, loose(Loose::Flies)), Err(Motionless::Flies { periods: 20 }));
+        assert!(matches!(of(-2e-7, loose(Loose::Slides)), Err(Motionless::SlidesAway { .. })));
+        assert!(of(0.0, loose(Loose::Slides)).is_ok() && of(-2e-7, Hold::default()).is_ok());
+        // What hops and touches again has a mean, though it flies at the end.
+        let hops: Vec<f64> = (0..100).map(|k| if k % 7 == 3 { 1e-8 } else { 5e-8 }).collect();
+        let hold = Hold { loose_until: 100, held_until: 96, loose: Some(Loose::Flies) };
+        assert!(judged(&hops, hold, FREE).is_ok());
     }
 }

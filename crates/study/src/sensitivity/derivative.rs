@@ -2,7 +2,7 @@
 
 use super::ladder::{self, Tried};
 use super::sample::{Happened, Missing};
-use super::stencil::{Estimate, Level, Wanted, estimate};
+use super::stencil::{Estimate, Level, Wanted, bends_near_by, estimate};
 
 /// Where a slope comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,6 +119,15 @@ impl Near<'_> {
                 }
             }
         }
+    }
+
+    /// Whether the figure still bends where the nearest variants are.
+    pub(super) fn bends_near_by(&self) -> bool {
+        let halves = [-1.0, 1.0].map(|sense| self.half(sense));
+        halves.iter().any(|half| {
+            let is_whole = half.settled.is_none_or(|settled| settled == self.own.1);
+            bends_near_by(&self.levels(half, &halves), is_whole.then_some(self.own.0), self.noise)
+        })
     }
 
     fn half(&self, sense: f64) -> Half<'_> {

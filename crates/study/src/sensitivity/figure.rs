@@ -83,6 +83,16 @@ pub(super) fn find(
     if let Some(value) = end(name) {
         return Ok((Reading::End, value));
     }
+    let steadily = name.strip_prefix("steady_motion.").map(|rest| format!("steady.{rest}"));
+    if steadily.is_some_and(|own| steady(&own).is_some()) {
+        return Err(SensitivityError::NoFigure {
+            name: name.to_owned(),
+            help: Some(format!(
+                "the step and speed of steady motion are \"{}\" and \"{}\"",
+                STEADY[0].0, STEADY[1].0
+            )),
+        });
+    }
     let is_known = |file: &str| definitions().any(|definition| definition.defines(file, name));
     if is_known("summary.json") || is_known("trace.csv") {
         return Err(SensitivityError::NotHere { name: name.to_owned(), file: job.name.clone() });

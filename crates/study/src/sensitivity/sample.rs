@@ -169,6 +169,10 @@ pub(super) fn find_steady(
     let goes_on = || watcher.goes_on();
     let options = Options { tolerance, goes_on: &goes_on, ..Options::default() };
     let found = steady::find(job, &options)?;
+    // Of a step that is none the derivatives are those of what it may be off.
+    if found.step.is_some() && !found.steps() {
+        return Err(SteadyError::NoStep { least: found.bound });
+    }
     Ok(found.step.zip(found.speed()).map(|(step, speed)| [step, speed]))
 }
 

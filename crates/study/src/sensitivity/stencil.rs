@@ -4,7 +4,9 @@
 //! comes to (L. F. Richardson, *Phil. Trans. R. Soc. A* 210 (1911) 307). Through values far out it misses bends, through values
 //! near by it magnifies noise. As in C. J. F. Ridders, *Adv. Eng. Softw.* 4 (1982) 75, all stretches of neighbouring distances
 //! are tried: the bends that one misses are what changes when its outermost or its innermost distance is left out, its noise is
-//! that of the values times the sum of its weights. The stretch for which both together are least is taken.
+//! that of the values times the sum of its weights. The stretch for which both together are least is taken. Far out neighbouring
+//! distances may agree by accident, as where all of them are beyond a bend: a stretch that one nearer by contradicts is left out, and
+//! its error is at least what the next two make of it.
 
 /// A distance, or a pair of them to both sides, with the values there.
 pub(super) type Level = Vec<(f64, f64)>;
@@ -24,34 +26,68 @@ pub(super) enum Wanted {
     Slope,
 }
 
-/// Most distances in a stretch: by then rounding alone is left.
+/// Fewest and most distances in a stretch: by then rounding alone is left.
+const FEWEST: usize = 3;
 const MOST: usize = 4;
+/// How many stretches nearer by must agree within the error: that of one alone may be small by accident.
+const WITNESSES: usize = 2;
+/// Bends that matter, as a share of a slope.
+const COUNTS: f64 = 1e-6;
 /// Noise is a standard deviation; an error is what hardly any is beyond.
 const HARDLY_ANY: f64 = 4.0;
+
+/// A stretch of levels.
+struct Stretch {
+    estimate: Estimate,
+    /// How much of its error are bends.
+    bends: f64,
+}
+
+/// The stretch of these levels alone.
+fn stretch(levels: &[Level], own: Option<f64>, wanted: Wanted, noise: f64) -> Stretch {
+    let fit = |levels: &[Level]| {
+        let own = own.map(|value| (0.0, value));
+        let points: Vec<(f64, f64)> = own.into_iter().chain(levels.iter().flatten().copied()).collect();
+        extrapolate(&points, wanted)
+    };
+    let (value, magnified) = fit(levels);
+    let missed =
+        [fit(&levels[1..]), fit(&levels[..levels.len() - 1])].map(|(other, _)| (value - other).abs());
+    let bends = missed[0].max(missed[1]);
+    let error = bends + HARDLY_ANY * magnified * noise;
+    let reach = levels[0].iter().fold(0.0, |most: f64, (at, _)| most.max(at.abs()));
+    Stretch { estimate: Estimate { value, error, reach }, bends }
+}
 
 /// The best estimate from levels, the outermost first, with the value at the place itself where it belongs to them. None from
 /// fewer than three levels.
 pub(super) fn estimate(levels: &[Level], own: Option<f64>, wanted: Wanted, noise: f64) -> Option<Estimate> {
-    let fit = |stretch: &[Level]| {
-        let own = own.map(|value| (0.0, value));
-        let points: Vec<(f64, f64)> = own.into_iter().chain(stretch.iter().flatten().copied()).collect();
-        extrapolate(&points, wanted)
-    };
     let mut best: Option<Estimate> = None;
-    for first in 0..levels.len() {
-        for end in first + 3..=levels.len().min(first + MOST) {
-            let stretch = &levels[first..end];
-            let (value, magnified) = fit(stretch);
-            let bends = [fit(&stretch[1..]), fit(&stretch[..stretch.len() - 1])];
-            let bends = bends.map(|(other, _)| (value - other).abs());
-            let error = bends[0].max(bends[1]) + HARDLY_ANY * magnified * noise;
-            let reach = stretch[0].iter().fold(0.0, |most: f64, (at, _)| most.max(at.abs()));
-            if error.is_finite() && best.is_none_or(|best| error < best.error) {
-                best = Some(Estimate { value, error, reach });
-            }
+    // The best of each outermost distance, the nearest last.
+    let mut nearer: Vec<Estimate> = Vec::new();
+    for first in (0..levels.len().saturating_sub(FEWEST - 1)).rev() {
+        let ends = first + FEWEST..=levels.len().min(first + MOST);
+        let found = ends.map(|end| stretch(&levels[first..end], own, wanted, noise).estimate);
+        let found = found.filter(|found| found.error.is_finite());
+        let Some(one) = found.reduce(|a, b| if b.error < a.error { b } else { a }) else { continue };
+        let apart = |other: &Estimate| (one.value - other.value).abs();
+        let is_contradicted = nearer.iter().any(|other| apart(other) > one.error + other.error);
+        let unlike = nearer.iter().rev().take(WITNESSES).map(apart).fold(0.0, f64::max);
+        let told = Estimate { error: one.error.max(unlike), ..one };
+        if !is_contradicted && best.is_none_or(|best| told.error < best.error) {
+            best = Some(told);
         }
+        nearer.push(one);
     }
     best
+}
+
+/// Whether levels still nearer would say more: the nearest of these bend by more than noise and by more than counts.
+pub(super) fn bends_near_by(levels: &[Level], own: Option<f64>, noise: f64) -> bool {
+    let Some(first) = levels.len().checked_sub(FEWEST) else { return false };
+    let Stretch { estimate: Estimate { value, error, .. }, bends } =
+        stretch(&levels[first..], own, Wanted::Slope, noise);
+    bends > 0.5 * error && bends > COUNTS * value.abs()
 }
 
 /// The value or the slope at 0 of the polynomial through some points, and by how much noise of theirs is magnified in it.
@@ -150,6 +186,22 @@ mod tests {
         let left = estimate(&above(|x| f(-x), 0.01, 6), Some(0.0), Wanted::Slope, 1e-16).unwrap();
         assert!((right.value - 2.0).abs() <= right.error && (left.value).abs() <= left.error);
         assert!(right.error + left.error < 1e-6);
+    }
+
+    /// Beyond a bend a figure may be flat, or smooth in another way: what is near by decides.
+    #[test]
+    fn what_agrees_far_out_is_not_taken_for_what_is_near() {
+        for bend in [1e-4, 1e-5, 1e-6] {
+            let f = |x: f64| 5.0 + x + bend * (x / bend).tanh();
+            for levels in [both(f, 1.0 / 128.0, 12), above(f, 1.0 / 128.0, 12)] {
+                let slope = estimate(&levels, Some(5.0), Wanted::Slope, 1e-15).unwrap();
+                assert!((slope.value - 2.0).abs() <= slope.error && slope.error < 1e-3, "{bend:e} {slope:?}");
+                let value = estimate(&levels, None, Wanted::Value, 1e-15).unwrap();
+                assert!((value.value - 5.0).abs() <= value.error, "{bend:e} {value:?}");
+            }
+            assert!(bends_near_by(&above(f, 1.0 / 128.0, 7), Some(5.0), 1e-15), "{bend:e}");
+        }
+        assert!(!bends_near_by(&above(f64::exp, 1.0 / 128.0, 7), Some(1.0), 1e-13));
     }
 
     #[test]

@@ -143,8 +143,8 @@ impl Continuation {
             ContinuationError::NoStart { path: path.clone(), present, unit, source: Box::new(source) }
         };
         let place = first.variant(present).and_then(|variant| first.found(&variant)).map_err(none)?;
-        let still = moment::twice(&mut bench.map_at(&place), &place.fixed);
-        let still = still.map_err(|error| none(error.into()))?;
+        let still = moment::twice(&mut bench.map_at(&place), &place.fixed, None);
+        let (still, _) = still.map_err(|error| none(error.into()))?;
         if !still.is_empty() {
             let names = self.job.model.contacts().map(|(name, _)| name.to_owned()).enumerate();
             let contacts = names.filter(|(c, _)| still.contains(c)).map(|(_, name)| name).collect();

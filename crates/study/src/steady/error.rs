@@ -32,6 +32,14 @@ pub enum SteadyError {
         /// Longest common period that is looked for, in the longer one.
         most: u32,
     },
+    /// A motion without a step, where one is asked for.
+    #[error(
+        "there is no step: it is less than {least:.3e} m, which is what it may be off\n   help: sensitivity tells figures of a run as well"
+    )]
+    NoStep {
+        /// How far the step may be off, m.
+        least: f64,
+    },
     /// All bodies are led or held.
     #[error(
         "nothing is free in this scene: its motion is what it is told, and steady from the second period on"
@@ -46,6 +54,16 @@ pub enum SteadyError {
         body: String,
         /// z or pitch.
         axis: &'static str,
+    },
+    /// All contacts of the figures' body are open all through the period.
+    #[error(
+        "\"{body}\" is in the air all through the period: how far it flies is no step\n   help: press it on: by its weight, by a spring or a load along z"
+    )]
+    Flies {
+        /// Name of the body.
+        body: String,
+        /// Periods that were computed.
+        periods: u32,
     },
     /// The scene with waveforms that never end is none.
     #[error(transparent)]

@@ -6,7 +6,7 @@ use super::newton::Fixed;
 use super::{Options, SteadyError};
 use nalgebra::{DMatrix, DVector};
 use stickslip_drive::section::{Section, Unknown};
-use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
+use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper, Stride};
 use stickslip_results::Job;
 
 /// Differences on the way, in natural scales: steps of 1e-12 leave an error of 1e-6, and so does a bend of 1.
@@ -40,6 +40,8 @@ pub(super) struct Image {
     pub(super) state: State,
     /// Way of the free coordinates, m or rad.
     pub(super) way: Vec<f64>,
+    /// How both change with the state that they came from, where that was led along.
+    pub(super) gradient: Option<Gradient>,
 }
 
 /// The gradient of a map.
@@ -77,6 +79,12 @@ impl Record for Asked<'_> {
     }
     fn enters(&mut self, state: &State) {
         self.record.enters(state);
+    }
+    fn strides(&self) -> bool {
+        self.record.strides()
+    }
+    fn stride(&mut self, stride: &mut dyn Stride) {
+        self.record.stride(stride);
     }
     fn goes_on(&mut self, _: f64) -> bool {
         (self.goes_on)()
@@ -177,6 +185,11 @@ impl<'m> Map<'m> {
         self.run(state, until, self.plan, record)
     }
 
+    /// A run that stands at a state.
+    pub(super) fn held(&self, state: State) -> Result<Run<'m>, SteadyError> {
+        Ok(Run::new(self.model, &self.plan, state)?)
+    }
+
     fn count(&mut self, periods: f64) {
         self.work += periods;
         (self.options.told)(self.work());
@@ -214,17 +227,56 @@ impl<'m> Map<'m> {
 
     /// Where a state of the section gets to in a period, by the tolerance times `finer`.
     pub(super) fn image(&mut self, state: &State, finer: f64) -> Result<Image, SteadyError> {
+        let end = self.a_period_on(state, finer, &mut ())?;
+        Ok(self.brought_back(end))
+    }
+
+    /// The same with its gradient, by the variation of the run, where that has one.
+    pub(super) fn image_with_gradient(&mut self, state: &State) -> Result<Image, SteadyError> {
+        let tolerance = self.options.tolerance;
+        let made = self.section.as_ref().and_then(|section| section.variation(state, tolerance).ok());
+        let Some(mut variation) = made else { return self.image(state, 1.0) };
+        let end = self.a_period_on(state, 1.0, &mut variation)?;
+        let outcome = variation.finish(&end);
+        let mut image = self.brought_back(end);
+        if let (Some(section), Ok(())) = (&self.section, outcome)
+            && section.difference(&image.state, state).is_some()
+        {
+            let matrix = |rows: Vec<Vec<f64>>| {
+                DMatrix::from_row_iterator(rows.len(), self.scales.len(), rows.into_iter().flatten())
+            };
+            image.gradient = section.gradient(&variation, &image.state).map(|gradient| Gradient {
+                numbers: matrix(gradient.numbers),
+                way: matrix(gradient.way),
+                is_exact: true,
+            });
+        }
+        Ok(image)
+    }
+
+    /// A state led on by a period.
+    fn a_period_on(
+        &mut self,
+        state: &State,
+        finer: f64,
+        record: &mut dyn Record,
+    ) -> Result<State, SteadyError> {
         let until = state.time() + self.period;
         let stepper = Stepper::Event { tolerance: self.options.tolerance * finer };
         self.count(1.0);
-        let end = self.run(state.clone(), until, Plan { stepper, ..self.plan }, &mut ())?;
+        let end = self.run(state.clone(), until, Plan { stepper, ..self.plan }, record)?;
         let counts = [state, &end].map(|state| state.counts().steps + state.counts().events);
         self.steps = counts[1].saturating_sub(counts[0]);
+        Ok(end)
+    }
+
+    /// A state of a period later at the section.
+    fn brought_back(&self, end: State) -> Image {
         let (state, way) = match &self.section {
             Some(section) => section.back(end),
             None => (end, Vec::new()),
         };
-        Ok(Image { state, way })
+        Image { state, way, gradient: None }
     }
 
     /// By how much a state some periods after a fixed point is off, in natural scales: of its numbers, and of the way, which alone tells
@@ -249,35 +301,22 @@ impl<'m> Map<'m> {
         self.section.as_ref()?.moved(state, by.component_mul(&self.scales).as_slice())
     }
 
-    /// The gradient at a state, by the variation of a run from there; none where that has none.
-    fn exact_gradient(&mut self, state: &State) -> Result<Option<Gradient>, SteadyError> {
+    /// The gradient at a state by the variation of a run, if it has one: that of its image, if that has come with it.
+    fn exact_gradient(&mut self, state: &State, image: &Image) -> Result<Option<Gradient>, SteadyError> {
         let tolerance = self.options.tolerance;
-        let made = self.section.as_ref().and_then(|section| section.variation(state, tolerance).ok());
-        let Some(mut variation) = made else { return Ok(None) };
-        self.count(1.0);
-        let end = self.run(state.clone(), state.time() + self.period, self.plan, &mut variation)?;
-        if variation.finish(&end).is_err() {
-            return Ok(None);
+        let varies = |section: &Section<'_>| section.variation(state, tolerance).is_ok();
+        match &image.gradient {
+            Some(gradient) => Ok(Some(gradient.clone())),
+            None if self.section.as_ref().is_some_and(varies) => {
+                Ok(self.image_with_gradient(state)?.gradient)
+            }
+            None => Ok(None),
         }
-        let Some(section) = &self.section else { return Ok(None) };
-        let back = section.back(end).0;
-        if section.difference(&back, state).is_none() {
-            return Ok(None);
-        }
-        let matrix = |rows: Vec<Vec<f64>>| {
-            DMatrix::from_row_iterator(rows.len(), self.scales.len(), rows.into_iter().flatten())
-        };
-        let gradient = section.gradient(&variation, &back).map(|gradient| Gradient {
-            numbers: matrix(gradient.numbers),
-            way: matrix(gradient.way),
-            is_exact: true,
-        });
-        Ok(gradient)
     }
 
     /// The gradient at a state whose image is known, else by one difference for each number.
     pub(super) fn near_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
-        if let Some(gradient) = self.exact_gradient(state)? {
+        if let Some(gradient) = self.exact_gradient(state, image)? {
             return Ok(gradient);
         }
         self.gradient(image, |map, j| {
@@ -287,7 +326,7 @@ impl<'m> Map<'m> {
 
     /// The gradient, else by differences to both sides, or to one where the other is of another kind.
     pub(super) fn fine_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
-        if let Some(gradient) = self.exact_gradient(state)? {
+        if let Some(gradient) = self.exact_gradient(state, image)? {
             return Ok(gradient);
         }
         self.gradient(image, |map, j| {

@@ -7,6 +7,7 @@
 use super::SteadyError;
 use super::map::Map;
 use super::newton::Fixed;
+use crate::grip::{Grip, Loose};
 use stickslip_drive::{Event, EventKind, Model, Record, Source, State};
 
 /// Stretches that are looked at, the longest first.
@@ -15,6 +16,8 @@ const MOST: usize = 256;
 const AGAIN: f64 = 1e6;
 /// Most of it, in natural scales.
 const OFF: f64 = 1e-3;
+/// What a contact that never slips grossly may slide in a period, in parts of its natural displacement.
+const STILL: f64 = 1e-3;
 /// Shorter ones are too near to an event on either side, as a part of the period.
 const SHORTEST: f64 = 1e-4;
 
@@ -26,16 +29,18 @@ pub(super) struct Settled {
     pub(super) never_gave_way: Vec<usize>,
 }
 
-/// Moments of events, s, and the contacts that gave way.
+/// Moments of events, s, the contacts that gave way, and what holds the figures' body.
 struct Moments {
     times: Vec<f64>,
     gave_way: Vec<bool>,
+    grip: Option<Grip>,
 }
 
 impl Record for Moments {
     fn row(&mut self, _: &[f64]) {}
     fn event(&mut self, event: &Event, _: &[f64]) {
         self.times.push(event.t);
+        self.grip.iter_mut().for_each(|grip| grip.event(event));
         if let (Source::Contact(c), EventKind::GrossSlip | EventKind::LiftOff) = (event.source, event.kind) {
             self.gave_way[c] = true;
         }
@@ -65,7 +70,7 @@ pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyEr
     let (model, period, from) = (map.model(), map.period(), state.time());
     let contacts = model.contacts().count();
     let gave_way = (0..contacts).map(|c| state.has_given_way(model, c)).collect();
-    let mut moments = Moments { times: Vec::new(), gave_way };
+    let mut moments = Moments { times: Vec::new(), gave_way, grip: None };
     let state = map.lead(state, from + period, &mut moments)?;
     let stretches = stretches(&moments.times, (from, from + period));
     let chosen = choose(map, &state, &stretches)?;
@@ -74,20 +79,35 @@ pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyEr
 }
 
 /// Goes two plain periods from a fixed point, the second from where the first has led: that it comes by as much again shows that
-/// nothing was forgotten of what the motion depends on. Tells which contacts did not give way in it.
-pub(super) fn twice(map: &mut Map<'_>, fixed: &Fixed) -> Result<Vec<usize>, SteadyError> {
+/// nothing was forgotten of what the motion depends on. Tells which contacts did not give way in it, and what the body of
+/// `grip` did in it if nothing held it.
+pub(super) fn twice(
+    map: &mut Map<'_>,
+    fixed: &Fixed,
+    grip: Option<Grip>,
+) -> Result<(Vec<usize>, Option<Loose>), SteadyError> {
     let model = map.model();
     let contacts = model.contacts().count();
     let gave_way = (0..contacts).map(|c| fixed.state.has_given_way(model, c)).collect();
-    let mut moments = Moments { times: Vec::new(), gave_way };
+    let mut moments = Moments { times: Vec::new(), gave_way, grip };
     let (from, period) = (fixed.state.time(), map.period());
     let first = map.lead(fixed.state.clone(), from + period, &mut ())?;
     let second = map.lead(first, from + 2.0 * period, &mut moments)?;
+    let loose = match &mut moments.grip {
+        Some(grip) => grip.loose(model, &map.held(second.clone())?),
+        None => None,
+    };
     let off = map.missed_after(second, (fixed, 2.0));
     if off > (AGAIN * map.tolerance().max(fixed.defect.amax())).min(OFF) {
         return Err(SteadyError::NoConvergence { best: off, periods: map.work() });
     }
-    Ok((0..contacts).filter(|c| !moments.gave_way[*c]).collect())
+    // In a jump a contact gives way without an event.
+    let still = |c: &usize| {
+        let Some((section, natural)) = map.section().zip(model.contact_natural(*c)) else { return true };
+        section.slides(&fixed.image.way, *c).abs() <= STILL * natural.displacement
+    };
+    let never_gave_way = (0..contacts).filter(|c| !moments.gave_way[*c] && still(c)).collect();
+    Ok((never_gave_way, loose))
 }
 
 /// Stretches between two events as (middle, length), s, by their middle; those that are too short are left out.

@@ -194,7 +194,9 @@ impl Search {
         // What is carried along comes from the image: it is newer.
         let along = step * share;
         let Some(state) = map.moved(&self.image.state, &(&along - defect)) else { return Ok(false) };
-        let image = match map.image(&state, 1.0) {
+        // What the next step needs comes with it.
+        let image = if gradient.is_exact { map.image_with_gradient(&state) } else { map.image(&state, 1.0) };
+        let image = match image {
             Ok(image) => image,
             Err(SteadyError::Run(_)) => return Ok(false),
             Err(error) => return Err(error),

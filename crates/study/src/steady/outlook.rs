@@ -14,6 +14,13 @@ impl Steady {
     #[must_use]
     pub fn repetition(&self) -> Option<Repetition> {
         let largest = self.multipliers.first();
+        let carried = self.named(&self.carried);
+        let led = match carried.is_empty() {
+            true => String::new(),
+            false => {
+                format!("; that of what {} remembers is not known and may stay longer", carried.join(", "))
+            }
+        };
         Some(Repetition {
             step: Real(self.step?),
             error: Real(self.bound),
@@ -22,7 +29,10 @@ impl Steady {
             radius: Real(self.radius()),
             beat: largest.and_then(super::Multiplier::beat).map(Real),
             fold: largest.and_then(super::Multiplier::periods).map(Real),
-            words: largest.map_or_else(|| "is gone after a period".to_owned(), super::Multiplier::words),
+            words: largest.map_or_else(|| "is gone after a period".to_owned(), super::Multiplier::words)
+                + &led,
+            carried,
+            shaken_down: self.named(&self.shaken_down),
         })
     }
 }

@@ -77,10 +77,6 @@ impl Report {
     /// What is told of a job's steady motion, and of what a run ends on that leaves it.
     #[must_use]
     pub fn of(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> Self {
-        let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
-        let named = |places: &[usize]| -> Vec<String> {
-            places.iter().filter_map(|c| contacts.get(*c)).map(|name| (*name).to_owned()).collect()
-        };
         let defect = |defect: &super::Defect| DefectReport {
             size: Real(defect.size),
             way: match defect.way {
@@ -103,8 +99,8 @@ impl Report {
             aftermath: aftermath.map(AftermathReport::of),
             unknowns: found.unknowns.clone(),
             drifts: found.drifts,
-            carried: named(&found.carried),
-            shaken_down: named(&found.shaken_down),
+            carried: found.named(&found.carried),
+            shaken_down: found.named(&found.shaken_down),
             work_periods: found.work,
             defects: found.defects.iter().map(defect).collect(),
             files: Vec::new(),

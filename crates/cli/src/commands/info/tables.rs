@@ -121,10 +121,12 @@ impl Info {
         let Some(outlook) = &self.steady_motion else { return String::new() };
         let rows = match outlook {
             Outlook::Found(motion) => {
-                let [step, error] = [motion.step, motion.error].map(|length| quantity(length, "m"));
+                let speed = match motion.steps() {
+                    true => format!(", {}", quantity(motion.speed, "m/s")),
+                    false => String::new(),
+                };
                 vec![
-                    ["step", &format!("{step} ± {error} a period, {}", quantity(motion.speed, "m/s"))]
-                        .map(str::to_owned),
+                    ["step", &format!("{}{speed}", motion.step_words())].map(str::to_owned),
                     ["a disturbance", &motion.words].map(str::to_owned),
                 ]
             }

@@ -182,8 +182,7 @@ fn settling(steps: &DriveSummary) -> String {
 fn lasting(outlook: &Outlook) -> String {
     match outlook {
         Outlook::Found(motion) => {
-            let step = quantity(motion.step, "m");
-            format!("steady motion: {step} a period; a disturbance {}", motion.words)
+            format!("steady motion: {}; a disturbance {}", motion.step_words(), motion.words)
         }
         Outlook::NotFound { fault } => fault.clone(),
     }

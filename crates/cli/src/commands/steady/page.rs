@@ -1,6 +1,7 @@
 //! A steady motion as tables for people, the same on a terminal and into a pipe.
 
 use crate::commands::info::tables::grid;
+use stickslip_results::outlook::step_words;
 use stickslip_results::{Job, Real, quantity};
 use stickslip_study::steady::{Aftermath, Multiplier, Steady};
 
@@ -9,16 +10,12 @@ const TOLD: usize = 8;
 
 /// What was found.
 pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> String {
-    let names: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
-    let named = |places: &[usize]| -> String {
-        places.iter().filter_map(|c| names.get(*c)).copied().collect::<Vec<_>>().join(", ")
-    };
     let body = job.scenario.figures.body.and_then(|body| job.scenario.scene.bodies.get(body));
-    let error = quantity(Real(found.bound), "m");
-    let step = found.step.map(|step| format!("{} ± {error} a period", quantity(Real(step), "m")));
+    let step = found.step.map(|step| step_words(Real(step), Real(found.bound)));
     let step = step.zip(body).map(|(step, body)| format!("{step}, {}", body.name));
-    let told =
-        |places: &[usize], words: &str| (!places.is_empty()).then(|| format!("{}: {words}", named(places)));
+    let told = |places: &[usize], words: &str| {
+        (!places.is_empty()).then(|| format!("{}: {words}", found.named(places).join(", ")))
+    };
     let drifts = match found.drifts {
         0 => String::new(),
         1 => ", 1 drift".to_owned(),

@@ -26,6 +26,13 @@ impl Swing {
         if self.slips.is_empty() {
             return self.freely(t, passed);
         }
+        let at = self.clock_at(passed);
+        let way = self.way(at);
+        self.place((t, passed), way, self.velocity(way))
+    }
+
+    /// Where the clock stands then.
+    pub(super) fn clock_at(&mut self, passed: f64) -> f64 {
         let whole = self.to - self.from;
         // Every moment from the start on, not from the one before: rows are the same whatever others there are.
         let mut at = self.guess(passed / self.duration);
@@ -43,8 +50,7 @@ impl Swing {
                 break;
             }
         }
-        let way = self.way(at);
-        self.place((t, passed), way, self.velocity(way))
+        at
     }
 
     /// Where the clock stands about a share of the duration: the cubic with the paces of both ends.
@@ -60,7 +66,7 @@ impl Swing {
 
     /// The slider's velocity at q, m/s: what it has gained, not what the followers' speed leaves of ν, which may be thousands
     /// of times as fast.
-    fn velocity(&self, way: f64) -> f64 {
+    pub(super) fn velocity(&self, way: f64) -> f64 {
         let [[mean], ..] = self.force([way]);
         let [speed] = self.speed_at([way]);
         let sum = self.speed() + speed;
@@ -69,7 +75,7 @@ impl Swing {
     }
 
     /// In gross slip: a parabola.
-    fn freely(&self, t: f64, passed: f64) -> PhasePoint {
+    pub(super) fn freely(&self, t: f64, passed: f64) -> PhasePoint {
         let PhasePoint { x, v, .. } = self.start;
         let gain = self.sense * self.push * passed;
         let turned = self.turns && passed == self.duration;
@@ -77,7 +83,7 @@ impl Swing {
     }
 
     /// `passed` is what `t` would be from the start on without its rounding: a fast follower's way depends on it.
-    fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> PhasePoint {
+    pub(super) fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> PhasePoint {
         PhasePoint { t, x: self.start.x + (self.sense * way - self.drift * passed), v }
     }
 

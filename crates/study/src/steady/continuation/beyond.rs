@@ -32,8 +32,8 @@ impl Walk<'_> {
             Err(trouble) if trouble.is_final() => return Err(End::Interrupted),
             Err(other) => return Err(lost(&other)),
         };
-        let still =
-            moment::twice(&mut self.bench.map_at(&place), &place.fixed).map_err(|error| lost(&error))?;
+        let still = moment::twice(&mut self.bench.map_at(&place), &place.fixed, None);
+        let (still, _) = still.map_err(|error| lost(&error))?;
         let period = Period::of(self.bench, &place).map_err(|error| lost(&error))?;
         if !still.is_empty() {
             // What is held for ever neither fades nor grows.

@@ -1,0 +1,124 @@
+//! The mean of values that go on changing, and how far it may be off.
+//!
+//! What values vary by is not by how much their mean is off: of values that depend on those before, the means of long batches do no
+//! longer depend on each other, and their scatter says how much the mean of all scatters. Source: Schmeiser, *Oper. Res.* 30 (1982)
+//! 556: ten batches are enough, and more tell little.
+
+use crate::sequence::{Sequence, mean_of};
+
+/// Most batches.
+const BATCHES: usize = 10;
+/// Fewest of them that say anything.
+const FEWEST: usize = 3;
+/// Student's t of two sides at 95 %, of 2 degrees of freedom and more: Abramowitz and Stegun, *Handbook of Mathematical Functions*
+/// (1964), table 26.10.
+const STUDENT: [f64; BATCHES - FEWEST + 1] = [4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262];
+
+/// A mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mean {
+    /// The mean of the last whole batches.
+    pub value: f64,
+    /// How far the mean of endlessly many such values may lie from it, by 95 %: t s/√b, of b batches whose means have the standard
+    /// deviation s.
+    pub error: f64,
+}
+
+impl Mean {
+    /// The mean of values that swing with a period, in values, or change without one (0). Batches have the same number of whole
+    /// swings, and are as many as there are, at most ten; none where that makes fewer than three.
+    pub fn of<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<Self> {
+        let count = values.count();
+        let unit = if period > 0.0 { period } else { 1.0 };
+        let units = (count as f64 / unit).floor();
+        let batches = BATCHES.min(units as usize);
+        let student = STUDENT.get(batches.checked_sub(FEWEST)?)?;
+        // Ends of batches are rounded, their lengths are not: no rest is left that grows.
+        let length = (units / batches as f64).floor() * unit;
+        let start = |batch: usize| count - ((batches - batch) as f64 * length).round() as usize;
+        let means: Vec<f64> = (0..batches).map(|b| mean_of(values, start(b)..start(b + 1))).collect();
+        let value = mean_of(values, start(0)..count);
+        let scatter = means.iter().map(|mean| (mean - value).powi(2)).sum::<f64>() / (batches - 1) as f64;
+        Some(Self { value, error: student * (scatter / batches as f64).sqrt() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Numbers from -1 to 1 that look random (Knuth's MMIX).
+    fn noise(seed: u64) -> impl Iterator<Item = f64> {
+        let mut state = seed;
+        std::iter::repeat_with(move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        })
+    }
+
+    /// How often the error is kept of 400 sequences of 200 values with the mean 0, and how large it is on average.
+    fn kept(of: impl Fn(u64) -> Vec<f64>) -> (f64, f64) {
+        let found: Vec<Mean> = (0..400).filter_map(|seed| Mean::of(&of(seed), 0.0)).collect();
+        let held = found.iter().filter(|mean| mean.value.abs() <= mean.error).count();
+        let error = found.iter().map(|mean| mean.error).sum::<f64>() / found.len() as f64;
+        (held as f64 / found.len() as f64, error)
+    }
+
+    /// Of independent values with the variance 1/3 the mean of 200 is off by 1.96 √(1/600) = 0.080 at 95 %.
+    #[test]
+    fn values_without_memory_have_the_error_of_their_mean() {
+        let (held, error) = kept(|seed| noise(seed).skip(50).take(200).collect());
+        assert!((0.92..=0.98).contains(&held), "{held}");
+        assert!((0.075..0.1).contains(&error), "{error}");
+    }
+
+    /// x → a x + noise: the mean of n is off by √((1+a)/(1-a)) times what that of independent values of its variance would be.
+    #[test]
+    fn values_that_remember_have_the_larger_error_of_theirs() {
+        let of = |a: f64| {
+            kept(move |seed| {
+                let mut x = 0.0;
+                let next = |noise: f64| {
+                    x = a * x + noise;
+                    x
+                };
+                noise(seed).map(next).skip(200).take(200).collect()
+            })
+        };
+        for a in [-0.6, 0.3, 0.6, 0.8] {
+            let (held, error) = of(a);
+            let wanted = 1.96 * (1.0_f64 / 600.0).sqrt() / (1.0 - a);
+            assert!((0.87..=1.0).contains(&held), "{a}: {held}");
+            assert!((0.75..1.5).contains(&(error / wanted)), "{a}: {error} {wanted}");
+        }
+    }
+
+    /// A swing about 3 by 1, whatever its period: its mean is known far better than by its amplitude.
+    #[test]
+    fn the_mean_of_a_swing_is_that_of_whole_swings() {
+        for period in [2.0, 2.7, 7.5, 19.3, 44.4, 63.1] {
+            for phase in [0.0, 0.7, 1.9, 3.3, 5.0] {
+                let of = |k: usize| 3.0 + (TAU * k as f64 / period + phase).sin();
+                let values: Vec<f64> = (0..200).map(of).collect();
+                let Some(mean) = Mean::of(&values, period) else { panic!("{period}") };
+                // Half a value at either end of n is missing or too much.
+                let most = 1.0 / (200.0 - 10.0 * period).max(period * 3.0);
+                assert!((mean.value - 3.0).abs() <= most, "{period} {phase}: {mean:?}");
+                assert!(mean.error <= 0.15, "{period} {phase}: {mean:?}");
+            }
+        }
+        // Two swings and a half are too few.
+        assert_eq!(Mean::of(&[1.0; 200], 80.0), None);
+        assert_eq!(Mean::of(&[1.0; 2], 0.0), None);
+    }
+
+    /// A trend shows in the error: 1 from end to end.
+    #[test]
+    fn what_drifts_has_an_error_of_its_drift() {
+        let values: Vec<f64> = (0..200).map(|k| f64::from(k) / 200.0).collect();
+        let mean = Mean::of(&values, 0.0).unwrap();
+        // The means of ten batches are 0.1 apart: √(Σ(0.1 (j - 4.5))²/9) = 0.3028.
+        assert!((mean.error - 2.262 * 0.3028 / 10.0_f64.sqrt()).abs() < 1e-3, "{mean:?}");
+    }
+}
