@@ -104,8 +104,8 @@ impl Lines<'_> {
         let label = if *named || place > 0 { Label::default() } else { Label::plain(name) };
         *named |= place == 0;
         let width = if place == 0 { 1.5 } else { 0.8 };
-        let style =
-            Style { ink: Some(Ink::Palette(if place == 0 { 0 } else { 7 })), dash: Some(dash), width };
+        let ink = if place == 0 { Ink::Palette(0) } else { Ink::Muted };
+        let style = Style { ink: Some(ink), dash: Some(dash), width };
         self.series.push(Series { style, ..Series::new(label, stretch.values.clone(), ys) });
     }
 }

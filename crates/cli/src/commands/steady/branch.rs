@@ -1,6 +1,6 @@
 //! `stickslip steady --continue`: steady motions one after another, as a number of the scenario changes.
 
-use crate::arguments::SteadyArguments;
+use crate::arguments::{SteadyArguments, span};
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
@@ -12,8 +12,7 @@ use stickslip_figures::{FigureError, branch as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::files::BRANCH;
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Job, Real, Refusal, Watcher, quantity};
-use stickslip_study::curve::Range;
+use stickslip_results::{Job, Real, Refusal, quantity};
 use stickslip_study::steady::continuation::{
     self, Branch, Continuation, ContinuationError, Course, End, Mark,
 };
@@ -51,24 +50,24 @@ pub(super) fn follow(arguments: &SteadyArguments, (path, range): (&str, &str)) -
 fn answer(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Result<Verdict, BranchFailure> {
     let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
     let unit = job.scenario.parameter(path).map_err(ContinuationError::Path)?.unit;
-    let of = Continuation::new(job, path, Range::ends(range, unit).map_err(BranchFailure::Range)?)?;
+    let of = Continuation::new(job, path, span(range, unit).map_err(BranchFailure::Range)?)?;
     if !arguments.quiet {
         warn(&of.job);
     }
     let interrupt = Interrupt::install();
     let folder = Room::make(&folder(arguments, &of))?;
     let progress = Progress::new(!arguments.quiet);
-    let line = progress.count(&of.path, "motions", &interrupt);
+    let line = progress.count(&of.path, "motions");
     let course = Course {
         steady: Options {
             tolerance: arguments.tolerance,
             periods: arguments.periods,
-            goes_on: &|| line.goes_on(),
+            goes_on: &|| !interrupt.is_raised(),
             ..Options::default()
         },
         accuracy: arguments.accuracy,
         points: arguments.points,
-        told: &|count| line.reached(count as f64),
+        told: &|count| line.reached(u32::try_from(count).unwrap_or(u32::MAX)),
     };
     let branch = of.follow(&course)?;
     drop(line);
@@ -132,29 +131,38 @@ fn write(
     continuation::write(folder, (of, branch), accuracy, (&pictures, stale)).map_err(failed)
 }
 
-/// The branch by its ends and what lies between them.
+/// The branch by its ends and what lies between them, in its order.
 fn tell(of: &Continuation, branch: &Branch) {
-    let shown = |value: f64| shown(of, value);
-    let heads = [of.path.as_str(), "\u{b1}", "step", "stable below, above", "what happens"];
-    let mut table = table::plain(heads);
+    let mut table = table::plain([of.path.as_str(), "\u{b1}", "step", "stable", "what"]);
     let step = |step: Option<f64>| step.map_or(String::new(), |step| quantity(Real(step), "m"));
-    let word = |stable: bool| if stable { "stable" } else { "not" };
+    let word = |stable: bool| if stable { "yes" } else { "no" };
     let end = |place: usize| {
         let point = if place == 0 { branch.points.first() } else { branch.points.last() };
-        let cells = point.map(|point| (shown(point.value), step(point.step), word(point.is_stable())));
+        let cells = point.map(|point| (shown(of, point.value), step(point.step), word(point.is_stable())));
         let (value, step, stable) = cells.unwrap_or_default();
-        vec![value, String::new(), step, stable.to_owned(), format!("end: {}", branch.ends[place].words())]
+        vec![value, String::new(), step, stable.to_owned(), "end".to_owned()]
     };
     let row = |mark: &Mark| {
-        let stable = mark.stable.map(word).join(", ");
-        let what = format!("{}: {}", mark.kind.name(), mark.kind.words());
-        vec![shown(mark.value), shown(mark.half_width), step(mark.step), stable, what]
+        let stable = mark.stable.map(word).join(" / ");
+        vec![
+            shown(of, mark.value),
+            shown(of, mark.half_width),
+            step(mark.step),
+            stable,
+            mark.kind.name().to_owned(),
+        ]
     };
-    table.add_row(end(0));
-    table.add_rows(branch.marks.iter().map(row));
-    table.add_row(end(1));
-    say(format_args!("{}: {} steady motions\n\n{table}", of.job.name, branch.points.len()));
-    if branch.ends.contains(&End::Interrupted) {
+    table.add_row(end(0)).add_rows(branch.marks.iter().map(row)).add_row(end(1));
+    table::to_the_right(&mut table, 0..=2);
+    say(format_args!("{}: {} steady motions\n\n{table}\n", of.job.name, branch.points.len()));
+    let words = branch.marks.iter().map(|mark| (shown(of, mark.value), mark.kind.words()));
+    words.for_each(|(value, words)| say(format_args!("{value}: {words}")));
+    let both = branch.points.first().zip(branch.points.last());
+    let ends = both.map(|(first, last)| [(first, &branch.ends[0]), (last, &branch.ends[1])]);
+    for (point, end) in ends.into_iter().flatten().filter(|(_, end)| **end != End::Range) {
+        say(format_args!("end at {}: {}", shown(of, point.value), end.words()));
+    }
+    if branch.is_cut() {
         complain(format_args!("interrupted: what was found is written"));
     }
 }

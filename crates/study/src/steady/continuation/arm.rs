@@ -218,7 +218,8 @@ impl<'a> Walk<'a> {
             // Where the branch turns the bracket has no width: what is left is the tolerance of the runs.
             let width = (0.5 * (high - low) * standing.pace().abs()).max(self.bench.options.tolerance);
             let half_width = width * self.bench.span;
-            let sides = [here.point.is_stable(), next.point.is_stable()];
+            // Near the place no multiplier is far from 1: its side is what counts.
+            let sides = [here, next].map(|standing| standing.point.radius() < 1.0);
             let mark = self.mark(kind, &standing, half_width, sides);
             found.push((at, standing, mark));
         }

@@ -57,8 +57,10 @@ impl Period {
                 Source::Block(b) => blocks.get(b).map(|block| block.name.clone()),
                 Source::Waveform(_) => None,
             };
-            // Corners are the waveform's; turns are told of some contacts alone.
-            let source = source.filter(|_| event.kind != EventKind::Turn);
+            // Corners are the waveform's, and turns are told of some contacts alone. Whether a loop closes just before the next event or with
+            // it is a matter of rounding, and it closes smoothly where it begins.
+            let counts = !matches!(event.kind, EventKind::Turn | EventKind::LoopClosed);
+            let source = source.filter(|_| counts);
             if let Some(source) = source {
                 *happened.entry((source, event.kind.name())).or_default() += 1;
             }
