@@ -162,16 +162,25 @@ mod tests {
         assert_eq!(crate::draw_svg(&figure).err(), None);
     }
 
-    /// A mark of a point at 1 lies half way between 0.1 and 10 where decades are as far apart.
+    /// On a logarithmic axis a point at 1 lies half way between points at 1/5 and 5, of which it is the geometric mean.
     #[test]
     fn marks_lie_where_the_axis_lays_them() {
         let values = [0.1, 1.0, 10.0];
         let mut curve = MachineCurve { logarithmic: true, present: None, ..curve(&values) };
-        (curve.landmarks, curve.faults) = (Vec::new(), vec![("refused", vec![1.0])]);
-        let figure = Figure { title: Label::default(), ..machine_figure("", &curve) };
+        (curve.landmarks, curve.faults) = (Vec::new(), vec![("refused", vec![0.2, 1.0, 5.0])]);
+        let figure = machine_figure("", &curve);
+        let crate::theme::Colour(r, g, b) = figure.theme.palette[3];
+        let mark = format!("fill=\"#{r:02X}{g:02X}{b:02X}\"");
         let svg = crate::draw_svg(&figure).unwrap();
-        let marks = svg.lines().filter(|line| line.contains("<rect") && line.contains("fill=\""));
-        eprintln!("{}", marks.collect::<Vec<_>>().join("\n"));
+        let x = |line: &str| line.split("x=\"").nth(1)?.split('"').next()?.parse::<f64>().ok();
+        let marks: Vec<f64> = svg
+            .lines()
+            .filter(|line| line.starts_with("<rect") && line.contains(&mark))
+            .filter_map(x)
+            .collect();
+        let [low, middle, high] = marks[..] else { panic!("{} marks", marks.len()) };
+        assert!(low < middle && middle < high, "{marks:?}");
+        assert!((low + high - 2.0 * middle).abs() <= f64::from(crate::canvas::UNITS), "{marks:?}");
     }
 
     #[test]
