@@ -75,7 +75,7 @@ struct Place {
 impl Place {
     fn of(point: &Point) -> Self {
         let modulus =
-            |place| point.multipliers.get(place).map_or(f64::NAN, |multiplier| multiplier.modulus());
+            |place: usize| point.multipliers.get(place).map_or(f64::NAN, |multiplier| multiplier.modulus());
         Self {
             value: point.value,
             step: point.step.unwrap_or(f64::NAN),
