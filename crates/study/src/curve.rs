@@ -4,9 +4,10 @@
 //! What is wrong with one of them stands in its [`Point`], and the others go on.
 //!
 //! In reading order: `kind`, the curves that have a name; `variation`, what they vary; `range`, where their points lie; `motion`,
-//! the steady motion of a point, `waiting`, that of a run; `point`, all of them on all cores; `edge` and `peak`, how a place between them is closed in on,
+//! the steady motion of a point, `waiting`, that of a run; `point`, all of them on all cores; `edge` and `peak`, how a place between them is closed in on, `ahead`, how on several cores,
 //! `landmark`, which places have a name; `table`, what is told of them; [`holding`], what the drive holds at rest.
 
+mod ahead;
 mod edge;
 mod error;
 pub mod holding;
@@ -87,7 +88,7 @@ impl Curve {
         let Some(unloaded) = unloaded else { return Some([from, to]) };
         let sense = unloaded.sense();
         // What is dragged away is stalled as well.
-        let try_at = |load| -> Result<Option<f64>, Infallible> {
+        let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
             let motion = self.motion_at(load, sense, watcher).ok().filter(|motion| motion.steps(sense));
             Ok(motion.map(|motion| sense * motion.step))
         };

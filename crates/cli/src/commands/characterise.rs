@@ -95,9 +95,9 @@ fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, Curve
     let cores = cores(arguments);
     let mut traced = curve.trace(&values, cores, &bar);
     drop(bar);
-    let line = progress.count(what, "points for stall, S\u{2080} and best points", &interrupt);
-    curve.mark(&mut traced, arguments.tolerance, cores, &line)?;
-    drop(line);
+    let bar = progress.budget("stall, S\u{2080} and best points", 1.0, &interrupt);
+    curve.mark(&mut traced, arguments.tolerance, cores, &bar)?;
+    drop(bar);
     let (done, all) = (traced.done(), traced.points.len());
     progress.tell(format_args!("{name}: {what}, {done} of {all} points done"));
     if done == 0 {
