@@ -113,7 +113,7 @@ fn any_number_of_cores_finds_the_same_places() -> Checked {
         curve.mark(&mut traced, 1e-3, cores, &told)?;
         let told = told.0.into_inner()?;
         assert!(told.is_sorted() && told.last() == Some(&1.0), "{cores}: {told:?}");
-        found.push((traced.landmarks.clone(), csv(&curve, &traced), json(&curve, &traced)));
+        found.push((traced.landmarks.clone(), csv(&[(&curve, &traced)]), json(&[(&curve, &traced)])));
     }
     assert!(found.iter().all(|other| *other == found[0]), "{found:?}");
     assert!(found[0].0.iter().all(|landmark| landmark.at.is_ok()), "{found:?}");
