@@ -120,7 +120,7 @@ impl Curve {
         let from = if rises { 0 } else { known.iter().position(|(_, step)| step.is_some()).unwrap_or(0) };
         let steps: Vec<(f64, f64)> =
             known[from..].iter().map_while(|(at, step)| step.map(|step| (*at, step))).collect();
-        let Some((still, _)) = known.get(from + steps.len()).filter(|_| !steps.is_empty()) else {
+        let Some(&(still, _)) = known.get(from + steps.len()).filter(|_| !steps.is_empty()) else {
             let why = match (steps.is_empty(), rises) {
                 (false, _) => "the drive steps at all points",
                 (true, true) => "no step at the end of the range",
@@ -129,20 +129,16 @@ impl Curve {
             return Landmark::unfound(name, Unfound::Outside(why), 0);
         };
         let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
-        self.close_in(search, (name, sense), (&lengths, &nearest, *still))
+        self.close_in(search, (name, sense), &Around { lengths, nearest, still })
     }
 
-    /// An edge between the nearest places with steps and one without; what is known of all lies beside.
-    fn close_in(
-        &self,
-        search: &Search<'_>,
-        (name, sense): (&'static str, f64),
-        (lengths, nearest, still): (&[(f64, Length)], &[(f64, f64)], f64),
-    ) -> Landmark {
+    /// An edge among what is known around it.
+    fn close_in(&self, search: &Search<'_>, (name, sense): (&'static str, f64), around: &Around) -> Landmark {
+        let Around { lengths, nearest, still } = around;
         let Found { outcome, asked } = ahead::search(
             search.cores,
             |ask| {
-                Bracket::narrow(nearest.to_vec(), still, search.tolerance, |at, behind| {
+                Bracket::narrow(nearest.clone(), *still, search.tolerance, |at, behind| {
                     ask(at, behind).map(|length: Length| length.step)
                 })
             },
@@ -161,7 +157,7 @@ impl Curve {
                 let all = heard.chain(lengths.iter().copied());
                 let ends = all.filter(|(at, _)| [bracket.steps, bracket.still].contains(at));
                 let doubt = ends.filter_map(|(_, length)| length.error).fold(0.0, f64::max);
-                let half_width = bracket.half_width() + doubt / slope(nearest, still);
+                let half_width = bracket.half_width() + doubt / slope(nearest, *still);
                 Landmark { name, at: Ok(bracket.middle()), half_width, value: None, runs }
             }
             Ok(None) => Landmark::unfound(name, Unfound::Outside("the drive steps at none"), runs),
@@ -239,6 +235,13 @@ struct Search<'a> {
 struct Length {
     step: Option<f64>,
     error: Option<f64>,
+}
+
+/// What is known around an edge: the lengths of all points, the nearest two with a step, and the nearest without.
+struct Around {
+    lengths: Vec<(f64, Length)>,
+    nearest: Vec<(f64, f64)>,
+    still: f64,
 }
 
 /// What is largest at the best point of a curve.
