@@ -57,6 +57,8 @@ fn the_same_bytes_for_any_number_of_threads_and_no_file_of_before() {
     assert!(one.iter().any(|(name, _)| name == "curve-dark.png"));
     let [one, two] = [written("one", &["--threads", "1"]), written("two", &["--threads", "3"])];
     assert_eq!(one, two);
+    let both = ["1", "3"].map(|threads| written("both", &["--both", "--threads", threads]));
+    assert_eq!(both[0], both[1]);
     assert_eq!(
         one.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(),
         ["curve.csv", "curve.json", "curve.png"]
@@ -91,6 +93,41 @@ fn what_is_held_at_rest_is_written_for_both_ways() {
         }
     }
     assert_eq!(table.column("against_x_gives_way")[3], "slider slides away");
+}
+
+/// Both senses in one table, file and picture; S₀ of the symmetric drive is the same in both.
+#[test]
+fn both_senses_are_written_together() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("both");
+    let asked = [
+        "--curve",
+        "step-amplitude",
+        "--range",
+        "20 nm..100 nm",
+        "--points",
+        "3",
+        "--tolerance",
+        "1e-3",
+        "--both",
+    ];
+    let output = characterise("ruby_drive", &out, &asked);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let said = "ruby_drive: step-amplitude, 6 points\nruby_drive: step-amplitude, 6 of 6 points done\n";
+    assert_eq!(stderr(&output), said);
+    let told = stdout(&output);
+    assert!(told.starts_with("forward\n") && told.contains("\nbackward\n"), "{told}");
+    assert_eq!(listing(&out), ["curve.csv", "curve.json", "curve.png"]);
+    let table = Table::read(&out.join("curve.csv"));
+    assert_eq!(table.column("sense"), ["forward", "forward", "forward", "backward", "backward", "backward"]);
+    let steps: Vec<f64> = table.column("step_m").iter().map(|step| step.parse().unwrap()).collect();
+    assert!(steps[2] > 0.0 && (steps[2] + steps[5]).abs() < 1e-6 * steps[2], "{steps:?}");
+    let told: Value = serde_json::from_slice(&std::fs::read(out.join("curve.json")).unwrap()).unwrap();
+    let landmark =
+        |place: usize| (told["landmarks"][place]["sense"].clone(), told["landmarks"][place]["at"].as_f64());
+    let ((forth, there), (back, then)) = (landmark(0), landmark(1));
+    assert_eq!((forth, back), ("forward".into(), "backward".into()));
+    assert!((there.unwrap() / then.unwrap() - 1.0).abs() < 2e-3, "{there:?} {then:?}");
 }
 
 #[test]
@@ -139,6 +176,9 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("quickstart", &["--curve", "force-speed", "--vary", path], "only holding-force takes both");
     refused("three_ball_stage", &["--curve", "holding-force"], "say over which number, such as --vary");
     refused("worn_ball", &["--curve", "holding-force"], "no body is free along x, to be loaded");
+    refused("quickstart", &["--curve", "holding-force", "--both"], "--both  cannot be used with");
+    let jumps = ["--curve", "step-load", "--both", "--set", "waveforms.drive.sawtooth.flyback=0"];
+    refused("quickstart", &jumps, "a waveform that jumps cannot be reversed");
     let smooth = ["--curve", "holding-force", "--set", "contacts.ball.friction=0"];
     refused("quickstart", &smooth, "nothing that could hold \"slider\" has friction");
     refused("quickstart", &["--curve", "holding-force", "--range", "2 N..1 N"], "a range that rises");

@@ -127,7 +127,7 @@ fn every_figure_of_a_curve_is_defined() {
         answers(&[&["characterise", "--json", file, "--points", "2", "--out", out], more].concat())
     };
     let mut all = ask(&["--vary", "contacts.ball.friction=-0.1..0.2"]);
-    all.extend(ask(&["--curve", "force-speed"]));
+    all.extend(ask(&["--curve", "force-speed", "--both"]));
     let out = Path::new(out);
     all.push(serde_json::from_slice(&std::fs::read(out.join("curve.json")).unwrap()).unwrap());
     assert!(all.len() == 3 && all[0]["points"][0]["fault"].is_string() && all[2]["files"][0] == "curve.csv");
@@ -136,7 +136,7 @@ fn every_figure_of_a_curve_is_defined() {
     // What is varied has the name that it has in the scenario.
     assert_eq!(head[0], "load_N");
     let unknown: Vec<_> = head[1..].iter().filter(|column| !defined("curve.csv", column)).collect();
-    assert!(unknown.is_empty() && head.len() == 12, "{unknown:?}");
+    assert!(unknown.is_empty() && head.len() == 13, "{unknown:?}");
     let all = ask(&["--curve", "holding-force", "--vary", "contacts.ball.friction=-0.1..0.2"]);
     assert!(all[0]["points"][0]["along_x"]["fault"].is_string() && all[0]["on"] == "slider");
     assert_eq!(lacking("curve.json", &all), Vec::<String>::new());

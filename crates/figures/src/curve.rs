@@ -7,7 +7,7 @@ use crate::pictures::FigureError;
 use stickslip_plot::{MachineCourse, MachineCurve, MachineLine, machine_figure};
 use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_results::{Job, Real, quantity};
-use stickslip_study::curve::{Curve, Motion, Point, Traced};
+use stickslip_study::curve::{Curve, Motion, Point, Sense, Traced, Way};
 
 /// Name of the picture, and of that of a curve that was interrupted, beside which a finished one stays.
 const NAMES: [&str; 2] = ["curve", "curve-partial"];
@@ -17,17 +17,16 @@ pub fn all_files(is_cut: bool) -> Vec<String> {
     Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
 
-/// Draws it: speeds, steps or powers over what is varied, with the points that have no motion.
+/// Draws it: speeds, steps or powers over what is varied, with the points that have no motion; of both senses, where both are asked
+/// for, at the same values.
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn draw(
-    (curve, traced): (&Curve, &Traced),
-    logarithmic: bool,
-    look: &Look,
-) -> Result<Vec<Picture>, FigureError> {
+pub fn draw(ways: &[Way<'_>], logarithmic: bool, look: &Look) -> Result<Vec<Picture>, FigureError> {
+    let Some((curve, traced)) = ways.first().copied() else { return Ok(Vec::new()) };
     let values: Vec<f64> = traced.points.iter().map(|point| point.value).collect();
     let name = match (curve.kind.is_of_load(), traced.direction < 0.0) {
+        (true, _) if ways.len() > 1 => "load against the steps",
         (true, true) => "load along +x, against the steps",
         (true, false) => "load along \u{2212}x, against the steps",
         (false, _) => &curve.variation.name,
@@ -38,12 +37,14 @@ pub fn draw(
         values: &values,
         // No load besides those it has is where every curve over loads begins.
         present: curve.variation.present.filter(|_| !curve.kind.is_of_load()),
-        landmarks: landmarks(curve, traced),
-        courses: courses(curve, traced),
-        faults: faults(traced),
+        landmarks: ways.iter().flat_map(|(curve, traced)| landmarks(curve, traced)).collect(),
+        courses: courses(ways),
+        faults: faults(ways),
     };
-    let done = (traced.done(), traced.points.len());
-    drawn((&curve.job, curve.kind.name()), (done, traced.is_cut()), &machine, look)
+    let done = ways.iter().map(|(_, traced)| traced.done()).sum();
+    let all = ways.iter().map(|(_, traced)| traced.points.len()).sum();
+    let is_cut = ways.iter().any(|(_, traced)| traced.is_cut());
+    drawn((&curve.job, curve.kind.name()), ((done, all), is_cut), &machine, look)
 }
 
 /// A figure with what it comes from. Of points so many are done, of all; one that was interrupted says so in its title.
@@ -71,32 +72,45 @@ fn drawn(
 }
 
 /// What the curve is of, and what it is as well.
-fn courses(curve: &Curve, traced: &Traced) -> Vec<MachineCourse<'static>> {
-    let of = |figure: &dyn Fn(&Motion, f64) -> f64| -> Vec<f64> {
-        let known = traced.points.iter().map(|point| {
-            let motion = point.motion.as_ref().ok()?;
-            Some(figure(motion, point.value))
-        });
-        known.map(|figure| figure.unwrap_or(f64::NAN)).collect()
-    };
-    let course = |name, unit, values, spreads| {
-        let lines = vec![MachineLine { name: "", values, spreads }];
+fn courses(ways: &[Way<'_>]) -> Vec<MachineCourse<'static>> {
+    let Some((curve, _)) = ways.first() else { return Vec::new() };
+    let course = |name, unit, line: fn(Way<'_>) -> MachineLine<'static>| {
+        let lines = ways.iter().map(|way| line(*way)).collect();
         MachineCourse { name, unit, lines }
     };
-    let step = || course("step", "m", of(&|motion, _| motion.step), of(&|motion, _| motion.spread));
+    let step = || course("step", "m", |way| line(way, &|motion, _| motion.step, &|motion, _| motion.spread));
     let speed = || {
-        let spreads = of(&|motion, _| motion.spread / motion.period);
-        course("mean speed", "m/s", of(&|motion, _| motion.speed()), spreads)
+        course("mean speed", "m/s", |way| {
+            line(way, &|motion, _| motion.speed(), &|motion, _| motion.spread / motion.period)
+        })
     };
     let power = || {
-        let values = of(&|motion, load| traced.direction * load * motion.speed());
-        course("power", "W", values, of(&|motion, load| load.abs() * motion.spread / motion.period))
+        course("power", "W", |way| {
+            let against = way.1.direction;
+            let spread = |motion: &Motion, load: f64| load.abs() * motion.spread / motion.period;
+            line(way, &|motion, load| against * load * motion.speed(), &spread)
+        })
     };
     match (curve.kind.is_of_speed(), curve.kind.is_of_load()) {
         (true, true) => vec![speed(), power()],
         (true, false) => vec![speed(), step()],
         (false, _) => vec![step()],
     }
+}
+
+/// What a motion makes of a value that is varied.
+type Told<'a> = &'a dyn Fn(&Motion, f64) -> f64;
+
+/// A figure of all points, and how far it swings.
+fn line((curve, traced): Way<'_>, figure: Told<'_>, spread: Told<'_>) -> MachineLine<'static> {
+    let of = |figure: Told<'_>| -> Vec<f64> {
+        let known = traced.points.iter().map(|point| {
+            let motion = point.motion.as_ref().ok()?;
+            Some(figure(motion, point.value))
+        });
+        known.map(|figure| figure.unwrap_or(f64::NAN)).collect()
+    };
+    MachineLine { name: curve.sense.map_or("", Sense::name), values: of(figure), spreads: of(spread) }
 }
 
 /// Places with a name that were found, with it and where they are.
@@ -108,15 +122,19 @@ fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
             "" => format!("{at:.4}"),
             unit => quantity(Real(at), unit),
         };
-        Some((format!("{}: {place}", landmark.words()), at))
+        let sense = curve.sense.map_or(String::new(), |sense| format!(" {}", sense.name()));
+        Some((format!("{}{sense}: {place}", landmark.words()), at))
     });
     found.collect()
 }
 
-/// Values without a motion, by the kind of reason.
-fn faults(traced: &Traced) -> Vec<(&'static str, Vec<f64>)> {
-    let kind = |point: &Point| Some((point.value, point.motion.as_ref().err()?.kind()));
-    lanes(traced.points.iter().filter_map(kind))
+/// Values without a motion, by the kind of reason; of both senses by that of either.
+fn faults(ways: &[Way<'_>]) -> Vec<(&'static str, Vec<f64>)> {
+    let kinds = ways.iter().flat_map(|(_, traced)| {
+        let kind = |point: &Point| Some((point.value, point.motion.as_ref().err()?.kind()));
+        traced.points.iter().filter_map(kind)
+    });
+    lanes(kinds)
 }
 
 /// Values by the kind of reason.
@@ -124,6 +142,7 @@ fn lanes(reasons: impl Iterator<Item = (f64, &'static str)>) -> Vec<(&'static st
     let mut lanes: Vec<(&'static str, Vec<f64>)> = Vec::new();
     for (value, reason) in reasons {
         match lanes.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, at)) if at.contains(&value) => {}
             Some((_, at)) => at.push(value),
             None => lanes.push((reason, vec![value])),
         }

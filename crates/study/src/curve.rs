@@ -4,9 +4,10 @@
 //! What is wrong with one of them stands in its [`Point`], and the others go on.
 //!
 //! In reading order: `kind`, the curves that have a name; `variation`, what they vary; `range`, where their points lie; `motion`,
-//! the steady motion of a point, `waiting`, that of a run; `point`, all of them on all cores; `edge` and `peak`, how a place between them is closed in on,
+//! the steady motion of a point, `waiting`, that of a run; `point`, all of them on all cores; `edge` and `peak`, how a place between them is closed in on, `ahead`, how on several cores,
 //! `landmark`, which places have a name; `table`, what is told of them; [`holding`], what the drive holds at rest.
 
+mod ahead;
 mod edge;
 mod error;
 pub mod holding;
@@ -28,7 +29,7 @@ pub use motion::{Course, Motion, Motionless};
 pub use peak::{Peak, Seen};
 pub use point::Point;
 pub use range::Range;
-pub use table::{all_files, csv, json, write};
+pub use table::{Way, all_files, csv, json, write};
 pub use variation::Variation;
 
 use crate::each::each;
@@ -42,10 +43,23 @@ use stickslip_scenario::{Scenario, ScenarioError};
 const ROUGHLY: f64 = 0.05;
 const BEYOND: f64 = 1.1;
 
+/// Which way round the waveforms run, where a drive is asked for both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sense {
+    /// As in the scenario.
+    Forward,
+    /// Reversed in time, so that a drive steps the other way.
+    Backward,
+}
+
 /// A curve of a scenario file.
 pub struct Curve {
     file: PathBuf,
     set: Vec<(String, String)>,
+    /// What reverses the waveforms of the backward sense; points are told with it.
+    reversal: Vec<(String, String)>,
+    /// Which way round, where both are asked for.
+    pub sense: Option<Sense>,
     /// Which one.
     pub kind: Kind,
     /// What is varied.
@@ -75,7 +89,21 @@ impl Curve {
     pub fn new(file: &Path, set: &[(String, String)], kind: Kind) -> Result<Self, CurveError> {
         let job = Job::prepare(file, set, Path::new(""))?;
         let variation = Variation::of(&kind, &job)?;
-        Ok(Self { file: file.to_owned(), set: set.to_vec(), kind, variation, job })
+        let (set, reversal) = (set.to_vec(), Vec::new());
+        Ok(Self { file: file.to_owned(), set, reversal, sense: None, kind, variation, job })
+    }
+
+    /// The curves of a file in both senses: forward, as it is, and backward, the waveforms of the steps' period reversed in time.
+    ///
+    /// # Errors
+    /// As of one; a waveform that cannot be reversed, as one that jumps.
+    pub fn both(file: &Path, set: &[(String, String)], kind: &Kind) -> Result<[Self; 2], CurveError> {
+        let forward = Self::new(file, set, kind.clone())?;
+        let reversal = Variation::reversal(&forward.job, kind)?;
+        let all: Vec<_> = set.iter().chain(&reversal).cloned().collect();
+        let backward = Self::new(file, &all, kind.clone())?;
+        let backward = Self { set: set.to_vec(), reversal, sense: Some(Sense::Backward), ..backward };
+        Ok([Self { sense: Some(Sense::Forward), ..forward }, backward])
     }
 
     /// A range worth looking at, SI: about what the scenario has, and of loads up to a little more than it takes to stall the
@@ -87,7 +115,7 @@ impl Curve {
         let Some(unloaded) = unloaded else { return Some([from, to]) };
         let sense = unloaded.sense();
         // What is dragged away is stalled as well.
-        let try_at = |load| -> Result<Option<f64>, Infallible> {
+        let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
             let motion = self.motion_at(load, sense, watcher).ok().filter(|motion| motion.steps(sense));
             Ok(motion.map(|motion| sense * motion.step))
         };
@@ -111,7 +139,7 @@ impl Curve {
         let done = AtomicUsize::new(0);
         let points = each(values.len(), cores, |place| {
             let value = values[place];
-            let set = self.variation.overrides(value, direction);
+            let set = self.overrides(value, direction);
             let motion = self.motion_with(&set, watcher);
             watcher.reached((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
             Point { value, set, motion }
@@ -121,7 +149,13 @@ impl Curve {
 
     /// The steady motion at a value; loads act against a direction.
     fn motion_at(&self, value: f64, direction: f64, watcher: &dyn Watcher) -> Result<Motion, Motionless> {
-        self.motion_with(&self.variation.overrides(value, direction), watcher)
+        self.motion_with(&self.overrides(value, direction), watcher)
+    }
+
+    /// What makes a point of it: its sense, and a value; loads act against a direction.
+    fn overrides(&self, value: f64, direction: f64) -> Vec<(String, String)> {
+        let varied = self.variation.overrides(value, direction);
+        self.reversal.iter().cloned().chain(varied).collect()
     }
 
     fn motion_with(&self, set: &[(String, String)], watcher: &dyn Watcher) -> Result<Motion, Motionless> {
@@ -140,6 +174,17 @@ impl Curve {
         scenario.plan.every = None;
         (scenario.springs, scenario.memory, scenario.fields) = (None, None, None);
         Job::new(scenario, self.job.name.clone(), PathBuf::new())
+    }
+}
+
+impl Sense {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Forward => "forward",
+            Self::Backward => "backward",
+        }
     }
 }
 

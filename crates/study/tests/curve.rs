@@ -104,6 +104,33 @@ fn a_load_acts_against_the_steps() -> Checked {
     Ok(())
 }
 
+/// Backward the sawtooth is reversed in time: up at once, slowly back. Up and down changed, that is the drive of a stroke below zero, which
+/// steps the other way as far as the drive itself does: of the symmetric drive both senses are mirror images.
+#[test]
+fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
+    let [forward, backward] = Curve::both(&file("ruby_drive.json"), &[], &Kind::ForceSpeed)?;
+    let values = [0.0, 0.05];
+    let (to_right, to_left) = (forward.trace(&values, 1, &()), backward.trace(&values, 1, &()));
+    assert_eq!((to_right.direction, to_left.direction), (1.0, -1.0));
+    for (a, b) in to_right.points.iter().zip(&to_left.points) {
+        let (there, back) = (motion(a)?, motion(b)?);
+        assert!((there.step + back.step).abs() <= 1e-7 * there.step, "{} {}", there.step, back.step);
+        // What is told for the backward point makes it from the file.
+        let waited = last_step("ruby_drive.json", b, 300)?;
+        assert!((waited - back.step).abs() <= 1e-7 * 40e-9, "{waited:e} {:e}", back.step);
+    }
+    let ways = [(&forward, &to_right), (&backward, &to_left)];
+    let table = csv(&ways);
+    let rows: Vec<&str> = table.lines().collect();
+    assert!(rows[0].starts_with("load_N,sense,step_m,") && rows.len() == 5, "{rows:#?}");
+    assert!(rows[1].starts_with("0e0,forward,") && rows[4].starts_with("5e-2,backward,-"), "{rows:#?}");
+    let told = json(&ways);
+    assert!(
+        told.contains(r#""against":"+x","against_backward":"-x""#) && told.contains(r#""sense":"backward""#)
+    );
+    Ok(())
+}
+
 /// F_N of all contacts is what the preload says, shared as it was.
 #[test]
 fn a_preload_is_the_sum_of_all_contacts() -> Checked {
@@ -152,7 +179,7 @@ fn any_number_of_cores_tells_the_same() -> Checked {
     let values: Vec<f64> = (0..12).map(|k| -0.1 + 0.05 * f64::from(k)).collect();
     let told = [1, 2, 3].map(|cores| {
         let traced = curve.trace(&values, cores, &());
-        (csv(&curve, &traced), json(&curve, &traced))
+        (csv(&[(&curve, &traced)]), json(&[(&curve, &traced)]))
     });
     assert_eq!(told[0], told[1]);
     assert_eq!(told[0], told[2]);
@@ -203,6 +230,13 @@ fn scenes_without_such_a_curve_are_refused() {
     says(vary("contacts.bal.friction"), "did you mean \"ball\"?");
     says(vary("contacts.ball.count"), "counts whole things");
     says(vary("run.cycles"), "changes no motion");
+    let both = |set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
+        Curve::both(&file("ruby_drive.json"), &set, &Kind::Preload).err().map(|error| error.to_string())
+    };
+    says(both(&[("waveforms.drive.sawtooth.flyback", "0")]), "a waveform that jumps cannot be reversed");
+    let burst = [("waveforms.drive.sawtooth.burst", r#"{"cycles": 2, "dwell": "5 ms"}"#)];
+    says(both(&burst), "is a pattern already");
     let table = r#"{"points": [[0, 0], [9.99e-3, 1e-7], [10e-3, 0]], "repeat": true}"#;
     let table = [("waveforms.drive.table", table)];
     let found = refused("ruby_drive.json", &table, Kind::StepAmplitude);

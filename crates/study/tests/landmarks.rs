@@ -2,7 +2,9 @@
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use stickslip_study::curve::{Curve, CurveError, Kind, Landmark};
+use std::sync::{Mutex, PoisonError};
+use stickslip_results::Watcher;
+use stickslip_study::curve::{Curve, CurveError, Kind, Landmark, csv, json};
 
 type Checked = Result<(), Box<dyn Error>>;
 
@@ -84,6 +86,37 @@ fn the_stall_is_that_of_the_closed_form() -> Checked {
     let at = best.at.clone()?;
     let near = (1..200).map(|k| f64::from(k) / 200.0 * wanted).max_by(|a, b| power(*a).total_cmp(&power(*b)));
     assert!((at - near.ok_or("a load")?).abs() < 0.01 * wanted, "{at} {near:?}");
+    Ok(())
+}
+
+/// What is told, and how much of the way is behind, which never falls.
+#[derive(Default)]
+struct Told(Mutex<Vec<f64>>);
+
+impl Watcher for Told {
+    fn reached(&self, behind: f64) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(behind);
+    }
+    fn goes_on(&self) -> bool {
+        true
+    }
+}
+
+/// Stall and most power side by side, each on its share of the cores.
+#[test]
+fn any_number_of_cores_finds_the_same_places() -> Checked {
+    let (curve, _) = ideal(Kind::ForceSpeed, 50e-9)?;
+    let traced = curve.trace(&[0.0, 0.02, 0.04, 0.06, 0.08, 0.1], 2, &());
+    let mut found = Vec::new();
+    for cores in [1, 2, 3, 6] {
+        let (mut traced, told) = (traced.clone(), Told::default());
+        curve.mark(&mut traced, 1e-3, cores, &told)?;
+        let told = told.0.into_inner()?;
+        assert!(told.is_sorted() && told.last() == Some(&1.0), "{cores}: {told:?}");
+        found.push((traced.landmarks.clone(), csv(&[(&curve, &traced)]), json(&[(&curve, &traced)])));
+    }
+    assert!(found.iter().all(|other| *other == found[0]), "{found:?}");
+    assert!(found[0].0.iter().all(|landmark| landmark.at.is_ok()), "{found:?}");
     Ok(())
 }
 

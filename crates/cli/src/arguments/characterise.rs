@@ -25,6 +25,9 @@ the preload, or over what --vary says
 
 S₀ and stall are brackets: the drive steps at one end and not at the other. Best points are peaks between two points of the curve.
 
+--both traces the curve in both senses: forward, as the scenario is, and backward, its waveforms reversed in time. A load acts against the \
+steps of each. A waveform that jumps, or is a pattern already, cannot be reversed.
+
 --vary PATH=FROM..TO traces the step over any number of the scenario. Waveforms of the same period, and of the same stroke along \
 the same axis, go together. A driver keeps its limits at every point. How long the scenario itself runs, and what it writes, does not count.
 
@@ -39,6 +42,7 @@ Examples:
   stickslip characterise drive.json --curve speed-frequency --range \"10 Hz..5 kHz\" --log
   stickslip characterise drive.json --curve force-speed --points 101 --out here
   stickslip characterise drive.json --vary contacts.ball.friction=0.1..0.6
+  stickslip characterise drive.json --curve force-speed --both
   stickslip characterise drive.json --curve holding-force
   stickslip characterise drive.json --curve holding-force --vary contacts.ball.friction=0.1..0.6
   stickslip characterise drive.json --vary bodies.slider.mass=\"1 g..100 g\" --log --json";
@@ -57,6 +61,9 @@ pub(crate) struct CharacteriseArguments {
     /// In which range, such as "10 Hz..5 kHz", units at both ends or at none [default: about what the scenario has]
     #[arg(long, value_name = "FROM..TO", allow_hyphen_values = true)]
     pub(crate) range: Option<String>,
+    /// Both senses: as it is, and with the waveforms reversed in time, so that the drive steps back
+    #[arg(long)]
+    pub(crate) both: bool,
     /// How many points, ends and all
     #[arg(long, value_name = "N", default_value_t = 41)]
     pub(crate) points: usize,

@@ -15,7 +15,7 @@ use stickslip_figures::{FigureError, curve as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Job, Real, quantity};
-use stickslip_study::curve::{self, Course, Curve, CurveError, Kind, Point, Range, Traced};
+use stickslip_study::curve::{self, Course, Curve, CurveError, Kind, Point, Range, Traced, Way};
 use thiserror::Error;
 
 /// Bytes of the disk that are kept for the files from the beginning on: a curve of a few hundred points with its picture.
@@ -36,7 +36,12 @@ enum CurveFailure {
     #[error(
         "--vary  cannot be used with --curve {0}, which says what is varied; only holding-force takes both"
     )]
-    Both(&'static str),
+    VariesItself(&'static str),
+    /// Holding forces in both senses.
+    #[error(
+        "--both  cannot be used with --curve holding-force, which has both ways by itself: nothing is driven"
+    )]
+    HeldBothWays,
     /// The picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
@@ -55,7 +60,8 @@ pub(crate) fn characterise(arguments: &CharacteriseArguments) -> Verdict {
         match failure {
             CurveFailure::Curve(_)
             | CurveFailure::Range { .. }
-            | CurveFailure::Both(_)
+            | CurveFailure::VariesItself(_)
+            | CurveFailure::HeldBothWays
             | CurveFailure::Folder { .. } => Verdict::BadInput,
             CurveFailure::Figure(_) | CurveFailure::Write { .. } => Verdict::Stopped,
         }
@@ -64,8 +70,9 @@ pub(crate) fn characterise(arguments: &CharacteriseArguments) -> Verdict {
 
 fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
     match (&arguments.curve, &arguments.vary) {
+        (Some(CurveName::HoldingForce), _) if arguments.both => Err(CurveFailure::HeldBothWays),
         (Some(CurveName::HoldingForce), _) => holding::trace(arguments),
-        (Some(CurveName::Of(kind)), Some(_)) => Err(CurveFailure::Both(kind.name())),
+        (Some(CurveName::Of(kind)), Some(_)) => Err(CurveFailure::VariesItself(kind.name())),
         (Some(CurveName::Of(kind)), None) => trace(arguments, kind.clone()),
         (None, vary) => {
             trace(arguments, Kind::Vary(vary.as_ref().map_or(String::new(), |(path, _)| path.clone())))
@@ -73,44 +80,70 @@ fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
     }
 }
 
-/// Traces a curve of motions and writes it.
+/// Traces a curve of motions, in one sense or both, and writes it.
 fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, CurveFailure> {
-    let curve = Curve::new(&arguments.file, &arguments.set, kind)?;
+    let curves = match arguments.both {
+        true => Vec::from(Curve::both(&arguments.file, &arguments.set, &kind)?),
+        false => vec![Curve::new(&arguments.file, &arguments.set, kind)?],
+    };
+    let first = &curves[0];
     if !arguments.quiet {
-        warn(&curve.job);
+        warn(&first.job);
     }
-    let asked = range(arguments, &curve)?;
-    let (out, folder) = place(arguments, &curve.job, curve.kind.name())?;
-    let interrupt = Interrupt::install();
-    let progress = Progress::new(!arguments.quiet);
-    let (name, what) = (&curve.job.name, curve.kind.name());
-    progress.tell(format_args!("{name}: {what}, {} points", arguments.points));
+    let asked = range(arguments, first)?;
+    let (out, folder) = place(arguments, &first.job, first.kind.name())?;
+    let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
+    let (name, what) = (&first.job.name, first.kind.name());
+    let count = arguments.points * curves.len();
+    progress.tell(format_args!("{name}: {what}, {count} points"));
     let values = match asked {
         Some(range) => range.values()?,
-        None => curve
-            .range(&Interrupted(&interrupt))
-            .map_or(Ok(Vec::new()), |range| of(arguments, range).values())?,
+        None => match wide(&curves, &interrupt) {
+            Some(range) => of(arguments, range).values()?,
+            None => Vec::new(),
+        },
     };
-    let bar = progress.budget(what, values.len() as f64, &interrupt);
-    let cores = cores(arguments);
-    let mut traced = curve.trace(&values, cores, &bar);
-    drop(bar);
-    let line = progress.count(what, "points for stall, S\u{2080} and best points", &interrupt);
-    curve.mark(&mut traced, arguments.tolerance, cores, &line)?;
-    drop(line);
-    let (done, all) = (traced.done(), traced.points.len());
-    progress.tell(format_args!("{name}: {what}, {done} of {all} points done"));
+    let mut all = Vec::new();
+    for curve in &curves {
+        all.push((curve, followed(arguments, (curve, &values), (&progress, &interrupt))?));
+    }
+    let ways: Vec<Way<'_>> = all.iter().map(|(curve, traced)| (*curve, traced)).collect();
+    let done: usize = ways.iter().map(|(_, traced)| traced.done()).sum();
+    let count: usize = ways.iter().map(|(_, traced)| traced.points.len()).sum();
+    progress.tell(format_args!("{name}: {what}, {done} of {count} points done"));
     if done == 0 {
         return Ok(Verdict::Interrupted);
     }
-    let names = write(arguments, (&curve, &traced), (&out, folder))?;
+    let names = write(arguments, &ways, (&out, folder))?;
     if arguments.json {
-        say_json(&curve::json(&curve, &traced));
+        say_json(&curve::json(&ways));
     } else if !arguments.quiet {
-        tell(&curve, &traced);
+        ways.iter().for_each(|(curve, traced)| tell(curve, traced));
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
-    Ok(verdict(&traced))
+    Ok(verdict(&ways))
+}
+
+/// A range worth looking at for all of them.
+fn wide(curves: &[Curve], interrupt: &Interrupt) -> Option<[f64; 2]> {
+    let ranges = curves.iter().map(|curve| curve.range(&Interrupted(interrupt)));
+    let all: Vec<[f64; 2]> = ranges.collect::<Option<_>>()?;
+    all.into_iter().reduce(|[from, to], [other, beyond]| [from.min(other), to.max(beyond)])
+}
+
+/// A curve with its points and its places with a name.
+fn followed(
+    arguments: &CharacteriseArguments,
+    (curve, values): (&Curve, &[f64]),
+    (progress, interrupt): (&Progress, &Interrupt),
+) -> Result<Traced, CurveFailure> {
+    let sense = curve.sense.map_or(String::new(), |sense| format!(" {}", sense.name()));
+    let bar = progress.budget(&format!("{}{sense}", curve.kind.name()), values.len() as f64, interrupt);
+    let mut traced = curve.trace(values, cores(arguments), &bar);
+    drop(bar);
+    let bar = progress.budget(&format!("stall, S\u{2080} and best points{sense}"), 1.0, interrupt);
+    curve.mark(&mut traced, arguments.tolerance, cores(arguments), &bar)?;
+    Ok(traced)
 }
 
 /// The range asked for; none where it is to be found what is worth looking at.
@@ -158,14 +191,14 @@ fn cores(arguments: &CharacteriseArguments) -> usize {
 
 fn write(
     arguments: &CharacteriseArguments,
-    (curve, traced): (&Curve, &Traced),
+    ways: &[Way<'_>],
     (out, folder): (&Path, Folder),
 ) -> Result<Vec<String>, CurveFailure> {
-    let pictures = picture::draw((curve, traced), arguments.log, &arguments.look.look())?;
+    let pictures = picture::draw(ways, arguments.log, &arguments.look.look())?;
     // A command that was killed has left its drafts.
-    let stale = picture::all_files(traced.is_cut());
+    let stale = picture::all_files(ways.iter().any(|(_, traced)| traced.is_cut()));
     sweep(out, &curve::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
-    curve::write(folder, (curve, traced), &pictures, stale)
+    curve::write(folder, ways, &pictures, stale)
         .map_err(|source| CurveFailure::Write { path: out.to_owned(), source })
 }
 
@@ -177,6 +210,9 @@ fn tell(curve: &Curve, traced: &Traced) {
         table.add_row(row(curve, traced, (place, point)));
     }
     table::to_the_right(&mut table, 0..=if curve.kind.is_of_load() { 5 } else { 4 });
+    if let Some(sense) = curve.sense {
+        say(format_args!("{}", sense.name()));
+    }
     say(format_args!("{table}"));
     for landmark in &traced.landmarks {
         match &landmark.at {
@@ -232,10 +268,10 @@ fn shown(value: f64, unit: &str) -> String {
 }
 
 /// How the command ends.
-fn verdict(traced: &Traced) -> Verdict {
+fn verdict(ways: &[Way<'_>]) -> Verdict {
     match () {
-        () if traced.is_cut() => Verdict::Interrupted,
-        () if traced.faults() == traced.points.len() => Verdict::Stopped,
+        () if ways.iter().any(|(_, traced)| traced.is_cut()) => Verdict::Interrupted,
+        () if ways.iter().all(|(_, traced)| traced.faults() == traced.points.len()) => Verdict::Stopped,
         () => Verdict::Done,
     }
 }

@@ -4,7 +4,7 @@ use super::{drawn, lanes};
 use crate::look::{Look, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{MachineCourse, MachineCurve, MachineLine};
-use stickslip_study::curve::holding::{Holding, Holdless, NAME, Point};
+use stickslip_study::curve::holding::{Holding, NAME, Point};
 
 /// Draws them: the load along x that is held, and that against it, as one line where they are the same.
 ///
@@ -44,8 +44,7 @@ fn lines(points: &[Point]) -> Vec<MachineLine<'static>> {
 /// Values without a holding force, by the kind of reason; both ways may have their own.
 fn faults(points: &[Point]) -> Vec<(&'static str, Vec<f64>)> {
     let kinds = points.iter().flat_map(|point| {
-        let [along, against] = point.ways.each_ref().map(|way| way.as_ref().err().map(Holdless::kind));
-        [along, against.filter(|kind| along != Some(kind))].map(|kind| (point.value, kind))
+        point.ways.iter().filter_map(|way| Some((point.value, way.as_ref().err()?.kind())))
     });
-    lanes(kinds.filter_map(|(value, kind)| Some((value, kind?))))
+    lanes(kinds)
 }

@@ -23,6 +23,8 @@ const MULTIPLIER: &str = "|λ|, modulus of the largest Floquet multiplier: by ho
 const BEAT: &str = "periods in which that disturbance turns once; none where it does not";
 const WORK: &str = "periods that were computed";
 
+const SENSE: &str =
+    "of both senses (`--both`): `forward`, as the scenario is, or `backward`, its waveforms reversed in time";
 const HELD: &str =
     "of `holding-force`: the largest load along +x on the figures' body that the drive holds at rest";
 const HELD_BACK: &str = "of `holding-force`: the same of loads along -x";
@@ -32,6 +34,7 @@ const BEYOND: &str =
 const UNHELD: &str = "why there is no such force: the drive does not even hold what acts without the load, or something else than friction holds any";
 
 pub(super) const CURVE: &[Definition] = &[
+    column("sense", SENSE),
     column("step_m", STEP),
     column("step_error_m", ERROR),
     column("step_spread_m", SPREAD),
@@ -60,8 +63,10 @@ pub(super) const CURVE: &[Definition] = &[
     key("unit", "its SI unit; empty of a plain number"),
     key("present", "what it is in the scenario"),
     key("against", "along which sense of x the drive steps without load, against which loads act"),
+    key("against_backward", "the same of the backward sense"),
     key("on", "body that is loaded; of `holding-force`"),
     key("points.value", "what is varied, at this point"),
+    key("points.sense", SENSE),
     key("points.set", "what `--set` takes to make a scenario of this point"),
     key("points.step_m", STEP),
     key("points.step_error_m", ERROR),
@@ -89,6 +94,7 @@ pub(super) const CURVE: &[Definition] = &[
         "`zero_step` (S₀, largest amplitude without a step), `stall` (least load against which there is none), `best_speed`, \
          `best_power` or `best_step`",
     ),
+    key("landmarks.sense", SENSE),
     key("landmarks.at", "what is varied, there"),
     key(
         "landmarks.half_width",

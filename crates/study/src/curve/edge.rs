@@ -47,7 +47,8 @@ impl Bracket {
     }
 
     /// Narrows a bracket until it is no wider than a share of its middle. `known` are places with their steps, the nearest to the
-    /// edge first, at least one; `still` one without; `try_at` gives the step at a place, or none where there is none.
+    /// edge first, at least one; `still` one without; `try_at` gives the step at a place, or none where there is none, and hears how
+    /// much of the way is behind, 0 to 1: by how many times the bracket is narrower, as a power.
     ///
     /// # Errors
     /// Those of a place that cannot be tried.
@@ -55,11 +56,12 @@ impl Bracket {
         mut known: Vec<(f64, f64)>,
         still: f64,
         tolerance: f64,
-        mut try_at: impl FnMut(f64) -> Result<Option<f64>, E>,
+        mut try_at: impl FnMut(f64, f64) -> Result<Option<f64>, E>,
     ) -> Result<Option<Self>, E> {
         let Some(&(steps, _)) = known.first() else { return Ok(None) };
         let mut bracket = Self { steps, still, runs: 0 };
-        let (least, mut misled) = (NOTHING * bracket.half_width(), false);
+        let whole = bracket.half_width();
+        let (least, mut misled) = (NOTHING * whole, false);
         while bracket.runs < MOST {
             let (middle, half) = (bracket.middle(), bracket.half_width());
             let width = tolerance * middle.abs().max(least);
@@ -68,7 +70,8 @@ impl Bracket {
             }
             let at = if misled { middle } else { aimed(&known, bracket, width).unwrap_or(middle) };
             bracket.runs += 1;
-            match try_at(at)? {
+            let behind = (whole / half).ln() / (2.0 * whole / width).ln();
+            match try_at(at, behind.clamp(0.0, 1.0))? {
                 Some(step) => {
                     bracket.steps = at;
                     known.insert(0, (at, step));
@@ -104,7 +107,7 @@ mod tests {
             (beyond > 0.0).then(|| beyond.powf(power))
         };
         let known = known.iter().map(|at| (*at, step(*at).unwrap())).collect();
-        Bracket::narrow(known, still, tolerance, |at| Ok::<_, Infallible>(step(at))).unwrap().unwrap()
+        Bracket::narrow(known, still, tolerance, |at, _| Ok::<_, Infallible>(step(at))).unwrap().unwrap()
     }
 
     #[test]

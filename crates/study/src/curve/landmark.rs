@@ -1,8 +1,9 @@
 //! What is looked for on a curve: where it meets zero, and where it is best.
 
+use super::ahead::{self, Found};
 use super::{Bracket, Curve, CurveError, Kind, Motion, Motionless, Peak, Seen, Traced};
 use crate::each::each;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use stickslip_results::Watcher;
 use thiserror::Error;
 
@@ -46,7 +47,7 @@ impl From<Motionless> for Unfound {
 impl Curve {
     /// Adds what is looked for on this curve, to a share of its place, on so many cores; the same for any number. Loads have a stall,
     /// amplitudes S₀; speeds over frequencies, power against loads, and steps over anything else have a best point. The watcher is told
-    /// how many points were computed for them.
+    /// how much of the way to them is behind, 0 to 1.
     ///
     /// # Errors
     /// A tolerance out of its range, 1e-9 to 0.1.
@@ -59,15 +60,26 @@ impl Curve {
     ) -> Result<(), CurveError> {
         Bracket::check(tolerance)?;
         let sought = self.sought();
-        let done = AtomicUsize::new(0);
-        let search = Search { traced, tolerance, watcher, done: &done };
-        let landmarks = each(sought.len(), cores, |place| match sought[place] {
-            // Of half a curve nobody knows where it is best.
-            Sought::Edge { name, .. } | Sought::Best { name, .. } if search.traced.is_cut() => {
-                Landmark::unfound(name, Unfound::NotRun, 0)
-            }
-            Sought::Edge { name, rises } => self.edge(&search, (name, rises)),
-            Sought::Best { name, yields } => self.best(&search, (name, yields)),
+        let behind = Mutex::new(vec![0.0; sought.len()]);
+        let told = |place: usize, share: f64| {
+            let mut behind = behind.lock().unwrap_or_else(PoisonError::into_inner);
+            behind[place] = share.max(behind[place]);
+            watcher.reached(behind.iter().sum::<f64>() / behind.len() as f64);
+        };
+        let landmarks = each(sought.len(), cores, |place| {
+            // Several are looked for side by side, each on its part of the cores.
+            let (cores, told) = (cores.div_ceil(sought.len()), &|share| told(place, share));
+            let search = Search { traced, tolerance, watcher, cores, told };
+            let landmark = match sought[place] {
+                // Of half a curve nobody knows where it is best.
+                Sought::Edge { name, .. } | Sought::Best { name, .. } if search.traced.is_cut() => {
+                    Landmark::unfound(name, Unfound::NotRun, 0)
+                }
+                Sought::Edge { name, rises } => self.edge(&search, (name, rises)),
+                Sought::Best { name, yields } => self.best(&search, (name, yields)),
+            };
+            told(1.0);
+            landmark
         });
         traced.landmarks = landmarks;
         Ok(())
@@ -88,28 +100,19 @@ impl Curve {
 
     /// The motion at a place that is looked at.
     fn look(&self, search: &Search<'_>, at: f64) -> Result<Motion, Motionless> {
-        let motion = self.motion_at(at, search.traced.direction, search.watcher);
-        search.watcher.reached((search.done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
-        motion
+        self.motion_at(at, search.traced.direction, search.watcher)
     }
 
     /// Where steps begin for the last time, or end for the first. They have the sense of the longest.
     fn edge(&self, search: &Search<'_>, (name, rises): (&'static str, bool)) -> Landmark {
         let traced = search.traced;
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
-        let mut errors: Vec<(f64, f64)> = Vec::new();
-        let mut length = |at: f64, motion: Result<Motion, Motionless>| match motion {
-            Ok(motion) => {
-                errors.push((at, motion.error));
-                Ok(motion.steps(sense).then_some(sense * motion.step))
-            }
-            Err(fault) if fault.makes_no_step() => Ok(None),
-            Err(fault) => Err(fault),
-        };
         let points = traced.points.iter();
-        let known =
-            points.filter_map(|point| Some((point.value, length(point.value, point.motion.clone()).ok()?)));
-        let mut known: Vec<(f64, Option<f64>)> = known.collect();
+        let traced_so =
+            points.filter_map(|point| Some((point.value, Length::of(point.motion.clone(), sense).ok()?)));
+        let lengths: Vec<(f64, Length)> = traced_so.collect();
+        let mut known: Vec<(f64, Option<f64>)> =
+            lengths.iter().map(|(at, length)| (*at, length.step)).collect();
         // From the side with steps the first place without is the edge's, whichever way it lies.
         if rises {
             known.reverse();
@@ -117,7 +120,7 @@ impl Curve {
         let from = if rises { 0 } else { known.iter().position(|(_, step)| step.is_some()).unwrap_or(0) };
         let steps: Vec<(f64, f64)> =
             known[from..].iter().map_while(|(at, step)| step.map(|step| (*at, step))).collect();
-        let Some((still, _)) = known.get(from + steps.len()).filter(|_| !steps.is_empty()) else {
+        let Some(&(still, _)) = known.get(from + steps.len()).filter(|_| !steps.is_empty()) else {
             let why = match (steps.is_empty(), rises) {
                 (false, _) => "the drive steps at all points",
                 (true, true) => "no step at the end of the range",
@@ -126,17 +129,35 @@ impl Curve {
             return Landmark::unfound(name, Unfound::Outside(why), 0);
         };
         let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
-        let slope = slope(&nearest, *still);
-        let mut runs = 0;
-        let bracket = Bracket::narrow(nearest, *still, search.tolerance, |at| {
-            runs += 1;
-            length(at, self.look(search, at))
-        });
-        match bracket {
+        self.close_in(search, (name, sense), &Around { lengths, nearest, still })
+    }
+
+    /// An edge among what is known around it.
+    fn close_in(&self, search: &Search<'_>, (name, sense): (&'static str, f64), around: &Around) -> Landmark {
+        let Around { lengths, nearest, still } = around;
+        let Found { outcome, asked } = ahead::search(
+            search.cores,
+            |ask| {
+                Bracket::narrow(nearest.clone(), *still, search.tolerance, |at, behind| {
+                    ask(at, behind).map(|length: Length| length.step)
+                })
+            },
+            |asked, at| {
+                let steps = asked.iter().filter_map(|(place, length)| Some((*place, length.step?)));
+                let step = ahead::line(steps.chain(nearest.iter().copied()), at);
+                Length { step: step.filter(|step| *step > 0.0), error: None }
+            },
+            |at| Length::of(self.look(search, at), sense),
+            search.told,
+        );
+        let runs = asked.len() as u32;
+        match outcome {
             Ok(Some(bracket)) => {
-                let at_its_ends = errors.iter().filter(|(at, _)| [bracket.steps, bracket.still].contains(at));
-                let doubt = at_its_ends.fold(0.0, |most: f64, (_, error)| most.max(*error)) / slope;
-                let half_width = bracket.half_width() + doubt;
+                let heard = asked.into_iter().filter_map(|(at, length)| Some((at, length.ok()?)));
+                let all = heard.chain(lengths.iter().copied());
+                let ends = all.filter(|(at, _)| [bracket.steps, bracket.still].contains(at));
+                let doubt = ends.filter_map(|(_, length)| length.error).fold(0.0, f64::max);
+                let half_width = bracket.half_width() + doubt / slope(nearest, *still);
                 Landmark { name, at: Ok(bracket.middle()), half_width, value: None, runs }
             }
             Ok(None) => Landmark::unfound(name, Unfound::Outside("the drive steps at none"), runs),
@@ -169,12 +190,18 @@ impl Curve {
             return Landmark::unfound(name, Unfound::Outside("it is at an end, or beyond"), 0);
         }
         let within = [known[place - 1].at, known[place + 1].at];
-        let mut runs = 0;
-        let peak = Peak::narrow(known[place], within, search.tolerance, |at| {
-            runs += 1;
-            self.look(search, at).map(|motion| seen(at, &motion))
-        });
-        match peak {
+        let Found { outcome, asked } = ahead::search(
+            search.cores,
+            |ask| Peak::narrow(known[place], within, search.tolerance, ask),
+            |asked, at| {
+                let all = asked.iter().map(|(_, seen)| seen).chain(&known);
+                Seen { at, value: ahead::parabola(all.map(|seen| (seen.at, seen.value)), at), error: 0.0 }
+            },
+            |at| self.look(search, at).map(|motion| seen(at, &motion)),
+            search.told,
+        );
+        let runs = asked.len() as u32;
+        match outcome {
             Ok(peak) => {
                 let half_width = 0.5 * (peak.within[1] - peak.within[0]);
                 Landmark { name, at: Ok(peak.best.at), half_width, value: Some(peak.best.value), runs }
@@ -193,12 +220,28 @@ enum Sought {
     Best { name: &'static str, yields: Yield },
 }
 
-/// How it is looked for, and how many points were computed for it.
+/// How it is looked for.
 struct Search<'a> {
     traced: &'a Traced,
     tolerance: f64,
     watcher: &'a (dyn Watcher + Sync),
-    done: &'a AtomicUsize,
+    cores: usize,
+    /// Hears how much of the way is behind.
+    told: &'a (dyn Fn(f64) + Sync),
+}
+
+/// The length of a step, none where there is no step, and its error, where it has one, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Length {
+    step: Option<f64>,
+    error: Option<f64>,
+}
+
+/// What is known around an edge: the lengths of all points, the nearest two with a step, and the nearest without.
+struct Around {
+    lengths: Vec<(f64, Length)>,
+    nearest: Vec<(f64, f64)>,
+    still: f64,
 }
 
 /// What is largest at the best point of a curve.
@@ -210,6 +253,20 @@ enum Yield {
     Speed,
     /// Mean speed times load, W.
     Power,
+}
+
+impl Length {
+    /// Of a motion, along a sense; nothing where a drive without a motion makes no step.
+    fn of(motion: Result<Motion, Motionless>, sense: f64) -> Result<Self, Motionless> {
+        match motion {
+            Ok(motion) => {
+                let step = motion.steps(sense).then_some(sense * motion.step);
+                Ok(Self { step, error: Some(motion.error) })
+            }
+            Err(fault) if fault.makes_no_step() => Ok(Self { step: None, error: None }),
+            Err(fault) => Err(fault),
+        }
+    }
 }
 
 impl Landmark {

@@ -43,7 +43,8 @@ impl Seen {
 
 impl Peak {
     /// Narrows the range in which the largest value lies to a share of its place, or until errors no longer tell its places apart;
-    /// `known` is the best place so far.
+    /// `known` is the best place so far; `try_at` looks at a place, and hears how much of the way is behind, 0 to 1: by how many times
+    /// the range is narrower, as a power.
     ///
     /// # Errors
     /// Those of a place that cannot be tried.
@@ -51,23 +52,26 @@ impl Peak {
         known: Seen,
         [mut low, mut high]: [f64; 2],
         tolerance: f64,
-        mut try_at: impl FnMut(f64) -> Result<Seen, E>,
+        mut try_at: impl FnMut(f64, f64) -> Result<Seen, E>,
     ) -> Result<Self, E> {
+        let whole = high - low;
         let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
         let [left, right] = inner(low, high);
-        let (mut left, mut right, mut runs) = (try_at(left)?, try_at(right)?, 2);
+        let (mut left, mut right, mut runs) = (try_at(left, 0.0)?, try_at(right, 0.0)?, 2);
         let mut best = known.better(left).better(right);
         while runs < MOST && high - low > tolerance * best.at.abs() {
             if left.may_equal(&right) && left.may_equal(&best) && right.may_equal(&best) {
                 break;
             }
+            let behind = (whole / (high - low)).ln() / (whole / (tolerance * best.at.abs())).ln();
+            let behind = behind.clamp(0.0, 1.0);
             let next = if left.value >= right.value {
                 (high, right) = (right.at, left);
-                left = try_at(inner(low, high)[0])?;
+                left = try_at(inner(low, high)[0], behind)?;
                 left
             } else {
                 (low, left) = (left.at, right);
-                right = try_at(inner(low, high)[1])?;
+                right = try_at(inner(low, high)[1], behind)?;
                 right
             };
             runs += 1;
@@ -84,7 +88,7 @@ mod tests {
 
     fn found(of: impl Fn(f64) -> f64, known: f64, tolerance: f64, error: f64) -> Peak {
         let seen = |at| Seen { at, value: of(at), error };
-        Peak::narrow(seen(known), [0.5, 1.0], tolerance, |at| Ok::<_, Infallible>(seen(at))).unwrap()
+        Peak::narrow(seen(known), [0.5, 1.0], tolerance, |at, _| Ok::<_, Infallible>(seen(at))).unwrap()
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What is told of a curve: a table, and all of it in JSON.
 
-use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound, Variation};
+use super::{Curve, Landmark, Motion, Sense, Traced, Variation};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
@@ -32,6 +32,8 @@ pub(super) struct Report<'a, P> {
     present: Option<Real>,
     #[serde(skip_serializing_if = "Option::is_none")]
     against: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    against_backward: Option<&'static str>,
     /// Name of the body that is loaded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) on: Option<&'a str>,
@@ -62,6 +64,7 @@ impl<'a, P: Serialize> Report<'a, P> {
             unit: variation.unit,
             present: variation.present.map(Real),
             against: None,
+            against_backward: None,
             on: None,
             points,
             landmarks: Vec::new(),
@@ -74,6 +77,8 @@ impl<'a, P: Serialize> Report<'a, P> {
 #[derive(Debug, Serialize)]
 struct PointReport {
     value: Real,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sense: Option<&'static str>,
     set: Vec<String>,
     #[serde(flatten)]
     figures: Option<Figures>,
@@ -85,6 +90,8 @@ struct PointReport {
 #[derive(Debug, Serialize)]
 struct LandmarkReport {
     name: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sense: Option<&'static str>,
     at: Option<Real>,
     half_width: Option<Real>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -95,10 +102,11 @@ struct LandmarkReport {
 }
 
 impl LandmarkReport {
-    fn of(landmark: &Landmark) -> Self {
+    fn of(landmark: &Landmark, sense: Option<Sense>) -> Self {
         let at = landmark.at.as_ref().ok().copied();
         Self {
             name: landmark.name,
+            sense: sense.map(Sense::name),
             at: at.map(Real),
             half_width: at.map(|_| Real(landmark.half_width)),
             value: landmark.value.map(Real),
@@ -146,70 +154,48 @@ impl Figures {
     }
 }
 
-impl Traced {
-    /// Power against the load at a place, W: load times speed the way of the unloaded steps. None of curves without load.
-    #[must_use]
-    pub fn power(&self, curve: &Curve, place: usize) -> Option<f64> {
-        let point = self.points.get(place).filter(|_| curve.kind.is_of_load())?;
-        let motion = point.motion.as_ref().ok()?;
-        Some(self.direction * point.value * motion.speed())
-    }
+/// A curve with its points, in one sense.
+pub type Way<'a> = (&'a Curve, &'a Traced);
 
-    /// How many points have no motion.
-    #[must_use]
-    pub fn faults(&self) -> usize {
-        self.points.iter().filter(|point| point.motion.is_err()).count()
-    }
-
-    /// How many points are done, with a motion or without.
-    #[must_use]
-    pub fn done(&self) -> usize {
-        self.points.iter().filter(|point| point.motion != Err(Motionless::NotRun)).count()
-    }
-
-    /// Whether points were left undone, or places with a name.
-    #[must_use]
-    pub fn is_cut(&self) -> bool {
-        let is_undone = |landmark: &Landmark| landmark.at == Err(Unfound::NotRun);
-        self.done() < self.points.len() || self.landmarks.iter().any(is_undone)
-    }
-}
-
-/// As CSV: what is varied, the figures of the motion there, and what is wrong with it. Numbers have as many digits as it takes to
-/// read the same bits back; a cell is empty where there is no such number.
+/// As CSV: what is varied, of a curve in both senses in which, the figures of the motion there, and what is wrong with it. Numbers have
+/// as many digits as it takes to read the same bits back; a cell is empty where there is no such number.
 #[must_use]
-pub fn csv(curve: &Curve, traced: &Traced) -> String {
+pub fn csv(ways: &[Way<'_>]) -> String {
+    let Some((curve, _)) = ways.first() else { return String::new() };
     let mut table = curve.variation.head();
+    table.push_str(if curve.sense.is_some() { ",sense" } else { "" });
     table.push_str(",step_m,step_error_m,step_spread_m,speed_m_s");
     table.push_str(if curve.kind.is_of_load() { ",power_W" } else { "" });
     table.push_str(",period_s,motion,multiplier,beat_periods,work_periods,fault\n");
-    for (place, point) in traced.points.iter().enumerate() {
-        let _ = write!(table, "{:e}", point.value);
-        match &point.motion {
-            Ok(motion) => {
-                let power = traced.power(curve, place);
-                let multiplier = motion.multiplier.map(|multiplier| multiplier.modulus());
-                let beat = motion.multiplier.and_then(|multiplier| multiplier.beat());
-                let cells = [motion.step, motion.error, motion.spread, motion.speed()].map(Some);
-                let power = curve.kind.is_of_load().then_some(power);
-                cells
-                    .into_iter()
-                    .chain(power)
-                    .chain([Some(motion.period)])
-                    .for_each(|n| number(&mut table, n));
-                let _ = write!(table, ",{}", motion.course.word());
-                [multiplier, beat].into_iter().for_each(|n| number(&mut table, n));
-                let _ = write!(table, ",{},", motion.work);
-            }
-            Err(fault) => {
-                let empty = if curve.kind.is_of_load() { 10 } else { 9 };
-                (0..empty).for_each(|_| table.push(','));
-                let _ = write!(table, ",\"{}\"", one_line(&fault.to_string()).replace('"', "\"\""));
-            }
-        }
-        table.push('\n');
+    for (curve, traced) in ways {
+        (0..traced.points.len()).for_each(|place| row(&mut table, (curve, traced), place));
     }
     table
+}
+
+fn row(table: &mut String, (curve, traced): Way<'_>, place: usize) {
+    let point = &traced.points[place];
+    let _ = write!(table, "{:e}", point.value);
+    let _ = curve.sense.map_or(Ok(()), |sense| write!(table, ",{}", sense.name()));
+    match &point.motion {
+        Ok(motion) => {
+            let power = traced.power(curve, place);
+            let multiplier = motion.multiplier.map(|multiplier| multiplier.modulus());
+            let beat = motion.multiplier.and_then(|multiplier| multiplier.beat());
+            let cells = [motion.step, motion.error, motion.spread, motion.speed()].map(Some);
+            let power = curve.kind.is_of_load().then_some(power);
+            cells.into_iter().chain(power).chain([Some(motion.period)]).for_each(|n| number(table, n));
+            let _ = write!(table, ",{}", motion.course.word());
+            [multiplier, beat].into_iter().for_each(|n| number(table, n));
+            let _ = write!(table, ",{},", motion.work);
+        }
+        Err(fault) => {
+            let empty = if curve.kind.is_of_load() { 10 } else { 9 };
+            (0..empty).for_each(|_| table.push(','));
+            let _ = write!(table, ",\"{}\"", one_line(&fault.to_string()).replace('"', "\"\""));
+        }
+    }
+    table.push('\n');
 }
 
 fn number(table: &mut String, number: Option<f64>) {
@@ -226,23 +212,27 @@ pub(super) fn one_line(fault: &str) -> &str {
 
 /// All numbers on one line of JSON.
 #[must_use]
-pub fn json(curve: &Curve, traced: &Traced) -> String {
+pub fn json(ways: &[Way<'_>]) -> String {
     // Numbers and strings only: there is nothing that JSON could refuse.
-    serde_json::to_string(&report(curve, traced)).unwrap_or_default()
+    report(ways).and_then(|report| serde_json::to_string(&report).ok()).unwrap_or_default()
 }
 
 /// Writes the table, `curve.json` and pictures into a folder; pictures of the names `stale` that are not among them go. What was
-/// interrupted is written to `curve-partial.csv` and `curve-partial.json`, and goes with the next whole curve. Returns the names.
+/// interrupted is written to `curve-partial.csv` and `curve-partial.json`, and goes with the next whole curve. Returns the names; none
+/// of no curve.
 ///
 /// # Errors
 /// What the system says; nothing that was there is gone then, unless it says so while names are given.
 pub fn write(
     folder: Folder,
-    (curve, traced): (&Curve, &Traced),
+    ways: &[Way<'_>],
     pictures: &[(String, Vec<u8>)],
     stale: Vec<String>,
 ) -> io::Result<Vec<String>> {
-    publish(folder, (&csv(curve, traced), report(curve, traced)), pictures, stale)
+    match report(ways) {
+        Some(report) => publish(folder, (&csv(ways), report), pictures, stale),
+        None => Ok(Vec::new()),
+    }
 }
 
 /// Writes a table with what is told of all, and pictures.
@@ -271,21 +261,33 @@ pub(super) fn publish<P: Serialize>(
     Ok(files)
 }
 
-fn report<'a>(curve: &'a Curve, traced: &'a Traced) -> Report<'a, PointReport> {
-    let against = if traced.direction < 0.0 { "-x" } else { "+x" };
-    let points = traced.points.iter().map(|point| {
-        let load = curve.kind.is_of_load().then_some(traced.direction * point.value);
-        PointReport {
-            value: Real(point.value),
-            set: point.set.iter().map(|(path, value)| format!("{path}={value}")).collect(),
-            figures: point.motion.as_ref().ok().map(|motion| Figures::of(motion, load)),
-            fault: point.motion.as_ref().err().map(ToString::to_string),
-        }
+fn report<'a>(ways: &[Way<'a>]) -> Option<Report<'a, PointReport>> {
+    let (first, _) = ways.first()?;
+    let points = ways.iter().flat_map(|(curve, traced)| {
+        traced.points.iter().map(|point| {
+            let load = curve.kind.is_of_load().then_some(traced.direction * point.value);
+            PointReport {
+                value: Real(point.value),
+                sense: curve.sense.map(Sense::name),
+                set: point.set.iter().map(|(path, value)| format!("{path}={value}")).collect(),
+                figures: point.motion.as_ref().ok().map(|motion| Figures::of(motion, load)),
+                fault: point.motion.as_ref().err().map(ToString::to_string),
+            }
+        })
     });
-    let told = (curve.kind.name(), traced.is_cut());
-    Report {
-        against: curve.kind.is_of_load().then_some(against),
-        landmarks: traced.landmarks.iter().map(LandmarkReport::of).collect(),
-        ..Report::of(&curve.job, &curve.variation, told, points.collect())
-    }
+    let landmarks = ways.iter().flat_map(|(curve, traced)| {
+        traced.landmarks.iter().map(|landmark| LandmarkReport::of(landmark, curve.sense))
+    });
+    let against = |way: usize| {
+        let (curve, traced) = ways.get(way)?;
+        let sense = if traced.direction < 0.0 { "-x" } else { "+x" };
+        curve.kind.is_of_load().then_some(sense)
+    };
+    let is_cut = ways.iter().any(|(_, traced)| traced.is_cut());
+    Some(Report {
+        against: against(0),
+        against_backward: against(1),
+        landmarks: landmarks.collect(),
+        ..Report::of(&first.job, &first.variation, (first.kind.name(), is_cut), points.collect())
+    })
 }

@@ -78,6 +78,28 @@ impl Variation {
         super::head(&self.name, self.unit)
     }
 
+    /// What reverses all waveforms of the steps' period in time, so that the drive steps the other way.
+    pub(super) fn reversal(job: &Job, kind: &Kind) -> Result<Overrides, CurveError> {
+        let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
+        let scene = &job.scenario.scene;
+        let reversed = |w: usize| {
+            let name = &scene.waveforms[w].name;
+            let place = place(&tree, name).filter(|place| {
+                let keys = ["sequence", "burst"];
+                keys.iter().all(|key| place.form.get(key).is_none_or(Value::is_null))
+            });
+            let Some(place) = place else {
+                let why = format!("\"{name}\" is a pattern already, which cannot be reversed as a whole");
+                let help =
+                    "ask for one sense, without --both, and reverse the runs of its pattern for the other";
+                return Err(not_here(job, kind.name(), why, help));
+            };
+            let back = r#"[{"cycles": 1, "reversed": true}]"#;
+            Ok((format!("{}.sequence", place.path), back.to_owned()))
+        };
+        companions(scene, waveform(job)?).into_iter().map(reversed).collect()
+    }
+
     /// What sets it to a value; a load acts against the direction, 1 or -1, of the steps.
     pub(super) fn overrides(&self, value: f64, direction: f64) -> Overrides {
         match &self.setting {

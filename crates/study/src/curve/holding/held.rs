@@ -133,7 +133,7 @@ impl Still {
             (still, holds) = (holds, 0.5 * holds);
         }
         let bracket = match holds > NOTHING * scale {
-            true => Bracket::narrow(vec![(holds, 1.0)], still, tolerance, &mut try_at)?,
+            true => Bracket::narrow(vec![(holds, 1.0)], still, tolerance, |load, _| try_at(load))?,
             false => None,
         };
         let (force, half_width) =
