@@ -20,7 +20,6 @@ mod turning;
 
 pub use error::VariationError;
 
-use crate::Model;
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::event::Event;
@@ -28,8 +27,10 @@ use crate::model::Binding;
 use crate::record::{Record, Stride};
 use crate::scene::Axis;
 use crate::state::{Layout, State};
+use crate::{Model, Piece};
 pub(crate) use anchors::Anchors;
 use anchors::Held;
+use stickslip_contact::Memory;
 use stickslip_stepper::{Coefficients, Components, Gauss, NODES};
 use tangent::Laws;
 
@@ -182,6 +183,22 @@ impl<'m> Variation<'m> {
         Ok(())
     }
 
+    /// Follows bodies that jump, in no time: what an edge swept on the way has moved as the apex has.
+    fn jump(&mut self, left: &State, state: &State) {
+        let place = |contact: &Contact, pieces: &[Piece]| {
+            let eq = Equations { pieces, ..Equations::on(self.model, left, self.layout, false) };
+            eq.motion(contact, left.t, |i| left.y[i]).apex()
+        };
+        for (c, contact) in self.model.contacts.iter().enumerate() {
+            let [before, after] = [&left.pieces, &state.pieces].map(|pieces| place(contact, pieces));
+            if !contact.inert && before != after {
+                let moved = tangent::moved(contact, &self.columns, self.layout);
+                let has_edge = after.d > before.d || ends_in_an_edge(contact, &state.memories[c]);
+                self.anchors[c].follow(&state.memories[c], &moved, has_edge);
+            }
+        }
+    }
+
     /// Whether anything acts on the derivatives: else velocities stay as they are.
     fn acts(&self) -> bool {
         !self.acting.is_empty() || !self.model.links.is_empty()
@@ -302,11 +319,19 @@ impl Record for Variation<'_> {
             && let Some(left) = &left
         {
             self.outcome = self.check_turns(left, state);
+            self.jump(left, state);
         }
         self.begin_growth(left.as_ref(), state);
         self.take_up(state);
         self.from = Some(state.clone());
     }
+}
+
+/// Whether the last piece of a memory is one that an edge has made.
+fn ends_in_an_edge(contact: &Contact, memory: &Memory) -> bool {
+    let Memory::Curve(curve) = memory else { return false };
+    let legs = curve.legs();
+    legs.slopes.len().checked_sub(1).is_some_and(|last| legs.sense(&contact.interface, last).is_some())
 }
 
 /// What of a scene has a variation.

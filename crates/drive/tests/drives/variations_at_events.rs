@@ -1,13 +1,13 @@
-//! Variations through one kind of event each: a touch, events at one moment.
+//! Variations through one kind of event each: a touch, events at one moment, jumps, turns that graze.
 
-use crate::parts::{event, free, named, p1, steel};
+use crate::parts::{event, free, named, p1, steel, wave};
 use crate::variations::{differences, led, size, varied};
 use stickslip_contact::{Interface, Profile};
 use stickslip_drive::scene::{
     Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Normal, Point, Scene, Side, Spring,
 };
 use stickslip_drive::section::{Section, Unknown};
-use stickslip_drive::{Model, Run};
+use stickslip_drive::{Harmonic, Model, Plan, Run, Shape, State, VariationError};
 
 /// A flat end that comes down obliquely and sticks: from the touch on it swings on E\*2b and G\*2b, whose anchors are where it touched.
 /// A touch later by δt₁ leaves x later by ẋ(1 - cos ωτ)δt₁ and z by ż cos Ωτ δt₁.
@@ -81,20 +81,81 @@ fn events_at_one_moment_vary_as_those_apart() {
     scene.springs.push(named("tie", tie));
     let (mut model, tight) = (Model::new(&scene).unwrap(), event(1e-13, f64::MAX));
     model.keep_together();
-    let scale = model.contact_natural(0).unwrap();
     let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), 1.45e-3));
-    let until = 2.6e-3;
-    let (columns, end) = varied((&model, &tight), &section, until).unwrap();
+    let end = agrees((&model, &tight), &section, 2.6e-3);
     assert!(end.counts().events > section.base().counts().events + 10, "{:?}", end.counts());
+}
+
+/// Derivatives at a time within 1e-7 of differences, each row in units of its largest or of a natural scale; tells the state there.
+fn agrees((model, plan): (&Model, &Plan), section: &Section<'_>, until: f64) -> State {
+    let scale = model.contact_natural(0).unwrap();
     let natural = [scale.displacement, scale.velocity];
+    let (columns, end) = varied((model, plan), section, until).unwrap();
     let known = [1e-4, 2e-5, 4e-6].into_iter().filter_map(|h| {
-        let (by_runs, mended) = differences((&model, &tight), &section, until, h)?;
+        let (by_runs, mended) = differences((model, plan), section, until, h)?;
         Some((size(mended.into_iter(), &by_runs, natural), by_runs))
     });
     let (doubt, by_runs) = known.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     let pairs = columns.iter().zip(&by_runs);
     let apart = pairs.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a - b).collect());
     let off = size(apart, &by_runs, natural);
-    println!("off by {off:.1e}, differences by {doubt:.1e}");
+    println!("until {until}: off by {off:.1e}, differences by {doubt:.1e}");
     assert!(doubt < 1e-7 && off < 1e-7, "{off:e}, differences {doubt:e}");
+    end
+}
+
+/// A foot that jumps sweeps an edge in no time, which the motion after it turns away from: in partial slip (a jump of half u_c) and gross
+/// slip, at one jump and at several.
+#[test]
+fn jumps_vary_as_their_differences_say() {
+    let tight = event(1e-13, f64::MAX);
+    for stroke in [0.03e-6, 0.1e-6, 0.5e-6] {
+        let mut scene = p1();
+        scene.waveforms[0] = wave("drive", Shape::Sawtooth { stroke, flyback: 0.0 }, 1e-3);
+        let mut model = Model::new(&scene).unwrap();
+        model.keep_together();
+        for (from, until) in [(0.3e-3, 1.01e-3), (0.3e-3, 3.2e-3), (1.45e-3, 2.6e-3)] {
+            let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), from));
+            agrees((&model, &tight), &section, until);
+        }
+    }
+}
+
+/// With more of its fourth harmonic a foot turns back for a moment. As long as it nearly does, and once it does for good, derivatives are
+/// those of differences; where it just so does, the turn is told and no number.
+#[test]
+fn a_turn_that_grazes_is_told() {
+    let tight = event(1e-13, f64::MAX);
+    let built = |share: f64| {
+        let harmonic = |amplitude: f64, order: f64| Harmonic { amplitude, order, phase: 0.0 };
+        let terms = vec![harmonic(1e-6, 1.0), harmonic(share * 1e-6, 4.0)];
+        let mut scene = p1();
+        scene.waveforms[0] = wave("drive", Shape::Harmonics { terms }, 1e-3);
+        let mut model = Model::new(&scene).unwrap();
+        model.keep_together();
+        model
+    };
+    let until = 1e-3;
+    let events = |share: f64| {
+        let model = built(share);
+        led(&model, &tight, model.start(&tight).unwrap(), until).counts().events
+    };
+    let (mut without, mut with) = (0.12, 0.13);
+    let few = events(without);
+    // To and fro, and the loop between closes.
+    assert_eq!(events(with), few + 3);
+    for _ in 0..60 {
+        let middle = 0.5 * (without + with);
+        if events(middle) == few { without = middle } else { with = middle }
+    }
+    for share in [without - 1e-3, with + 1e-3] {
+        let model = built(share);
+        let section = Section::new(&model, model.start(&tight).unwrap());
+        agrees((&model, &tight), &section, until);
+    }
+    let model = built(with);
+    let section = Section::new(&model, model.start(&tight).unwrap());
+    let refused = varied((&model, &tight), &section, until).unwrap_err();
+    println!("{with}: {refused}");
+    assert!(matches!(&refused, VariationError::Grazes { contact, .. } if contact == "ball"), "{refused}");
 }

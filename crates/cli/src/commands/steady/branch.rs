@@ -1,6 +1,6 @@
 //! `stickslip steady --continue`: steady motions one after another, as a number of the scenario changes.
 
-use crate::arguments::{SteadyArguments, span};
+use crate::arguments::SteadyArguments;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
@@ -12,12 +12,16 @@ use stickslip_figures::{FigureError, branch as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::files::BRANCH;
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Job, Real, Refusal, quantity};
+use stickslip_results::{Job, Real, Refusal, Watcher, quantity};
+use stickslip_study::curve::Range;
 use stickslip_study::steady::continuation::{
     self, Branch, Continuation, ContinuationError, Course, End, Mark,
 };
 use stickslip_study::steady::{Options, SteadyError};
 use thiserror::Error;
+
+/// Room that is kept for the files, bytes.
+const RESERVE: usize = 1 << 18;
 
 /// Why there is no branch.
 #[derive(Debug, Error)]
@@ -50,30 +54,32 @@ pub(super) fn follow(arguments: &SteadyArguments, (path, range): (&str, &str)) -
 fn answer(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Result<Verdict, BranchFailure> {
     let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
     let unit = job.scenario.parameter(path).map_err(ContinuationError::Path)?.unit;
-    let of = Continuation::new(job, path, span(range, unit).map_err(BranchFailure::Range)?)?;
+    let of = Continuation::new(job, path, Range::ends(range, unit).map_err(BranchFailure::Range)?)?;
     if !arguments.quiet {
         warn(&of.job);
     }
     let interrupt = Interrupt::install();
-    let folder = Room::make(&folder(arguments, &of))?;
+    // Before the first motion, which may take long.
+    let out = folder(arguments, &of);
+    let folder =
+        Folder::ready(&out, RESERVE).map_err(|source| BranchFailure::Write { path: out.clone(), source })?;
     let progress = Progress::new(!arguments.quiet);
-    let line = progress.count(&of.path, "motions");
+    let line = progress.count(&of.path, "motions", &interrupt);
     let course = Course {
         steady: Options {
             tolerance: arguments.tolerance,
             periods: arguments.periods,
-            goes_on: &|| !interrupt.is_raised(),
+            goes_on: &|| line.goes_on(),
             ..Options::default()
         },
         accuracy: arguments.accuracy,
         points: arguments.points,
-        told: &|count| line.reached(u32::try_from(count).unwrap_or(u32::MAX)),
+        told: &|count| line.reached(count as f64),
     };
     let branch = of.follow(&course)?;
     drop(line);
     let accuracy = [arguments.tolerance, arguments.accuracy];
-    let out = folder.path.clone();
-    let names = write(arguments, &folder, (&of, &branch), accuracy)?;
+    let names = write(arguments, folder, (&of, &branch), accuracy)?;
     if arguments.json {
         say_json(&continuation::json(&of, &branch, accuracy));
     } else if !arguments.quiet {
@@ -89,46 +95,21 @@ fn folder(arguments: &SteadyArguments, of: &Continuation) -> PathBuf {
     arguments.out.clone().unwrap_or_else(own)
 }
 
-/// A folder that is made before the first motion is looked for: where nothing can be written nothing is computed. It goes again if it is
-/// new and nothing comes into it.
-struct Room {
-    path: PathBuf,
-    is_new: bool,
-}
-
-impl Room {
-    fn make(path: &Path) -> Result<Self, BranchFailure> {
-        let is_new = !path.exists();
-        let tried = Folder::make(path).and_then(|folder| folder.draft(BRANCH).map(drop));
-        let failed = |source| BranchFailure::Write { path: path.to_owned(), source };
-        tried.map_err(failed)?;
-        Ok(Self { path: path.to_owned(), is_new })
-    }
-}
-
-impl Drop for Room {
-    fn drop(&mut self) {
-        if self.is_new {
-            // Only an empty folder goes.
-            let _ = std::fs::remove_dir(&self.path);
-        }
-    }
-}
-
 fn write(
     arguments: &SteadyArguments,
-    room: &Room,
+    mut folder: Folder,
     (of, branch): (&Continuation, &Branch),
     accuracy: [f64; 2],
 ) -> Result<Vec<String>, BranchFailure> {
     let pictures = picture::draw(of, branch, &arguments.look.look())?;
-    let failed = |source| BranchFailure::Write { path: room.path.clone(), source };
-    let folder = Folder::make(&room.path).map_err(failed)?;
+    let out = self::folder(arguments, of);
+    folder.release();
     // A command that was killed has left its drafts.
     let stale = picture::all_files();
     let own = [continuation::TABLE, BRANCH].map(str::to_owned).into_iter();
-    sweep(&room.path, &own.chain(stale.iter().cloned()).collect::<Vec<_>>());
-    continuation::write(folder, (of, branch), accuracy, (&pictures, stale)).map_err(failed)
+    sweep(&out, &own.chain(stale.iter().cloned()).collect::<Vec<_>>());
+    continuation::write(folder, (of, branch), accuracy, (&pictures, stale))
+        .map_err(|source| BranchFailure::Write { path: out, source })
 }
 
 /// The branch by its ends and what lies between them, in its order.
