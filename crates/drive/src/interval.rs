@@ -24,9 +24,10 @@ pub(crate) use kernel::Kernel;
 pub(crate) use slider::{Pull, Slider};
 pub(crate) use swing::{PhasePoint, Swing};
 
-use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, treatment};
+use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, is_undamped, treatment};
 use crate::model::{Free, Model};
 use crate::state::State;
+use stickslip_contact::Branch;
 
 /// What evaluations between two events need. Scratch: made anew after each event.
 #[derive(Debug, Clone)]
@@ -124,7 +125,10 @@ impl<'a> Interval<'a> {
         state: &State,
         changed: impl Iterator<Item = usize> + Clone,
     ) -> bool {
-        let stays = |c: usize| self.closed_form(c).is_some() && matches!(state.modes[c], Mode::Slip(_));
+        let stays = |c: usize| {
+            let has_form = |branch: &Branch| is_undamped(&model.contacts[c], branch);
+            self.closed_form(c).is_some() && matches!(&state.modes[c], Mode::Slip(branch) if has_form(branch))
+        };
         if !changed.clone().all(stays) {
             return false;
         }

@@ -28,6 +28,7 @@ pub use tally::Tally;
 pub use why::Why;
 
 use crate::model::Model;
+use stickslip_contact::Branch;
 
 /// How a stretch of time is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -205,14 +206,19 @@ pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     }
 }
 
+/// Whether nothing of a contact on a branch resists u̇, so that at a constant depth its force is a form of u alone: damping is
+/// that of the springs that stick, and in gross slip none does.
+pub(crate) fn is_undamped(contact: &Contact, branch: &Branch) -> bool {
+    contact.interface.damping() == 0.0 || branch.is_gross()
+}
+
 /// What is done about a contact in a mode, and why; `followed` is what its followers make of u where that has a closed form.
 #[inline(always)]
 pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() -> bool) -> (Treatment, Why) {
     match (mode, &contact.press) {
         _ if contact.is_never_pressed() => (Treatment::Spared, Why::NeverPressed),
         (Mode::Open, _) => (Treatment::Apart, Why::OnlyTheGap),
-        // Damping is a force of u̇ and of the slip front, which no form of u alone has.
-        (Mode::Slip(_), Press::Constant { .. }) if contact.interface.damping() == 0.0 => {
+        (Mode::Slip(branch), Press::Constant { .. }) if is_undamped(contact, branch) => {
             if followed() {
                 (Treatment::Closed, Why::OneEdge)
             } else {

@@ -1,12 +1,12 @@
 //! Damping β of the springs that stick: a force βG\*m(c)u̇ beside the law of the contact.
 
 use crate::parts::{
-    FOOT_SLIDER, column, contact, damped, event, follower, free, named, of_pair, push, trace,
+    FOOT_SLIDER, column, contact, damped, end, event, follower, free, named, of_pair, p1, plan, push, trace,
 };
 use std::f64::consts::TAU;
 use stickslip_contact::{Pair, Profile};
 use stickslip_drive::scene::{Body, Contact, Scene, Side};
-use stickslip_drive::{Shape, Timing, Waveform};
+use stickslip_drive::{Method, Shape, Stepper, Timing, Treatment, Waveform};
 
 const MU: f64 = 0.2;
 const FORCE: f64 = 1.0;
@@ -142,4 +142,36 @@ fn work_of_damped_springs_in_a_cycle() {
             * (1.0 - (1.0 - f64::min(amplitude, 1.0)).powf(1.5));
         assert!((work / exact - 1.0).abs() < 1e-8, "{amplitude}: {}", work / exact - 1.0);
     }
+}
+
+/// In gross slip no spring sticks, and none resists: P1 with damped springs slides along parabolas, |v̇| = μF_N/m, in steps that
+/// evaluate nothing; where a slide ends its springs resist again. All of it against the classical Runge–Kutta method at fixed
+/// steps, which asks the whole law and knows no events.
+#[test]
+fn a_damped_contact_slides_along_parabolas() {
+    let (mut scene, every, stroke) = (p1(), 1e-6, 0.5e-6);
+    scene.contacts[0].part = damped(&scene.contacts[0].part, 1e-6);
+    let (model, state, rows) = trace(&scene, &event(1e-8, 3e-3), every);
+    let (speed, law) = (column(&model, &rows, "slider.vx_m_s"), column(&model, &rows, "ball.state"));
+    let lost = column(&model, &rows, "energy.damping_J");
+    let change = 0.15 / 0.02 * every;
+    let mut slides = 0;
+    for i in 1..law.len() {
+        if law[i - 1] == 3.0 && law[i] == 3.0 {
+            let rise = (speed[i] - speed[i - 1]).abs();
+            assert!((rise / change - 1.0).abs() < 1e-9, "{i}: {rise:e} {change:e}");
+            assert_eq!(lost[i].to_bits(), lost[i - 1].to_bits(), "{i}");
+            slides += 1;
+        }
+    }
+    assert!(slides > 100 && lost[lost.len() - 1] > 0.0, "{slides}");
+    let tally = state.tally();
+    let told = (tally.steps(Method::Parabola), tally.intervals(0, Treatment::Closed));
+    assert!(told.0 >= 3 && told.1 >= 3 && tally.intervals(0, Treatment::General) > told.1, "{told:?}");
+    // Steps that divide the rise and the fall. Undamped the slider ends 1e-2 of the stroke away.
+    let (_, fixed) = end(&scene, &plan(Stepper::Rk4 { step: 1e-4 / 2048.0 }, 3e-3));
+    let place = |state: &stickslip_drive::State| state.body(&model, 1).unwrap().0;
+    let apart = (place(&state) - place(&fixed)).abs() / stroke;
+    println!("{slides} rows of slides, {told:?}, {apart:e} of the stroke apart");
+    assert!(apart < 2e-5, "{apart:e}");
 }

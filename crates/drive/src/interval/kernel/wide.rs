@@ -15,11 +15,28 @@ pub(super) struct Wide<'a> {
     ties: Vec<Tie<'a>>,
 }
 
-/// Σ coefficient · coordinate of two coordinates; of a single one the second coefficient is 0.
+/// Σ coefficient · coordinate.
 #[derive(Debug, Clone, Copy)]
-struct Ends {
-    at: [usize; 2],
-    arms: [f64; 2],
+enum Ends {
+    /// Of one coordinate, or with a coefficient of 0 of none: most contacts ride on a follower.
+    One(End),
+    /// Of two.
+    Two([End; 2]),
+}
+
+/// A coordinate and its coefficient.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    at: usize,
+    arm: f64,
+}
+
+/// What a force acts along.
+trait Along {
+    /// Σ coefficient · coordinate.
+    fn dot(&self, x: &[f64]) -> f64;
+    /// Adds a force to those on the coordinates.
+    fn pull(&self, forces: &mut [f64], force: f64);
 }
 
 /// A contact at constant depth on one branch.
@@ -63,37 +80,57 @@ struct Sums<'f> {
 impl Ends {
     /// None of more than two coordinates.
     fn of(terms: &Terms) -> Option<Self> {
-        match terms[..] {
-            [] => Some(Self { at: [0; 2], arms: [0.0; 2] }),
-            [(i, a)] => Some(Self { at: [i; 2], arms: [a, 0.0] }),
-            [(i, a), (j, b)] => Some(Self { at: [i, j], arms: [a, b] }),
+        let end = |&(at, arm): &(usize, f64)| End { at, arm };
+        match &terms[..] {
+            [] => Some(Self::One(End { at: 0, arm: 0.0 })),
+            [one] => Some(Self::One(end(one))),
+            [one, other] => Some(Self::Two([end(one), end(other)])),
             _ => None,
         }
     }
+}
 
+impl Along for End {
     #[inline(always)]
     fn dot(&self, x: &[f64]) -> f64 {
-        let own = self.arms[0] * x[self.at[0]];
-        // Most contacts ride on a follower.
-        if self.arms[1] == 0.0 { own } else { own + self.arms[1] * x[self.at[1]] }
+        self.arm * x[self.at]
     }
+
+    #[inline(always)]
+    fn pull(&self, forces: &mut [f64], force: f64) {
+        forces[self.at] += self.arm * force;
+    }
+}
+
+impl Along for [End; 2] {
+    #[inline(always)]
+    fn dot(&self, x: &[f64]) -> f64 {
+        self[0].dot(x) + self[1].dot(x)
+    }
+
+    #[inline(always)]
+    fn pull(&self, forces: &mut [f64], force: f64) {
+        self[0].pull(forces, force);
+        self[1].pull(forces, force);
+    }
+}
+
+/// Does the same along one coordinate or two, known once for all of it.
+macro_rules! along {
+    ($ends:expr, $known:ident => $act:expr) => {
+        match &$ends {
+            Ends::One($known) => $act,
+            Ends::Two($known) => $act,
+        }
+    };
 }
 
 impl Sums<'_> {
     /// Adds a force along a length whose followers move at the rate `driven`: what drives them puts in -force · driven.
     #[inline(always)]
-    fn apply(&mut self, ends: &Ends, driven: f64, force: f64) {
-        self.pull(ends, force);
+    fn apply(&mut self, ends: &impl Along, driven: f64, force: f64) {
+        ends.pull(self.forces, force);
         self.input -= force * driven;
-    }
-
-    /// Adds a force along a length between free coordinates alone.
-    #[inline(always)]
-    fn pull(&mut self, ends: &Ends, force: f64) {
-        self.forces[ends.at[0]] += ends.arms[0] * force;
-        if ends.arms[1] != 0.0 {
-            self.forces[ends.at[1]] += ends.arms[1] * force;
-        }
     }
 }
 
@@ -110,9 +147,14 @@ impl<'a> Steady<'a> {
 
     #[inline(always)]
     fn act(&self, t: f64, x: &[f64], sums: &mut Sums<'_>) {
+        along!(self.ends, ends => self.act_along(ends, t, x, sums));
+    }
+
+    #[inline(always)]
+    fn act_along(&self, ends: &impl Along, t: f64, x: &[f64], sums: &mut Sums<'_>) {
         let followed = self.followed.at(t);
-        let u = self.ends.dot(x) + followed.value;
-        sums.apply(&self.ends, followed.rate, -self.count * self.branch.force(self.profile, u));
+        let u = ends.dot(x) + followed.value;
+        sums.apply(ends, followed.rate, -self.count * self.branch.force(self.profile, u));
     }
 }
 
@@ -127,8 +169,10 @@ impl Spring {
     }
 
     #[inline(always)]
-    fn act(&self, x: &[f64], sums: &mut Sums<'_>) {
-        sums.pull(&self.ends, self.stiffness * (self.rest - self.ends.dot(x)) + self.preload);
+    fn act(&self, x: &[f64], forces: &mut [f64]) {
+        along!(self.ends, ends => {
+            ends.pull(forces, self.stiffness * (self.rest - ends.dot(x)) + self.preload);
+        });
     }
 }
 
@@ -148,11 +192,12 @@ impl<'a> Tie<'a> {
     #[inline(always)]
     fn act(&self, t: f64, (x, v): (&[f64], Option<&[f64]>), sums: &mut Sums<'_>) {
         let (followed, stroke) = (self.followed.at(t), self.stroke.at(t));
-        let stretch = stroke.value - (self.ends.dot(x) + followed.value);
-        let own = v.map_or(0.0, |v| self.ends.dot(v));
+        let dot = |of: &[f64]| along!(self.ends, ends => ends.dot(of));
+        let stretch = stroke.value - (dot(x) + followed.value);
+        let own = v.map_or(0.0, dot);
         let rate = stroke.rate - (own + followed.rate);
         let force = self.stiffness * stretch + self.damping * rate;
-        sums.apply(&self.ends, followed.rate, force + self.preload);
+        along!(self.ends, ends => sums.apply(ends, followed.rate, force + self.preload));
         sums.input += force * stroke.rate;
         sums.damping += self.damping * rate * rate;
     }
@@ -242,7 +287,7 @@ impl<'a> Wide<'a> {
             steady.act(t, x, &mut sums);
         }
         for spring in &self.springs {
-            spring.act(x, &mut sums);
+            spring.act(x, sums.forces);
         }
         for tie in &self.ties {
             tie.act(t, (x, v), &mut sums);

@@ -12,7 +12,6 @@
 use super::Located;
 use crate::contact::{Contact, Guard, Mode};
 use crate::equations::Equations;
-use crate::interval::Closed;
 use crate::model::Measure;
 use crate::quadrature;
 use crate::state::State;
@@ -187,9 +186,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// None where no edge will reach the end of its piece as it moves now.
     fn piece_end(&self, state: &State) -> Option<Expected> {
         let (eq, begin) = (self.setting.equations(state, &self.interval), self.motion.solver.span().begin);
-        let of_steady = |steady: &Closed<'_>| self.watch.expected_of_closed(steady, begin);
-        let steady = self.interval.closed.iter().map(|steady| (steady.index, of_steady(steady)));
-        let all = steady.chain(
+        let steady = self.watch.expected_of_closed(&self.interval.closed, begin);
+        let all = steady.into_iter().chain(
             self.interval.open_form().map(|c| (c, self.watch.expected_of(&eq, c, &self.motion.solver))),
         );
         let (contact, left) = all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, left)| left.is_finite())?;

@@ -75,33 +75,30 @@ impl Watch {
     }
 
     /// Ends the step where a guard falls, or where one does that is up at both ends of the step but down there, such as that of a
-    /// piece of memory that an edge has used up before it turns back: that one came first.
-    pub(super) fn cut<'e, A: for<'q> Attempt<Equations<'q>>>(
-        &mut self,
-        solver: &mut A,
-        eq: &Equations<'e>,
-        fall: Fall<'e>,
-    ) -> Fall<'e> {
-        solver.cut(fall.t);
-        self.arrive(eq, solver);
-        let Self { from, to, tolerance, .. } = self;
-        match (Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true }).before(fall) {
-            Some(earlier) => self.cut(solver, eq, earlier),
-            None => fall,
-        }
-    }
-
-    /// The guard that ends the step, whatever its last bit says, and all others that are down or as good as down there:
-    /// simultaneous events are one.
-    pub(super) fn collect_fallen<'e, A: for<'q> Attempt<Equations<'q>>>(
+    /// piece of memory that an edge has used up before it turns back: that one came first. Collected are the guard that ends the
+    /// step, whatever its last bit says, and all others that are down or as good as down there: simultaneous events are one.
+    pub(super) fn end_at<'e, A: for<'q> Attempt<Equations<'q>>>(
         &mut self,
         solver: &mut A,
         eq: &Equations<'e>,
         fall: Fall<'e>,
     ) {
+        let is_cut = fall.t < solver.span().end_time;
+        if is_cut {
+            solver.cut(fall.t);
+            self.arrive_at_cut(eq, solver);
+        }
         let Self { from, to, tolerance, fired } = self;
         let search = Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true };
+        fired.clear();
         fired.push(fall.watched.fallen());
+        // Of many contacts hardly ever another one is: then this one look at them is all.
+        if !search.has_company(fall) {
+            return;
+        }
+        if is_cut && let Some(earlier) = search.before(fall) {
+            return self.end_at(solver, eq, earlier);
+        }
         Watched::each(eq, |watched| {
             let known = || fired.iter().any(|fallen| fallen.is_of(&watched.fallen()));
             if search.falls_too(watched) && !known() {
@@ -400,14 +397,29 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
     }
 
+    /// Whether any other guard than that which ends the step has come as near to zero there as to be as good as down.
+    fn has_company(&self, last: Fall<'e>) -> bool {
+        let mut found = false;
+        Watched::each(self.eq, |watched| {
+            found |= self.comes_near(watched) && watched.fallen() != last.watched.fallen();
+        });
+        found
+    }
+
+    /// Whether a guard is lower at the end of the step than at its start, and down or about as good as down.
+    #[inline(always)]
+    fn comes_near(&self, watched: Watched<'_>) -> bool {
+        let g = self.at_end(watched);
+        g < self.at_begin(watched) && g < self.own_bands(watched).1
+    }
+
     /// Whether a guard is down at the end of the step, or as good as down.
     #[inline(always)]
     fn falls_too(&self, watched: Watched<'_>) -> bool {
-        let (g0, g) = (self.at_begin(watched), self.at_end(watched));
-        // Of many contacts few are.
-        if !(g < g0 && g < self.own_bands(watched).1) {
+        if !self.comes_near(watched) {
             return false;
         }
+        let (g0, g) = (self.at_begin(watched), self.at_end(watched));
         let (dead, near) = self.bands(watched);
         // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
         let rises =

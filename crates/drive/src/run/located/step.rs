@@ -258,11 +258,8 @@ fn attempt<A: for<'e> Attempt<Equations<'e>>>(
         motion.solver.complete(eq, Completion::EndSlopes);
         watch.arrive(eq, &motion.solver);
         watch.fired.clear();
-        if let Some(mut fall) = watch.first_fall(&mut motion.solver, eq) {
-            if fall.t < target {
-                fall = watch.cut(&mut motion.solver, eq, fall);
-            }
-            watch.collect_fallen(&mut motion.solver, eq, fall);
+        if let Some(fall) = watch.first_fall(&mut motion.solver, eq) {
+            watch.end_at(&mut motion.solver, eq, fall);
         }
     }
     verdict

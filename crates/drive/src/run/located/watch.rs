@@ -10,7 +10,7 @@ use crate::equations::{Components, Equations};
 use crate::interval::{Closed, Interval};
 use crate::model::{Measure, Model};
 use stickslip_contact::Memory;
-use stickslip_stepper::{End, Step};
+use stickslip_stepper::{End, Span, Step};
 
 /// What is left of a piece of memory in last places of the places of its bodies, below which no step waits for its end.
 // Without it a stage that rides on its foot, 4 μm from its start, took steps of 17 ps, which moved no place by a last bit, for
@@ -85,6 +85,18 @@ impl Watch {
     pub(super) fn arrive(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let span = solver.span();
         follow(eq, &mut self.to, (span.end_time, span.end), |i| solver.slope(i, End::End));
+    }
+
+    /// The same where the step was cut: slopes are not known there, and no guard's rate is asked for.
+    pub(super) fn arrive_at_cut(&mut self, eq: &Equations<'_>, solver: &impl Step) {
+        let (Some(interval), Span { end_time: t, end: y, .. }) = (eq.interval, solver.span()) else { return };
+        let n = eq.layout.free;
+        for steady in &interval.closed {
+            self.to[steady.index].motion = steady.motion(t, |i| y[i], |i| y[n + i]);
+        }
+        for c in interval.open_form() {
+            self.to[c].motion = eq.motion(&eq.model.contacts[c], t, |i| y[i]);
+        }
     }
 
     /// The end of a step is the start of the next one.
@@ -166,21 +178,29 @@ impl Watch {
         closed.chain(open).fold(f64::INFINITY, f64::min)
     }
 
-    /// When a contact of closed form will have used up its piece of memory, s from the start of the step, which stands at
-    /// components `begin`.
+    /// When the first contact of closed form will have used up its piece of memory, and its place among the contacts, s from the
+    /// start of the step, which stands at components `begin`.
+    ///
+    /// None where no edge will reach the end of its piece as it moves now.
     #[inline(always)]
-    pub(super) fn expected_of_closed(&self, steady: &Closed<'_>, begin: &[f64]) -> f64 {
-        if !steady.guards.contains(&Guard::Piece) {
-            return f64::INFINITY;
+    pub(super) fn expected_of_closed(&self, closed: &[Closed<'_>], begin: &[f64]) -> Option<(usize, f64)> {
+        let mut first = None;
+        let mut soonest = f64::INFINITY;
+        for steady in closed {
+            // In gross slip there is no piece.
+            if !steady.guards.contains(&Guard::Piece) {
+                continue;
+            }
+            let Moving { motion, second: (_, pull) } = &self.from[steady.index];
+            let guard = |guard| steady.guard(guard, motion);
+            let (left, pull) = (guard(Guard::Piece), steady.guard_rate(Guard::Drag, motion, *pull));
+            let when = reached(left, guard(Guard::Drag), pull);
+            // Of many contacts only those are looked at twice that come first.
+            if when < soonest && !is_rounding(left, steady.contact, |i| begin[i]) {
+                (first, soonest) = (Some((steady.index, when)), when);
+            }
         }
-        let Moving { motion, second: (_, pull) } = &self.from[steady.index];
-        let guard = |guard| steady.guard(guard, motion);
-        let (left, pull) = (guard(Guard::Piece), steady.guard_rate(Guard::Drag, motion, *pull));
-        let when = reached(left, guard(Guard::Drag), pull);
-        if when < f64::INFINITY && is_rounding(left, steady.contact, |i| begin[i]) {
-            return f64::INFINITY;
-        }
-        when
+        first
     }
 
     /// The same of any other contact.
