@@ -5,7 +5,7 @@ use crate::pictures::FigureError;
 use stickslip_plot::{BranchCourse, Stretch, branch_figure};
 use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_results::{Real, quantity};
-use stickslip_study::steady::continuation::{Branch, Continuation, Point};
+use stickslip_study::steady::continuation::{Branch, Continuation, Mark, Point};
 
 /// Name of the picture.
 const NAME: &str = "branch";
@@ -33,7 +33,7 @@ pub fn draw(of: &Continuation, branch: &Branch, look: &Look) -> Result<Vec<Pictu
     let course = BranchCourse {
         axis: (&of.path, of.unit),
         present: of.present,
-        stretches: stretches(&branch.points),
+        stretches: stretches(branch),
         marks: marks(of, branch),
     };
     let title = format!("{}: steady motions", of.job.title());
@@ -42,33 +42,69 @@ pub fn draw(of: &Continuation, branch: &Branch, look: &Look) -> Result<Vec<Pictu
         .map_err(|source| FigureError::Plot { plot: NAME, source })
 }
 
-/// Motions of one kind along the branch; each stretch begins where the one before ended.
-fn stretches(points: &[Point]) -> Vec<Stretch> {
+/// Motions of one kind along the branch. Where the kind changes, one stretch ends and the next begins at the place that was closed in
+/// on, else at the last motion of the kind before.
+fn stretches(branch: &Branch) -> Vec<Stretch> {
     let mut stretches: Vec<Stretch> = Vec::new();
     let mut before: Option<&Point> = None;
-    for point in points {
-        let is_same = before.is_some_and(|before| before.is_stable() == point.is_stable());
-        if !is_same {
+    for point in &branch.points {
+        let change = before.filter(|before| before.is_stable() != point.is_stable());
+        let place = change.map(|before| Place::between([before, point], &branch.marks));
+        if let (Some(place), Some(ended)) = (&place, stretches.last_mut()) {
+            place.add_to(ended);
+        }
+        if before.is_none() || change.is_some() {
             stretches.push(Stretch { stable: point.is_stable(), ..Stretch::default() });
-            // The line goes on from the last motion of the other kind.
-            if let (Some(before), Some(stretch)) = (before, stretches.last_mut()) {
-                add(stretch, before);
-            }
         }
         if let Some(stretch) = stretches.last_mut() {
-            add(stretch, point);
+            place.iter().for_each(|place| place.add_to(stretch));
+            Place::of(point).add_to(stretch);
         }
         before = Some(point);
     }
     stretches
 }
 
-fn add(stretch: &mut Stretch, point: &Point) {
-    stretch.values.push(point.value);
-    stretch.steps.push(point.step.unwrap_or(f64::NAN));
-    stretch.moduli.resize(MOST, Vec::new());
-    for (place, moduli) in stretch.moduli.iter_mut().enumerate() {
-        moduli.push(point.multipliers.get(place).map_or(f64::NAN, |multiplier| multiplier.modulus()));
+/// What a line goes through: the varied number, the step and |λ|.
+struct Place {
+    value: f64,
+    step: f64,
+    moduli: [f64; MOST],
+}
+
+impl Place {
+    fn of(point: &Point) -> Self {
+        let modulus =
+            |place: usize| point.multipliers.get(place).map_or(f64::NAN, |multiplier| multiplier.modulus());
+        Self {
+            value: point.value,
+            step: point.step.unwrap_or(f64::NAN),
+            moduli: std::array::from_fn(modulus),
+        }
+    }
+
+    /// Where the kind changes between two motions: the nearest of the places at which it does, with |λ| as far along as the number is.
+    fn between([before, after]: [&Point; 2], marks: &[Mark]) -> Self {
+        let [low, high] = [before.value.min(after.value), before.value.max(after.value)];
+        let apart = |mark: &&Mark| (low - mark.value).max(mark.value - high).max(0.0);
+        let nearest = marks
+            .iter()
+            .filter(|mark| mark.stable[0] != mark.stable[1])
+            .min_by(|one, other| apart(one).total_cmp(&apart(other)))
+            .filter(|mark| apart(mark) <= high - low);
+        let [before, after] = [before, after].map(Self::of);
+        let Some(mark) = nearest else { return before };
+        let apart = after.value - before.value;
+        let part = if apart == 0.0 { 0.5 } else { ((mark.value - before.value) / apart).clamp(0.0, 1.0) };
+        let moduli = std::array::from_fn(|k| (1.0 - part) * before.moduli[k] + part * after.moduli[k]);
+        Self { value: mark.value, step: mark.step.unwrap_or(f64::NAN), moduli }
+    }
+
+    fn add_to(&self, stretch: &mut Stretch) {
+        stretch.values.push(self.value);
+        stretch.steps.push(self.step);
+        stretch.moduli.resize(MOST, Vec::new());
+        stretch.moduli.iter_mut().zip(self.moduli).for_each(|(moduli, modulus)| moduli.push(modulus));
     }
 }
 
@@ -90,4 +126,39 @@ fn marks(of: &Continuation, branch: &Branch) -> Vec<(String, Vec<[f64; 2]>)> {
         };
     }
     marks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_study::steady::Multiplier;
+    use stickslip_study::steady::continuation::{Bifurcation, End};
+
+    /// A doubling at 2.5 between motions at 2 and 4: both stretches meet at it, and a quarter of the way on |λ| = 1.
+    #[test]
+    fn stretches_meet_where_the_kind_changes() {
+        let point = |value: f64, modulus: f64| Point {
+            value,
+            step: Some(value),
+            bound: 0.0,
+            period: 1.0,
+            multipliers: vec![Multiplier { re: -modulus, im: 0.0 }],
+            unknowns: 2,
+            piece: 0,
+        };
+        let mark = |value, stable| Mark {
+            kind: Bifurcation::PeriodDoubling,
+            value,
+            half_width: 0.0,
+            step: Some(value),
+            stable,
+        };
+        let marks = vec![mark(2.2, [true, true]), mark(2.5, [true, false])];
+        let points = vec![point(1.0, 0.5), point(2.0, 0.9), point(4.0, 1.3)];
+        let branch = Branch { points, marks, start: 0, ends: [End::Range, End::Range] };
+        let [solid, dashed] = &stretches(&branch)[..] else { panic!("not two") };
+        assert!(solid.stable && !dashed.stable);
+        assert_eq!((&solid.values[..], &dashed.values[..]), (&[1.0, 2.0, 2.5][..], &[2.5, 4.0][..]));
+        assert!((solid.moduli[0][2] - 1.0).abs() < 1e-15 && (dashed.moduli[0][0] - 1.0).abs() < 1e-15);
+    }
 }

@@ -12,7 +12,7 @@ pub struct BranchCourse<'a> {
     pub axis: (&'a str, &'a str),
     /// What it is in the scene.
     pub present: f64,
-    /// Stretches of one kind along the branch; each begins with the last motion of the one before, where nothing lies between.
+    /// Stretches of one kind along the branch; each begins where the one before ends.
     pub stretches: Vec<Stretch>,
     /// Places at which something happens: what, the varied number, and the step where there is one.
     pub marks: Vec<(String, Vec<[f64; 2]>)>,

@@ -23,6 +23,8 @@ pub(crate) const SUBSCRIPT_DROP: f64 = 0.20;
 /// A long axis label shrinks by this factor at the most: eight points in print.
 const LEAST_SHRINK: f64 = 0.9;
 const ELLIPSIS: &str = "…";
+/// Where a word that is too long may part: key paths, names, files.
+const JOINTS: [char; 4] = ['.', '_', '-', '/'];
 
 impl Label {
     /// Text as it is; names of users are plain.
@@ -152,7 +154,8 @@ impl Label {
         done.iter().map(|line| line.cut(em, most)).collect()
     }
 
-    /// Words, in pieces where they are wider than `most`, each with what stands between it and the one before.
+    /// Words, in pieces where they are wider than `most`, each with what stands between it and the one before. A key path and the like
+    /// part at the last of their joints that fits.
     fn pieces(&self, em: f64, most: f64) -> Result<Vec<(Self, &'static str)>, PlotError> {
         let mut pieces = Vec::new();
         for word in self.words() {
@@ -162,8 +165,10 @@ impl Label {
                 let mut longer = piece.clone();
                 longer.push(c, subscript);
                 if !piece.is_empty() && longer.width(em)? > most {
-                    pieces.push((std::mem::take(&mut piece), std::mem::take(&mut gap)));
-                    piece.push(c, subscript);
+                    let (head, mut tail) = piece.parted();
+                    pieces.push((head, std::mem::take(&mut gap)));
+                    tail.push(c, subscript);
+                    piece = tail;
                 } else {
                     piece = longer;
                 }
@@ -171,6 +176,19 @@ impl Label {
             pieces.push((piece, gap));
         }
         Ok(pieces)
+    }
+
+    /// What stands up to the last joint of a word, and after it; all of a word without one.
+    fn parted(&self) -> (Self, Self) {
+        let characters: Vec<(char, bool)> = self.characters().collect();
+        let joint = characters.iter().rposition(|(c, subscript)| JOINTS.contains(c) && !subscript);
+        let (head, tail) = characters.split_at(joint.map_or(characters.len(), |joint| joint + 1));
+        let whole = |characters: &[(char, bool)]| {
+            let mut label = Self::default();
+            characters.iter().for_each(|(c, subscript)| label.push(*c, *subscript));
+            label
+        };
+        (whole(head), whole(tail))
     }
 
     fn words(&self) -> Vec<Self> {
@@ -275,5 +293,12 @@ mod tests {
         assert_eq!(word.iter().map(Label::text).collect::<String>(), "abcdefghijklmnopqrstuvwxyz");
         let lines = label.wrapped(30.0, most, 1).unwrap();
         assert!(lines.len() == 1 && lines[0].text().ends_with(ELLIPSIS));
+        // A key path parts at its dots.
+        let path = Label::plain("contacts.front.profile.paraboloid.radius");
+        let lines = path.wrapped(30.0, 0.97 * path.width(30.0).unwrap(), 2).unwrap();
+        assert_eq!(
+            lines.iter().map(Label::text).collect::<Vec<_>>(),
+            ["contacts.front.profile.paraboloid.", "radius"]
+        );
     }
 }

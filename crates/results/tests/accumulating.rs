@@ -43,7 +43,8 @@ fn off(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
 }
 
-/// Against classical Runge–Kutta at two steps, whose difference is its own error.
+/// Against classical Runge–Kutta at two steps, whose difference is its own error. Nothing in these scenes makes more of a change than it was:
+/// where the local errors of all steps and events add up there is a tolerance for each, and never more than so many `within`.
 fn against_fixed_steps(name: &str, steps: [&str; 2], tolerances: &[f64], within: f64) {
     let fixed = steps.map(|step| {
         let job = job(name, &format!(r#"{{"rk4": {{"step": "{step}"}}}}"#));
@@ -57,6 +58,7 @@ fn against_fixed_steps(name: &str, steps: [&str; 2], tolerances: &[f64], within:
         let off = off(&places(&job, &outcome.state), &fixed[1]);
         let counts = outcome.state.counts();
         println!("{name} at {tolerance:e}: {off:.2e} u_c off, rk4 {own:.2e}, {counts:?}");
+        let within = within.min((counts.steps + counts.events) as f64);
         assert!(off <= within * tolerance + 3.0 * own, "{name} at {tolerance:e}: {off:e}, rk4 {own:e}");
     }
 }
@@ -69,7 +71,7 @@ fn a_ball_set_down_under_its_weight_alone_goes_on() {
 
 #[test]
 fn a_foot_that_opens_in_the_last_bit_of_time_is_open() {
-    against_fixed_steps("lift_off_and_touch", ["40 ns", "20 ns"], &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12], 100.0);
+    against_fixed_steps("lift_off_and_touch", ["40 ns", "20 ns"], &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12], 1e3);
 }
 
 /// Stick and slip take turns along the line: detours take what they come to on average.

@@ -56,6 +56,12 @@ struct ContactRates {
     presses: bool,
 }
 
+/// How a starting state moves: its components, and of each memory the anchors, a line [a, b] of each piece.
+struct Start {
+    column: Vec<f64>,
+    anchors: Vec<Vec<[f64; 2]>>,
+}
+
 /// How far a contact is moved at a moment where its bodies stand as they do.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shift {
@@ -119,12 +125,8 @@ impl Parameter {
         })
     }
 
-    /// How a run's starting state moves: its components, and the anchors of its memories, a line [a, b] of each piece.
-    pub(super) fn start(
-        &self,
-        plan: &Plan,
-        state: &State,
-    ) -> Result<(Vec<f64>, Vec<Vec<[f64; 2]>>), VariationError> {
+    /// How a run's starting state moves.
+    fn start(&self, plan: &Plan, state: &State) -> Result<Start, VariationError> {
         let states = self.beside.models.each_ref().map(|model| model.start(plan).ok());
         let [Some(a), Some(b), Some(c), Some(d)] = states else { return Err(VariationError::Form) };
         let states = [a, b, c, d];
@@ -140,7 +142,7 @@ impl Parameter {
             Ok((0..count).map(line).collect())
         };
         let anchors = (0..state.memories.len()).map(of_contact).collect::<Result<_, _>>()?;
-        Ok((column, anchors))
+        Ok(Start { column, anchors })
     }
 
     /// How a waveform moves at a moment.
@@ -367,10 +369,10 @@ impl Model {
         let (dimension, count) = (self.layout().dimension(), parameters.len());
         let starts = parameters.iter().map(|parameter| parameter.start(plan, start));
         let starts = starts.collect::<Result<Vec<_>, _>>()?;
-        let columns = starts.iter().flat_map(|(column, _)| &column[..dimension]).copied().collect();
+        let columns = starts.iter().flat_map(|start| &start.column[..dimension]).copied().collect();
         let of_contact = |c: usize| {
-            let pieces = starts.first().map_or(0, |(_, anchors)| anchors[c].len());
-            let lines = (0..pieces).flat_map(|k| starts.iter().map(move |(_, anchors)| anchors[c][k]));
+            let pieces = starts.first().map_or(0, |start| start.anchors[c].len());
+            let lines = (0..pieces).flat_map(|k| starts.iter().map(move |start| start.anchors[c][k]));
             Anchors::new(count, lines.collect())
         };
         let anchors = (0..self.contacts.len()).map(of_contact).collect();

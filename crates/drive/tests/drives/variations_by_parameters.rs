@@ -183,7 +183,7 @@ fn apart(of: &dyn Fn(f64) -> Scene, until: f64) -> Result<(f64, f64), VariationE
     let (columns, _) = varied((&model, &tight), &[parameter], until)?;
     let known = [1e-3, 2e-4, 4e-5].into_iter().map(|h| {
         let (by_runs, mended) = differences(of, &tight, until, h);
-        (size([mended].into_iter(), &[by_runs.clone()], natural), by_runs)
+        (size([mended].into_iter(), std::slice::from_ref(&by_runs), natural), by_runs)
     });
     let (doubt, by_runs) = known.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     let off = columns[0].iter().zip(&by_runs).map(|(a, b)| a - b).collect();

@@ -228,13 +228,14 @@ mod tests {
         assert_eq!(course, Course::Beats);
         // 15 swings in 100 values: their mean is known to less than a tenth of the swing.
         assert!((mean.value - 1e-8).abs() <= mean.error && mean.error < 1e-10, "{mean:?}");
-        assert!((spread - 1e-9).abs() < 1e-11, "{spread}");
-        // Its mean goes with the square of its amplitude, as long as it grows.
+        // Periods are one radian of it apart: one of them is within half a radian of where it is farthest.
+        assert!((0.5_f64.cos() * 1e-9..=1e-9).contains(&spread), "{spread}");
+        // One that grows goes on growing: nobody knows what that makes of the mean.
         let of = |k: i32| 1e-10 * 1.004_f64.powi(k);
-        let grows: Vec<f64> =
-            (0..400).map(|k| 1e-8 - 1e8 * of(k).powi(2) + of(k) * f64::from(k).sin()).collect();
-        let (_, mean, spread) = judged(&grows, Hold::default(), FREE).unwrap();
-        assert!(mean.error >= spread && spread > 0.9 * of(399), "{mean:?} {spread}");
+        let grows: Vec<f64> = (0..400).map(|k| 1e-8 + of(k) * f64::from(k).sin()).collect();
+        let (course, mean, spread) = judged(&grows, Hold::default(), FREE).unwrap();
+        assert_eq!(course, Course::Beats);
+        assert!(mean.error >= spread && spread > 0.5_f64.cos() * of(399), "{mean:?} {spread}");
     }
 
     /// A constant force: each step is longer than the one before by F T²/m. Differences of such places are rounded, and by chance

@@ -16,8 +16,6 @@ const MOST: usize = 256;
 const AGAIN: f64 = 1e6;
 /// Most of it, in natural scales.
 const OFF: f64 = 1e-3;
-/// What a contact that never slips grossly may slide in a period, in parts of its natural displacement.
-const STILL: f64 = 1e-3;
 /// Shorter ones are too near to an event on either side, as a part of the period.
 const SHORTEST: f64 = 1e-4;
 
@@ -33,20 +31,44 @@ pub(super) struct Settled {
 struct Moments {
     times: Vec<f64>,
     gave_way: Vec<bool>,
+    /// Places of the stick radii among all channels.
+    stick: Vec<Option<usize>>,
     grip: Option<Grip>,
+}
+
+impl Moments {
+    /// From a state on.
+    fn from(model: &Model, state: &State, grip: Option<Grip>) -> Self {
+        let channels = model.channels();
+        let place = |name: &str| {
+            let name = format!("{name}.stick_m");
+            channels.iter().position(|channel| channel.name == name)
+        };
+        let (gave_way, stick) = model
+            .contacts()
+            .enumerate()
+            .map(|(c, (name, _))| (state.has_given_way(model, c), place(name)))
+            .unzip();
+        Self { times: Vec::new(), gave_way, stick, grip }
+    }
 }
 
 impl Record for Moments {
     fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, event: &Event, _: &[f64]) {
+    fn event(&mut self, event: &Event, row: &[f64]) {
         self.times.push(event.t);
         self.grip.iter_mut().for_each(|grip| grip.event(event));
-        if let (Source::Contact(c), EventKind::GrossSlip | EventKind::LiftOff) = (event.source, event.kind) {
-            self.gave_way[c] = true;
+        match (event.source, event.kind) {
+            (Source::Contact(c), EventKind::GrossSlip | EventKind::LiftOff) => self.gave_way[c] = true,
+            // Within a jump a contact gives way without an event: nothing of it sticks then.
+            (_, EventKind::Jump) => {
+                let sticks = |place: usize| row.get(place).is_none_or(|radius| *radius > 0.0);
+                for (gave_way, place) in self.gave_way.iter_mut().zip(&self.stick) {
+                    *gave_way |= place.is_some_and(|place| !sticks(place));
+                }
+            }
+            _ => {}
         }
-    }
-    fn wants_event_rows(&self) -> bool {
-        false
     }
 }
 
@@ -69,8 +91,7 @@ pub(super) fn settle(
 pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyError> {
     let (model, period, from) = (map.model(), map.period(), state.time());
     let contacts = model.contacts().count();
-    let gave_way = (0..contacts).map(|c| state.has_given_way(model, c)).collect();
-    let mut moments = Moments { times: Vec::new(), gave_way, grip: None };
+    let mut moments = Moments::from(model, &state, None);
     let state = map.lead(state, from + period, &mut moments)?;
     let stretches = stretches(&moments.times, (from, from + period));
     let chosen = choose(map, &state, &stretches)?;
@@ -88,8 +109,7 @@ pub(super) fn twice(
 ) -> Result<(Vec<usize>, Option<Loose>), SteadyError> {
     let model = map.model();
     let contacts = model.contacts().count();
-    let gave_way = (0..contacts).map(|c| fixed.state.has_given_way(model, c)).collect();
-    let mut moments = Moments { times: Vec::new(), gave_way, grip };
+    let mut moments = Moments::from(model, &fixed.state, grip);
     let (from, period) = (fixed.state.time(), map.period());
     let first = map.lead(fixed.state.clone(), from + period, &mut ())?;
     let second = map.lead(first, from + 2.0 * period, &mut moments)?;
@@ -101,12 +121,7 @@ pub(super) fn twice(
     if off > (AGAIN * map.tolerance().max(fixed.defect.amax())).min(OFF) {
         return Err(SteadyError::NoConvergence { best: off, periods: map.work() });
     }
-    // In a jump a contact gives way without an event.
-    let still = |c: &usize| {
-        let Some((section, natural)) = map.section().zip(model.contact_natural(*c)) else { return true };
-        section.slides(&fixed.image.way, *c).abs() <= STILL * natural.displacement
-    };
-    let never_gave_way = (0..contacts).filter(|c| !moments.gave_way[*c] && still(c)).collect();
+    let never_gave_way = (0..contacts).filter(|c| !moments.gave_way[*c]).collect();
     Ok((never_gave_way, loose))
 }
 
