@@ -13,13 +13,17 @@
 //! has moved as the edge had. Proof and exceptions: `docs/numerics.md`, "Variations".
 
 mod anchors;
+mod corners;
 mod error;
 mod growth;
+mod parameter;
 mod tangent;
 mod turning;
 
 pub use error::VariationError;
+pub use parameter::Parameter;
 
+use crate::Model;
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::event::Event;
@@ -27,10 +31,10 @@ use crate::model::Binding;
 use crate::record::{Record, Stride};
 use crate::scene::Axis;
 use crate::state::{Layout, State};
-use crate::{Model, Piece};
 pub(crate) use anchors::Anchors;
 use anchors::Held;
-use stickslip_contact::Memory;
+use corners::Corner;
+use parameter::Moment;
 use stickslip_stepper::{Coefficients, Components, Gauss, NODES};
 use tangent::Laws;
 
@@ -56,6 +60,10 @@ const SHORTEST: f64 = 1e-3;
 pub struct Variation<'m> {
     model: &'m Model,
     layout: Layout,
+    /// Numbers of the scene, which are the last ones.
+    parameters: &'m [Parameter],
+    /// The corner at which the interval has ended.
+    corner: Option<Corner>,
     /// Derivatives of the components, one number after the other.
     columns: Vec<f64>,
     /// What the contacts remember.
@@ -78,17 +86,21 @@ pub struct Variation<'m> {
     scale: Vec<f64>,
     /// The motion at a node.
     y: Vec<f64>,
+    /// The same at all nodes, where numbers of the scene need it, and when a step begins and how long it is, s.
+    passed: Vec<(f64, Vec<f64>)>,
+    time: f64,
+    length: f64,
 }
 
 impl<'m> Variation<'m> {
     /// The variation with derivatives to begin with: those of the components, `columns`, one number after the other, and those of
-    /// the memories. Numbers are counted in natural scales.
+    /// the memories. Numbers are counted in natural scales; the last ones are the `parameters` of the scene.
     ///
     /// # Errors
     ///
     /// A scene with a part whose variation is not known.
     pub(crate) fn new(
-        model: &'m Model,
+        (model, parameters): (&'m Model, &'m [Parameter]),
         (columns, anchors): (Vec<f64>, Vec<Anchors>),
         tolerance: f64,
     ) -> Result<Self, VariationError> {
@@ -102,8 +114,13 @@ impl<'m> Variation<'m> {
             method: Gauss::default(),
             nodes: Default::default(),
             scale: natural(model, layout).split_off(layout.free),
-            y: vec![0.0; 2 * layout.free],
+            y: vec![0.0; layout.total()],
+            passed: Vec::new(),
+            time: 0.0,
+            length: 0.0,
             model,
+            parameters,
+            corner: None,
             layout,
             columns,
             anchors,
@@ -167,6 +184,7 @@ impl<'m> Variation<'m> {
         if to.memories.iter().any(|memory| memory.merged().knots > 0) {
             return Err(VariationError::Accumulates { t: to.t });
         }
+        self.corner = self.corner_at(to)?;
         if !self.acts() {
             self.drift(to.t - from.t);
         } else if to.t > from.t && !self.strode {
@@ -175,33 +193,38 @@ impl<'m> Variation<'m> {
         for (c, contact) in self.model.contacts.iter().enumerate() {
             // Memories of others wait for an event of their own.
             if !contact.inert && to.memories[c].apex() != from.memories[c].apex() {
-                let moved = tangent::moved(contact, &self.columns, self.layout);
+                let moved = self.moved_at_corner(contact, to);
                 let has_edge = self.has_edge(contact, from, to);
-                self.anchors[c].follow(&to.memories[c], &moved, has_edge);
+                let steeper = self.steeper(c);
+                self.anchors[c].follow((contact, &to.memories[c]), (&moved, &steeper), has_edge);
             }
         }
         Ok(())
     }
 
-    /// Follows bodies that jump, in no time: what an edge swept on the way has moved as the apex has.
-    fn jump(&mut self, left: &State, state: &State) {
-        let place = |contact: &Contact, pieces: &[Piece]| {
-            let eq = Equations { pieces, ..Equations::on(self.model, left, self.layout, false) };
-            eq.motion(contact, left.t, |i| left.y[i]).apex()
-        };
-        for (c, contact) in self.model.contacts.iter().enumerate() {
-            let [before, after] = [&left.pieces, &state.pieces].map(|pieces| place(contact, pieces));
-            if !contact.inert && before != after {
-                let moved = tangent::moved(contact, &self.columns, self.layout);
-                let has_edge = after.d > before.d || ends_in_an_edge(contact, &state.memories[c]);
-                self.anchors[c].follow(&state.memories[c], &moved, has_edge);
-            }
-        }
-    }
-
     /// Whether anything acts on the derivatives: else velocities stay as they are.
     fn acts(&self) -> bool {
-        !self.acting.is_empty() || !self.model.links.is_empty()
+        !self.acting.is_empty() || !self.model.links.is_empty() || !self.parameters.is_empty()
+    }
+
+    /// (δu, δd) of a contact by each number.
+    fn moved(&self, contact: &Contact, at: Moment<'_>) -> Vec<(f64, f64)> {
+        self.moved_by(contact, &self.columns, at)
+    }
+
+    /// The same from other derivatives of the components.
+    fn moved_by(&self, contact: &Contact, columns: &[f64], at: Moment<'_>) -> Vec<(f64, f64)> {
+        let mut moved = tangent::moved(contact, columns, self.layout);
+        for (moved, parameter) in moved.iter_mut().rev().zip(self.parameters.iter().rev()) {
+            let shift = parameter.shift(contact, at);
+            *moved = (moved.0 + shift.u, moved.1 + shift.d);
+        }
+        moved
+    }
+
+    /// δκ of a contact by each number of the scene.
+    fn steeper(&self, c: usize) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.slope(c)).collect()
     }
 
     /// Leads the derivatives over a time in which nothing acts on them, s.
@@ -225,7 +248,7 @@ impl<'m> Variation<'m> {
                 Held::of(&self.anchors[c], contact, &state.memories[c])
             };
             self.held.push(held);
-            if tangent::acts(contact, &state.modes[c]) {
+            if tangent::acts(contact, &state.modes[c], !self.parameters.is_empty()) {
                 self.acting.push(c);
             }
         }
@@ -233,6 +256,9 @@ impl<'m> Variation<'m> {
 
     /// Leads the derivatives along a step of the run, in as many steps as it takes.
     fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
+        if !self.parameters.is_empty() {
+            [self.time, _] = stride.at(0.0, &mut self.y[..2 * self.layout.free]);
+        }
         let (mut at, mut length) = (0.0, 1.0);
         while self.acts() && at < 1.0 {
             // No stub is left for the last step.
@@ -241,6 +267,7 @@ impl<'m> Variation<'m> {
             if missed <= 1.0 {
                 self.grow(from, stride, (at, to));
                 self.columns.copy_from_slice(self.method.end());
+                self.time += self.length;
                 at = to;
                 continue;
             }
@@ -270,13 +297,27 @@ impl<'m> Variation<'m> {
             acting: &self.acting,
             links: &self.links,
             components,
-            count: self.columns.len().checked_div(self.layout.dimension()).unwrap_or(0),
+            count: self.count(),
+            parameters: self.parameters,
         };
+        // The forces of growing contacts are components of a step; no leap has any.
+        let known =
+            if components.rates > self.layout.free { self.layout.dimension() } else { 2 * self.layout.free };
         let mut paces = [0.0; NODES];
+        self.passed.clear();
         for ((place, pace), node) in Gauss::places().into_iter().zip(&mut paces).zip(&mut self.nodes) {
-            let [t, rate] = stride.at(begin + place * (end - begin), &mut self.y);
+            let [t, rate] = stride.at(begin + place * (end - begin), &mut self.y[..known]);
             *pace = rate * (end - begin);
             laws.lay_out((t, &self.y), node);
+            if !self.parameters.is_empty() {
+                self.passed.push((t, self.y.clone()));
+            }
+        }
+        // A leap tells places by a time of its own.
+        let (times, length) = Gauss::times(paces);
+        self.length = length;
+        for ((time, (t, y)), node) in times.iter().zip(&self.passed).zip(&mut self.nodes) {
+            laws.move_by_numbers(self.time + time, (*t, y), node);
         }
         let last = self.method.attempt((paces, &self.nodes), components, &self.columns, &self.scale);
         MISSED.0 * last.powf(MISSED.1)
@@ -319,19 +360,12 @@ impl Record for Variation<'_> {
             && let Some(left) = &left
         {
             self.outcome = self.check_turns(left, state);
-            self.jump(left, state);
+            self.turn_corner(state);
         }
         self.begin_growth(left.as_ref(), state);
         self.take_up(state);
         self.from = Some(state.clone());
     }
-}
-
-/// Whether the last piece of a memory is one that an edge has made.
-fn ends_in_an_edge(contact: &Contact, memory: &Memory) -> bool {
-    let Memory::Curve(curve) = memory else { return false };
-    let legs = curve.legs();
-    legs.slopes.len().checked_sub(1).is_some_and(|last| legs.sense(&contact.interface, last).is_some())
 }
 
 /// What of a scene has a variation.

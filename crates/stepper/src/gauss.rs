@@ -101,6 +101,13 @@ impl Gauss {
         PLACES.map(|x| 0.5 * (1.0 + x))
     }
 
+    /// Time to each node, and to the end, of a step in which it goes at `paces` per step at the nodes, s: as the method itself has it.
+    #[must_use]
+    pub fn times(paces: Each) -> (Each, f64) {
+        let add = |weights: &Each| weights.iter().zip(&paces).map(|(weight, pace)| weight * pace).sum();
+        (RULE.inner.each_ref().map(add), add(&SHARES))
+    }
+
     /// Tries a step in which time goes at `paces` per step at the nodes, s: an even one has its length for all of them. Tells the last
     /// Legendre coefficient of the rates' slopes, the largest in units of `scale`; infinite where there is no result.
     pub fn attempt(

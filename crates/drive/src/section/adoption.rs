@@ -57,7 +57,7 @@ impl Section<'_> {
 
 impl Model {
     /// Whether states of another model have the form of states of this one.
-    fn is_alike(&self, other: &Self) -> bool {
+    pub(crate) fn is_alike(&self, other: &Self) -> bool {
         let form = |model: &Self| {
             let blocks: Vec<usize> = model.blocks.iter().map(|block| block.count()).collect();
             let waveforms = model.waveforms.len();

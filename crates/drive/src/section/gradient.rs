@@ -50,7 +50,7 @@ impl<'m> Section<'m> {
             Anchors::new(count, lines.collect())
         });
         let anchors = anchors.collect();
-        Variation::new(model, (columns, anchors), tolerance)
+        Variation::new((model, &[]), (columns, anchors), tolerance)
     }
 
     /// What a [finished](Variation::finish) variation says of the state a period later, brought [back](Self::back) to the section;

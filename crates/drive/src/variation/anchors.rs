@@ -2,7 +2,7 @@
 //!
 //! What a memory curve answers with is F_x = G\*∫(u - p)dm over its springs, so all that counts of its change is by how much the
 //! anchor of the springs at a height moves. Between two knots that is a straight function of the height: an edge of slope σκ
-//! moves as a whole, by δu - σκδd of the apex that led it. Knots lie where two lines meet, and their own motion is of second order in the force.
+//! moves as a whole, by δu - σκδd of the apex that led it, and turns about that where κ changes. Knots lie where two lines meet, and their own motion is of second order in the force.
 //!
 //! A dragging edge takes the place of what it cuts, and of that below nothing changes: the lines of a memory are those of before,
 //! from the centre up, and one more.
@@ -37,11 +37,18 @@ impl Anchors {
         self.lines.len().checked_div(self.count).unwrap_or(0)
     }
 
-    /// Follows a memory that has moved over an interval, its apex by `moved`: (δu, δd) by each number. Without an edge its
-    /// last piece is one of before.
-    pub(super) fn follow(&mut self, memory: &Memory, moved: &[(f64, f64)], has_edge: bool) {
+    /// Follows a memory that has moved over an interval, its apex by `moved`: (δu, δd) by each number, of which the last may make edges
+    /// `steeper`, δκ. Without an edge its last piece is one of before.
+    pub(super) fn follow(
+        &mut self,
+        (contact, memory): (&Contact, &Memory),
+        (moved, steeper): (&[(f64, f64)], &[f64]),
+        has_edge: bool,
+    ) {
         let Memory::Curve(curve) = memory else { return };
-        let slopes = curve.legs().slopes;
+        let legs = curve.legs();
+        let sense = legs.slopes.len().checked_sub(1).and_then(|last| legs.sense(&contact.interface, last));
+        let (slopes, d) = (&legs.slopes, memory.apex().d);
         let Some((top, below)) = slopes.split_last() else {
             self.lines.clear();
             return;
@@ -53,8 +60,13 @@ impl Anchors {
         self.lines.truncate(below.len() * self.count);
         // What comes to be below the last piece without having been followed moves with it: pieces of rounding.
         let mut missing = below.len().saturating_sub(self.pieces());
+        let first = moved.len() - steeper.len();
+        let turn = |j: usize| {
+            sense.zip(j.checked_sub(first)).map_or(0.0, |(sense, parameter)| sense * steeper[parameter])
+        };
         loop {
-            self.lines.extend(moved.iter().map(|(du, dd)| [du - top * dd, 0.0]));
+            let line = |(j, (du, dd)): (usize, &(f64, f64))| [du - top * dd - turn(j) * d, turn(j)];
+            self.lines.extend(moved.iter().enumerate().map(line));
             if missing == 0 {
                 break;
             }

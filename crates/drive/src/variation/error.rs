@@ -20,6 +20,15 @@ pub enum VariationError {
     /// A profile whose contact length jumps.
     #[error("no variation of contact `{0}` is known: its stiffness jumps as it grows")]
     Profile(String),
+    /// A number of the scene that makes another drive of it.
+    #[error("no variation by this number is known: it moves levers, or other parts act with it")]
+    Form,
+    /// Corners of several waveforms at one moment that a number of the scene moves apart.
+    #[error("corners of several waveforms come at t = {t:e} s, and move apart")]
+    MovesApart {
+        /// Time, s.
+        t: f64,
+    },
     /// A turn that is as good as none: to either side of it the contact answers with another stiffness.
     #[error("contact `{contact}` stands still at t = {t:e} s: the motion has no derivative there")]
     Grazes {

@@ -2,7 +2,7 @@
 
 use super::Variation;
 use super::anchors::Held;
-use super::tangent;
+use super::parameter::Moment;
 use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::record::Stride;
@@ -38,7 +38,7 @@ impl Variation<'_> {
             let at = |i: usize| state.y[i];
             let motion = Equations::on(self.model, state, self.layout, false).motion(contact, state.t, at);
             let (slope, memory) = (motion.du / motion.dd, &state.memories[c]);
-            let moved = tangent::moved(contact, &self.columns, self.layout);
+            let moved = self.moved(contact, Moment { pieces: &state.pieces, t: state.t });
             self.anchors[c].begin_growth(memory.apex().d.max(0.0), slope, &moved);
             if left.is_some_and(|left| left.modes[c] == Mode::Grow) {
                 continue;
@@ -54,6 +54,12 @@ impl Variation<'_> {
                     profile.reduced_stiffness(motion.d) * du - held.below(profile, motion.d, j)
                 };
                 self.columns[j * dimension + self.layout.force(slot)] = modulus * reduced;
+            }
+            let force = memory.preview(&contact.interface, memory.apex()).force;
+            let first = self.count() - self.parameters.len();
+            for (j, parameter) in (first..).zip(self.parameters) {
+                let pull = parameter.pull(contact, memory, force, [motion.d, motion.d, 0.0]);
+                self.columns[j * dimension + self.layout.force(slot)] += pull;
             }
         }
     }
@@ -75,7 +81,7 @@ impl Variation<'_> {
                 let [t, _] = stride.at(part, &mut self.y);
                 let eq = Equations::on(self.model, from, self.layout, false);
                 let motion = eq.motion(contact, t, |i| self.y[i]);
-                let moved = tangent::moved(contact, &columns, self.layout);
+                let moved = self.moved_by(contact, &columns, Moment { pieces: &from.pieces, t });
                 self.anchors[c].grow(motion.d, motion.du / motion.dd, &moved);
             }
         }

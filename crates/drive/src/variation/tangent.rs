@@ -1,13 +1,14 @@
 //! The linear equations of a variation.
 
 use super::anchors::Held;
+use super::parameter::{Moment, Parameter, edge};
 use crate::Model;
 use crate::contact::{Contact, Mode, Motion};
-use crate::equations::Equations;
+use crate::equations::{self, Equations};
 use crate::model::Measure;
 use crate::state::Layout;
 use stickslip_contact::Memory;
-use stickslip_stepper::{Coefficients, Components};
+use stickslip_stepper::{Coefficients, Components, System};
 
 /// How the force of one contact changes at a moment.
 #[derive(Clone, Copy, Default)]
@@ -28,12 +29,13 @@ pub(super) fn moved(contact: &Contact, columns: &[f64], layout: Layout) -> Vec<(
     each.map(|column| (of(&contact.u, column), contact.coupling().map_or(0.0, |d| of(d, column)))).collect()
 }
 
-/// Whether a contact in a mode acts on derivatives: in gross slip at a given depth its force is what it is.
-pub(super) fn acts(contact: &Contact, mode: &Mode) -> bool {
+/// Whether a contact in a mode acts on derivatives: in gross slip at a given depth its force is what it is, unless numbers of the
+/// scene `move` it.
+pub(super) fn acts(contact: &Contact, mode: &Mode, moves: bool) -> bool {
     match mode {
         Mode::Open => false,
         _ if contact.coupling().is_some() => true,
-        Mode::Slip(branch) => !branch.is_gross() && !contact.inert,
+        Mode::Slip(branch) => (moves || !branch.is_gross()) && !contact.inert,
         Mode::Grow => true,
         Mode::Whole { .. } | Mode::Lull { .. } => false,
     }
@@ -98,8 +100,9 @@ pub(super) struct Laws<'a> {
     /// What [`links`] make.
     pub(super) links: &'a [f64],
     pub(super) components: Components,
-    /// How many numbers.
+    /// How many numbers, and those of the scene, which are the last of them.
     pub(super) count: usize,
+    pub(super) parameters: &'a [Parameter],
 }
 
 impl Laws<'_> {
@@ -121,6 +124,89 @@ impl Laws<'_> {
             if let (Some(slot), Mode::Grow) = (contact.slot, self.eq.law(*c).1) {
                 self.grow((contact, slot), &motion, &mut node.matrix);
             }
+        }
+    }
+
+    /// Adds what numbers of the scene make of the equations, `now` being the time; the motion is told as [`Self::lay_out`] has it.
+    pub(super) fn move_by_numbers(&self, now: f64, motion: (f64, &[f64]), node: &mut Coefficients) {
+        node.forcing.resize(self.components.rates * self.count, 0.0);
+        let (first, now) = (self.count - self.parameters.len(), Moment { pieces: self.eq.pieces, t: now });
+        for (j, parameter) in (first..).zip(self.parameters) {
+            self.move_by(parameter, (now, motion), (j, &mut node.forcing));
+        }
+    }
+
+    /// What a number of the scene makes of the rates of column `j` where all stands as it does.
+    fn move_by(
+        &self,
+        parameter: &Parameter,
+        (now, (t, y)): (Moment<'_>, (f64, &[f64])),
+        (j, forcing): (usize, &mut [f64]),
+    ) {
+        let (eq, model) = (&self.eq, self.eq.model);
+        let at = equations::Components { t, y: |i: usize| y[i] };
+        let mut add = |row: usize, rate: f64| forcing[row * self.count + j] += rate;
+        for (i, free) in model.free.iter().enumerate() {
+            add(i, free.mobility * parameter.coordinate(i)[0]);
+        }
+        for (l, link) in model.links.iter().enumerate() {
+            let (length, stroke) = (eq.read(&link.elongation, &at), eq.stroke(link, &at));
+            let stretch = [stroke.value - length.value, stroke.rate - length.rate];
+            let force = parameter.link(model, l, stretch, now);
+            link.elongation.free.iter().for_each(|(i, a)| add(*i, model.free[*i].mobility * a * force));
+        }
+        for (l, load) in model.loads.iter().enumerate() {
+            let value = eq.sample(load.waveform, t).value;
+            add(load.free, model.free[load.free].mobility * parameter.load(model, l, value, now));
+        }
+        for c in self.acting {
+            let contact = &model.contacts[*c];
+            let motion = eq.motion(contact, t, |i| y[i]);
+            let [along, across] = self.pulls(contact, parameter, (now, &motion), &mut add);
+            let terms = contact.u.free.iter().map(|(i, a)| (*i, a * along));
+            let depth = contact.coupling().into_iter().flat_map(|d| &d.free);
+            terms
+                .chain(depth.map(|(i, a)| (*i, a * across)))
+                .for_each(|(i, force)| add(i, -model.free[i].mobility * contact.count * force));
+        }
+        if parameter.weighs() {
+            let mut slopes = vec![0.0; eq.layout.total()];
+            eq.slopes(t, y, &mut slopes);
+            (0..model.free.len())
+                .for_each(|i| add(i, parameter.coordinate(i)[1] * slopes[eq.layout.velocity(i)]));
+        }
+    }
+
+    /// How F_x and F_N of one contact change by a number of the scene, N; of one that grows F_x is a state, whose rate does.
+    fn pulls(
+        &self,
+        contact: &Contact,
+        parameter: &Parameter,
+        (now, motion): (Moment<'_>, &Motion),
+        add: &mut impl FnMut(usize, f64),
+    ) -> [f64; 2] {
+        let (law, shift) = (self.eq.law(contact.place), parameter.shift(contact, now));
+        let Stiffness { along, normal, front, .. } = Stiffness::of(contact, law, motion);
+        let across = match contact.coupling() {
+            Some(_) => normal * shift.d + parameter.press(contact, motion.d),
+            None => 0.0,
+        };
+        let whole = contact.interface.stick_stiffness(motion.d);
+        match (law.1, contact.slot) {
+            (Mode::Slip(branch), _) if !contact.inert => {
+                let at = edge(contact, branch.sense(), front, motion);
+                let force = contact.force(law, motion, || 0.0);
+                let moved = along * shift.u + at[2] * (whole - along) * shift.d;
+                [moved + parameter.pull(contact, law.0, force, at), across]
+            }
+            (Mode::Grow, Some(slot)) => {
+                let swell = contact.interface.tangential_modulus() * swelling(contact, motion.d);
+                let stiffer = parameter.stick_stiffness(contact, motion.d) + swell * shift.d;
+                let row = self.eq.layout.force(slot) - self.components.positions;
+                add(row, stiffer * motion.du + whole * shift.du);
+                [0.0, across]
+            }
+            _ => [0.0, across],
         }
     }
 

@@ -52,4 +52,5 @@ mod unfed_inputs;
 mod units;
 mod variations;
 mod variations_at_events;
+mod variations_by_parameters;
 mod vibrated;

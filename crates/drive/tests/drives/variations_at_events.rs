@@ -5,6 +5,7 @@ use crate::variations::{differences, led, size, varied};
 use stickslip_contact::{Interface, Profile};
 use stickslip_drive::scene::{
     Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Normal, Point, Scene, Side, Spring,
+    Varying,
 };
 use stickslip_drive::section::{Section, Unknown};
 use stickslip_drive::{Harmonic, Model, Plan, Run, Shape, State, VariationError};
@@ -118,6 +119,23 @@ fn jumps_vary_as_their_differences_say() {
             let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), from));
             agrees((&model, &tight), &section, until);
         }
+    }
+}
+
+/// A normal force with corners: the contact grows after one and shrinks after the next, on the path by which it grew or with an edge.
+#[test]
+fn corners_of_a_normal_force_vary_as_their_differences_say() {
+    let tight = event(1e-13, f64::MAX);
+    let forces = [1.0, 1.3, 0.8, 1.1, 0.9, 1.2, 1.0, 1.4];
+    let points = forces.into_iter().enumerate().map(|(k, force)| (0.37e-3 * k as f64, force)).collect();
+    let mut scene = p1();
+    scene.waveforms.push(wave("pressing", Shape::Table { points }, 1e-3));
+    scene.contacts[0].part.normal = Normal::Force(Varying::Follows(1));
+    let mut model = Model::new(&scene).unwrap();
+    model.keep_together();
+    for (from, until) in [(0.3e-3, 0.9e-3), (0.3e-3, 2.3e-3), (1.0e-3, 1.6e-3)] {
+        let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), from));
+        agrees((&model, &tight), &section, until);
     }
 }
 

@@ -1,0 +1,381 @@
+//! What of a drive moves with a number of its scene.
+//!
+//! A number moves constants: moduli, masses, stiffnesses, indentations, what waveforms are and when their corners come. How fast is
+//! read off models on both sides of its value, by differences over five points: whatever path a number takes into a model, none needs
+//! a law of its own here. No run of these models is asked for, so that a small distance costs no more than rounding.
+
+use super::{Anchors, Variation, VariationError};
+use crate::contact::{Contact, Motion, Press};
+use crate::model::{Measure, Stroke, Terms};
+use crate::{Model, Piece, Plan, Sample, State};
+use stickslip_contact::Memory;
+
+/// A number of the scene, told by models on both sides of its value.
+#[derive(Debug, Clone)]
+pub struct Parameter {
+    beside: Beside,
+    /// Of each free coordinate its constant force, N or N m, and its mobility, as a share of it.
+    coordinates: Vec<[f64; 2]>,
+    links: Vec<LinkRates>,
+    arms: Vec<f64>,
+    contacts: Vec<ContactRates>,
+    /// Waveforms that it moves.
+    waveforms: Vec<bool>,
+}
+
+/// Models at -2, -1, 1 and 2 distances from a value.
+#[derive(Debug, Clone)]
+struct Beside {
+    models: [Model; 4],
+    distance: f64,
+}
+
+/// How the constants of a link move.
+#[derive(Debug, Clone, Copy)]
+struct LinkRates {
+    stiffness: f64,
+    damping: f64,
+    preload: f64,
+    length: f64,
+    stroke: f64,
+}
+
+/// How the constants of a contact move.
+#[derive(Debug, Clone, Copy)]
+struct ContactRates {
+    /// Constants of u and d, m.
+    u: f64,
+    d: f64,
+    /// G\* and E\*, each as a share of it.
+    tangential: f64,
+    normal: f64,
+    /// κ.
+    slope: f64,
+    profile: bool,
+    /// Whether what presses it moves otherwise.
+    presses: bool,
+}
+
+/// How a starting state moves: its components, and of each memory the anchors, a line [a, b] of each piece.
+struct Start {
+    column: Vec<f64>,
+    anchors: Vec<Vec<[f64; 2]>>,
+}
+
+/// How far a contact is moved at a moment where its bodies stand as they do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shift {
+    pub(super) u: f64,
+    pub(super) d: f64,
+    /// By which its rate of sliding changes, m/s.
+    pub(super) du: f64,
+}
+
+/// Waveforms on their pieces at a time, s.
+#[derive(Clone, Copy)]
+pub(super) struct Moment<'a> {
+    pub(super) pieces: &'a [Piece],
+    pub(super) t: f64,
+}
+
+impl Beside {
+    /// The derivative at the value: f(-2h) - 8f(-h) + 8f(h) - f(2h) over 12h, exact but for the fifth derivative.
+    fn rate(&self, of: impl Fn(&Model) -> f64) -> f64 {
+        let [far_below, below, above, far_above] = self.models.each_ref().map(of);
+        (far_below - far_above + 8.0 * (above - below)) / (12.0 * self.distance)
+    }
+}
+
+impl Parameter {
+    /// A number by which a model moves to those `beside` it, at -2, -1, 1 and 2 distances from its value. Derivatives are by the unit in
+    /// which the distance is told.
+    ///
+    /// # Errors
+    ///
+    /// Models of another form: other parts act, or levers are longer.
+    pub fn new(model: &Model, beside: [Model; 4], distance: f64) -> Result<Self, VariationError> {
+        let is_alike = |other: &Model| other.is_alike(model) && levers(other).eq(levers(model));
+        if !beside.iter().all(is_alike) || !beside.iter().all(|other| strokes(other).eq(strokes(model))) {
+            return Err(VariationError::Form);
+        }
+        let beside = Beside { models: beside, distance };
+        let coordinate = |i: usize| {
+            let mobility = beside.rate(|other| other.free[i].mobility);
+            [beside.rate(|other| other.free[i].force), mobility / model.free[i].mobility]
+        };
+        let link = |l: usize| LinkRates {
+            stiffness: beside.rate(|other| other.links[l].stiffness),
+            damping: beside.rate(|other| other.links[l].damping),
+            preload: beside.rate(|other| other.links[l].preload),
+            length: beside.rate(|other| other.links[l].elongation.constant),
+            stroke: beside.rate(|other| match other.links[l].stroke {
+                Stroke::Constant(stroke) => stroke,
+                Stroke::Driven(_) => 0.0,
+            }),
+        };
+        let waveform = |w: usize| beside.models.iter().any(|other| other.waveforms[w] != model.waveforms[w]);
+        let waveforms: Vec<bool> = (0..model.waveforms.len()).map(waveform).collect();
+        Ok(Self {
+            coordinates: (0..model.free.len()).map(coordinate).collect(),
+            links: (0..model.links.len()).map(link).collect(),
+            arms: (0..model.loads.len()).map(|l| beside.rate(|other| other.loads[l].arm)).collect(),
+            contacts: model.contacts.iter().map(|c| ContactRates::of(c, &beside, &waveforms)).collect(),
+            waveforms,
+            beside,
+        })
+    }
+
+    /// How a run's starting state moves.
+    fn start(&self, plan: &Plan, state: &State) -> Result<Start, VariationError> {
+        let states = self.beside.models.each_ref().map(|model| model.start(plan).ok());
+        let [Some(a), Some(b), Some(c), Some(d)] = states else { return Err(VariationError::Form) };
+        let states = [a, b, c, d];
+        let rate = |of: [f64; 4]| (of[0] - of[3] + 8.0 * (of[2] - of[1])) / (12.0 * self.beside.distance);
+        let column = (0..state.y.len()).map(|i| rate(states.each_ref().map(|state| state.y[i]))).collect();
+        let of_contact = |c: usize| {
+            let count = lines(&state.memories[c]).len();
+            let beside = states.each_ref().map(|state| lines(&state.memories[c]));
+            if beside.iter().any(|lines| lines.len() != count) {
+                return Err(VariationError::Form);
+            }
+            let line = |k: usize| [0, 1].map(|i| rate(beside.each_ref().map(|lines| lines[k][i])));
+            Ok((0..count).map(line).collect())
+        };
+        let anchors = (0..state.memories.len()).map(of_contact).collect::<Result<_, _>>()?;
+        Ok(Start { column, anchors })
+    }
+
+    /// How a waveform moves at a moment.
+    pub(super) fn sample(&self, w: usize, at: Moment<'_>) -> Sample {
+        let of = |read: fn(Sample) -> f64| self.beside.rate(|other| read(sampled(other, w, at)));
+        if !self.waveforms.get(w).copied().unwrap_or(false) {
+            return Sample { value: 0.0, rate: 0.0, acceleration: 0.0 };
+        }
+        Sample { value: of(|it| it.value), rate: of(|it| it.rate), acceleration: 0.0 }
+    }
+
+    /// How the end of a waveform's piece moves, s.
+    pub(super) fn corner(&self, w: usize, piece: &Piece) -> f64 {
+        if !self.waveforms.get(w).copied().unwrap_or(false) {
+            return 0.0;
+        }
+        let end = |other: &Model| other.waveforms[w].piece(piece.index).map_or(f64::NAN, |piece| piece.end);
+        self.beside.rate(end)
+    }
+
+    /// How a measure and its rate move beside what is free.
+    fn followed(&self, measure: &Measure, at: Moment<'_>) -> [f64; 2] {
+        let add = |[value, rate]: [f64; 2], (w, a): &(usize, f64)| {
+            let sample = self.sample(*w, at);
+            [value + a * sample.value, rate + a * sample.rate]
+        };
+        measure.driven.iter().fold([0.0; 2], add)
+    }
+
+    /// How a contact is moved.
+    pub(super) fn shift(&self, contact: &Contact, at: Moment<'_>) -> Shift {
+        let (c, rates) = (contact.place, &self.contacts[contact.place]);
+        let [u, du] = self.followed(&contact.u, at);
+        let d = match &contact.press {
+            Press::Constant { .. } => rates.d,
+            Press::Coupled(measure) => rates.d + self.followed(measure, at)[0],
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) if rates.presses => {
+                self.beside.rate(|other| other.contacts[c].pressed(sampled(other, *w, at), None).0)
+            }
+            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => 0.0,
+        };
+        Shift { u: rates.u + u, d, du }
+    }
+
+    /// How κ of a contact moves.
+    pub(super) fn slope(&self, c: usize) -> f64 {
+        self.contacts[c].slope
+    }
+
+    /// How F_x (N) of one contact moves where its springs are anchored as they are: d, the height of its slip front (m) and the slope
+    /// σκ of its edge at hand.
+    ///
+    /// F_x = G\*[Σ p'ΔM + σκ(M(d) - M(h))], the sum up to the front h, which lies where both are the same.
+    pub(super) fn pull(
+        &self,
+        contact: &Contact,
+        memory: &Memory,
+        force: f64,
+        [d, front, edge]: [f64; 3],
+    ) -> f64 {
+        let (rates, law) = (&self.contacts[contact.place], &contact.interface);
+        let mut pull = rates.tangential * force;
+        if rates.slope != 0.0 {
+            let swept = law.reduced_force(d)
+                - law.reduced_force(front)
+                - (d - front) * law.profile().reduced_stiffness(front);
+            pull += edge.signum() * rates.slope * law.tangential_modulus() * swept;
+        }
+        if rates.profile {
+            let reduced = |h: f64| self.reduced_force(contact.place, h);
+            pull += law.tangential_modulus() * pulled(memory, [d, front, edge], reduced);
+        }
+        pull
+    }
+
+    /// How G\*m(d) moves, N/m.
+    pub(super) fn stick_stiffness(&self, contact: &Contact, d: f64) -> f64 {
+        let c = contact.place;
+        if self.contacts[c].profile {
+            return self.beside.rate(|other| other.contacts[c].interface.stick_stiffness(d));
+        }
+        self.contacts[c].tangential * contact.interface.stick_stiffness(d)
+    }
+
+    /// How F_N of one contact moves at the depth d, N.
+    pub(super) fn press(&self, contact: &Contact, d: f64) -> f64 {
+        let c = contact.place;
+        if self.contacts[c].profile {
+            return self.beside.rate(|other| other.contacts[c].interface.normal_force(d));
+        }
+        self.contacts[c].normal * contact.interface.normal_force(d)
+    }
+
+    fn reduced_force(&self, c: usize, h: f64) -> f64 {
+        self.beside.rate(|other| other.contacts[c].interface.reduced_force(h))
+    }
+
+    /// Constant force on a free coordinate, N or N m, and how its mobility moves, as a share of it.
+    pub(super) fn coordinate(&self, i: usize) -> [f64; 2] {
+        self.coordinates[i]
+    }
+
+    /// Whether a mass moves.
+    pub(super) fn weighs(&self) -> bool {
+        self.coordinates.iter().any(|[_, mobility]| *mobility != 0.0)
+    }
+
+    /// How the force along a link moves, N, its stretch s - e and the rate of that at hand.
+    pub(super) fn link(&self, model: &Model, l: usize, [stretch, speed]: [f64; 2], at: Moment<'_>) -> f64 {
+        let (link, rates) = (&model.links[l], &self.links[l]);
+        let stroke = match link.stroke {
+            Stroke::Constant(_) => [rates.stroke, 0.0],
+            Stroke::Driven(w) => {
+                let sample = self.sample(w, at);
+                [sample.value, sample.rate]
+            }
+        };
+        let [length, rate] = self.followed(&link.elongation, at);
+        let held = link.stiffness * (stroke[0] - rates.length - length) + link.damping * (stroke[1] - rate);
+        rates.stiffness * stretch + rates.damping * speed + rates.preload + held
+    }
+
+    /// How a load moves, N or N m, its waveform's value at hand.
+    pub(super) fn load(&self, model: &Model, l: usize, value: f64, at: Moment<'_>) -> f64 {
+        self.arms[l] * value + model.loads[l].arm * self.sample(model.loads[l].waveform, at).value
+    }
+}
+
+impl ContactRates {
+    fn of(contact: &Contact, beside: &Beside, waveforms: &[bool]) -> Self {
+        let (c, law) = (contact.place, &contact.interface);
+        let rate = |of: fn(&Contact) -> f64| beside.rate(|other| of(&other.contacts[c]));
+        let profile = beside.models.iter().any(|it| it.contacts[c].interface.profile() != law.profile());
+        let normal = rate(|it| it.interface.normal_modulus()) / law.normal_modulus();
+        let moves = contact.press.waveform().is_some_and(|w| waveforms[w]);
+        Self {
+            u: rate(|it| it.u.constant),
+            d: rate(|it| match &it.press {
+                Press::Constant { d, .. } => *d,
+                Press::Coupled(measure) => measure.constant,
+                Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => 0.0,
+            }),
+            tangential: rate(|it| it.interface.tangential_modulus()) / law.tangential_modulus(),
+            normal,
+            slope: rate(|it| it.interface.stick_slope()),
+            profile,
+            presses: moves || profile || normal != 0.0,
+        }
+    }
+}
+
+/// A waveform of a model where that of the run is on a piece; not a number where it has none like it.
+fn sampled(model: &Model, w: usize, at: Moment<'_>) -> Sample {
+    let waveform = &model.waveforms[w];
+    let nothing = Sample { value: f64::NAN, rate: f64::NAN, acceleration: f64::NAN };
+    waveform.piece(at.pieces[w].index).map_or(nothing, |piece| waveform.sample(&piece, at.t))
+}
+
+/// What lines of force and ways between the parts are made of.
+fn levers(model: &Model) -> impl Iterator<Item = (&Terms, &Terms)> {
+    let of_links = model.links.iter().map(|link| &link.elongation);
+    let of_contacts =
+        model.contacts.iter().flat_map(|contact| [Some(&contact.u), contact.coupling()]).flatten();
+    of_links.chain(of_contacts).map(|measure| (&measure.free, &measure.driven))
+}
+
+/// What each link and each load follows, what presses each contact, and how many there are.
+fn strokes(model: &Model) -> impl Iterator<Item = Option<usize>> {
+    let of_links = model.links.iter().map(|link| match link.stroke {
+        Stroke::Constant(_) => None,
+        Stroke::Driven(w) => Some(w),
+    });
+    let of_loads = model.loads.iter().map(|load| Some(load.free));
+    let of_contacts =
+        model.contacts.iter().map(|contact| contact.press.waveform().filter(|_| !contact.inert));
+    of_links.chain(of_loads).chain(of_contacts)
+}
+
+/// The lines α + βh of a memory's pieces, [α, β].
+fn lines(memory: &Memory) -> Vec<[f64; 2]> {
+    let Memory::Curve(curve) = memory else { return Vec::new() };
+    let slopes = curve.legs().slopes;
+    curve.knots().zip(slopes).map(|((h, p), slope)| [p - slope * h, slope]).collect()
+}
+
+/// Σ p'ΔM below a slip front, and of the edge above it.
+fn pulled(memory: &Memory, [d, front, edge]: [f64; 3], reduced: impl Fn(f64) -> f64) -> f64 {
+    let Memory::Curve(curve) = memory else { return 0.0 };
+    let (legs, middle) = (curve.legs(), reduced(front));
+    let mut sum = edge * (reduced(d) - middle);
+    let heights = curve.knots().map(|(h, _)| h);
+    let mut low: Option<f64> = None;
+    for (piece, h) in heights.enumerate() {
+        if let (Some(below), Some(k)) = (low, piece.checked_sub(1)) {
+            let end = if h < front { reduced(h) } else { middle };
+            sum += (legs.slopes[k] + legs.bends[k]) * (end - below);
+            low = Some(end);
+        } else {
+            low = Some(reduced(h));
+        }
+        if h >= front {
+            break;
+        }
+    }
+    sum
+}
+
+/// The edge of a contact that slips: where its front is and how steep.
+pub(super) fn edge(contact: &Contact, sense: f64, front: f64, motion: &Motion) -> [f64; 3] {
+    [motion.d, front.clamp(0.0, motion.d.max(0.0)), sense * contact.interface.stick_slope()]
+}
+
+impl Model {
+    /// The variation of a run from its start by numbers of the scene, each in the unit in which its distance is told.
+    ///
+    /// # Errors
+    ///
+    /// A scene with a part whose variation is not known; numbers with which it starts otherwise.
+    pub fn variation<'m>(
+        &'m self,
+        (plan, start): (&Plan, &State),
+        parameters: &'m [Parameter],
+    ) -> Result<Variation<'m>, VariationError> {
+        let (dimension, count) = (self.layout().dimension(), parameters.len());
+        let starts = parameters.iter().map(|parameter| parameter.start(plan, start));
+        let starts = starts.collect::<Result<Vec<_>, _>>()?;
+        let columns = starts.iter().flat_map(|start| &start.column[..dimension]).copied().collect();
+        let of_contact = |c: usize| {
+            let pieces = starts.first().map_or(0, |start| start.anchors[c].len());
+            let lines = (0..pieces).flat_map(|k| starts.iter().map(move |start| start.anchors[c][k]));
+            Anchors::new(count, lines.collect())
+        };
+        let anchors = (0..self.contacts.len()).map(of_contact).collect();
+        Variation::new((self, parameters), (columns, anchors), self.tolerance(plan.stepper))
+    }
+}
