@@ -63,6 +63,36 @@ fn the_same_bytes_for_any_number_of_threads_and_no_file_of_before() {
     );
 }
 
+/// μF_N of the balls and the weight along the slide: written, said and drawn for loads both ways.
+#[test]
+fn what_is_held_at_rest_is_written_for_both_ways() {
+    let root = tempdir().unwrap();
+    let out = root.path().join("held");
+    let incline = r#"gravity={"acceleration": 9.81, "incline": "20 deg"}"#;
+    let asked = ["--curve", "holding-force", "--set", "loads=[]", "--set", incline, "--points", "4"];
+    let output = characterise("quickstart", &out, &[&asked[..], &["--range", "0.1..1.3"]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stderr(&output).contains("quickstart: holding-force, 4 of 4 points done\n"));
+    assert!(
+        stderr(&output)
+            .contains("2 of 8 loads are not found; at 100.0 mN: without a load slider slides away")
+    );
+    assert!(stdout(&output).contains("load on slider that is held at rest"), "{}", stdout(&output));
+    assert_eq!(listing(&out), ["curve.csv", "curve.json", "curve.png"]);
+    let table = Table::read(&out.join("curve.csv"));
+    let weight = 10e-3 * 9.81 * 20_f64.to_radians().sin();
+    for (column, sign) in [("along_x_N", 1.0), ("against_x_N", -1.0)] {
+        let held = table.column(column);
+        assert_eq!(held[0], "");
+        for (place, value) in [(1, 0.5), (2, 0.9), (3, 1.3)] {
+            let wanted: f64 = 0.2 * value + sign * weight;
+            let held: f64 = held[place].parse().unwrap();
+            assert!((held / wanted - 1.0).abs() < 1e-4, "{column} {value}: {held} {wanted}");
+        }
+    }
+    assert_eq!(table.column("against_x_gives_way")[3], "slider slides away");
+}
+
 #[test]
 fn what_a_value_does_not_allow_is_said_beside_the_others() {
     let root = tempdir().unwrap();
@@ -105,6 +135,14 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("quickstart", &["--curve", "force-speed", "--range", "2 mN..1 mN"], "a range that rises");
     refused("quickstart", &["--curve", "force-speed", "--range", "0..1 N", "--log"], "above 0");
     refused("quickstart", &["--curve", "preload", "--points", "1"], "expected 2 to 10000 points, got 1");
+    let path = "contacts.ball.friction=0.1..0.2";
+    refused("quickstart", &["--curve", "force-speed", "--vary", path], "only holding-force takes both");
+    refused("three_ball_stage", &["--curve", "holding-force"], "say over which number, such as --vary");
+    refused("worn_ball", &["--curve", "holding-force"], "no body is free along x, to be loaded");
+    let smooth = ["--curve", "holding-force", "--set", "contacts.ball.friction=0"];
+    refused("quickstart", &smooth, "nothing that could hold \"slider\" has friction");
+    refused("quickstart", &["--curve", "holding-force", "--range", "2 N..1 N"], "a range that rises");
+    refused("quickstart", &["--curve", "holding-force", "--range", "1 m..2 m"], "--range  ");
     refused("quickstart", &["--vary", "contacts.ball.friction"], "PATH=VALUE");
     refused("quickstart", &["--vary", "contacts.bal.friction=0..1"], "did you mean \"ball\"?");
     refused("quickstart", &["--vary", "contacts.ball.count=1..3"], "counts whole things");

@@ -135,8 +135,14 @@ fn every_figure_of_a_curve_is_defined() {
     let head = Table::read(&out.join("curve.csv")).head;
     // What is varied has the name that it has in the scenario.
     assert_eq!(head[0], "load_N");
-    let lacking: Vec<_> = head[1..].iter().filter(|column| !defined("curve.csv", column)).collect();
-    assert!(lacking.is_empty() && head.len() == 12, "{lacking:?}");
+    let unknown: Vec<_> = head[1..].iter().filter(|column| !defined("curve.csv", column)).collect();
+    assert!(unknown.is_empty() && head.len() == 12, "{unknown:?}");
+    let all = ask(&["--curve", "holding-force", "--vary", "contacts.ball.friction=-0.1..0.2"]);
+    assert!(all[0]["points"][0]["along_x"]["fault"].is_string() && all[0]["on"] == "slider");
+    assert_eq!(lacking("curve.json", &all), Vec::<String>::new());
+    let head = Table::read(&out.join("curve.csv")).head;
+    let unknown: Vec<_> = head[1..].iter().filter(|column| !defined("curve.csv", column)).collect();
+    assert!(unknown.is_empty() && head.len() == 9, "{unknown:?}");
 }
 
 #[test]

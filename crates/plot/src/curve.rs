@@ -31,6 +31,15 @@ pub struct MachineCourse<'a> {
     pub name: &'a str,
     /// Its unit.
     pub unit: &'a str,
+    /// How much, a line for each way to do it.
+    pub lines: Vec<MachineLine<'a>>,
+}
+
+/// One way to do it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MachineLine<'a> {
+    /// Its name in the legend; none where empty.
+    pub name: &'a str,
     /// How much, as many as there are values; not finite where it is not known.
     pub values: Vec<f64>,
     /// How far it swings about that from period to period, as many; 0 where it does not.
@@ -44,8 +53,8 @@ const LANE: u32 = 70;
 /// A panel for each thing that the machine does, one below the other: a line through its points, a band where it swings from period
 /// to period. Points without an answer are marks in lanes below them all, one for each reason.
 pub fn machine_figure<'a>(title: &str, curve: &MachineCurve<'a>) -> Figure<'a> {
-    let is_known = |course: &MachineCourse<'_>| course.values.iter().any(|value| value.is_finite());
-    if !curve.courses.iter().any(is_known) {
+    let is_known = |line: &MachineLine<'_>| line.values.iter().any(|value| value.is_finite());
+    if !curve.courses.iter().flat_map(|course| &course.lines).any(is_known) {
         return Figure::without_data(title, "no point of the curve has an answer");
     }
     let panels = curve.courses.iter().enumerate().map(|(place, course)| panel(place, curve, course));
@@ -85,10 +94,12 @@ fn across(curve: &MachineCurve<'_>) -> Axis {
 
 fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>) -> Panel<'a> {
     let style = |ink, width| Style { ink: Some(ink), dash: Some(Dash::Solid), width };
-    let line = Series {
+    // Lines of one name have one colour in all panels; a line alone has that of its panel.
+    let first = if course.lines.len() > 1 { 0 } else { place };
+    let line = |(k, line): (usize, &MachineLine<'a>)| Series {
         marked: true,
-        style: style(Ink::Palette(place), 1.0),
-        ..Series::new("", curve.values, course.values.clone())
+        style: style(Ink::Palette(first + k), 1.0),
+        ..Series::new(line.name, curve.values, line.values.clone())
     };
     let present = curve.present.filter(|x| is_within(*x, curve.values));
     let present = present.map(|x| Reference::Vertical { x, label: Label::plain("as in the scenario") });
@@ -97,8 +108,8 @@ fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>)
     Panel {
         x: across(curve),
         y: Axis::new(Label::plain(course.name), course.unit),
-        bands: swing(curve.values, course).into_iter().collect(),
-        series: vec![line],
+        bands: swings(curve.values, &course.lines),
+        series: course.lines.iter().enumerate().map(line).collect(),
         references: [Reference::Horizontal { y: 0.0, label: Label::default() }]
             .into_iter()
             .chain(present)
@@ -108,18 +119,22 @@ fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>)
     }
 }
 
-/// Between which values the thing swings, where it does.
-fn swing<'a>(xs: &'a [f64], course: &MachineCourse<'a>) -> Option<Band<'a>> {
-    let edge = |sign: f64| -> Vec<f64> {
-        course.values.iter().zip(&course.spreads).map(|(value, spread)| value + sign * spread).collect()
+/// Between which values lines swing, those that do; one name is enough for all.
+fn swings<'a>(xs: &'a [f64], lines: &[MachineLine<'a>]) -> Vec<Band<'a>> {
+    let swinging = lines.iter().filter(|line| line.spreads.iter().any(|spread| *spread > 0.0));
+    let band = |(place, line): (usize, &MachineLine<'a>)| {
+        let edge = |sign: f64| -> Vec<f64> {
+            line.values.iter().zip(&line.spreads).map(|(value, spread)| value + sign * spread).collect()
+        };
+        Band {
+            label: Label::plain(if place == 0 { "swings from period to period" } else { "" }),
+            xs: xs.into(),
+            low: edge(-1.0).into(),
+            high: edge(1.0).into(),
+            ink: Ink::Shade(2),
+        }
     };
-    course.spreads.iter().any(|spread| *spread > 0.0).then(|| Band {
-        label: Label::plain("swings from period to period"),
-        xs: xs.into(),
-        low: edge(-1.0).into(),
-        high: edge(1.0).into(),
-        ink: Ink::Shade(2),
-    })
+    swinging.enumerate().map(band).collect()
 }
 
 fn is_within(x: f64, values: &[f64]) -> bool {
@@ -131,12 +146,12 @@ mod tests {
     use super::*;
 
     fn curve(values: &[f64]) -> MachineCurve<'_> {
-        let course = |name, spread| MachineCourse {
+        let line = |name, spread| MachineLine {
             name,
-            unit: "m",
             values: vec![1e-9, f64::NAN, 3e-9],
             spreads: vec![0.0, f64::NAN, spread],
         };
+        let course = |name, spread| MachineCourse { name, unit: "m", lines: vec![line("", spread)] };
         MachineCurve {
             axis: ("load", "N"),
             logarithmic: false,
@@ -160,6 +175,24 @@ mod tests {
         assert_eq!((without.lanes[0].label.as_str(), without.lanes[0].marks[0].from), ("refused", 0.2));
         assert_eq!(step.references.len(), 3);
         assert_eq!(crate::draw_svg(&figure).err(), None);
+    }
+
+    /// Two ways to do one thing are told apart by their colours, the same in every panel; only one of their bands is named.
+    #[test]
+    fn lines_of_one_panel_have_colours_and_names_of_their_own() {
+        let values = [0.1, 0.2, 0.3];
+        let mut curve = curve(&values);
+        for course in &mut curve.courses {
+            let way = |name| MachineLine { name, spreads: vec![1e-9; 3], ..course.lines[0].clone() };
+            course.lines = vec![way("forward"), way("backward")];
+        }
+        let figure = machine_figure("Title", &curve);
+        let inks = |panel: &Panel<'_>| panel.series.iter().map(|line| line.style.ink).collect::<Vec<_>>();
+        let wanted = [0, 1].map(|place| Some(Ink::Palette(place)));
+        assert!(figure.panels[..2].iter().all(|panel| inks(panel) == wanted));
+        let names: Vec<&Label> = figure.panels[0].bands.iter().map(|band| &band.label).collect();
+        assert_eq!(names, [&Label::plain("swings from period to period"), &Label::default()]);
+        assert_eq!(figure.panels[0].series[1].label, Label::plain("backward"));
     }
 
     /// On a logarithmic axis a point at 1 lies half way between points at 1/5 and 5, of which it is the geometric mean.
@@ -187,7 +220,8 @@ mod tests {
     fn a_curve_without_an_answer_says_so() {
         let values = [0.1];
         let mut curve = curve(&values);
-        curve.courses.iter_mut().for_each(|course| course.values.fill(f64::NAN));
+        let lines = curve.courses.iter_mut().flat_map(|course| &mut course.lines);
+        lines.for_each(|line| line.values.fill(f64::NAN));
         assert!(machine_figure("Title", &curve).panels[0].series.is_empty());
     }
 }

@@ -81,7 +81,7 @@ pub use anchors::{AnchorMoment, anchors_figure};
 pub use branch::{BranchCourse, Stretch, branch_figure};
 pub use carried::read_text;
 pub use compare::{ComparedChannel, compare_figure};
-pub use curve::{MachineCourse, MachineCurve, machine_figure};
+pub use curve::{MachineCourse, MachineCurve, MachineLine, machine_figure};
 pub use drive::{DriveCourse, Supply, drive_figure};
 pub use energy::{EnergyBook, energy_figure};
 pub use error::PlotError;

@@ -5,10 +5,11 @@
 //!
 //! In reading order: `kind`, the curves that have a name; `variation`, what they vary; `range`, where their points lie; `motion`,
 //! the steady motion of a point, `waiting`, that of a run; `point`, all of them on all cores; `edge` and `peak`, how a place between them is closed in on,
-//! `landmark`, which places have a name; `table`, what is told of them.
+//! `landmark`, which places have a name; `table`, what is told of them; [`holding`], what the drive holds at rest.
 
 mod edge;
 mod error;
+pub mod holding;
 mod kind;
 mod landmark;
 mod motion;
@@ -75,12 +76,6 @@ impl Curve {
         let job = Job::prepare(file, set, Path::new(""))?;
         let variation = Variation::of(&kind, &job)?;
         Ok(Self { file: file.to_owned(), set: set.to_vec(), kind, variation, job })
-    }
-
-    /// Name of what heads its column, with the unit as in other tables: `stroke_m`.
-    #[must_use]
-    pub fn head(&self) -> String {
-        head(&self.variation.name, self.variation.unit)
     }
 
     /// A range worth looking at, SI: about what the scenario has, and of loads up to a little more than it takes to stall the

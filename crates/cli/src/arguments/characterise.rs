@@ -4,11 +4,12 @@ use crate::arguments::{assignment, look::LookArguments};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
-use stickslip_study::curve::Kind;
+use stickslip_study::curve::{Kind, holding};
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Trace a curve of a drive: step over amplitude, speed over frequency, speed against a load, or over any number of its scenario
+Trace a curve of a drive: step over amplitude, speed over frequency, speed against a load, or over any number of its scenario; \
+what it holds at rest
 
 Each point is the scenario with something else in it, as --set would put it there, and its steady motion: found directly, as \
 the state that a period of the waveform brings back, or by a run that waits for it, where it is not found \
@@ -19,6 +20,8 @@ or where no run would stay in it. Of steps that swing from period to period the 
   force-speed      mean speed, and power, over a load against the steps; stall, the most power
   step-load        step over such a load; stall
   preload          step over the normal force of all contacts of the body, each its share; the longest
+  holding-force    largest load along +x, and along −x, that the drive holds at rest, waveforms at their starting values, over \
+the preload, or over what --vary says
 
 S₀ and stall are brackets: the drive steps at one end and not at the other. Best points are peaks between two points of the curve.
 
@@ -36,6 +39,8 @@ Examples:
   stickslip characterise drive.json --curve speed-frequency --range \"10 Hz..5 kHz\" --log
   stickslip characterise drive.json --curve force-speed --points 101 --out here
   stickslip characterise drive.json --vary contacts.ball.friction=0.1..0.6
+  stickslip characterise drive.json --curve holding-force
+  stickslip characterise drive.json --curve holding-force --vary contacts.ball.friction=0.1..0.6
   stickslip characterise drive.json --vary bodies.slider.mass=\"1 g..100 g\" --log --json";
 
 #[derive(Debug, Args)]
@@ -44,9 +49,9 @@ pub(crate) struct CharacteriseArguments {
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
     /// Which curve
-    #[arg(long, value_name = "NAME", value_parser = kinds(), required_unless_present = "vary", conflicts_with = "vary")]
-    pub(crate) curve: Option<Kind>,
-    /// Step over a number of the scenario in a range, such as contacts.ball.friction=0.1..0.6; units at both ends or at none
+    #[arg(long, value_name = "NAME", value_parser = curves(), required_unless_present = "vary")]
+    pub(crate) curve: Option<CurveName>,
+    /// Step, or holding force, over a number of the scenario in a range, such as contacts.ball.friction=0.1..0.6; units at both ends or at none
     #[arg(long, value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = assignment, conflicts_with = "range")]
     pub(crate) vary: Option<(String, String)>,
     /// In which range, such as "10 Hz..5 kHz", units at both ends or at none [default: about what the scenario has]
@@ -58,7 +63,7 @@ pub(crate) struct CharacteriseArguments {
     /// As many points in every decade, and not in every equal part
     #[arg(long)]
     pub(crate) log: bool,
-    /// How exactly S₀, stall and best points are looked for, as a share of their place, 1e-9 to 0.1
+    /// How exactly S₀, stall, best points and holding forces are looked for, as a share of their place, 1e-9 to 0.1
     #[arg(long, value_name = "TOL", default_value = "1e-4", value_parser = tolerance)]
     pub(crate) tolerance: f64,
     /// Put a value into the scenario for all points, such as contacts.ball.friction=0.3
@@ -87,8 +92,20 @@ fn tolerance(text: &str) -> Result<f64, String> {
     is_usable.then_some(tolerance).ok_or_else(|| "expected a share from 1e-9 to 0.1".to_owned())
 }
 
+/// Which curve.
+#[derive(Debug, Clone)]
+pub(crate) enum CurveName {
+    /// Of motions.
+    Of(Kind),
+    /// Of what is held at rest.
+    HoldingForce,
+}
+
 /// Reads the name of a curve.
-fn kinds() -> impl TypedValueParser<Value = Kind> {
-    let names = PossibleValuesParser::new(Kind::NAMED.iter().map(Kind::name));
-    names.try_map(|given| Kind::of_name(&given).ok_or("no such curve"))
+fn curves() -> impl TypedValueParser<Value = CurveName> {
+    let names = Kind::NAMED.iter().map(Kind::name).chain([holding::NAME]);
+    PossibleValuesParser::new(names).try_map(|given| match given.as_str() {
+        holding::NAME => Ok(CurveName::HoldingForce),
+        _ => Kind::of_name(&given).map(CurveName::Of).ok_or("no such curve"),
+    })
 }

@@ -1,6 +1,9 @@
 //! `stickslip characterise`: a curve of a machine.
 
+mod holding;
+
 use crate::arguments::CharacteriseArguments;
+use crate::arguments::characterise::CurveName;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::{Interrupt, Interrupted};
 use crate::console::progress::Progress;
@@ -11,7 +14,7 @@ use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, curve as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Real, quantity};
+use stickslip_results::{Job, Real, quantity};
 use stickslip_study::curve::{self, Course, Curve, CurveError, Kind, Point, Range, Traced};
 use thiserror::Error;
 
@@ -29,6 +32,11 @@ enum CurveFailure {
     /// A range that is none.
     #[error("{option}  {message}")]
     Range { option: &'static str, message: String },
+    /// A curve that says what it varies, and a path.
+    #[error(
+        "--vary  cannot be used with --curve {0}, which says what is varied; only holding-force takes both"
+    )]
+    Both(&'static str),
     /// The picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
@@ -45,26 +53,34 @@ pub(crate) fn characterise(arguments: &CharacteriseArguments) -> Verdict {
     answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
         match failure {
-            CurveFailure::Curve(_) | CurveFailure::Range { .. } | CurveFailure::Folder { .. } => {
-                Verdict::BadInput
-            }
+            CurveFailure::Curve(_)
+            | CurveFailure::Range { .. }
+            | CurveFailure::Both(_)
+            | CurveFailure::Folder { .. } => Verdict::BadInput,
             CurveFailure::Figure(_) | CurveFailure::Write { .. } => Verdict::Stopped,
         }
     })
 }
 
 fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
-    let vary = || arguments.vary.as_ref().map_or(String::new(), |(path, _)| path.clone());
-    let kind = arguments.curve.clone().unwrap_or_else(|| Kind::Vary(vary()));
+    match (&arguments.curve, &arguments.vary) {
+        (Some(CurveName::HoldingForce), _) => holding::trace(arguments),
+        (Some(CurveName::Of(kind)), Some(_)) => Err(CurveFailure::Both(kind.name())),
+        (Some(CurveName::Of(kind)), None) => trace(arguments, kind.clone()),
+        (None, vary) => {
+            trace(arguments, Kind::Vary(vary.as_ref().map_or(String::new(), |(path, _)| path.clone())))
+        }
+    }
+}
+
+/// Traces a curve of motions and writes it.
+fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, CurveFailure> {
     let curve = Curve::new(&arguments.file, &arguments.set, kind)?;
     if !arguments.quiet {
         warn(&curve.job);
     }
     let asked = range(arguments, &curve)?;
-    // Before the first point, which may take long.
-    let out = folder(arguments, &curve);
-    let folder =
-        Folder::ready(&out, RESERVE).map_err(|source| CurveFailure::Folder { path: out.clone(), source })?;
+    let (out, folder) = place(arguments, &curve.job, curve.kind.name())?;
     let interrupt = Interrupt::install();
     let progress = Progress::new(!arguments.quiet);
     let (name, what) = (&curve.job.name, curve.kind.name());
@@ -76,8 +92,7 @@ fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
             .map_or(Ok(Vec::new()), |range| of(arguments, range).values())?,
     };
     let bar = progress.budget(what, values.len() as f64, &interrupt);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let cores = arguments.threads.map_or(cores, usize::from);
+    let cores = cores(arguments);
     let mut traced = curve.trace(&values, cores, &bar);
     drop(bar);
     let line = progress.count(what, "points for stall, S\u{2080} and best points", &interrupt);
@@ -88,7 +103,7 @@ fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
     if done == 0 {
         return Ok(Verdict::Interrupted);
     }
-    let names = write(arguments, (&curve, &traced), folder)?;
+    let names = write(arguments, (&curve, &traced), (&out, folder))?;
     if arguments.json {
         say_json(&curve::json(&curve, &traced));
     } else if !arguments.quiet {
@@ -100,42 +115,58 @@ fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
 
 /// The range asked for; none where it is to be found what is worth looking at.
 fn range(arguments: &CharacteriseArguments, curve: &Curve) -> Result<Option<Range>, CurveFailure> {
+    let asked = ends(arguments, curve.variation.unit)?;
+    let known = || curve.variation.range.ok_or_else(|| curve.no_range());
+    let range = of(arguments, asked.map_or_else(known, Ok)?);
+    range.values()?;
+    Ok(asked.map(|_| range))
+}
+
+/// The ends of the range asked for, SI.
+fn ends(arguments: &CharacteriseArguments, unit: &str) -> Result<Option<[f64; 2]>, CurveFailure> {
     let (option, text) = match (&arguments.vary, &arguments.range) {
         (Some((_, range)), _) => ("--vary", Some(range.as_str())),
         (None, range) => ("--range", range.as_deref()),
     };
     let refused = |message: String| CurveFailure::Range { option, message };
-    let ends = match text {
-        None => curve.variation.range.ok_or_else(|| curve.no_range())?,
-        Some(text) => Range::ends(text, curve.variation.unit).map_err(refused)?,
-    };
-    let range = of(arguments, ends);
-    range.values()?;
-    Ok(text.map(|_| range))
+    text.map(|text| Range::ends(text, unit).map_err(refused)).transpose()
 }
 
 fn of(arguments: &CharacteriseArguments, [from, to]: [f64; 2]) -> Range {
     Range { from, to, points: arguments.points, decades: arguments.log }
 }
 
-/// Where the files go.
-fn folder(arguments: &CharacteriseArguments, curve: &Curve) -> PathBuf {
-    let own = || Path::new("results").join(format!("{}-{}", curve.job.name, curve.kind.name()));
-    arguments.out.clone().unwrap_or_else(own)
+/// Where the files go, tried before the first point, which may take long.
+fn place(
+    arguments: &CharacteriseArguments,
+    job: &Job,
+    curve: &str,
+) -> Result<(PathBuf, Folder), CurveFailure> {
+    let own = || Path::new("results").join(format!("{}-{curve}", job.name));
+    let out = arguments.out.clone().unwrap_or_else(own);
+    match Folder::ready(&out, RESERVE) {
+        Ok(folder) => Ok((out, folder)),
+        Err(source) => Err(CurveFailure::Folder { path: out, source }),
+    }
+}
+
+/// Points at a time.
+fn cores(arguments: &CharacteriseArguments) -> usize {
+    let all = || std::thread::available_parallelism().map_or(1, usize::from);
+    arguments.threads.map_or_else(all, usize::from)
 }
 
 fn write(
     arguments: &CharacteriseArguments,
     (curve, traced): (&Curve, &Traced),
-    folder: Folder,
+    (out, folder): (&Path, Folder),
 ) -> Result<Vec<String>, CurveFailure> {
-    let out = self::folder(arguments, curve);
     let pictures = picture::draw((curve, traced), arguments.log, &arguments.look.look())?;
     // A command that was killed has left its drafts.
-    let stale = picture::all_files(traced);
-    sweep(&out, &curve::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    let stale = picture::all_files(traced.is_cut());
+    sweep(out, &curve::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
     curve::write(folder, (curve, traced), &pictures, stale)
-        .map_err(|source| CurveFailure::Write { path: out, source })
+        .map_err(|source| CurveFailure::Write { path: out.to_owned(), source })
 }
 
 /// The points as a table, and what is wrong with some of them.

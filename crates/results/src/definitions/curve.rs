@@ -23,6 +23,14 @@ const MULTIPLIER: &str = "|λ|, modulus of the largest Floquet multiplier: by ho
 const BEAT: &str = "periods in which that disturbance turns once; none where it does not";
 const WORK: &str = "periods that were computed";
 
+const HELD: &str =
+    "of `holding-force`: the largest load along +x on the figures' body that the drive holds at rest";
+const HELD_BACK: &str = "of `holding-force`: the same of loads along -x";
+const HELD_OFF: &str = "how far that may be off: half of the bracket in which it lies";
+const BEYOND: &str =
+    "what gives way beyond: a body that slides away, comes loose or, free to pitch, slides or tips over";
+const UNHELD: &str = "why there is no such force: the drive does not even hold what acts without the load, or something else than friction holds any";
+
 pub(super) const CURVE: &[Definition] = &[
     column("step_m", STEP),
     column("step_error_m", ERROR),
@@ -35,6 +43,14 @@ pub(super) const CURVE: &[Definition] = &[
     column("beat_periods", BEAT),
     column("work_periods", WORK),
     column("fault", "why there is no motion at this value"),
+    column("along_x_N", HELD),
+    column("along_x_half_width_N", HELD_OFF),
+    column("along_x_gives_way", BEYOND),
+    column("along_x_fault", UNHELD),
+    column("against_x_N", HELD_BACK),
+    column("against_x_half_width_N", HELD_OFF),
+    column("against_x_gives_way", BEYOND),
+    column("against_x_fault", UNHELD),
     key("scenario", "name of the scenario"),
     key("scenario_sha256", "SHA-256 of the resolved scenario, as it is without what the curve varies"),
     key("program", "name and version of the program"),
@@ -44,6 +60,7 @@ pub(super) const CURVE: &[Definition] = &[
     key("unit", "its SI unit; empty of a plain number"),
     key("present", "what it is in the scenario"),
     key("against", "along which sense of x the drive steps without load, against which loads act"),
+    key("on", "body that is loaded; of `holding-force`"),
     key("points.value", "what is varied, at this point"),
     key("points.set", "what `--set` takes to make a scenario of this point"),
     key("points.step_m", STEP),
@@ -57,6 +74,16 @@ pub(super) const CURVE: &[Definition] = &[
     key("points.beat_periods", BEAT),
     key("points.work_periods", WORK),
     key("points.fault", "why there is no motion at this value"),
+    key("points.along_x.force_N", HELD),
+    key("points.along_x.half_width_N", HELD_OFF),
+    key("points.along_x.gives_way", BEYOND),
+    key("points.along_x.runs", "equilibria that were looked for"),
+    key("points.along_x.fault", UNHELD),
+    key("points.against_x.force_N", HELD_BACK),
+    key("points.against_x.half_width_N", HELD_OFF),
+    key("points.against_x.gives_way", BEYOND),
+    key("points.against_x.runs", "equilibria that were looked for"),
+    key("points.against_x.fault", UNHELD),
     key(
         "landmarks.name",
         "`zero_step` (S₀, largest amplitude without a step), `stall` (least load against which there is none), `best_speed`, \

@@ -5,6 +5,8 @@
 //! before that end is tried, or one half a tolerance beyond it where the last one was as near. Where the line misleads, the
 //! bracket is halved.
 
+use super::CurveError;
+
 /// A bracket: the drive steps at one of its ends and not at the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bracket {
@@ -24,6 +26,14 @@ const ASIDE: f64 = 0.45;
 const NOTHING: f64 = 1e-2;
 
 impl Bracket {
+    /// Whether a tolerance is one that is closed in to.
+    ///
+    /// # Errors
+    /// A tolerance out of its range, 1e-9 to 0.1.
+    pub(super) fn check(tolerance: f64) -> Result<(), CurveError> {
+        if (1e-9..=0.1).contains(&tolerance) { Ok(()) } else { Err(CurveError::Tolerance(tolerance)) }
+    }
+
     /// The middle.
     #[must_use]
     pub fn middle(&self) -> f64 {

@@ -23,11 +23,13 @@ pub enum CurveError {
         /// What to do.
         help: String,
     },
-    /// No body whose way is the step.
-    #[error("{file}: no body makes the steps\n   help: {help}")]
+    /// No body whose way is the step, or that could be loaded.
+    #[error("{file}: {lacking}\n   help: {help}")]
     NoBody {
         /// The scenario.
         file: String,
+        /// What there is none of.
+        lacking: &'static str,
         /// What to do.
         help: String,
     },

@@ -57,9 +57,7 @@ impl Curve {
         cores: usize,
         watcher: &(dyn Watcher + Sync),
     ) -> Result<(), CurveError> {
-        if !(1e-9..=0.1).contains(&tolerance) {
-            return Err(CurveError::Tolerance(tolerance));
-        }
+        Bracket::check(tolerance)?;
         let sought = self.sought();
         let done = AtomicUsize::new(0);
         let search = Search { traced, tolerance, watcher, done: &done };

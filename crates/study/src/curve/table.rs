@@ -1,15 +1,18 @@
 //! What is told of a curve: a table, and all of it in JSON.
 
-use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound};
+use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound, Variation};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
 use stickslip_results::files::{CURVE, PARTIAL_CURVE};
 use stickslip_results::folder::Folder;
-use stickslip_results::{Real, hash};
+use stickslip_results::{Job, Real, hash};
 
 /// Names of the table and of what is told of all: of a curve, and of one that was interrupted, beside which a finished one stays.
 const NAMES: [[&str; 2]; 2] = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];
+
+/// Status of a curve that was interrupted.
+const CUT: &str = "interrupted";
 
 /// Names of all files that any curve is written to, its pictures apart.
 pub fn all_files() -> impl Iterator<Item = String> {
@@ -18,7 +21,7 @@ pub fn all_files() -> impl Iterator<Item = String> {
 
 /// All numbers of a curve; written last.
 #[derive(Debug, Serialize)]
-struct Report<'a> {
+pub(super) struct Report<'a, P> {
     scenario: &'a str,
     scenario_sha256: &'a str,
     program: &'a str,
@@ -29,13 +32,43 @@ struct Report<'a> {
     present: Option<Real>,
     #[serde(skip_serializing_if = "Option::is_none")]
     against: Option<&'static str>,
-    points: Vec<PointReport>,
+    /// Name of the body that is loaded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) on: Option<&'a str>,
+    points: Vec<P>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     landmarks: Vec<LandmarkReport>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
+}
+
+impl<'a, P: Serialize> Report<'a, P> {
+    /// Of a curve by its name, whole or cut.
+    pub(super) fn of(
+        job: &'a Job,
+        variation: &'a Variation,
+        (curve, is_cut): (&'static str, bool),
+        points: Vec<P>,
+    ) -> Self {
+        Self {
+            scenario: &job.name,
+            scenario_sha256: &job.hash,
+            program: &job.program,
+            status: if is_cut { CUT } else { "done" },
+            curve,
+            varied: &variation.name,
+            unit: variation.unit,
+            present: variation.present.map(Real),
+            against: None,
+            on: None,
+            points,
+            landmarks: Vec::new(),
+            files: Vec::new(),
+            table_sha256: None,
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -146,7 +179,7 @@ impl Traced {
 /// read the same bits back; a cell is empty where there is no such number.
 #[must_use]
 pub fn csv(curve: &Curve, traced: &Traced) -> String {
-    let mut table = curve.head();
+    let mut table = curve.variation.head();
     table.push_str(",step_m,step_error_m,step_spread_m,speed_m_s");
     table.push_str(if curve.kind.is_of_load() { ",power_W" } else { "" });
     table.push_str(",period_s,motion,multiplier,beat_periods,work_periods,fault\n");
@@ -187,7 +220,7 @@ fn number(table: &mut String, number: Option<f64>) {
 }
 
 /// What is wrong without the excerpt of the file and the help, which stand below it.
-fn one_line(fault: &str) -> &str {
+pub(super) fn one_line(fault: &str) -> &str {
     fault.lines().next().unwrap_or_default()
 }
 
@@ -204,22 +237,33 @@ pub fn json(curve: &Curve, traced: &Traced) -> String {
 /// # Errors
 /// What the system says; nothing that was there is gone then, unless it says so while names are given.
 pub fn write(
-    mut folder: Folder,
+    folder: Folder,
     (curve, traced): (&Curve, &Traced),
+    pictures: &[(String, Vec<u8>)],
+    stale: Vec<String>,
+) -> io::Result<Vec<String>> {
+    publish(folder, (&csv(curve, traced), report(curve, traced)), pictures, stale)
+}
+
+/// Writes a table with what is told of all, and pictures.
+pub(super) fn publish<P: Serialize>(
+    mut folder: Folder,
+    (table, report): (&str, Report<'_, P>),
     pictures: &[(String, Vec<u8>)],
     mut stale: Vec<String>,
 ) -> io::Result<Vec<String>> {
-    let (table, [name, summary]) = (csv(curve, traced), NAMES[usize::from(traced.is_cut())]);
+    let is_cut = report.status == CUT;
+    let [name, summary] = NAMES[usize::from(is_cut)];
     folder.release();
     folder.write(name, table.as_bytes())?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let mut files = folder.names();
     files.push(summary.to_owned());
-    if !traced.is_cut() {
+    if !is_cut {
         stale.extend(NAMES[1].map(str::to_owned));
     }
     folder.forget(stale);
-    let report = Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(curve, traced) };
+    let report = Report { files: files.clone(), table_sha256: Some(hash(table)), ..report };
     let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
     json.push(b'\n');
     folder.write(summary, &json)?;
@@ -227,7 +271,7 @@ pub fn write(
     Ok(files)
 }
 
-fn report<'a>(curve: &'a Curve, traced: &'a Traced) -> Report<'a> {
+fn report<'a>(curve: &'a Curve, traced: &'a Traced) -> Report<'a, PointReport> {
     let against = if traced.direction < 0.0 { "-x" } else { "+x" };
     let points = traced.points.iter().map(|point| {
         let load = curve.kind.is_of_load().then_some(traced.direction * point.value);
@@ -238,19 +282,10 @@ fn report<'a>(curve: &'a Curve, traced: &'a Traced) -> Report<'a> {
             fault: point.motion.as_ref().err().map(ToString::to_string),
         }
     });
+    let told = (curve.kind.name(), traced.is_cut());
     Report {
-        scenario: &curve.job.name,
-        scenario_sha256: &curve.job.hash,
-        program: &curve.job.program,
-        status: if traced.is_cut() { "interrupted" } else { "done" },
-        curve: curve.kind.name(),
-        varied: &curve.variation.name,
-        unit: curve.variation.unit,
-        present: curve.variation.present.map(Real),
         against: curve.kind.is_of_load().then_some(against),
-        points: points.collect(),
         landmarks: traced.landmarks.iter().map(LandmarkReport::of).collect(),
-        files: Vec::new(),
-        table_sha256: None,
+        ..Report::of(&curve.job, &curve.variation, told, points.collect())
     }
 }

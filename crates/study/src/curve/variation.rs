@@ -51,20 +51,31 @@ impl Variation {
     /// # Errors
     /// A scene that has no such curve, or a path to nothing that can be varied.
     pub(super) fn of(kind: &Kind, job: &Job) -> Result<Self, CurveError> {
-        let (waveform, body) = (waveform(job)?, body(job)?);
+        let (waveform, body) = (waveform(job)?, body(job, "no body makes the steps")?);
         let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
         match kind {
             Kind::StepAmplitude => Self::amplitude(job, &tree, waveform),
             Kind::SpeedFrequency => Self::frequency(job, &tree, waveform),
             Kind::ForceSpeed | Kind::StepLoad => Ok(Self::load(job, body)),
-            Kind::Preload => Self::preload(job, body),
-            Kind::Vary(path) => {
-                let found = job.scenario.parameter(path)?;
-                let setting = Setting::Paths(vec![(path.clone(), 1.0)]);
-                let (name, unit, present) = (path.clone(), found.unit, found.value);
-                Ok(Self { name, unit, present, range: None, setting })
-            }
+            Kind::Preload => Self::preload(job, body).map_err(|why| {
+                let help = "vary what presses it by its path, such as loads[0].z";
+                not_here(job, kind.name(), why, help)
+            }),
+            Kind::Vary(path) => Self::at(job, path),
         }
+    }
+
+    /// The number at a path.
+    pub(super) fn at(job: &Job, path: &str) -> Result<Self, CurveError> {
+        let found = job.scenario.parameter(path)?;
+        let setting = Setting::Paths(vec![(path.to_owned(), 1.0)]);
+        Ok(Self { name: path.to_owned(), unit: found.unit, present: found.value, range: None, setting })
+    }
+
+    /// Name of what heads its column, with the unit as in other tables: `stroke_m`.
+    #[must_use]
+    pub fn head(&self) -> String {
+        super::head(&self.name, self.unit)
     }
 
     /// What sets it to a value; a load acts against the direction, 1 or -1, of the steps.
@@ -85,7 +96,12 @@ impl Variation {
         let Some((path, key, value)) = size(tree, scene, waveform) else {
             let word = place(tree, &scene.waveforms[waveform].name).map_or(String::new(), |place| place.word);
             let why = format!("a waveform of the kind \"{word}\" has no one stroke or amplitude");
-            return Err(not_here(job, &Kind::StepAmplitude, why, "vary one of its numbers by its path"));
+            return Err(not_here(
+                job,
+                Kind::StepAmplitude.name(),
+                why,
+                "vary one of its numbers by its path",
+            ));
         };
         // Other feet of the same gait: of the same period and size, followed along the same axes.
         let alike = |w: usize| {
@@ -110,7 +126,12 @@ impl Variation {
         let paths = companions(scene, waveform).into_iter().map(path).collect::<Option<Vec<_>>>();
         let Some(paths) = paths else {
             let why = "a waveform of the steps' period has no frequency, as tables have none".to_owned();
-            return Err(not_here(job, &Kind::SpeedFrequency, why, "vary one of its numbers by its path"));
+            return Err(not_here(
+                job,
+                Kind::SpeedFrequency.name(),
+                why,
+                "vary one of its numbers by its path",
+            ));
         };
         let present = scene.waveforms[waveform].part.period().map(f64::recip);
         let range = present.map(|frequency| [frequency / 10.0, 2.0 * frequency]);
@@ -129,8 +150,8 @@ impl Variation {
         }
     }
 
-    /// All contacts of the body that a constant force presses, each by its share; the value is the sum.
-    fn preload(job: &Job, body: usize) -> Result<Self, CurveError> {
+    /// All contacts of the body that a constant force presses, each by its share; the value is the sum. Why there is none, in words.
+    pub(super) fn preload(job: &Job, body: usize) -> Result<Self, String> {
         let scene = &job.scenario.scene;
         let own = scene.contacts.iter().filter(|c| c.part.between.contains(&Side::Body(body)));
         let pressed = own.filter_map(|contact| match contact.part.normal {
@@ -143,13 +164,7 @@ impl Variation {
         let sum: f64 = forces.iter().map(|(_, force, count)| force * count).sum();
         if forces.is_empty() {
             let name = &scene.bodies[body].name;
-            let why = format!("no contact of \"{name}\" is pressed by a constant force");
-            return Err(not_here(
-                job,
-                &Kind::Preload,
-                why,
-                "vary what presses it by its path, such as loads[0].z",
-            ));
+            return Err(format!("no contact of \"{name}\" is pressed by a constant force"));
         }
         let share =
             |(name, force, _): &(&str, f64, f64)| (format!("contacts.{name}.normal.force"), force / sum);
@@ -159,8 +174,8 @@ impl Variation {
     }
 }
 
-fn not_here(job: &Job, kind: &Kind, why: String, help: &str) -> CurveError {
-    CurveError::NotHere { file: job.name.clone(), kind: kind.name(), why, help: help.to_owned() }
+pub(super) fn not_here(job: &Job, kind: &'static str, why: String, help: &str) -> CurveError {
+    CurveError::NotHere { file: job.name.clone(), kind, why, help: help.to_owned() }
 }
 
 /// μF_N of all contacts of a body at t = 0, N: no load beyond it is held.
@@ -197,8 +212,8 @@ fn waveform(job: &Job) -> Result<usize, CurveError> {
     Err(CurveError::NoPeriod { file: job.name.clone(), why, help })
 }
 
-/// The body whose way is the step.
-fn body(job: &Job) -> Result<usize, CurveError> {
+/// The body whose way is the step, or else what is lacking.
+pub(super) fn body(job: &Job, lacking: &'static str) -> Result<usize, CurveError> {
     let bodies = &job.scenario.scene.bodies;
     let is_free = |b: &usize| bodies.get(*b).is_some_and(|body| body.part.x.freedom == Freedom::Free);
     let names: Vec<&str> = (0..bodies.len()).filter(is_free).map(|b| bodies[b].name.as_str()).collect();
@@ -206,7 +221,7 @@ fn body(job: &Job) -> Result<usize, CurveError> {
         true => "let a body be free along x".to_owned(),
         false => format!("name one, \"figures\": {{\"body\": …}}: {}", names.join(", ")),
     };
-    let none = CurveError::NoBody { file: job.name.clone(), help };
+    let none = CurveError::NoBody { file: job.name.clone(), lacking, help };
     job.scenario.figures.body.filter(is_free).ok_or(none)
 }
 

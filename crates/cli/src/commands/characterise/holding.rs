@@ -1,0 +1,81 @@
+//! `stickslip characterise --curve holding-force`: what the drive holds at rest.
+
+use super::{CurveFailure, cores, ends, of, place, shown};
+use crate::arguments::CharacteriseArguments;
+use crate::console::answer::{complain, say, say_json, warn};
+use crate::console::interrupt::Interrupt;
+use crate::console::progress::Progress;
+use crate::console::table;
+use crate::console::verdict::Verdict;
+use stickslip_figures::curve::{self as pictures, holding as picture};
+use stickslip_results::folder::sweep;
+use stickslip_study::curve::all_files;
+use stickslip_study::curve::holding::{self, Held, Holding, NAME, Point};
+
+/// Traces holding forces and writes them.
+pub(super) fn trace(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
+    let over = arguments.vary.as_ref().map(|(path, _)| path.as_str());
+    let holding = Holding::new(&arguments.file, &arguments.set, over)?;
+    if !arguments.quiet {
+        warn(&holding.job);
+    }
+    let ends = match ends(arguments, holding.variation.unit)? {
+        Some(ends) => ends,
+        None => holding.range()?,
+    };
+    let values = of(arguments, ends).values()?;
+    let (out, folder) = place(arguments, &holding.job, NAME)?;
+    let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
+    let name = &holding.job.name;
+    progress.tell(format_args!("{name}: {NAME}, {} points", values.len()));
+    let bar = progress.budget(NAME, values.len() as f64, &interrupt);
+    let points = holding.trace(&values, arguments.tolerance, cores(arguments), &bar)?;
+    drop(bar);
+    let (done, all) = (points.iter().filter(|point| point.is_done()).count(), points.len());
+    progress.tell(format_args!("{name}: {NAME}, {done} of {all} points done"));
+    if done == 0 {
+        return Ok(Verdict::Interrupted);
+    }
+    let drawn = picture::draw((&holding, &points), arguments.log, &arguments.look.look())?;
+    let stale = pictures::all_files(done < all);
+    sweep(&out, &all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    let names = holding::write(folder, (&holding, &points), &drawn, stale)
+        .map_err(|source| CurveFailure::Write { path: out.clone(), source })?;
+    if arguments.json {
+        say_json(&holding::json(&holding, &points));
+    } else if !arguments.quiet {
+        tell(&holding, &points);
+        say(format_args!("\n{}: {}", out.display(), names.join(", ")));
+    }
+    Ok(match done < all {
+        true => Verdict::Interrupted,
+        false if points.iter().all(|point| point.ways.iter().all(Result::is_err)) => Verdict::Stopped,
+        false => Verdict::Done,
+    })
+}
+
+/// The points as a table, and what is wrong with some of them.
+fn tell(holding: &Holding, points: &[Point]) {
+    let heads = ["load along +x", "\u{b1}", "beyond", "load along \u{2212}x", "\u{b1}", "beyond"];
+    let mut table = table::plain([holding.variation.name.as_str()].into_iter().chain(heads));
+    for point in points {
+        let ways = point.ways.iter().flat_map(|way| match way {
+            Ok(Held { force, half_width, lost, .. }) => {
+                [shown(*force, "N"), shown(*half_width, "N"), lost.words()]
+            }
+            Err(fault) => [String::new(), String::new(), fault.kind().to_owned()],
+        });
+        table.add_row([shown(point.value, holding.variation.unit)].into_iter().chain(ways));
+    }
+    [0..=2, 4..=5].into_iter().for_each(|columns| table::to_the_right(&mut table, columns));
+    say(format_args!("load on {} that is held at rest\n{table}", holding.on()));
+    let faults = points
+        .iter()
+        .flat_map(|point| point.ways.iter().filter_map(|way| Some((point.value, way.as_ref().err()?))));
+    let faults: Vec<_> = faults.collect();
+    if let Some((value, fault)) = faults.first() {
+        let at = shown(*value, holding.variation.unit);
+        let all = 2 * points.len();
+        complain(format_args!("note: {} of {all} loads are not found; at {at}: {fault}", faults.len()));
+    }
+}

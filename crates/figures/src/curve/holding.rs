@@ -1,0 +1,51 @@
+//! The picture of holding forces.
+
+use super::{drawn, lanes};
+use crate::look::{Look, Picture};
+use crate::pictures::FigureError;
+use stickslip_plot::{MachineCourse, MachineCurve, MachineLine};
+use stickslip_study::curve::holding::{Holding, Holdless, NAME, Point};
+
+/// Draws them: the load along x that is held, and that against it, as one line where they are the same.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn draw(
+    (holding, points): (&Holding, &[Point]),
+    logarithmic: bool,
+    look: &Look,
+) -> Result<Vec<Picture>, FigureError> {
+    let values: Vec<f64> = points.iter().map(|point| point.value).collect();
+    let machine = MachineCurve {
+        axis: (&holding.variation.name, holding.variation.unit),
+        logarithmic,
+        values: &values,
+        present: holding.variation.present,
+        landmarks: Vec::new(),
+        courses: vec![MachineCourse { name: "holding force", unit: "N", lines: lines(points) }],
+        faults: faults(points),
+    };
+    let done = points.iter().filter(|point| point.is_done()).count();
+    drawn((&holding.job, NAME), ((done, points.len()), done < points.len()), &machine, look)
+}
+
+fn lines(points: &[Point]) -> Vec<MachineLine<'static>> {
+    let line = |name, way: usize| MachineLine {
+        name,
+        values: points.iter().map(|p| p.ways[way].as_ref().map_or(f64::NAN, |held| held.force)).collect(),
+        spreads: vec![0.0; points.len()],
+    };
+    match points.iter().all(Point::is_alike) {
+        true => vec![line("", 0)],
+        false => vec![line("load along +x", 0), line("load along \u{2212}x", 1)],
+    }
+}
+
+/// Values without a holding force, by the kind of reason; both ways may have their own.
+fn faults(points: &[Point]) -> Vec<(&'static str, Vec<f64>)> {
+    let kinds = points.iter().flat_map(|point| {
+        let [along, against] = point.ways.each_ref().map(|way| way.as_ref().err().map(Holdless::kind));
+        [along, against.filter(|kind| along != Some(kind))].map(|kind| (point.value, kind))
+    });
+    lanes(kinds.filter_map(|(value, kind)| Some((value, kind?))))
+}

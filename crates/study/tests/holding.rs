@@ -1,0 +1,237 @@
+//! Holding forces against closed forms, and against runs of the drive at rest.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use stickslip_drive::{Plan, Run};
+use stickslip_results::{Job, Watcher};
+use stickslip_study::curve::CurveError;
+use stickslip_study::curve::holding::{Held, Holding, Holdless, csv, json};
+
+type Checked = Result<(), Box<dyn Error>>;
+
+/// A second, whatever the scenario has.
+const RUN: &str = r#"{"duration": "1 s", "stepper": {"event": {"tolerance": 1e-9}}}"#;
+/// To a share of a force.
+const TOLERANCE: f64 = 1e-6;
+
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
+}
+
+fn holding(name: &str, set: &[(&str, &str)], over: Option<&str>) -> Result<Holding, CurveError> {
+    let set: Vec<(String, String)> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
+    Holding::new(&file(name), &set, over)
+}
+
+type Ways = [Result<Held, Holdless>; 2];
+
+/// What is held along x and against it at each value.
+fn ways(holding: &Holding, values: &[f64]) -> Result<Vec<Ways>, CurveError> {
+    Ok(holding.trace(values, TOLERANCE, 2, &())?.into_iter().map(|point| point.ways).collect())
+}
+
+fn are(ways: Ways, wanted: [f64; 2]) -> Checked {
+    for (held, wanted) in ways.into_iter().zip(wanted) {
+        let held = held?;
+        assert!((held.force / wanted - 1.0).abs() <= TOLERANCE, "{held:?} {wanted}");
+        assert!(held.half_width <= 0.5 * TOLERANCE * wanted * 1.001, "{held:?}");
+    }
+    Ok(())
+}
+
+/// Without its load the quickstart holds μF_N both ways: of three balls 0.2 times what presses them.
+#[test]
+fn one_contact_holds_its_friction() -> Checked {
+    let holding = holding("quickstart.json", &[("loads", "[]")], None)?;
+    let values = [0.05, 0.9, 30.0];
+    for (value, ways) in values.into_iter().zip(ways(&holding, &values)?) {
+        are(ways, [0.2 * value; 2])?;
+    }
+    Ok(())
+}
+
+/// Where a load pulls already, it takes that much less along it, and more against it.
+#[test]
+fn a_load_that_is_there_counts() -> Checked {
+    let holding = holding("quickstart.json", &[], Some("contacts.ball.friction"))?;
+    let [some, less] = &ways(&holding, &[0.2, 0.01])?[..] else { panic!("two") };
+    are(some.clone(), [0.2 * 0.9 + 0.02, 0.2 * 0.9 - 0.02])?;
+    // 9 mN do not hold 20.
+    for way in less {
+        let Err(Holdless::Without(lost)) = way else { panic!("{way:?}") };
+        assert_eq!(lost.words(), "slider slides away");
+    }
+    Ok(())
+}
+
+/// On a slide that climbs by α the weight pulls back: μF_N ± m g sin α.
+#[test]
+fn an_incline_takes_the_weight_from_one_way_and_gives_it_to_the_other() -> Checked {
+    let gravity = r#"{"acceleration": 9.81, "incline": "20 deg"}"#;
+    let holding = holding("quickstart.json", &[("loads", "[]"), ("gravity", gravity)], None)?;
+    let weight = 10e-3 * 9.81 * 20_f64.to_radians().sin();
+    for (value, ways) in [0.3, 0.9].into_iter().zip(ways(&holding, &[0.3, 0.9])?) {
+        are(ways, [0.2 * value + weight, 0.2 * value - weight])?;
+    }
+    Ok(())
+}
+
+/// Two contacts of other friction slip one after the other: the sum of both is held.
+#[test]
+fn contacts_of_different_friction_hold_their_sum() -> Checked {
+    let second = r#"{"between": ["ground", "slider"], "materials": ["ruby", "steel"],
+        "profile": {"paraboloid": {"radius": "2 mm"}}, "friction": 0.05, "normal": {"force": "4 N"}}"#;
+    let set = [("loads", "[]"), ("contacts.guide", second)];
+    let holding = holding("quickstart.json", &set, Some("contacts.ball.friction"))?;
+    for (friction, ways) in [0.02, 0.4].into_iter().zip(ways(&holding, &[0.02, 0.4])?) {
+        are(ways, [friction * 0.9 + 0.05 * 4.0; 2])?;
+    }
+    Ok(())
+}
+
+/// A load on the stage of the data sheet goes through its balls, which hold 3·0.15·5 N, and the foot on its stack.
+#[test]
+fn a_stage_is_held_by_the_contacts_of_its_foot() -> Checked {
+    let holding = holding("driven_stage.json", &[], Some("contacts.balls.friction"))?;
+    for (friction, ways) in [0.15, 0.6].into_iter().zip(ways(&holding, &[0.15, 0.6])?) {
+        let lost = ways[0].clone()?.lost;
+        assert_eq!(lost.words(), "stage slides away");
+        are(ways, [friction * 15.0; 2])?;
+    }
+    Ok(())
+}
+
+/// A sledge that its weight presses on three balls as deep as each other: of the two that rub μ 2mg/3, and without friction nothing.
+#[test]
+fn what_its_weight_presses_is_held_by_its_weight() -> Checked {
+    let set = [
+        ("loads", "[]"),
+        ("gravity", r#"{"acceleration": 9.81}"#),
+        ("contacts.front.friction", "0"),
+        ("bodies.stage.pitch", r#""fixed""#),
+    ];
+    let found = holding("three_ball_stage.json", &set, Some("contacts.rear.friction"))?;
+    let [none, some] = &ways(&found, &[0.0, 0.3])?[..] else { panic!("two") };
+    are(some.clone(), [0.3 * 50e-3 * 9.81 * 2.0 / 3.0; 2])?;
+    for way in none {
+        let held = way.clone()?;
+        assert!(held.force == 0.0 && held.half_width < 1e-10, "{held:?}");
+    }
+    Ok(())
+}
+
+/// A stage that may pitch: friction acts h = 6 mm below the load, so that F h/2a, a = 12 mm, goes from one end to the other. Balls of
+/// other friction then hold F = (μ₁N₁ + μ₂N₂)/(1 ± (μ₂ - μ₁) h/2a).
+#[test]
+fn a_load_above_the_contacts_presses_one_end() -> Checked {
+    let set = [("gravity", r#"{"acceleration": 9.81}"#)];
+    let found = holding("three_ball_stage.json", &set, Some("contacts.rear.friction"))?;
+    let weight = 50e-3 * 9.81 + 0.6;
+    // 0.3 N more pull 8 mm beside the middle, to the front.
+    let (front, rear) = (0.5 * weight + 0.3 * 20.0 / 24.0, 0.5 * weight + 0.3 * 4.0 / 24.0);
+    for (friction, ways) in [0.1, 0.4].into_iter().zip(ways(&found, &[0.1, 0.4])?) {
+        let (sum, moved) = (0.2 * front + friction * rear, (friction - 0.2) * 6.0 / 24.0);
+        are(ways, [sum / (1.0 + moved), sum / (1.0 - moved)])?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_spring_has_no_finite_holding_force() -> Checked {
+    let spring = r#"{"between": ["ground", "slider"], "stiffness": "1 N/mm"}"#;
+    let holding = holding("quickstart.json", &[("springs.clamp", spring)], None)?;
+    for way in &ways(&holding, &[0.9])?[0] {
+        assert!(matches!(way, Err(Holdless::Endless { load }) if *load > 10.0), "{way:?}");
+    }
+    let told = csv(&holding, &holding.trace(&[0.9], 1e-3, 1, &())?);
+    assert!(told.contains("no finite holding force: "), "{told}");
+    Ok(())
+}
+
+/// A run knows nothing of equilibria: the load rises in 0.2 s and stays for as long again. A little less than the holding force only
+/// creeps, a little more slides away.
+#[test]
+fn runs_slide_away_beyond_it_and_creep_below() -> Checked {
+    let drawn = |name: &str, set: &[(&str, &str)], body: &str| -> Checked {
+        let holding = holding(name, set, None)?;
+        let value = holding.variation.present.ok_or("a preload")?;
+        let [along, against] = ways(&holding, &[value])?.remove(0);
+        for (sense, held) in [(1.0, along?), (-1.0, against?)] {
+            for share in [0.98, 1.02] {
+                let load = sense * share * held.force;
+                let ramp = format!(r#"{{"table": {{"points": [[0, 0], [0.2, {load}]]}}}}"#);
+                let on = format!(r#"{{"on": "{body}", "x": {{"follows": "pull"}}}}"#);
+                let rest = r#"{"table": {"points": [[0, 0], [1, 0]]}}"#;
+                let pull = ("waveforms.pull", ramp.as_str());
+                let more = [("run", RUN), ("waveforms.drive", rest), pull, ("loads[+]", on.as_str())];
+                let all = set.iter().chain(&more);
+                let all: Vec<(String, String)> =
+                    all.map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+                let job = Job::prepare(&file(name), &all, Path::new(""))?;
+                let b = job.scenario.figures.body.ok_or("a body")?;
+                let plan = Plan { every: None, duration: f64::MAX, ..job.scenario.plan };
+                let mut run = Run::new(&job.model, &plan, job.start.clone())?;
+                run.advance(0.4, &mut ())?;
+                let way = sense * run.state().body(&job.model, b).ok_or("a body")?.0;
+                let natural = job.contact_scale(0).0;
+                match share < 1.0 {
+                    true => assert!(way.abs() < 3.0 * natural, "{name} {load}: {way}"),
+                    false => assert!(way > 1e3 * natural, "{name} {load}: {way}"),
+                }
+            }
+        }
+        Ok(())
+    };
+    let gravity = r#"{"acceleration": 9.81, "incline": "20 deg"}"#;
+    drawn("quickstart.json", &[("gravity", gravity)], "slider")?;
+    drawn("ruby_drive.json", &[], "slider")
+}
+
+/// Somebody who has seen enough after a number of points.
+struct Patience(AtomicUsize);
+
+impl Watcher for Patience {
+    fn reached(&self, done: f64) {
+        self.0.store(done as usize, Ordering::Relaxed);
+    }
+    fn goes_on(&self) -> bool {
+        self.0.load(Ordering::Relaxed) < 3
+    }
+}
+
+#[test]
+fn any_number_of_cores_tells_the_same_and_an_interrupt_keeps_what_is_done() -> Checked {
+    let holding = holding("quickstart.json", &[], Some("contacts.ball.friction"))?;
+    // Some are refused, some do not hold the load.
+    let values: Vec<f64> = (0..12).map(|k| -0.1 + 0.05 * f64::from(k)).collect();
+    let told = [1, 2, 3].map(|cores| holding.trace(&values, 1e-4, cores, &()));
+    assert!(told[0] == told[1] && told[0] == told[2]);
+    let points = told[0].clone()?;
+    assert!(matches!(points[0].ways[0], Err(Holdless::Scenario(_))), "{:?}", points[0]);
+    let table = csv(&holding, &points);
+    assert_eq!(table.lines().count(), 13);
+    assert!(json(&holding, &points).contains(r#""status":"done","curve":"holding-force""#));
+    let cut = holding.trace(&[0.2; 6], 1e-4, 1, &Patience(AtomicUsize::new(0)))?;
+    assert_eq!(cut.iter().filter(|point| point.is_done()).count(), 3);
+    assert!(json(&holding, &cut).contains(r#""status":"interrupted""#));
+    Ok(())
+}
+
+#[test]
+fn scenes_that_hold_nothing_are_refused() {
+    let refused =
+        |name, set: &[(&str, &str)], over| holding(name, set, over).err().map(|error| error.to_string());
+    let says = |refused: Option<String>, words: &str| {
+        let refused = refused.unwrap_or_default();
+        assert!(refused.contains(words), "{refused}");
+    };
+    says(refused("worn_ball.json", &[], None), "no body is free along x, to be loaded");
+    says(refused("three_ball_stage.json", &[], None), "is pressed by a constant force");
+    let smooth = [("contacts.ball.friction", "0")];
+    says(refused("ruby_drive.json", &smooth, None), "has friction");
+    assert_eq!(refused("ruby_drive.json", &smooth, Some("contacts.ball.friction")), None);
+    says(refused("ruby_drive.json", &[], Some("contacts.bal.friction")), "did you mean \"ball\"?");
+    let found = holding("ruby_drive.json", &[], None).and_then(|found| found.trace(&[0.9], 0.5, 1, &()));
+    assert_eq!(found.err(), Some(CurveError::Tolerance(0.5)));
+}
