@@ -55,7 +55,7 @@ pub(super) const BRANCH: &[Definition] = &[
     key(
         "marks.kind",
         "`fold` (the branch turns back), `period doubling` (λ = -1), `Neimark-Sacker` (a pair with |λ| = 1), `branching` (another branch \
-         crosses) or `event` (something appears in a period or vanishes)",
+         crosses), `break` (multipliers jump) or `event` (something appears in a period or vanishes)",
     ),
     key("marks.value", "what is varied, there"),
     key("marks.half_width", "how far that may be off: half of the bracket in which it lies"),
@@ -73,8 +73,8 @@ pub(super) const BRANCH: &[Definition] = &[
     key("ends.value", "what is varied, at the first and at the last motion"),
     key(
         "ends.kind",
-        "`range` (its end), `shakedown` (beyond, a contact never slips grossly: a whole family of motions), `lost` (no motion was found \
-         beyond), `refused` (the scenario allows no value beyond), `points` (as many as were allowed) or `interrupted`",
+        "`range` (its end), `shakedown` (beyond, a contact never slips grossly: a whole family of motions), `slides away` (what pulls a \
+         body is as much as friction holds: any speed does), `lost` (no motion was found beyond), `refused` (the scenario allows no value beyond), `points` (as many as were allowed) or `interrupted`",
     ),
     key("ends.words", "the same in words"),
     key("files", "names of all files that were written together"),

@@ -7,7 +7,7 @@
 //!
 //! In reading order: `place`, a state at a value and where a period leads it; `corrector`, Newton's method; `happened`, what happens in a
 //! period; `standing`, a motion of the branch with its tangent; `bifurcation`, what may lie between two of them; `arm`, the way in one
-//! sense; `beyond`, what lies beyond its end; `table`, what is told of it all.
+//! sense; `passage`, what lies between two of its motions; `beyond`, what lies beyond its end; `table`, what is told of it all.
 
 mod arm;
 mod beyond;
@@ -15,6 +15,7 @@ mod bifurcation;
 mod corrector;
 mod error;
 mod happened;
+mod passage;
 mod place;
 mod standing;
 mod table;
@@ -105,13 +106,8 @@ impl Continuation {
     /// No steady motion to start with, or a whole family of them.
     pub fn follow(&self, course: &Course<'_>) -> Result<Branch, ContinuationError> {
         let options = Options { periods: u32::MAX, told: &|_| (), ..course.steady };
-        let first = Bench::new(
-            (&self.job, &self.path),
-            self.span(),
-            Options { told: course.steady.told, ..course.steady },
-        );
         let bench = Bench::new((&self.job, &self.path), self.span(), options);
-        let (start, measure) = self.start(&first, &bench)?;
+        let (start, measure) = self.start(&bench, &course.steady)?;
         let arms = [-1.0, 1.0].map(|sense| {
             let mut from = start.clone();
             from.tangent *= sense;
@@ -133,18 +129,24 @@ impl Continuation {
     }
 
     /// The motion of the scenario as it stands.
-    fn start(&self, first: &Bench<'_>, bench: &Bench<'_>) -> Result<(Standing, Measure), ContinuationError> {
+    fn start(
+        &self,
+        bench: &Bench<'_>,
+        options: &Options<'_>,
+    ) -> Result<(Standing, Measure), ContinuationError> {
         let (path, present, unit) = (self.path.clone(), self.present, self.unit);
-        let none = |trouble: Trouble| {
-            let source = match trouble {
-                Trouble::Steady(error) => error,
-                _ => SteadyError::NoConvergence { best: f64::NAN, periods: 0 },
-            };
-            ContinuationError::NoStart { path: path.clone(), present, unit, source: Box::new(source) }
+        let none = |trouble: Trouble| match trouble {
+            Trouble::Steady(error) => {
+                ContinuationError::NoStart { path: path.clone(), present, unit, source: Box::new(error) }
+            }
+            other => {
+                ContinuationError::NoBranch { path: path.clone(), present, unit, why: other.to_string() }
+            }
         };
-        let place = first.variant(present).and_then(|variant| first.found(&variant)).map_err(none)?;
-        let still = moment::twice(&mut bench.map_at(&place), &place.fixed, None);
-        let (still, _) = still.map_err(|error| none(error.into()))?;
+        let place =
+            bench.variant(present).and_then(|variant| bench.found(&variant, options)).map_err(none)?;
+        let still = bench.map_at(&place).and_then(|mut map| Ok(moment::twice(&mut map, &place.fixed, None)?));
+        let (still, _) = still.map_err(none)?;
         if !still.is_empty() {
             let names = self.job.model.contacts().map(|(name, _)| name.to_owned()).enumerate();
             let contacts = names.filter(|(c, _)| still.contains(c)).map(|(_, name)| name).collect();
@@ -152,7 +154,14 @@ impl Continuation {
         }
         let period = Period::of(bench, &place).map_err(none)?;
         let row = by_value(place.fixed.defect.len(), 1.0);
-        let mut start = Standing::of(bench, place, period, (None, &row)).map_err(none)?;
+        let start = Standing::of(bench, place, period, (None, &row));
+        let mut start = start.map_err(|trouble| match trouble {
+            // Here they have one.
+            Trouble::Steady(SteadyError::Incommensurate { first, second, .. }) => {
+                ContinuationError::Apart { path: path.clone(), first, second }
+            }
+            other => none(other),
+        })?;
         // Of (dx/dq, 1) only the direction has been kept.
         let measure = Measure::of(&start.tangent);
         start.tangent /= measure.length(&start.tangent);

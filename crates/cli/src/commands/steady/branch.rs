@@ -164,7 +164,9 @@ impl BranchFailure {
                 }
                 _ => Verdict::BadInput,
             },
-            Self::Branch(ContinuationError::Shakedown { .. }) => Verdict::Stopped,
+            Self::Branch(ContinuationError::Shakedown { .. } | ContinuationError::NoBranch { .. }) => {
+                Verdict::Stopped
+            }
             Self::Branch(_) => Verdict::BadInput,
             Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,
         }

@@ -4,10 +4,10 @@
 //! lengthened where it was easy. Where the same happens in the periods at both its ends the signs of the test functions tell whether
 //! something lies between; where not the event is closed in on, and the branch goes on beyond.
 
-use super::bifurcation::{Bifurcation, Mark, Test, root};
+use super::bifurcation::Mark;
 use super::corrector::{Corrected, Wanted, correct};
 use super::error::Trouble;
-use super::happened::{Happened, Period, changes};
+use super::happened::Period;
 use super::place::Bench;
 use super::standing::{Measure, Point, Standing, by_value};
 
@@ -20,8 +20,6 @@ const TURNS: f64 = 0.9;
 const ANY: f64 = 1e-6;
 /// An end of the range is come to where no more than this share of it is left.
 const AT: f64 = 1e-12;
-/// Motions on either side of an event that are farther apart than this are of two branches.
-const JUMP: f64 = 1e-3;
 /// How far a motion may lie from where it was predicted, in steps.
 const ASTRAY: f64 = 0.5;
 /// Steps of the corrector that make a step an easy one.
@@ -38,6 +36,8 @@ pub enum End {
     Range,
     /// Beyond, contacts never slip grossly: steady motions are a whole family.
     Shakedown(Vec<String>),
+    /// What pulls a body is as much as friction holds: any speed does, and beyond it slides away.
+    SlidesAway(String),
     /// No motion was found beyond.
     Lost(String),
     /// The scenario allows no other values.
@@ -56,9 +56,9 @@ pub(super) struct Arm {
 }
 
 /// A motion that was found, and not made out yet.
-struct Probe {
-    corrected: Corrected,
-    period: Period,
+pub(super) struct Probe {
+    pub(super) corrected: Corrected,
+    pub(super) period: Period,
 }
 
 /// Follows a branch.
@@ -66,14 +66,14 @@ pub(super) struct Walk<'a> {
     pub(super) bench: &'a Bench<'a>,
     pub(super) measure: Measure,
     /// Ends of the range.
-    range: [f64; 2],
+    pub(super) range: [f64; 2],
     /// Most points.
     most: usize,
     /// How exactly places are told, as a share of the range.
-    accuracy: f64,
+    pub(super) accuracy: f64,
     /// Told how many points there are.
     told: &'a dyn Fn(usize),
-    arm: Arm,
+    pub(super) arm: Arm,
 }
 
 impl<'a> Walk<'a> {
@@ -111,6 +111,7 @@ impl<'a> Walk<'a> {
                     length = if easy { (1.5 * length).min(LONGEST) } else { length };
                 }
                 Err(trouble) if trouble.is_final() => break End::Interrupted,
+                Err(Trouble::Slides) => break self.sliding(),
                 Err(_) if length > SHORTEST => {
                     length *= 0.25;
                     if here.margin < 2.0 * NEAR {
@@ -144,7 +145,7 @@ impl<'a> Walk<'a> {
     }
 
     /// The motion a length along the tangent, or at an end of the range.
-    fn probe(&self, here: &Standing, length: f64, end: Option<f64>) -> Result<Probe, Trouble> {
+    pub(super) fn probe(&self, here: &Standing, length: f64, end: Option<f64>) -> Result<Probe, Trouble> {
         let to = &here.tangent * length;
         let row = match end {
             Some(_) => by_value(here.count(), 1.0),
@@ -161,7 +162,7 @@ impl<'a> Walk<'a> {
         Ok(Probe { corrected, period })
     }
 
-    fn stand(&self, here: &Standing, probe: Probe) -> Result<Standing, Trouble> {
+    pub(super) fn stand(&self, here: &Standing, probe: Probe) -> Result<Standing, Trouble> {
         let row = self.measure.row(&here.tangent);
         let Probe { corrected, period } = probe;
         let mut next = Standing::of(self.bench, corrected.place, period, (Some(self.measure), &row))?;
@@ -185,9 +186,19 @@ impl<'a> Walk<'a> {
             return Err(Trouble::Bends);
         }
         let gone = if at_end { self.reach(here, &next) } else { length };
+        if next.is_loose {
+            return Err(Trouble::Slides);
+        }
         self.cross(here, &next, gone)?;
         self.keep(&next);
         Ok(next)
+    }
+
+    /// The end at which the figures' body slides away.
+    pub(super) fn sliding(&self) -> End {
+        let scenario = &self.bench.job.scenario;
+        let body = scenario.figures.body.and_then(|body| scenario.scene.bodies.get(body));
+        End::SlidesAway(body.map_or_else(String::new, |body| body.name.clone()))
     }
 
     /// How far along the tangent a motion at the end of the range is.
@@ -200,95 +211,8 @@ impl<'a> Walk<'a> {
         (self.told)(self.arm.points.len());
     }
 
-    /// Finds what lies between two motions in whose periods the same happens.
-    fn cross(&mut self, here: &Standing, next: &Standing, length: f64) -> Result<(), Trouble> {
-        let mut found: Vec<(f64, Standing, Mark)> = Vec::new();
-        for test in Test::ALL {
-            let [at_here, at_next] = [here, next].map(|standing| test.at(standing, self.measure));
-            if at_here * at_next >= 0.0 {
-                continue;
-            }
-            let value = |at: f64| {
-                let standing = self.stand(here, self.probe(here, at, None)?)?;
-                Ok::<_, Trouble>((test.at(&standing, self.measure), (at, standing)))
-            };
-            let ([low, high], best) = root((0.0, at_here), (length, at_next), self.accuracy, value)?;
-            let Some((at, standing)) = best else { continue };
-            let Some(kind) = test.kind(&standing) else { continue };
-            // Where the branch turns the bracket has no width: what is left is the tolerance of the runs.
-            let width = (0.5 * (high - low) * standing.pace().abs()).max(self.bench.options.tolerance);
-            let half_width = width * self.bench.span;
-            // Near the place no multiplier is far from 1: its side is what counts.
-            let sides = [here, next].map(|standing| standing.point.radius() < 1.0);
-            let mark = self.mark(kind, &standing, half_width, sides);
-            found.push((at, standing, mark));
-        }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, standing, mark) in found {
-            self.keep(&standing);
-            self.arm.marks.push(mark);
-        }
-        Ok(())
-    }
-
-    fn mark(&self, kind: Bifurcation, at: &Standing, half_width: f64, along: [bool; 2]) -> Mark {
-        let [first, second] = along;
-        let stable = if at.pace() < 0.0 && kind != Bifurcation::Fold { [second, first] } else { along };
-        let stable = if kind == Bifurcation::Fold { [first, second] } else { stable };
-        Mark { kind, value: at.point.value, half_width, step: at.point.step, stable }
-    }
-
-    /// Closes in on an event between a motion and one in whose period something else happens, and goes on from beyond it.
-    fn pass(&mut self, here: &Standing, far: Probe, length: f64) -> Result<Standing, Trouble> {
-        let (mut low, mut high) = (0.0, length);
-        let (mut near, mut far): (Option<Probe>, Probe) = (None, far);
-        while high - low > self.accuracy {
-            let middle = 0.5 * (low + high);
-            let probe = self.probe(here, middle, None)?;
-            if probe.period.happened == here.happened {
-                (low, near) = (middle, Some(probe));
-            } else {
-                (high, far) = (middle, probe);
-            }
-        }
-        let gone = near.as_ref().map_or_else(|| &here.tangent * 0.0, |near| near.corrected.gone.clone());
-        if self.measure.length(&(&far.corrected.gone - gone)) > JUMP {
-            return Err(Trouble::Bends);
-        }
-        let before = match near {
-            Some(near) => {
-                let near = self.stand(here, near)?;
-                self.cross(here, &near, low)?;
-                self.keep(&near);
-                near
-            }
-            None => here.clone(),
-        };
-        let mut beyond = self.stand(&before, far)?;
-        beyond.point.piece += 1;
-        self.event(&before, (beyond.point.value, &beyond.happened, beyond.point.is_stable()));
-        self.keep(&beyond);
-        Ok(beyond)
-    }
-
-    /// Tells what differs between a motion and one just beyond.
-    pub(super) fn event(&mut self, before: &Standing, (value, happened, stable): (f64, &Happened, bool)) {
-        let values = [before.point.value, value];
-        let mut sides = [(&before.happened, before.point.is_stable()), (happened, stable)];
-        if value < before.point.value {
-            sides.reverse();
-        }
-        self.arm.marks.push(Mark {
-            kind: Bifurcation::Event(changes(sides[0].0, sides[1].0)),
-            value: 0.5 * (values[0] + values[1]),
-            half_width: 0.5 * (values[0] - values[1]).abs(),
-            step: before.point.step,
-            stable: sides.map(|(_, stable)| stable),
-        });
-    }
-
     /// The same motion at the moment of its period that is farthest from events.
-    fn another_moment(&self, here: &Standing) -> Option<Standing> {
+    fn another_moment(&mut self, here: &Standing) -> Option<Standing> {
         if here.pace().abs() < TURNING {
             return None;
         }
@@ -297,6 +221,11 @@ impl<'a> Walk<'a> {
         let row = by_value(place.fixed.defect.len(), here.pace().signum());
         let mut there = Standing::of(self.bench, place, period, (Some(self.measure), &row)).ok()?;
         there.point.piece = here.point.piece;
-        (there.margin > here.margin).then_some(there)
+        if there.margin <= here.margin {
+            return None;
+        }
+        // What fell on the moment before was counted once too often, or not at all.
+        self.event(here, (there.point.value, &there.happened, there.point.is_stable()));
+        Some(there)
     }
 }

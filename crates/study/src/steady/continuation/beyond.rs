@@ -2,16 +2,25 @@
 
 use super::arm::{End, Walk};
 use super::error::Trouble;
-use super::happened::Period;
+use super::happened::{Period, stretch};
 use super::standing::{Standing, by_value};
-use crate::steady::{SteadyError, moment};
+use crate::grip::{Grip, Loose};
+use crate::steady::{Options, SteadyError, moment};
+use nalgebra::DVector;
 use stickslip_drive::scene::Axis;
 
-/// How far beyond its end a branch is looked for again, as a share of the range, and by how much bodies may be faster or slower there, as a
-/// share of their largest speed, at some moments of the period.
-const BEYOND: f64 = 1e-8;
+/// How far beyond its end a branch is looked for again, as a share of the range, the nearest first.
+const BEYOND: [f64; 5] = [1e-8, 1e-6, 1e-5, 1e-4, 1e-3];
+/// By how much bodies may be faster or slower there, as a share of their largest speed, at some moments of the period.
 const ALIKE: f64 = 1e-2;
 const MOMENTS: u32 = 8;
+/// Most periods of one search.
+const SEARCH: u32 = 500;
+/// How far beyond a body is let slide, and for how many periods at most.
+const AWAY: [f64; 3] = [1e-6, 1e-4, 1e-3];
+const SLIDES: u32 = 64;
+/// Each of its steps is longer by more than this share than the one before.
+const FASTER: f64 = 1e-9;
 const AXES: [Axis; 3] = [Axis::X, Axis::Z, Axis::Pitch];
 
 impl Walk<'_> {
@@ -20,21 +29,38 @@ impl Walk<'_> {
         if let Trouble::Refused(why) = trouble {
             return Err(End::Refused(why.clone()));
         }
-        let sense = here.pace().signum();
-        let value = here.point.value + sense * BEYOND * self.bench.span;
-        let lost = |why: &dyn std::fmt::Display| End::Lost(format!("{trouble}; beyond, {why}"));
-        let place = self.bench.variant(value).and_then(|variant| self.bench.found(&variant));
-        let place = match place {
-            Ok(place) => place,
-            Err(Trouble::Steady(SteadyError::Shakedown { contacts, .. })) => {
-                return Err(End::Shakedown(contacts));
+        let mut nearest = None;
+        for away in BEYOND {
+            match self.anew(here, away) {
+                Ok(next) => return Ok(next),
+                Err(End::Lost(why)) => nearest = nearest.or(Some(why)),
+                Err(end) => return Err(end),
             }
-            Err(trouble) if trouble.is_final() => return Err(End::Interrupted),
-            Err(other) => return Err(lost(&other)),
+        }
+        if self.slides_away(here) {
+            return Err(self.sliding());
+        }
+        Err(End::Lost(format!("{trouble}; beyond, {}", nearest.unwrap_or_default())))
+    }
+
+    /// The motion that the drive comes to by itself, so far beyond, if it is one that the branch goes on with.
+    fn anew(&mut self, here: &Standing, away: f64) -> Result<Standing, End> {
+        let sense = here.pace().signum();
+        let value = self.within(here, away).ok_or_else(|| End::Lost("the range ends".to_owned()))?;
+        let lost = |why: &dyn std::fmt::Display| End::Lost(why.to_string());
+        let other = |trouble: Trouble| match trouble {
+            Trouble::Steady(SteadyError::Shakedown { contacts, .. }) => End::Shakedown(contacts),
+            Trouble::Refused(why) => End::Refused(why),
+            trouble if trouble.is_final() => End::Interrupted,
+            trouble => lost(&trouble),
         };
-        let still = moment::twice(&mut self.bench.map_at(&place), &place.fixed, None);
-        let (still, _) = still.map_err(|error| lost(&error))?;
-        let period = Period::of(self.bench, &place).map_err(|error| lost(&error))?;
+        let options = Options { periods: SEARCH, ..self.bench.options };
+        let place = self.bench.variant(value).and_then(|variant| self.bench.found(&variant, &options));
+        let place = place.map_err(other)?;
+        let mut map = self.bench.map_at(&place).map_err(other)?;
+        let (still, _) = moment::twice(&mut map, &place.fixed, None).map_err(|error| other(error.into()))?;
+        drop(map);
+        let period = Period::of(self.bench, &place).map_err(other)?;
         if !still.is_empty() {
             // What is held for ever neither fades nor grows.
             self.event(here, (value, &period.happened, true));
@@ -45,14 +71,54 @@ impl Walk<'_> {
         }
         let row = by_value(place.fixed.defect.len(), sense);
         let next = Standing::of(self.bench, place, period, (Some(self.measure), &row));
-        let mut next = next.map_err(|error| lost(&error))?;
+        let mut next = next.map_err(other)?;
+        if next.is_loose {
+            return Err(self.sliding());
+        }
         next.point.piece = here.point.piece + 1;
-        if !self.is_alike(here, &next).map_err(|error| lost(&error))? {
+        if !self.is_alike(here, &next).map_err(other)? {
             return Err(lost(&"the drive comes to another motion"));
         }
         self.event(here, (value, &next.happened, next.point.is_stable()));
         self.keep(&next);
         Ok(next)
+    }
+
+    /// The value so far beyond, if that is in the range.
+    fn within(&self, here: &Standing, away: f64) -> Option<f64> {
+        let value = here.point.value + here.pace().signum() * away * self.bench.span;
+        (self.range[0]..=self.range[1]).contains(&value).then_some(value)
+    }
+
+    /// Whether a little beyond the figures' body slides all through, faster from period to period.
+    fn slides_away(&self, here: &Standing) -> bool {
+        let beyond = AWAY.iter().filter_map(|away| self.within(here, *away));
+        beyond.map(|value| self.slides(here, value)).any(|slides| matches!(slides, Ok(true)))
+    }
+
+    /// The same at a value, from a motion on.
+    fn slides(&self, here: &Standing, value: f64) -> Result<bool, Trouble> {
+        let variant = self.bench.variant(value)?;
+        let Some(body) = variant.job.scenario.figures.body else { return Ok(false) };
+        let still = DVector::zeros(here.count());
+        let mut state =
+            self.bench.elsewhere((&here.place.fixed.state, &here.place.variant), &variant, &still)?;
+        let (mut map, mut grip) = (self.bench.map(&variant), Grip::new(&variant.job, body));
+        let mut before: Option<f64> = None;
+        for _ in 0..SLIDES {
+            let (next, _, loose) = stretch(&mut map, state.clone(), variant.drive.period, Some(&mut grip))?;
+            let places = [&state, &next].map(|state| state.coordinate(map.model(), body, Axis::X));
+            let [Some((from, _)), Some((to, _))] = places else { return Ok(false) };
+            let step = to - from;
+            if loose == Some(Loose::Slides) {
+                if before.is_some_and(|before| step.abs() > (1.0 + FASTER) * before.abs()) {
+                    return Ok(true);
+                }
+                before = Some(step);
+            }
+            state = next;
+        }
+        Ok(false)
     }
 
     /// Whether all bodies move alike through the period, at most little faster or slower.
@@ -67,7 +133,7 @@ impl Walk<'_> {
 
     /// Speed of every body along x, z and pitch at some moments of the period, m/s or rad/s.
     fn speeds(&self, of: &Standing) -> Result<Vec<Vec<f64>>, Trouble> {
-        let mut map = self.bench.map_at(&of.place);
+        let mut map = self.bench.map_at(&of.place)?;
         let (model, period, mut state) = (map.model(), map.period(), of.place.fixed.state.clone());
         let bodies = of.place.variant.job.scenario.scene.bodies.len();
         let first = (state.time() / period).ceil();

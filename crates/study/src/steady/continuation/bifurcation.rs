@@ -13,6 +13,9 @@ use super::standing::{Measure, Standing};
 use crate::steady::Multiplier;
 use nalgebra::Complex;
 
+/// How near a multiplier is to where it must be, at a place that is closed in on.
+const THERE: f64 = 1e-2;
+
 /// What happens at a place of a branch.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Bifurcation {
@@ -27,6 +30,9 @@ pub enum Bifurcation {
     },
     /// Another branch of the same period crosses.
     Branching,
+    /// What leads a disturbance on changes at once: two events, by contact or block and kind, change places, the first comes first below;
+    /// or none does, and what changes is nothing that a period tells.
+    Break(Option<[(String, &'static str); 2]>),
     /// Something begins to happen in a period, or no longer does.
     Event(Vec<Change>),
 }
@@ -55,6 +61,7 @@ impl Bifurcation {
             Self::PeriodDoubling => "period doubling",
             Self::NeimarkSacker { .. } => "Neimark-Sacker",
             Self::Branching => "branching",
+            Self::Break(_) => "break",
             Self::Event(_) => "event",
         }
     }
@@ -69,6 +76,11 @@ impl Bifurcation {
                 format!("a beat of {beat:.3} periods neither fades nor grows: motions that beat for ever begin")
             }
             Self::Branching => "another branch crosses".to_owned(),
+            Self::Break(Some([one, other])) => format!(
+                "multipliers jump: {} of {} comes before {} of {} below, after it above",
+                one.1, one.0, other.1, other.0
+            ),
+            Self::Break(None) => "multipliers jump, though as much happens in a period as before, in the same order".to_owned(),
             Self::Event(changes) => {
                 let one = |change: &Change| match (change.below, change.above) {
                     (0, count) => format!("above, {} of {} appears ({count} a period)", change.kind, change.source),
@@ -102,6 +114,16 @@ impl Test {
             Self::PeriodDoubling => values().iter().map(|value| value + 1.0).product::<Complex<f64>>().re,
             Self::NeimarkSacker => pairs(&values()).map(|[a, b]| a * b - 1.0).product::<Complex<f64>>().re,
             Self::Branching => matrix(&standing.slopes, &measure.row(&standing.tangent)).determinant(),
+        }
+    }
+
+    /// Whether a multiplier is there where it must be. Where multipliers jump the function may leap over zero.
+    pub(super) fn is_met(self, standing: &Standing) -> bool {
+        let values = eigenvalues(&standing.point.multipliers);
+        match self {
+            Self::Fold | Self::Branching => values.iter().any(|value| (value - 1.0).norm() < THERE),
+            Self::PeriodDoubling => values.iter().any(|value| (value + 1.0).norm() < THERE),
+            Self::NeimarkSacker => pairs(&values).any(|[a, b]| (a * b - 1.0).norm() < THERE),
         }
     }
 

@@ -51,6 +51,30 @@ pub enum ContinuationError {
         /// Why.
         source: Box<SteadyError>,
     },
+    /// A period that cannot change without parting from another one.
+    #[error(
+        "{path} cannot be varied by itself: the waveforms \"{first}\" and \"{second}\" would have no common period\n   help: vary the period of all of them, as `stickslip characterise --curve speed-frequency` does"
+    )]
+    Apart {
+        /// What is varied.
+        path: String,
+        /// Name of one waveform.
+        first: String,
+        /// Name of the other.
+        second: String,
+    },
+    /// A motion that nothing leads on from.
+    #[error("there is a steady motion at {path} = {present} {unit}, but no branch leads on from it: {why}")]
+    NoBranch {
+        /// What is varied.
+        path: String,
+        /// What it is, SI.
+        present: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// Why.
+        why: String,
+    },
     /// A continuum to start with.
     #[error(
         "at {path} = {present} {unit} {contacts:?} never slip grossly: steady motions are a whole family (a shakedown), and no one branch leads on from there\n   help: drive it further, so that all slip"
@@ -82,6 +106,9 @@ pub(super) enum Trouble {
     /// The branch bends too much for the step.
     #[error("the branch bends")]
     Bends,
+    /// The body of the figures slides all through, and any speed does.
+    #[error("any speed does")]
+    Slides,
     /// A period, or a drive that is none.
     #[error(transparent)]
     Steady(#[from] SteadyError),

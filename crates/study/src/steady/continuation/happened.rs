@@ -2,8 +2,10 @@
 
 use super::error::Trouble;
 use super::place::{Bench, Place};
+use crate::grip::{Grip, Loose};
+use crate::steady::map::Map;
 use std::collections::BTreeMap;
-use stickslip_drive::{Event, EventKind, Record, Source};
+use stickslip_drive::{Event, EventKind, Record, Source, State};
 
 /// How often something happens in a period, by who and what.
 pub(super) type Happened = BTreeMap<(String, &'static str), usize>;
@@ -12,6 +14,10 @@ pub(super) type Happened = BTreeMap<(String, &'static str), usize>;
 #[derive(Debug, Clone)]
 pub(super) struct Period {
     pub(super) happened: Happened,
+    /// The same in its order.
+    pub(super) order: Vec<(String, &'static str)>,
+    /// Whether the figures' body slips on all its contacts all through.
+    pub(super) is_dragged: bool,
     /// Where the map's moment lies between the events before and after it: 0.5 in the middle, 0 at one of them.
     pub(super) margin: f64,
 }
@@ -46,12 +52,13 @@ impl Period {
     /// The period of a place.
     pub(super) fn of(bench: &Bench<'_>, place: &Place) -> Result<Self, Trouble> {
         let (state, period) = (&place.fixed.state, place.variant.drive.period);
-        let (from, mut events) = (state.time(), Events::default());
-        bench.map_at(place).lead(state.clone(), from + period, &mut events)?;
+        let (from, job) = (state.time(), &place.variant.job);
+        let mut grip = job.scenario.figures.body.map(|body| Grip::new(job, body));
+        let (_, events, loose) = stretch(&mut bench.map_at(place)?, state.clone(), period, grip.as_mut())?;
         let names: Vec<&str> = place.variant.drive.model.contacts().map(|(name, _)| name).collect();
         let blocks = &place.variant.job.scenario.scene.blocks;
-        let mut happened = Happened::new();
-        for event in &events.0 {
+        let (mut happened, mut order) = (Happened::new(), Vec::new());
+        for event in &events {
             let source = match event.source {
                 Source::Contact(c) => names.get(c).map(|name| (*name).to_owned()),
                 Source::Block(b) => blocks.get(b).map(|block| block.name.clone()),
@@ -62,14 +69,33 @@ impl Period {
             let counts = !matches!(event.kind, EventKind::Turn | EventKind::LoopClosed);
             let source = source.filter(|_| counts);
             if let Some(source) = source {
+                order.push((source.clone(), event.kind.name()));
                 *happened.entry((source, event.kind.name())).or_default() += 1;
             }
         }
-        let times = || events.0.iter().map(|event| event.t - from);
+        let times = || events.iter().map(|event| event.t - from);
         let (after, before) = (times().fold(period, f64::min), period - times().fold(0.0, f64::max));
         let margin = after.min(before) / (after + before);
-        Ok(Self { happened, margin })
+        Ok(Self { happened, order, is_dragged: loose == Some(Loose::Slides), margin })
     }
+}
+
+/// A state led on by some time, s: where to, what happened, and what a body did all the while that nothing held.
+pub(super) fn stretch(
+    map: &mut Map<'_>,
+    state: State,
+    time: f64,
+    grip: Option<&mut Grip>,
+) -> Result<(State, Vec<Event>, Option<Loose>), Trouble> {
+    let (until, mut events) = (state.time() + time, Events::default());
+    let state = map.lead(state, until, &mut events)?;
+    let mut loose = None;
+    if let Some(grip) = grip {
+        grip.begin();
+        events.0.iter().for_each(|event| grip.event(event));
+        loose = grip.loose(map.model(), &map.held(state.clone())?);
+    }
+    Ok((state, events.0, loose))
 }
 
 /// What differs between two periods, the one of the smaller value first.
@@ -84,6 +110,12 @@ pub(super) fn changes(below: &Happened, above: &Happened) -> Vec<Change> {
     keys.into_iter().map(change).filter(|change| change.below != change.above).collect()
 }
 
+/// The first two events that come in another order above than below; none where the order is the same.
+pub(super) fn swap(orders: [&[(String, &'static str)]; 2]) -> Option<[(String, &'static str); 2]> {
+    let mut pairs = orders[0].iter().zip(orders[1]);
+    pairs.find(|(below, above)| below != above).map(|(below, above)| [below.clone(), above.clone()])
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::bifurcation::Bifurcation;
@@ -96,5 +128,13 @@ mod tests {
         assert_eq!((found[0].below, found[0].above), (0, 1));
         assert_eq!(Bifurcation::Event(found).words(), "above, touch of end appears (1 a period)");
         assert!(changes(&touch(2), &touch(2)).is_empty());
+    }
+
+    #[test]
+    fn events_that_change_places_are_told_apart() {
+        let [one, other] = [("end".to_owned(), "touch"), ("end".to_owned(), "reversal")];
+        let below = [one.clone(), other.clone()];
+        assert_eq!(swap([&below, &[other.clone(), one.clone()]]), Some([one, other]));
+        assert_eq!(swap([&below, &below]), None);
     }
 }

@@ -4,7 +4,7 @@ use super::error::Trouble;
 use crate::steady::endless::Endless;
 use crate::steady::map::{Gradient, Map};
 use crate::steady::newton::Fixed;
-use crate::steady::{Options, fixed_point, moment};
+use crate::steady::{Options, fixed_point, moment, newton};
 use nalgebra::DVector;
 use std::cell::Cell;
 use std::path::PathBuf;
@@ -21,6 +21,8 @@ const TRIES: u32 = 6;
 /// By how little and by how much the varied number is moved, as a share of its range.
 const LEAST: f64 = 1e-10;
 const MOST: f64 = 1e-3;
+/// How often the form of memories may change on the way to a motion.
+const FORMS: u32 = 4;
 
 /// The drive at a value.
 pub(super) struct Variant {
@@ -62,6 +64,9 @@ impl<'a> Bench<'a> {
 
     /// The drive at a value.
     pub(super) fn variant(&self, value: f64) -> Result<Rc<Variant>, Trouble> {
+        if !value.is_finite() {
+            return Err(Trouble::Diverged);
+        }
         let text = format!("{value:e}");
         // Whatever is a default in the file stands in the resolved scenario, and the points of tables.
         let made =
@@ -76,15 +81,19 @@ impl<'a> Bench<'a> {
         Ok(Rc::new(Variant { value, job, drive }))
     }
 
-    fn map<'v>(&'v self, variant: &'v Variant) -> Map<'v> {
+    pub(super) fn map<'v>(&'v self, variant: &'v Variant) -> Map<'v> {
         Map::new(&variant.drive.model, variant.drive.period, &variant.job, &self.options)
     }
 
-    /// The map at a state.
-    pub(super) fn map_at<'v>(&'v self, place: &'v Place) -> Map<'v> {
+    /// The map at a state. It has as many numbers as the defect there.
+    pub(super) fn map_at<'v>(&'v self, place: &'v Place) -> Result<Map<'v>, Trouble> {
+        let section = Section::new(&place.variant.drive.model, place.fixed.state.clone());
+        if section.unknowns().len() != place.fixed.defect.len() {
+            return Err(Trouble::OtherForm);
+        }
         let mut map = self.map(&place.variant);
-        map.set(Section::new(&place.variant.drive.model, place.fixed.state.clone()));
-        map
+        map.set(section);
+        Ok(map)
     }
 
     /// A state and its image.
@@ -100,15 +109,27 @@ impl<'a> Bench<'a> {
     }
 
     /// The motion that the start of a drive leads to.
-    pub(super) fn found(&self, variant: &Rc<Variant>) -> Result<Place, Trouble> {
-        let mut map = self.map(variant);
-        let fixed = fixed_point(&mut map, &variant.drive)?;
-        Ok(Place { variant: Rc::clone(variant), fixed })
+    pub(super) fn found(&self, variant: &Rc<Variant>, options: &Options<'_>) -> Result<Place, Trouble> {
+        let (model, job) = (&variant.drive.model, &variant.job);
+        let mut map = Map::new(model, variant.drive.period, job, options);
+        let mut fixed = fixed_point(&mut map, &variant.drive)?;
+        for _ in 0..FORMS {
+            let section = Section::new(model, fixed.state.clone());
+            if section.unknowns().len() == fixed.defect.len() {
+                return Ok(Place { variant: Rc::clone(variant), fixed });
+            }
+            // On the way there a contact has begun to remember, or has forgotten: the search goes on with the numbers that there are.
+            let section = Section::new(model, moment::again(&mut map, fixed.state)?.state);
+            let from = section.base().clone();
+            map.set(section);
+            fixed = newton::fixed_point(&mut map, &from)?;
+        }
+        Err(Trouble::OtherForm)
     }
 
     /// The same motion at the moment of the period at which least is remembered.
     pub(super) fn moment(&self, place: &Place) -> Result<Place, Trouble> {
-        let mut map = self.map_at(place);
+        let mut map = self.map_at(place)?;
         let state = moment::again(&mut map, place.fixed.state.clone())?.state;
         drop(map);
         self.place(&place.variant, state)
@@ -134,12 +155,13 @@ impl<'a> Bench<'a> {
     /// How the state of a place comes back, to first order.
     pub(super) fn slopes(&self, place: &Place) -> Result<Slopes, Trouble> {
         let Fixed { state, image, .. } = &place.fixed;
-        let gradient = self.map_at(place).near_gradient(state, image)?;
+        let gradient = self.map_at(place)?.near_gradient(state, image)?;
         Ok(Slopes { gradient, by_value: self.by_value(place)? })
     }
 
     /// Of the defect by the varied number: by differences to both sides, or to one where the other is of another form.
     pub(super) fn by_value(&self, place: &Place) -> Result<DVector<f64>, Trouble> {
+        let mut why = Trouble::OtherForm;
         for _ in 0..TRIES {
             let by = self.apart.get();
             let [ahead, behind] = [by, -by].map(|by| self.beside(place, by));
@@ -148,7 +170,8 @@ impl<'a> Bench<'a> {
                 (Ok(ahead), Err(_)) => (ahead - &place.fixed.defect, by),
                 (Err(_), Ok(behind)) => (&place.fixed.defect - behind, by),
                 (Err(trouble), Err(_)) if trouble.is_final() => return Err(trouble),
-                (Err(_), Err(_)) => {
+                (Err(trouble), Err(_)) => {
+                    why = trouble;
                     self.apart.set(0.1 * by);
                     continue;
                 }
@@ -160,7 +183,7 @@ impl<'a> Bench<'a> {
                 return Ok(change / apart);
             }
         }
-        Err(Trouble::OtherForm)
+        Err(why)
     }
 
     /// The defect of the same state at another value.

@@ -4,8 +4,7 @@ use super::corrector::matrix;
 use super::error::Trouble;
 use super::happened::{Happened, Period};
 use super::place::{Bench, Place, Slopes};
-use crate::steady::multiplier;
-use crate::steady::{Multiplier, bound};
+use crate::steady::{Kind, Multiplier, bound, multiplier};
 use nalgebra::DVector;
 use stickslip_drive::scene::Axis;
 
@@ -38,6 +37,8 @@ pub(super) struct Standing {
     pub(super) happened: Happened,
     /// How well the map's moment keeps off the events before and after it: 0.5 in the middle between them, 0 at one.
     pub(super) margin: f64,
+    /// Whether the figures' body slides all through and keeps any speed that it has: what pulls it is as much as friction holds.
+    pub(super) is_loose: bool,
     pub(super) point: Point,
 }
 
@@ -84,7 +85,7 @@ impl Standing {
         period: Period,
         (measure, row): (Option<Measure>, &DVector<f64>),
     ) -> Result<Self, Trouble> {
-        let mut map = bench.map_at(&place);
+        let mut map = bench.map_at(&place)?;
         let body = place.variant.job.scenario.figures.body;
         let found = bound::bound(&mut map, &place.fixed, body)?;
         let section = map.section();
@@ -93,10 +94,11 @@ impl Standing {
         let slopes = Slopes { gradient: found.gradient, by_value: bench.by_value(&place)? };
         let count = slopes.by_value.len();
         let solved = matrix(&slopes, row).lu().solve(&by_value(count, 1.0));
-        let mut tangent =
-            solved.filter(|t| t.iter().all(|x| x.is_finite()) && t.amax() > 0.0).ok_or(Trouble::Diverged)?;
+        let solved = solved.filter(|t| t.iter().all(|x| x.is_finite()) && t.amax() > 0.0);
+        let tangent = solved.ok_or(Trouble::Diverged)?;
         let measure = measure.unwrap_or_else(|| Measure::of(&tangent));
-        tangent /= measure.length(&tangent);
+        let length = Some(measure.length(&tangent)).filter(|length| *length > 0.0 && length.is_finite());
+        let tangent = tangent / length.ok_or(Trouble::Diverged)?;
         let point = Point {
             value: place.variant.value,
             step,
@@ -106,8 +108,10 @@ impl Standing {
             unknowns: count,
             piece: 0,
         };
-        let Period { happened, margin } = period;
-        Ok(Self { place, slopes, tangent, happened, margin, point })
+        let Period { happened, is_dragged, margin, .. } = period;
+        let keeps = |multiplier: &Multiplier| multiplier.re > 0.0 && multiplier.kind() == Kind::Stays;
+        let is_loose = is_dragged && point.multipliers.iter().any(keeps);
+        Ok(Self { place, slopes, tangent, happened, margin, is_loose, point })
     }
 
     /// How many numbers the map has.

@@ -103,7 +103,10 @@ impl MarkReport {
         let (beat, changes) = match &mark.kind {
             Bifurcation::NeimarkSacker { beat } => (Some(Real(*beat)), Vec::new()),
             Bifurcation::Event(changes) => (None, changes.iter().map(change).collect()),
-            Bifurcation::Fold | Bifurcation::PeriodDoubling | Bifurcation::Branching => (None, Vec::new()),
+            Bifurcation::Fold
+            | Bifurcation::PeriodDoubling
+            | Bifurcation::Branching
+            | Bifurcation::Break(_) => (None, Vec::new()),
         };
         Self {
             kind: mark.kind.name(),
@@ -125,6 +128,7 @@ impl End {
         match self {
             Self::Range => "range",
             Self::Shakedown(_) => "shakedown",
+            Self::SlidesAway(_) => "slides away",
             Self::Lost(_) => "lost",
             Self::Refused(_) => "refused",
             Self::Points => "points",
@@ -141,12 +145,15 @@ impl End {
                 "beyond, {} never slips grossly: steady motions are a whole family (a shakedown), and no one branch goes on",
                 contacts.join(", ")
             ),
+            Self::SlidesAway(body) => format!(
+                "what pulls {body} is as much here as friction holds: any speed does, and beyond it slides away"
+            ),
             Self::Lost(why) => format!("no motion was found beyond: {why}"),
             Self::Refused(why) => {
                 format!("the scenario allows no value beyond: {}", why.lines().next().unwrap_or_default())
             }
-            Self::Points => "as many points as were allowed".to_owned(),
-            Self::Interrupted => "interrupted".to_owned(),
+            Self::Points => "as many points as were allowed: more (--points) lead on".to_owned(),
+            Self::Interrupted => "it was interrupted here".to_owned(),
         }
     }
 }

@@ -1,0 +1,133 @@
+//! What lies between two motions of a branch: a place where its motions change their kind, or an event.
+
+use super::arm::{Probe, Walk};
+use super::bifurcation::{Bifurcation, Mark, Test, root};
+use super::error::Trouble;
+use super::happened::{Happened, changes, swap};
+use super::standing::Standing;
+
+/// Motions on either side of an event that are farther apart than this are of two branches.
+const JUMP: f64 = 1e-3;
+
+impl Walk<'_> {
+    /// Finds what lies between two motions in whose periods the same happens.
+    pub(super) fn cross(&mut self, here: &Standing, next: &Standing, length: f64) -> Result<(), Trouble> {
+        let mut found: Vec<(f64, Standing, Mark)> = Vec::new();
+        for test in Test::ALL {
+            let [at_here, at_next] = [here, next].map(|standing| test.at(standing, self.measure));
+            if at_here * at_next >= 0.0 {
+                continue;
+            }
+            let value = |at: f64| {
+                let standing = self.stand(here, self.probe(here, at, None)?)?;
+                Ok::<_, Trouble>((test.at(&standing, self.measure), (at, standing)))
+            };
+            let ([low, high], best) = root((0.0, at_here), (length, at_next), self.accuracy, value)?;
+            let Some((at, standing)) = best else { continue };
+            if !test.is_met(&standing) {
+                // It has jumped over zero: for the others, too.
+                if !found.iter().any(|(.., mark)| matches!(mark.kind, Bifurcation::Break(_))) {
+                    found.push(self.broken((here, next), [low, high])?);
+                }
+                continue;
+            }
+            let Some(kind) = test.kind(&standing) else { continue };
+            // Where the branch turns the bracket has no width: what is left is the tolerance of the runs.
+            let width = (0.5 * (high - low) * standing.pace().abs()).max(self.bench.options.tolerance);
+            let half_width = width * self.bench.span;
+            // Near the place no multiplier is far from 1: its side is what counts.
+            let sides = [here, next].map(|standing| standing.point.radius() < 1.0);
+            let mark = self.mark(kind, &standing, half_width, sides);
+            found.push((at, standing, mark));
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, standing, mark) in found {
+            self.keep(&standing);
+            self.arm.marks.push(mark);
+        }
+        Ok(())
+    }
+
+    /// A place at which the derivatives of the motion jump, between two lengths along a tangent.
+    fn broken(
+        &self,
+        (here, next): (&Standing, &Standing),
+        lengths: [f64; 2],
+    ) -> Result<(f64, Standing, Mark), Trouble> {
+        let [before, after] = [self.probe(here, lengths[0], None)?, self.probe(here, lengths[1], None)?];
+        let mut orders = [before.period.order.as_slice(), after.period.order.as_slice()];
+        if here.pace() < 0.0 {
+            orders.reverse();
+        }
+        let kind = Bifurcation::Break(swap(orders));
+        let [low, high] = [&before, &after].map(|probe| probe.corrected.place.variant.value);
+        let standing = self.stand(here, before)?;
+        let sides = [here, next].map(|standing| standing.point.is_stable());
+        let mark = self.mark(kind, &standing, 0.5 * (high - low).abs(), sides);
+        Ok((lengths[0], standing, Mark { value: 0.5 * (low + high), ..mark }))
+    }
+
+    fn mark(&self, kind: Bifurcation, at: &Standing, half_width: f64, along: [bool; 2]) -> Mark {
+        let [first, second] = along;
+        let stable = if at.pace() < 0.0 && kind != Bifurcation::Fold { [second, first] } else { along };
+        let stable = if kind == Bifurcation::Fold { [first, second] } else { stable };
+        Mark { kind, value: at.point.value, half_width, step: at.point.step, stable }
+    }
+
+    /// Closes in on an event between a motion and one in whose period something else happens, and goes on from beyond it.
+    pub(super) fn pass(&mut self, here: &Standing, far: Probe, length: f64) -> Result<Standing, Trouble> {
+        let (mut low, mut high) = (0.0, length);
+        let (mut near, mut far): (Option<Probe>, Probe) = (None, far);
+        while high - low > self.accuracy {
+            let middle = 0.5 * (low + high);
+            let probe = self.probe(here, middle, None)?;
+            if probe.period.happened == here.happened {
+                (low, near) = (middle, Some(probe));
+            } else {
+                (high, far) = (middle, probe);
+            }
+        }
+        let gone = near.as_ref().map_or_else(|| &here.tangent * 0.0, |near| near.corrected.gone.clone());
+        if self.measure.length(&(&far.corrected.gone - gone)) > JUMP {
+            return Err(Trouble::Bends);
+        }
+        let before = match near {
+            Some(near) => {
+                let near = self.stand(here, near)?;
+                self.cross(here, &near, low)?;
+                self.keep(&near);
+                near
+            }
+            None => here.clone(),
+        };
+        let mut beyond = self.stand(&before, far)?;
+        beyond.point.piece += 1;
+        self.event(&before, (beyond.point.value, &beyond.happened, beyond.point.is_stable()));
+        if beyond.is_loose {
+            return Err(Trouble::Slides);
+        }
+        self.keep(&beyond);
+        Ok(beyond)
+    }
+
+    /// Tells what differs between a motion and one just beyond, if anything does.
+    pub(super) fn event(&mut self, before: &Standing, (value, happened, stable): (f64, &Happened, bool)) {
+        let values = [before.point.value, value];
+        let mut sides = [(&before.happened, before.point.is_stable()), (happened, stable)];
+        // Along the branch: how far the two are apart in the varied number may be rounding.
+        if before.pace() < 0.0 {
+            sides.reverse();
+        }
+        let changes = changes(sides[0].0, sides[1].0);
+        if changes.is_empty() {
+            return;
+        }
+        self.arm.marks.push(Mark {
+            kind: Bifurcation::Event(changes),
+            value: 0.5 * (values[0] + values[1]),
+            half_width: 0.5 * (values[0] - values[1]).abs(),
+            step: before.point.step,
+            stable: sides.map(|(_, stable)| stable),
+        });
+    }
+}

@@ -1,0 +1,205 @@
+//! Where branches of drawn sliders end, and what is told on the way, against closed forms and what a slider can do.
+
+use std::error::Error;
+use std::path::PathBuf;
+use stickslip_results::Job;
+use stickslip_scenario::Scenario;
+use stickslip_study::steady::Options;
+use stickslip_study::steady::continuation::{
+    Bifurcation, Branch, Continuation, ContinuationError, Course, End,
+};
+
+type Checked = Result<(), Box<dyn Error>>;
+
+/// A slider on a foot that follows a waveform.
+struct Slider {
+    /// The waveform "drive", and others.
+    waveforms: &'static str,
+    /// kg.
+    mass: f64,
+    /// Of the ball, m.
+    radius: f64,
+    friction: f64,
+    /// Normal force, N or what it follows.
+    normal: &'static str,
+    /// Along x, N.
+    load: f64,
+    /// Other keys of the scenario.
+    more: &'static str,
+}
+
+impl Slider {
+    fn job(&self) -> Result<Job, Box<dyn Error>> {
+        let Self { waveforms, mass, radius, friction, normal, load, more } = self;
+        let text = format!(
+            r#"{{
+                "stickslip": 1,
+                "materials": {{"steel": {{"youngs_modulus": 210e9, "poisson_ratio": 0.3}}}},
+                "waveforms": {{{waveforms}}},
+                "bodies": {{"foot": {{"x": {{"follows": "drive"}}}}, "slider": {{"mass": {mass:e}, "x": "free"}}}},
+                "contacts": {{"ball": {{
+                    "between": ["foot", "slider"], "materials": ["steel", "steel"],
+                    "profile": {{"paraboloid": {{"radius": {radius:e}}}}},
+                    "friction": {friction:e}, "normal": {{"force": {normal}}}
+                }}}},
+                "loads": [{{"on": "slider", "x": {load:e}}}],
+                {more}
+                "figures": {{"waveform": "drive", "body": "slider"}},
+                "run": {{"cycles": 20, "stepper": {{"event": {{"tolerance": 1e-10}}}}}}
+            }}"#
+        );
+        let scenario = Scenario::from_str_alone(&text, "slider")?;
+        Ok(Job::new(scenario, "slider".to_owned(), PathBuf::new())?)
+    }
+
+    fn branch(&self, path: &str, range: [f64; 2]) -> Result<Branch, Box<dyn Error>> {
+        Ok(Continuation::new(self.job()?, path, range)?.follow(&Course::default())?)
+    }
+}
+
+const LOAD: &str = "loads[0].x";
+const FORCE: &str = "contacts.ball.normal.force";
+
+/// Held by a spring, too: its memory has another form at the motion than where the search for it began.
+const HELD: Slider = Slider {
+    waveforms: r#""drive": {"trapezoid": {"stroke": 9.117e-9, "rise": 0.0113663, "hold": 9.47195e-4, "fall": 0.00568317, "period": 0.0189439}}"#,
+    mass: 12.6089,
+    radius: 3.787802e-4,
+    friction: 0.08,
+    normal: "0.05675978",
+    load: 1.816313e-3,
+    more: r#""springs": {"d": {"between": ["ground", "slider"], "direction": "x", "stiffness": 9862.1319, "damping": 0.35263}},"#,
+};
+
+/// Pressed in time with its foot.
+const PRESSED: Slider = Slider {
+    waveforms: r#""drive": {"sine": {"amplitude": 6.418283206544569e-7, "period": 0.0010730889986615324}},
+        "press": {"sine": {"amplitude": 0.15957865331120755, "period": 0.0010730889986615324, "phase": 4.002211407804633, "offset": 0.26596442218534594}}"#,
+    mass: 0.22496449009726718,
+    radius: 7.038772377274853e-4,
+    friction: 0.3,
+    normal: r#"{"follows": "press"}"#,
+    load: -0.06383146132448303,
+    more: "",
+};
+
+/// On a trapezoid, pulled by 40 % of what friction holds.
+const PULLED: Slider = Slider {
+    waveforms: r#""drive": {"trapezoid": {"stroke": 4.032803299487651e-7, "rise": 9.895906405260225e-4, "hold": 8.246588671050188e-5, "fall": 9.895906405260224e-5, "period": 0.0016493177342100374}}"#,
+    mass: 0.17507211550774796,
+    radius: 0.0027931303493771327,
+    friction: 0.15,
+    normal: "1.134640595015338",
+    load: 0.06807843570092027,
+    more: "",
+};
+
+/// On a sine, pulled by 80 % of what friction holds.
+const DRAGGED: Slider = Slider {
+    waveforms: r#""drive": {"sine": {"amplitude": 2.3413614487428988e-7, "period": 0.0017359235839901955}}"#,
+    mass: 0.22159392240291798,
+    radius: 0.0023497579180757357,
+    friction: 0.9,
+    normal: "0.14624297013372406",
+    load: 0.10529493849628134,
+    more: "",
+};
+
+/// A ball that a table throws up, and strides along below.
+const BOUNCING: &str = r#"{
+    "stickslip": 1,
+    "materials": {"steel": {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3}},
+    "waveforms": {
+        "table": {"sine": {"amplitude": 7.5e-6, "frequency": "200 Hz"}},
+        "stride": {"sine": {"amplitude": "3 um", "frequency": "200 Hz", "phase": "60 deg"}}
+    },
+    "bodies": {
+        "table": {"x": {"follows": "stride"}, "z": {"follows": "table"}},
+        "ball": {"mass": "10 g", "x": "free", "z": "free"}
+    },
+    "contacts": {"foot": {
+        "between": ["table", "ball"], "materials": ["steel", "steel"], "profile": {"paraboloid": {"radius": "5 mm"}},
+        "friction": 0.2, "normal": "coupled", "damping": "100 us"
+    }},
+    "gravity": {},
+    "figures": {"waveform": "table", "body": "ball"},
+    "run": {"cycles": 300, "start": "equilibrium", "stepper": {"event": {"tolerance": 1e-10}}}
+}"#;
+
+/// What a branch tells is what its motions are: multipliers where they must be, and events in which something changes.
+fn is_sound(branch: &Branch) -> Checked {
+    for mark in &branch.marks {
+        let there = |at: f64| {
+            let near = branch.points.iter().filter(|point| point.value == mark.value);
+            near.flat_map(|point| &point.multipliers).any(|m| (m.re - at).hypot(m.im) < 0.01)
+        };
+        let sound = match &mark.kind {
+            Bifurcation::Fold | Bifurcation::Branching => there(1.0),
+            Bifurcation::PeriodDoubling => there(-1.0),
+            Bifurcation::Event(changes) => {
+                !changes.is_empty() && changes.iter().all(|change| change.below != change.above)
+            }
+            Bifurcation::NeimarkSacker { .. } | Bifurcation::Break(_) => true,
+        };
+        if !sound {
+            return Err(format!("{mark:?}").into());
+        }
+    }
+    Ok(())
+}
+
+/// Whatever a contact remembers where the branch starts, it is followed or it is told why not.
+#[test]
+fn memories_of_another_form_are_met() -> Checked {
+    for (slider, range) in [(HELD, [0.0, 5.4489e-3]), (PRESSED, [-0.1915, 0.0])] {
+        let followed = Continuation::new(slider.job()?, LOAD, range)?.follow(&Course::default());
+        match followed {
+            Ok(branch) => is_sound(&branch)?,
+            Err(ContinuationError::NoBranch { .. } | ContinuationError::Shakedown { .. }) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Ok(())
+}
+
+/// Friction holds μ F_N: where the load is as much, any speed does.
+#[test]
+fn a_branch_ends_where_the_load_is_what_friction_holds() -> Checked {
+    let away = End::SlidesAway("slider".to_owned());
+    let branch = PULLED.branch(FORCE, [0.378, 3.404])?;
+    is_sound(&branch)?;
+    let (end, least) = (branch.points.first().ok_or("a motion")?, PULLED.load / PULLED.friction);
+    assert_eq!(branch.ends, [away.clone(), End::Range]);
+    assert!((end.value - least).abs() < 1e-5 * least, "{:e} {least:e}", end.value);
+
+    let branch = DRAGGED.branch(LOAD, [0.0, 0.3159])?;
+    is_sound(&branch)?;
+    let (end, most) = (branch.points.last().ok_or("a motion")?, DRAGGED.friction * 0.14624297013372406);
+    assert_eq!(branch.ends[1], away);
+    assert!((end.value - most).abs() < 1e-8 * most, "{:e} {most:e}", end.value);
+    assert!(branch.points.len() < 200, "{}", branch.points.len());
+    Ok(())
+}
+
+/// A multiplier of the ball jumps from 12 to -110, and is near neither -1 nor 1 on the way: no doubling, and no branching.
+#[test]
+fn multipliers_that_jump_are_no_bifurcation() -> Checked {
+    let path = "waveforms.table.sine.amplitude";
+    let job = Job::new(Scenario::from_str_alone(BOUNCING, "ball")?, "ball".to_owned(), PathBuf::new())?;
+    let steady = Options { tolerance: 1e-10, ..Options::default() };
+    let of = Continuation::new(job, path, [3e-6, 1.6e-5])?;
+    let branch = of.follow(&Course { steady, ..Course::default() })?;
+    is_sound(&branch)?;
+    let breaks: Vec<_> = branch.marks.iter().filter(|mark| mark.kind.name() == "break").collect();
+    assert!(matches!(&breaks[..], [mark] if (14.59e-6..14.72e-6).contains(&mark.value)), "{breaks:?}");
+    Ok(())
+}
+
+/// Of two waveforms of one period only one is varied: they part.
+#[test]
+fn a_period_that_is_not_varied_alone_is_told() -> Checked {
+    let of = Continuation::new(PRESSED.job()?, "waveforms.drive.sine.period", [1e-3, 1.2e-3])?;
+    let told = of.follow(&Course::default());
+    assert!(matches!(&told, Err(ContinuationError::Apart { .. })), "{told:?}");
+    Ok(())
+}
