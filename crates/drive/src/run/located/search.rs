@@ -8,6 +8,8 @@
 //!
 //! What falls at the same moment, or is as good as down there, is one event: all of it fires before any law is chosen.
 
+mod side;
+
 use super::watch::{Moving, Watch};
 use super::watched::Watched;
 use crate::contact::{Guard, Motion, NEARNESS, bands};
@@ -35,32 +37,8 @@ struct Search<'r, 'e, A> {
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 // Seven looks or one see the same but for a few events of contacts that grow under a sine of load.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
-/// The same for an apex beside an old curve, nearest to where it may have gone across.
-const SIDE_LOOKS: [f64; 7] = [0.03125, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0];
-/// How often tangents are laid where it dips.
-const DIPS: usize = 8;
-/// Over which part of a step the rate of a guard is taken for which no formula is at hand.
-const APART: f64 = 1e-6;
 /// How often a step is halved in search of a moment at which a guard that rested at its start is armed.
 const HALVINGS: u32 = 40;
-
-/// The tangent of a guard at a moment.
-#[derive(Clone, Copy)]
-struct Tangent {
-    t: f64,
-    y: f64,
-    rate: f64,
-}
-
-impl Tangent {
-    /// When and where two of them meet, of a guard that falls at the first and rises at the last.
-    fn meet([first, last]: [Self; 2]) -> Option<(f64, f64)> {
-        let way = (last.y - first.y - last.rate * (last.t - first.t)) / (first.rate - last.rate);
-        let t = first.t + way;
-        let inside = first.rate < 0.0 && last.rate > 0.0 && first.t < t && t < last.t;
-        inside.then_some((t, first.y + first.rate * way))
-    }
-}
 
 impl Watch {
     /// The earliest fall in the step just attempted, on its dense output.
@@ -194,41 +172,6 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         let mut looks = LOOKS.into_iter().map(|share| self.look(watched, t0 + share * h));
         let (t, g) = looks.find(|(_, g)| *g < 0.0)?;
         self.has_fallen(watched, g).then_some((t, g))
-    }
-
-    /// The same for an apex beside an old curve, on which it stands where the step begins after it has gone across: it may soon go back and
-    /// forth again. Where it comes nearer at one moment that is looked at and goes away at the next, it dips between them, no deeper than
-    /// where both tangents meet if it is bent to one side.
-    // Looked at three times, without its rates, an apex that went back after 3 and forth after another 0.5 thousandths of a period was seen
-    // in every other period only, and what was not seen moved the step by 3e-4 u_c at any tolerance.
-    fn side(&mut self, watched: Watched<'e>, g1: f64) -> Option<(f64, f64)> {
-        let (t0, t1) = (self.solver.span().time, self.solver.span().end_time);
-        self.solver.complete(self.eq, Completion::Dense);
-        let apart = APART * (t1 - t0);
-        let tangent = |t: f64, y: f64| {
-            let by = if t + apart > t1 { -apart } else { apart };
-            Tangent { t, y, rate: (self.inside(watched, t + by) - y) / by }
-        };
-        let mut before = tangent(t0, self.at_begin(watched));
-        for share in SIDE_LOOKS {
-            let t = t0 + share * (t1 - t0);
-            let g = if share < 1.0 { self.inside(watched, t) } else { g1 };
-            if g < 0.0 && self.has_fallen(watched, g) {
-                return Some((t, g));
-            }
-            let after = tangent(t, g);
-            let mut part = [before, after];
-            for _ in 0..DIPS {
-                let Some((t, _)) = Tangent::meet(part).filter(|(_, y)| *y < 0.0) else { break };
-                let lowest = tangent(t, self.inside(watched, t));
-                if lowest.y < 0.0 && self.has_fallen(watched, lowest.y) {
-                    return Some((t, lowest.y));
-                }
-                part[usize::from(lowest.rate >= 0.0)] = lowest;
-            }
-            before = after;
-        }
-        None
     }
 
     /// A moment inside the step and the value of a guard there.
