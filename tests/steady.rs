@@ -265,4 +265,5 @@ fn a_branch_that_cannot_be_followed_is_told_and_leaves_nothing() {
     fs::write(&out, "a file").unwrap();
     let output = steady("p1", &out, &["--continue", &range("30 nm..1 um")]);
     assert_eq!((code(&output), stdout(&output)), (3, String::new()), "{}", stderr(&output));
+    assert!(stderr(&output).contains("cannot be written into: "), "{}", stderr(&output));
 }

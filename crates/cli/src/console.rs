@@ -3,6 +3,7 @@
 pub(crate) mod answer;
 pub(crate) mod interrupt;
 pub(crate) mod pace;
+pub(crate) mod place;
 pub(crate) mod progress;
 pub(crate) mod table;
 pub(crate) mod verdict;

@@ -177,6 +177,12 @@ impl Model {
         self.contacts.iter().map(|c| (c.name.as_str(), &c.interface))
     }
 
+    /// Whether any waveform jumps: within a jump contacts give way without an event of their own.
+    #[must_use]
+    pub fn jumps(&self) -> bool {
+        self.waveforms.iter().any(Waveform::has_jumps)
+    }
+
     /// Gross-slip displacement u_c (m) and normal force of one contact (N) of contact `index` at t = 0.
     pub fn contact_scale(&self, index: usize) -> Option<(f64, f64)> {
         let contact = self.contacts.get(index)?;

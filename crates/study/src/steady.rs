@@ -117,8 +117,7 @@ impl Steady {
     /// Names of contacts by their places.
     #[must_use]
     pub fn named(&self, contacts: &[usize]) -> Vec<String> {
-        let names: Vec<&str> = self.model.contacts().map(|(name, _)| name).collect();
-        contacts.iter().filter_map(|c| names.get(*c)).map(|name| (*name).to_owned()).collect()
+        named(&self.model, contacts)
     }
 
     /// Speed, m/s: step over period.
@@ -188,6 +187,12 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     Ok(found)
 }
 
+/// Names of contacts by their places.
+fn named(model: &Model, contacts: &[usize]) -> Vec<String> {
+    let names: Vec<&str> = model.contacts().map(|(name, _)| name).collect();
+    contacts.iter().filter_map(|c| names.get(*c)).map(|name| (*name).to_owned()).collect()
+}
+
 /// The fixed point that the start of a drive leads to.
 fn fixed_point<'m>(map: &mut Map<'m>, endless: &'m Endless) -> Result<Fixed, SteadyError> {
     let model = &endless.model;
@@ -200,9 +205,7 @@ fn fixed_point<'m>(map: &mut Map<'m>, endless: &'m Endless) -> Result<Fixed, Ste
     map.set(section);
     newton::fixed_point(map, &from).map_err(|error| match error {
         SteadyError::NoConvergence { best, periods } if !settled.never_gave_way.is_empty() => {
-            let name = |c: &usize| model.contacts().nth(*c).map(|(name, _)| name.to_owned());
-            let contacts = settled.never_gave_way.iter().filter_map(name).collect();
-            SteadyError::Shakedown { contacts, best, periods }
+            SteadyError::Shakedown { contacts: named(model, &settled.never_gave_way), best, periods }
         }
         error => error,
     })

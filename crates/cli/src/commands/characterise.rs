@@ -4,8 +4,10 @@ mod holding;
 
 use crate::arguments::CharacteriseArguments;
 use crate::arguments::characterise::CurveName;
+use crate::console;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::{Interrupt, Interrupted};
+use crate::console::place::Unwritable;
 use crate::console::progress::Progress;
 use crate::console::table;
 use crate::console::verdict::Verdict;
@@ -18,8 +20,6 @@ use stickslip_results::{Job, Real, quantity};
 use stickslip_study::curve::{self, Course, Curve, CurveError, Kind, Point, Range, Traced, Way};
 use thiserror::Error;
 
-/// Bytes of the disk that are kept for the files from the beginning on: a curve of a few hundred points with its picture.
-const RESERVE: usize = 1 << 18;
 /// An error below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
 
@@ -46,8 +46,8 @@ enum CurveFailure {
     #[error(transparent)]
     Figure(#[from] FigureError),
     /// Where the files are to go.
-    #[error("{}: cannot be written into: {}\n   help: choose another place with --out", .path.display(), words(.source))]
-    Folder { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Folder(#[from] Unwritable),
     /// The files.
     #[error("{}: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
@@ -62,7 +62,7 @@ pub(crate) fn characterise(arguments: &CharacteriseArguments) -> Verdict {
             | CurveFailure::Range { .. }
             | CurveFailure::VariesItself(_)
             | CurveFailure::HeldBothWays
-            | CurveFailure::Folder { .. } => Verdict::BadInput,
+            | CurveFailure::Folder(_) => Verdict::BadInput,
             CurveFailure::Figure(_) | CurveFailure::Write { .. } => Verdict::Stopped,
         }
     })
@@ -177,10 +177,8 @@ fn place(
 ) -> Result<(PathBuf, Folder), CurveFailure> {
     let own = || Path::new("results").join(format!("{}-{curve}", job.name));
     let out = arguments.out.clone().unwrap_or_else(own);
-    match Folder::ready(&out, RESERVE) {
-        Ok(folder) => Ok((out, folder)),
-        Err(source) => Err(CurveFailure::Folder { path: out, source }),
-    }
+    let folder = console::place::ready(&out)?;
+    Ok((out, folder))
 }
 
 /// Points at a time.

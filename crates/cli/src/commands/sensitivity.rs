@@ -1,8 +1,10 @@
 //! `stickslip sensitivity`: which numbers matter.
 
+use super::steady;
 use crate::arguments::SensitivityArguments;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::{Interrupt, Interrupted};
+use crate::console::place::{self, Unwritable};
 use crate::console::progress::Progress;
 use crate::console::table;
 use crate::console::verdict::Verdict;
@@ -14,11 +16,7 @@ use stickslip_results::files::SENSITIVITY;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Real, quantity};
 use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, Taken};
-use stickslip_study::steady::SteadyError;
 use thiserror::Error;
-
-/// Bytes of the disk that are kept for the files from the beginning on.
-const RESERVE: usize = 1 << 18;
 
 /// Why there is no answer.
 #[derive(Debug, Error)]
@@ -30,8 +28,8 @@ enum SensitivityFailure {
     #[error(transparent)]
     Figure(#[from] FigureError),
     /// Where the files are to go.
-    #[error("{}: cannot be written into: {}\n   help: choose another place with --out", .path.display(), words(.source))]
-    Folder { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Folder(#[from] Unwritable),
     /// The files.
     #[error("{}: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
@@ -43,26 +41,18 @@ pub(crate) fn sensitivity(arguments: &SensitivityArguments) -> Verdict {
         complain(format_args!("{failure}"));
         match failure {
             SensitivityFailure::Asked(error) => verdict(&error),
-            SensitivityFailure::Folder { .. } => Verdict::BadInput,
+            SensitivityFailure::Folder(_) => Verdict::BadInput,
             SensitivityFailure::Figure(_) | SensitivityFailure::Write { .. } => Verdict::Stopped,
         }
     })
 }
 
-/// What an error in what is asked comes to: scenes without a period are bad input, searches that fail are not.
+/// What an error in what is asked comes to.
 fn verdict(error: &SensitivityError) -> Verdict {
     match error {
-        SensitivityError::Interrupted
-        | SensitivityError::NotSteady { source: SteadyError::Interrupted(_), .. } => Verdict::Interrupted,
-        SensitivityError::Stopped { .. }
-        | SensitivityError::NotSteady {
-            source:
-                SteadyError::Run(_)
-                | SteadyError::NoConvergence { .. }
-                | SteadyError::Shakedown { .. }
-                | SteadyError::Flies { .. },
-            ..
-        } => Verdict::Stopped,
+        SensitivityError::Interrupted => Verdict::Interrupted,
+        SensitivityError::Stopped { .. } => Verdict::Stopped,
+        SensitivityError::NotSteady { source, .. } => steady::verdict(source),
         _ => Verdict::BadInput,
     }
 }
@@ -77,8 +67,7 @@ fn answer(arguments: &SensitivityArguments) -> Result<Verdict, SensitivityFailur
     }
     // Before the first run.
     let out = folder(arguments, &asked);
-    let folder = Folder::ready(&out, RESERVE)
-        .map_err(|source| SensitivityFailure::Folder { path: out.clone(), source })?;
+    let folder = place::ready(&out)?;
     let (name, runs) = (&asked.job.name, asked.runs());
     let progress = Progress::new(!arguments.quiet);
     progress.tell(format_args!("{name}: derivatives, {runs} runs"));

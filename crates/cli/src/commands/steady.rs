@@ -6,6 +6,7 @@ mod page;
 use crate::arguments::SteadyArguments;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
+use crate::console::place::{self, Unwritable};
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
 use std::io;
@@ -21,8 +22,6 @@ use thiserror::Error;
 
 /// Wall time between two checkpoints of a run that goes on, s.
 const EVERY: f64 = 30.0;
-/// Bytes of the disk that are kept for the files from the beginning on.
-const RESERVE: usize = 1 << 18;
 
 /// Why there is no answer.
 #[derive(Debug, Error)]
@@ -37,8 +36,8 @@ enum SteadyFailure {
     #[error(transparent)]
     Figure(#[from] FigureError),
     /// Where the files are to go.
-    #[error("{}: cannot be written into: {}\n   help: choose another place with --out", .folder.display(), words(.source))]
-    Folder { folder: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Folder(#[from] Unwritable),
     /// A file.
     #[error("{}: cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
@@ -68,8 +67,7 @@ fn answer(arguments: &SteadyArguments) -> Result<(), SteadyFailure> {
     let out =
         arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-steady", job.name)));
     // Before the first period: of some drives it takes thousands.
-    let folder = Folder::ready(&out, RESERVE)
-        .map_err(|source| SteadyFailure::Folder { folder: out.clone(), source })?;
+    let folder = place::ready(&out)?;
     let (found, aftermath) = search(arguments, &job, &interrupt).map_err(not_found)?;
     let orbit = found.orbit(&job, picture::ROWS).map_err(not_found)?;
     let lasting = found.job(&job, out.clone()).map_err(not_found)?;
@@ -154,16 +152,21 @@ fn write(
 impl SteadyFailure {
     fn verdict(&self) -> Verdict {
         match self {
-            Self::Refused(_) | Self::Folder { .. } => Verdict::BadInput,
-            Self::NotFound { source, .. } => match source {
-                SteadyError::Interrupted(_) => Verdict::Interrupted,
-                SteadyError::Run(_)
-                | SteadyError::NoConvergence { .. }
-                | SteadyError::Shakedown { .. }
-                | SteadyError::Flies { .. } => Verdict::Stopped,
-                _ => Verdict::BadInput,
-            },
+            Self::Refused(_) | Self::Folder(_) => Verdict::BadInput,
+            Self::NotFound { source, .. } => verdict(source),
             Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,
         }
+    }
+}
+
+/// What a search comes to that finds nothing: scenes without a period are bad input, searches that fail are not.
+pub(super) fn verdict(error: &SteadyError) -> Verdict {
+    match error {
+        SteadyError::Interrupted(_) => Verdict::Interrupted,
+        SteadyError::Run(_)
+        | SteadyError::NoConvergence { .. }
+        | SteadyError::Shakedown { .. }
+        | SteadyError::Flies { .. } => Verdict::Stopped,
+        _ => Verdict::BadInput,
     }
 }

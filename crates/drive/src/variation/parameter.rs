@@ -79,9 +79,13 @@ pub(super) struct Moment<'a> {
 }
 
 impl Beside {
-    /// The derivative at the value: f(-2h) - 8f(-h) + 8f(h) - f(2h) over 12h, exact but for the fifth derivative.
+    /// The derivative of what a model has at the value.
     fn rate(&self, of: impl Fn(&Model) -> f64) -> f64 {
-        let [far_below, below, above, far_above] = self.models.each_ref().map(of);
+        self.rate_between(self.models.each_ref().map(of))
+    }
+
+    /// The same of what all four have: f(-2h) - 8f(-h) + 8f(h) - f(2h) over 12h, exact but for the fifth derivative.
+    fn rate_between(&self, [far_below, below, above, far_above]: [f64; 4]) -> f64 {
         (far_below - far_above + 8.0 * (above - below)) / (12.0 * self.distance)
     }
 }
@@ -130,7 +134,7 @@ impl Parameter {
         let states = self.beside.models.each_ref().map(|model| model.start(plan).ok());
         let [Some(a), Some(b), Some(c), Some(d)] = states else { return Err(VariationError::Form) };
         let states = [a, b, c, d];
-        let rate = |of: [f64; 4]| (of[0] - of[3] + 8.0 * (of[2] - of[1])) / (12.0 * self.beside.distance);
+        let rate = |of: [f64; 4]| self.beside.rate_between(of);
         let column = (0..state.y.len()).map(|i| rate(states.each_ref().map(|state| state.y[i]))).collect();
         let of_contact = |c: usize| {
             let count = lines(&state.memories[c]).len();

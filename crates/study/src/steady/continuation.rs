@@ -27,7 +27,7 @@ pub use happened::Change;
 pub use standing::Point;
 pub use table::{TABLE, csv, json, write};
 
-use super::{Options, SteadyError, moment};
+use super::{Options, SteadyError, moment, named};
 use arm::{Arm, Walk};
 use error::Trouble;
 use happened::Period;
@@ -91,7 +91,7 @@ impl Continuation {
         let (unit, path) = (found.unit, path.to_owned());
         let rises = from.is_finite() && to.is_finite() && from < to;
         if !rises {
-            return Err(ContinuationError::Range { from, to });
+            return Err(ContinuationError::Range { path, from, to });
         }
         let Some(present) = found.value else { return Err(ContinuationError::Absent(path)) };
         if !(from..=to).contains(&present) {
@@ -148,8 +148,7 @@ impl Continuation {
         let still = bench.map_at(&place).and_then(|mut map| Ok(moment::twice(&mut map, &place.fixed, None)?));
         let (still, _) = still.map_err(none)?;
         if !still.is_empty() {
-            let names = self.job.model.contacts().map(|(name, _)| name.to_owned()).enumerate();
-            let contacts = names.filter(|(c, _)| still.contains(c)).map(|(_, name)| name).collect();
+            let contacts = named(&self.job.model, &still);
             return Err(ContinuationError::Shakedown { path: path.clone(), present, unit, contacts });
         }
         let period = Period::of(bench, &place).map_err(none)?;

@@ -31,8 +31,9 @@ pub(super) struct Settled {
 struct Moments {
     times: Vec<f64>,
     gave_way: Vec<bool>,
-    /// Places of the stick radii among all channels.
+    /// Places of the stick radii among all channels; none are asked for where nothing jumps.
     stick: Vec<Option<usize>>,
+    jumps: bool,
     grip: Option<Grip>,
 }
 
@@ -49,7 +50,7 @@ impl Moments {
             .enumerate()
             .map(|(c, (name, _))| (state.has_given_way(model, c), place(name)))
             .unzip();
-        Self { times: Vec::new(), gave_way, stick, grip }
+        Self { times: Vec::new(), gave_way, stick, jumps: model.jumps(), grip }
     }
 }
 
@@ -69,6 +70,9 @@ impl Record for Moments {
             }
             _ => {}
         }
+    }
+    fn wants_event_rows(&self) -> bool {
+        self.jumps
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::arguments::SteadyArguments;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
+use crate::console::place::{self, Unwritable};
 use crate::console::progress::Progress;
 use crate::console::table;
 use crate::console::verdict::Verdict;
@@ -14,14 +15,11 @@ use stickslip_results::files::BRANCH;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Job, Real, Refusal, Watcher, quantity};
 use stickslip_study::curve::Range;
+use stickslip_study::steady::Options;
 use stickslip_study::steady::continuation::{
     self, Branch, Continuation, ContinuationError, Course, End, Mark,
 };
-use stickslip_study::steady::{Options, SteadyError};
 use thiserror::Error;
-
-/// Room that is kept for the files, bytes.
-const RESERVE: usize = 1 << 18;
 
 /// Why there is no branch.
 #[derive(Debug, Error)]
@@ -38,6 +36,9 @@ enum BranchFailure {
     /// The picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// Where the files are to go.
+    #[error(transparent)]
+    Folder(#[from] Unwritable),
     /// The files.
     #[error("{}: cannot be written: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
@@ -61,8 +62,7 @@ fn answer(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Result<Ve
     let interrupt = Interrupt::install();
     // Before the first motion, which may take long.
     let out = folder(arguments, &of);
-    let folder =
-        Folder::ready(&out, RESERVE).map_err(|source| BranchFailure::Write { path: out.clone(), source })?;
+    let folder = place::ready(&out)?;
     let progress = Progress::new(!arguments.quiet);
     let line = progress.count(&of.path, "motions", &interrupt);
     let course = Course {
@@ -157,18 +157,12 @@ impl BranchFailure {
     fn verdict(&self) -> Verdict {
         match self {
             Self::Refused(_) | Self::Range(_) => Verdict::BadInput,
-            Self::Branch(ContinuationError::NoStart { source, .. }) => match **source {
-                SteadyError::Interrupted(_) => Verdict::Interrupted,
-                SteadyError::Run(_) | SteadyError::NoConvergence { .. } | SteadyError::Shakedown { .. } => {
-                    Verdict::Stopped
-                }
-                _ => Verdict::BadInput,
-            },
+            Self::Branch(ContinuationError::NoStart { source, .. }) => super::verdict(source),
             Self::Branch(ContinuationError::Shakedown { .. } | ContinuationError::NoBranch { .. }) => {
                 Verdict::Stopped
             }
             Self::Branch(_) => Verdict::BadInput,
-            Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,
+            Self::Folder(_) | Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,
         }
     }
 }

@@ -5,6 +5,7 @@
 //! from the velocities to its right.
 
 use super::Located;
+use crate::RunError;
 use crate::contact::{Mode, Motion};
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
@@ -12,7 +13,6 @@ use crate::model::Model;
 use crate::record::Record;
 use crate::run::stored::stored;
 use crate::state::{Books, State};
-use crate::{RunError, Waveform};
 use stickslip_contact::Segment;
 use stickslip_stepper::Attempt;
 
@@ -36,8 +36,7 @@ enum Jumps {
 
 impl Turning {
     pub(super) fn renewed(mut self, model: &Model) -> Self {
-        let jumps =
-            if model.waveforms.iter().any(Waveform::has_jumps) { Jumps::Possible } else { Jumps::Never };
+        let jumps = if model.jumps() { Jumps::Possible } else { Jumps::Never };
         self.before.clear();
         self.before.reserve(model.contacts.len());
         self.turned.clear();

@@ -5,7 +5,7 @@ use super::error::Trouble;
 use super::happened::{Period, stretch};
 use super::standing::{Standing, by_value};
 use crate::grip::{Grip, Loose};
-use crate::steady::{Options, SteadyError, moment};
+use crate::steady::{Options, SteadyError, moment, named};
 use nalgebra::DVector;
 use stickslip_drive::scene::Axis;
 
@@ -64,10 +64,7 @@ impl Walk<'_> {
         if !still.is_empty() {
             // What is held for ever neither fades nor grows.
             self.event(here, (value, &period.happened, true));
-            let names = place.variant.drive.model.contacts().map(|(name, _)| name.to_owned()).enumerate();
-            return Err(End::Shakedown(
-                names.filter(|(c, _)| still.contains(c)).map(|(_, name)| name).collect(),
-            ));
+            return Err(End::Shakedown(named(&place.variant.drive.model, &still)));
         }
         let row = by_value(place.fixed.defect.len(), sense);
         let next = Standing::of(self.bench, place, period, (Some(self.measure), &row));

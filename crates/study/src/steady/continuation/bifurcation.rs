@@ -15,6 +15,8 @@ use nalgebra::Complex;
 
 /// How near a multiplier is to where it must be, at a place that is closed in on.
 const THERE: f64 = 1e-2;
+/// Most tries for a place.
+const MOST: u32 = 60;
 
 /// What happens at a place of a branch.
 #[derive(Debug, Clone, PartialEq)]
@@ -191,9 +193,6 @@ pub(super) fn root<T, E>(
     }
     Ok(([low, high], best.map(|(_, what)| what)))
 }
-
-/// Most tries.
-const MOST: u32 = 60;
 
 #[cfg(test)]
 mod tests {

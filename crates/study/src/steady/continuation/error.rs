@@ -16,8 +16,10 @@ pub enum ContinuationError {
     )]
     Absent(String),
     /// A range that holds nothing.
-    #[error("expected a range that rises from one finite value to another, got {from} to {to}")]
+    #[error("{path}: expected a range that rises from one finite value to another, got {from} to {to}")]
     Range {
+        /// Key path of what is to be varied.
+        path: String,
         /// Where it begins, SI.
         from: f64,
         /// Where it ends, SI.

@@ -70,7 +70,6 @@ impl Walk<'_> {
     fn mark(&self, kind: Bifurcation, at: &Standing, half_width: f64, along: [bool; 2]) -> Mark {
         let [first, second] = along;
         let stable = if at.pace() < 0.0 && kind != Bifurcation::Fold { [second, first] } else { along };
-        let stable = if kind == Bifurcation::Fold { [first, second] } else { stable };
         Mark { kind, value: at.point.value, half_width, step: at.point.step, stable }
     }
 
