@@ -38,6 +38,8 @@ pub enum End {
     Shakedown(Vec<String>),
     /// What pulls a body is as much as friction holds: any speed does, and beyond it slides away.
     SlidesAway(String),
+    /// So many natural lengths are gone in a period that rounding leaves nothing of what friction does in it.
+    Rounded(f64),
     /// No motion was found beyond.
     Lost(String),
     /// The scenario allows no other values.

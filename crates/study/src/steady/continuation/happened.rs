@@ -4,8 +4,9 @@ use super::error::Trouble;
 use super::place::{Bench, Place};
 use crate::grip::{Grip, Loose};
 use crate::steady::map::Map;
+use crate::steady::tally::tells;
 use std::collections::BTreeMap;
-use stickslip_drive::{Event, EventKind, Record, Source, State};
+use stickslip_drive::{Event, Record, Source, State};
 
 /// How often something happens in a period, by who and what.
 pub(super) type Happened = BTreeMap<(String, &'static str), usize>;
@@ -64,10 +65,7 @@ impl Period {
                 Source::Block(b) => blocks.get(b).map(|block| block.name.clone()),
                 Source::Waveform(_) => None,
             };
-            // Corners are the waveform's, and turns are told of some contacts alone. Whether a loop closes just before the next event or with
-            // it is a matter of rounding, and it closes smoothly where it begins.
-            let counts = !matches!(event.kind, EventKind::Turn | EventKind::LoopClosed);
-            let source = source.filter(|_| counts);
+            let source = source.filter(|_| tells(event));
             if let Some(source) = source {
                 order.push((source.clone(), event.kind.name()));
                 *happened.entry((source, event.kind.name())).or_default() += 1;

@@ -25,6 +25,10 @@ impl Walk<'_> {
             let ([low, high], best) = root((0.0, at_here), (length, at_next), self.accuracy, value)?;
             let Some((at, standing)) = best else { continue };
             if !test.is_met(&standing) {
+                // A branch turns back where a multiplier is 1: here only what was taken for its tangent does.
+                if test == Test::Fold {
+                    return Err(Trouble::Bends);
+                }
                 // It has jumped over zero: for the others, too.
                 if !found.iter().any(|(.., mark)| matches!(mark.kind, Bifurcation::Break(_))) {
                     found.push(self.broken((here, next), [low, high])?);
