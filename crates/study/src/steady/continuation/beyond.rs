@@ -75,7 +75,7 @@ impl Walk<'_> {
         let period = Period::of(self.bench, &place).map_err(other)?;
         if !still.is_empty() {
             // What is held for ever neither fades nor grows.
-            self.event(here, (value, &period.happened, true));
+            self.event(here.pace(), here, (value, &period.happened, true));
             return Err(End::Shakedown(named(&place.variant.drive.model, &still)));
         }
         let row = by_value(place.fixed.defect.len(), sense);
@@ -88,7 +88,7 @@ impl Walk<'_> {
         if !self.is_alike(here, &next).map_err(other)? {
             return Err(lost(&"the drive comes to another motion"));
         }
-        self.event(here, (value, &next.happened, next.point.is_stable()));
+        self.event(here.pace(), here, (value, &next.happened, next.point.is_stable()));
         self.keep(&next);
         Ok(next)
     }

@@ -52,7 +52,8 @@ impl Record for Events {
 impl Period {
     /// The period of a place.
     pub(super) fn of(bench: &Bench<'_>, place: &Place) -> Result<Self, Trouble> {
-        let (state, period) = (&place.fixed.state, place.variant.drive.period);
+        // The period after: the place itself may stand where the period before had not come to yet, and what happens in between is missed.
+        let (state, period) = (&place.fixed.image.state, place.variant.drive.period);
         let (from, job) = (state.time(), &place.variant.job);
         let mut grip = job.scenario.figures.body.map(|body| Grip::new(job, body));
         let (_, events, loose) = stretch(&mut bench.map_at(place)?, state.clone(), period, grip.as_mut())?;
