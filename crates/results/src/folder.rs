@@ -4,25 +4,23 @@
 //! people's files. So the summary seals the rest: it goes first and comes last. At every moment a folder of results is the
 //! old one, the new one, or without a summary, and without one nobody reads it.
 
+mod drafts;
+
+pub(crate) use drafts::has_drafts;
+pub use drafts::{draft, sweep, sweep_left};
+
 use crate::checkpoint;
 use crate::disk::{Disk, System};
 use crate::files::{BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY, STEADY, SUMMARY};
 use crate::theory::CONTACT;
-use std::fs::{self, DirEntry, File};
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
-use tempfile::{Builder, NamedTempFile};
-
-/// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
-const DRAWN: usize = 6;
+use tempfile::NamedTempFile;
 
 /// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, of a branch of them, of a curve of a
 /// machine, whole or not, and of derivatives.
 const SUMMARIES: [&str; 7] = [SUMMARY, CONTACT, STEADY, BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY];
-
-/// How long a draft was not touched that is taken for one of a command that was killed.
-const LEFT: Duration = Duration::from_secs(60);
 
 /// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
 /// the end: after a crash there is the old file or the whole new one.
@@ -210,57 +208,6 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// An empty file under a temporary name in a folder.
-///
-/// # Errors
-/// What the system says.
-pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
-    let prefix = format!(".{name}-");
-    let mut builder = Builder::new();
-    builder.prefix(&prefix).rand_bytes(DRAWN);
-    // Results are for everybody whom the user's mask lets read; temporary files are for nobody else by default.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
-}
-
-/// Removes what runs that were killed have left of drafts of these names. What cannot be removed stays: it is in nobody's way.
-pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
-    for entry in drafts(folder, names) {
-        let _ = fs::remove_file(entry.path());
-    }
-}
-
-/// The same for those who only add to a folder, whose run may be about to give its drafts their names: what nobody has touched
-/// for a minute.
-pub fn sweep_left(folder: &Path, names: &[impl AsRef<str>]) {
-    for entry in drafts(folder, names) {
-        let touched = entry.metadata().and_then(|found| found.modified());
-        if touched.is_ok_and(|touched| touched.elapsed().is_ok_and(|age| age >= LEFT)) {
-            let _ = fs::remove_file(entry.path());
-        }
-    }
-}
-
-/// Whether there are drafts of these names.
-pub(crate) fn has_drafts(folder: &Path, names: &[impl AsRef<str>]) -> bool {
-    drafts(folder, names).next().is_some()
-}
-
-fn drafts(folder: &Path, names: &[impl AsRef<str>]) -> impl Iterator<Item = DirEntry> {
-    let is_draft = |entry: &DirEntry| {
-        let is_named = |found: &str| names.iter().any(|name| is_draft_of(found, name.as_ref()));
-        entry.file_name().to_str().is_some_and(is_named) && entry.file_type().is_ok_and(|kind| kind.is_file())
-    };
-    fs::read_dir(folder).into_iter().flatten().flatten().filter(is_draft)
-}
-
-/// Whether a name is one that [`draft`] gives.
-fn is_draft_of(found: &str, name: &str) -> bool {
-    let end = found.strip_prefix('.').and_then(|rest| rest.strip_prefix(name)?.strip_prefix('-'));
-    end.is_some_and(|end| end.len() == DRAWN && end.bytes().all(|byte| byte.is_ascii_alphanumeric()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -286,27 +233,6 @@ mod tests {
         folder.publish().unwrap();
         assert_eq!(listing(&path), ["mine.txt", "trace.csv"]);
         assert_eq!(fs::read(path.join("trace.csv")).unwrap(), b"t\n");
-    }
-
-    #[test]
-    fn only_drafts_of_known_names_are_swept() {
-        let root = tempfile::tempdir().unwrap();
-        let left = draft(root.path(), "trace.csv").unwrap().keep().unwrap().1;
-        let others = [
-            ".trace.csv-mine",
-            ".trace.csv-ab12cd3",
-            ".trace.csv_ab12cd",
-            ".notes.csv-ab12cd",
-            "trace.csv-ab12cd",
-        ];
-        others.iter().for_each(|name| fs::write(root.path().join(name), "").unwrap());
-        fs::create_dir(root.path().join(".trace.csv-folder")).unwrap();
-        assert!(left.exists());
-        sweep(root.path(), &["events.csv"]);
-        assert!(left.exists());
-        sweep(root.path(), &["events.csv", "trace.csv"]);
-        assert!(!left.exists());
-        assert_eq!(listing(root.path()).len(), others.len() + 1);
     }
 
     #[test]

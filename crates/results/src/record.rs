@@ -1,30 +1,23 @@
 //! What a run leaves behind while it goes on: tables on disk, the rest in memory.
 
+mod tables;
+
+pub use tables::Draft;
+
 use crate::books::Books;
 use crate::cycles::{ContactCycles, CycleFigures};
-use crate::cycles_table::CyclesTable;
 use crate::excess::Excess;
-use crate::files::{CYCLES, EVENTS, STEPS, TRACE};
 use crate::folder::Folder;
-use crate::insides::Insides;
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::marks::Marks;
-use crate::seal::Seal;
 use crate::selection::{Selection, TakenEvents};
-use crate::sheet::{LAST_BLOCK, Written};
-use crate::steps_table::StepsTable;
-use crate::table::Table;
 use crate::tally::Tally;
 use crate::watcher::Watcher;
-use std::fs::File;
 use std::io;
 use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, EventKind, Record, Source};
-use tempfile::NamedTempFile;
-
-/// Most tables of a run that are written as it goes on.
-const TABLES: usize = 8;
+use tables::{Closed, Tables};
 
 /// Writes rows, events and looks into the contacts as they come.
 pub struct Recorder<'a> {
@@ -44,32 +37,10 @@ pub struct Recorder<'a> {
     keeps_cycles: bool,
     /// Where the figures are taken.
     marks: Marks,
-    /// Room on the disk for the last blocks of the tables, each for itself.
-    reserve: Vec<File>,
     /// A look that was asked for already, s.
     asked: Option<f64>,
     /// Scratch: cycles that a moment ends.
     ended: Vec<(usize, CycleFigures)>,
-}
-
-/// Tables under construction.
-struct Tables<'a> {
-    trace: Table,
-    events: Table,
-    cycles: CyclesTable,
-    steps: StepsTable,
-    insides: Insides<'a>,
-}
-
-/// A written table, still without its name.
-#[derive(Debug)]
-pub struct Draft {
-    /// The name that is meant for it.
-    pub name: &'static str,
-    /// The file.
-    pub file: NamedTempFile,
-    /// What a summary says of it.
-    pub seal: Seal,
 }
 
 /// What was recorded, beside the tables.
@@ -131,7 +102,6 @@ impl<'a> Recorder<'a> {
             has_window: job.scenario.written.window != [0.0, f64::INFINITY],
             keeps_cycles: true,
             marks,
-            reserve: Vec::new(),
             asked: None,
             ended: Vec::new(),
         }
@@ -143,16 +113,10 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// A table that cannot be begun.
     pub fn with_tables(mut self, folder: &Folder) -> io::Result<Self> {
-        let (columns, states) = (&self.job.columns, self.selection.has_state_numbers());
-        let trace = Table::new(folder.draft(TRACE)?, columns.clone(), &[], states);
-        let events = Table::new(folder.draft(EVENTS)?, columns.clone(), &["source", "kind"], states);
-        let cycles = CyclesTable::new(folder.draft(CYCLES)?);
-        let steps = StepsTable::new(folder.draft(STEPS)?);
-        let insides = Insides::new(self.job, folder)?;
+        let tables = Tables::begin(self.job, folder, self.selection.has_state_numbers())?;
         self.recorded.kept = self.recorded.kept.for_pictures(&self.job.scenario.plots);
         self.recorded.tally.spill(folder.spare(0)?);
-        let reserve = (0..TABLES).map(|_| folder.spare(LAST_BLOCK)).collect::<io::Result<_>>()?;
-        Ok(Self { tables: Some(Tables { trace, events, cycles, steps, insides }), reserve, ..self })
+        Ok(Self { tables: Some(tables), ..self })
     }
 
     /// The same with a fingerprint of the tables, written or not.
@@ -263,27 +227,14 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// A table of which nothing could be written.
     pub(crate) fn finish(mut self) -> io::Result<Recorded> {
-        // Their last blocks have room, whatever else is full.
-        self.reserve.clear();
+        if let Some(tables) = &mut self.tables {
+            tables.release();
+        }
         self.end();
-        if let Some(Tables { trace, events, cycles, steps, insides }) = self.tables {
-            let written = [(TRACE, trace.finish()?), (EVENTS, events.finish()?)];
-            let mut optional = Vec::new();
-            for (name, finished) in [(CYCLES, cycles.finish()), (STEPS, steps.finish())] {
-                match finished {
-                    Ok(written) => optional.extend(written.map(|written| (name, written))),
-                    // The others are worth something without it.
-                    Err(failure) => {
-                        self.recorded.failure.get_or_insert(failure);
-                        self.recorded.absent.push(name);
-                    }
-                }
-            }
-            let all = written.into_iter().chain(insides.finish()?).chain(optional);
-            for (name, Written { file, seal, failure }) in all {
-                self.recorded.drafts.push(Draft { name, file, seal });
-                self.recorded.failure = self.recorded.failure.or(failure);
-            }
+        if let Some(tables) = self.tables {
+            let Closed { drafts, absent, failure } = tables.finish()?;
+            let failure = self.recorded.failure.or(failure);
+            self.recorded = Recorded { drafts, absent, failure, ..self.recorded };
         }
         Ok(self.recorded)
     }
@@ -313,16 +264,6 @@ impl<'a> Recorder<'a> {
     /// Whether something cannot be written any further.
     fn has_failed(&self) -> bool {
         self.recorded.failure.is_some() || self.tables.as_ref().is_some_and(Tables::has_failed)
-    }
-}
-
-impl Tables<'_> {
-    fn has_failed(&self) -> bool {
-        self.trace.has_failed()
-            || self.events.has_failed()
-            || self.cycles.has_failed()
-            || self.steps.has_failed()
-            || self.insides.has_failed()
     }
 }
 

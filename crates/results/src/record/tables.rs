@@ -1,0 +1,109 @@
+//! The tables of a run on the disk, written as it goes on.
+
+use crate::cycles_table::CyclesTable;
+use crate::files::{CYCLES, EVENTS, STEPS, TRACE};
+use crate::folder::Folder;
+use crate::insides::Insides;
+use crate::job::Job;
+use crate::seal::Seal;
+use crate::sheet::{LAST_BLOCK, Written};
+use crate::steps_table::StepsTable;
+use crate::table::Table;
+use std::fs::File;
+use std::io;
+use tempfile::NamedTempFile;
+
+/// Most tables of a run that are written as it goes on.
+const MOST: usize = 8;
+
+/// Tables under construction.
+pub(super) struct Tables<'a> {
+    pub(super) trace: Table,
+    pub(super) events: Table,
+    pub(super) cycles: CyclesTable,
+    pub(super) steps: StepsTable,
+    pub(super) insides: Insides<'a>,
+    /// Room on the disk for the last blocks of the tables, each for itself.
+    reserve: Vec<File>,
+}
+
+/// A written table, still without its name.
+#[derive(Debug)]
+pub struct Draft {
+    /// The name that is meant for it.
+    pub name: &'static str,
+    /// The file.
+    pub file: NamedTempFile,
+    /// What a summary says of it.
+    pub seal: Seal,
+}
+
+/// Tables that are written to their ends.
+#[derive(Default)]
+pub(super) struct Closed {
+    pub(super) drafts: Vec<Draft>,
+    /// Those of which nothing could be written.
+    pub(super) absent: Vec<&'static str>,
+    /// Why something could not be written any further.
+    pub(super) failure: Option<io::Error>,
+}
+
+impl<'a> Tables<'a> {
+    /// Begins them in a folder.
+    ///
+    /// # Errors
+    /// A table that cannot be begun.
+    pub(super) fn begin(job: &'a Job, folder: &Folder, has_state_numbers: bool) -> io::Result<Self> {
+        let table = |name, words: &[&'static str]| -> io::Result<Table> {
+            Ok(Table::new(folder.draft(name)?, job.columns.clone(), words, has_state_numbers))
+        };
+        Ok(Self {
+            trace: table(TRACE, &[])?,
+            events: table(EVENTS, &["source", "kind"])?,
+            cycles: CyclesTable::new(folder.draft(CYCLES)?),
+            steps: StepsTable::new(folder.draft(STEPS)?),
+            insides: Insides::new(job, folder)?,
+            reserve: (0..MOST).map(|_| folder.spare(LAST_BLOCK)).collect::<io::Result<_>>()?,
+        })
+    }
+
+    pub(super) fn has_failed(&self) -> bool {
+        self.trace.has_failed()
+            || self.events.has_failed()
+            || self.cycles.has_failed()
+            || self.steps.has_failed()
+            || self.insides.has_failed()
+    }
+
+    /// From here on their last blocks have room, whatever else is full.
+    pub(super) fn release(&mut self) {
+        self.reserve.clear();
+    }
+
+    /// Closes them. One that could not be written any further ends with its last whole block, and the failure is told.
+    ///
+    /// # Errors
+    /// A table of which nothing could be written.
+    pub(super) fn finish(self) -> io::Result<Closed> {
+        let mut closed = Closed::default();
+        let mut all = vec![(TRACE, self.trace.finish()?), (EVENTS, self.events.finish()?)];
+        let mut optional = Vec::new();
+        for (name, finished) in [(CYCLES, self.cycles.finish()), (STEPS, self.steps.finish())] {
+            match finished {
+                Ok(written) => optional.extend(written.map(|written| (name, written))),
+                // The others are worth something without it.
+                Err(failure) => {
+                    closed.failure.get_or_insert(failure);
+                    closed.absent.push(name);
+                }
+            }
+        }
+        all.extend(self.insides.finish()?);
+        all.extend(optional);
+        for (name, Written { file, seal, failure }) in all {
+            closed.drafts.push(Draft { name, file, seal });
+            closed.failure = closed.failure.or(failure);
+        }
+        Ok(closed)
+    }
+}
