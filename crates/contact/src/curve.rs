@@ -194,10 +194,14 @@ impl Curve {
         Some(cut::anchor(&self.knots, h))
     }
 
-    /// How far an apex lies above the curve at its own height, m; none while open and beyond the end of the curve.
-    pub fn beside(&self, at: Apex) -> Option<f64> {
+    /// How far an apex lies above the curve at its own height, m, and the slope dp/dh of the curve there; none while open and
+    /// beyond the end of the curve.
+    pub fn beside(&self, at: Apex) -> Option<[f64; 2]> {
         let inside = self.knots.len() > 1 && at.d <= self.apex.d;
-        inside.then(|| at.u - cut::anchor(&self.knots, at.d))
+        inside.then(|| {
+            let [anchor, slope] = cut::anchor_and_slope(&self.knots, at.d);
+            [at.u - anchor, slope]
+        })
     }
 
     /// Stretch u - p(h) of the springs at height h, m; zero outside the contact.

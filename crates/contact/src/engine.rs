@@ -82,8 +82,9 @@ pub trait Branching {
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch;
     /// What a chord gives, dragged by the edge of a sense.
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged;
-    /// How far an apex lies above the curve at its own height, m; none while open and beyond its end.
-    fn beside(&self, at: Apex) -> Option<f64>;
+    /// How far an apex lies above the curve at its own height, m, and the slope of the curve there; none while open and beyond
+    /// its end.
+    fn beside(&self, at: Apex) -> Option<[f64; 2]>;
 }
 
 /// A row of springs with its springs.
@@ -168,7 +169,7 @@ impl Branching for Curve {
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged {
         Self::dragged(self, law, sense, to)
     }
-    fn beside(&self, at: Apex) -> Option<f64> {
+    fn beside(&self, at: Apex) -> Option<[f64; 2]> {
         Self::beside(self, at)
     }
 }

@@ -130,6 +130,19 @@ impl<'a> Equations<'a> {
         Reading { value: measure.constant + (own + followed), rate: rate + driven, driven }
     }
 
+    /// The value of a measure at one moment, to the last bit that of [`Self::read`].
+    #[inline(always)]
+    fn length(&self, measure: &Measure, at: &impl View) -> f64 {
+        let (mut own, mut followed) = (0.0, 0.0);
+        for &(i, a) in &measure.free {
+            own += a * at.component(i);
+        }
+        for &(w, a) in &measure.driven {
+            followed += a * self.signal(w, at).value;
+        }
+        measure.constant + (own + followed)
+    }
+
     /// Second derivative of a measure at a moment, m/s²; `free` gives that of a free coordinate.
     ///
     /// What the followers make of it is exact within a smooth piece.
@@ -154,6 +167,17 @@ impl<'a> Equations<'a> {
             None => self.pressed(contact, t),
         };
         Motion { d, u: u.value, dd, du: u.rate }
+    }
+
+    /// Where a contact stands, d and u, m; no rates: for who asks for none.
+    #[inline]
+    pub(crate) fn standing(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
+        let at = Components { t, y };
+        let d = match contact.coupling() {
+            Some(measure) => self.length(measure, &at),
+            None => self.pressed(contact, t).0,
+        };
+        Motion { d, u: self.length(&contact.u, &at), ..Motion::default() }
     }
 
     /// u of a contact, m, from its shifted origin, and its rate, m/s.
@@ -217,10 +241,24 @@ impl System for Equations<'_> {
         self.layout.total()
     }
 
+    #[inline]
     fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
-        if let Some(kernel) = self.kernel() {
-            return kernel.slopes(self, (t, y), dy);
+        match self.kernel() {
+            Some(kernel) => kernel.slopes(self, (t, y), dy),
+            None => self.all_slopes(t, y, dy),
         }
+    }
+
+    /// Flight and gross slip under constant loads.
+    fn coasts(&self) -> bool {
+        self.interval.is_some_and(Interval::is_constant)
+    }
+}
+
+impl Equations<'_> {
+    /// Slopes of all components, whatever acts. Apart: who asks the kernel, ten times a step, needs none of its registers.
+    #[inline(never)]
+    fn all_slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
         let layout = self.layout;
         let v = &y[layout.free..2 * layout.free];
         let (dx, rest) = dy.split_at_mut(layout.free);
@@ -249,11 +287,6 @@ impl System for Equations<'_> {
         let (input, damping) = sum.accelerate(self.model);
         let first = layout.input() - 2 * layout.free;
         (extra[first], extra[first + 1]) = (input, damping);
-    }
-
-    /// Flight and gross slip under constant loads.
-    fn coasts(&self) -> bool {
-        self.interval.is_some_and(Interval::is_constant)
     }
 }
 

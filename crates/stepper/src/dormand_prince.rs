@@ -29,8 +29,11 @@ pub const ORDER: u32 = 8;
 pub struct DormandPrince {
     /// Coupled components; quadratures come after them.
     dimension: usize,
+    /// All components.
+    total: usize,
     extent: Extent,
-    /// States at both ends.
+    /// States at both ends. As all lists of components here they have one more than there are where that makes them even, for
+    /// ever 0.
     begin: Vec<f64>,
     end: Vec<f64>,
     /// Coupled components of the stage under way, and all slopes there.
@@ -39,7 +42,7 @@ pub struct DormandPrince {
     ends: EndSlopes,
     /// Whether the system said at the start that nothing changes what acts.
     coasts: bool,
-    /// Slopes of all stages, component by component: the sums of a row run over one of them.
+    /// Slopes of all stages, by pairs of components: the sums of a row run over one of them.
     k: Vec<Slopes>,
     /// The dense output, component by component.
     polynomials: Vec<dense::Polynomial>,
@@ -77,21 +80,18 @@ impl DormandPrince {
     #[must_use]
     pub fn new(dimension: usize, total: usize) -> Self {
         let total = total.max(dimension);
+        let room = vec![0.0; total.next_multiple_of(2)];
         Self {
             dimension,
+            total,
             extent: Extent::default(),
-            begin: vec![0.0; total],
-            end: vec![0.0; total],
-            stage: vec![0.0; dimension],
-            newest: vec![0.0; total],
-            ends: EndSlopes {
-                first: vec![0.0; total],
-                last: vec![0.0; total],
-                first_known: false,
-                last_known: false,
-            },
+            begin: room.clone(),
+            end: room.clone(),
+            stage: vec![0.0; dimension.next_multiple_of(2)],
+            newest: room.clone(),
+            ends: EndSlopes { first: room.clone(), last: room, first_known: false, last_known: false },
             coasts: false,
-            k: vec![[0.0; 16]; total],
+            k: vec![Slopes::default(); total.div_ceil(2)],
             polynomials: vec![dense::Polynomial::default(); total],
             dense_known: false,
             evaluations: 0,
@@ -101,7 +101,8 @@ impl DormandPrince {
     /// Evaluates the slopes at the start of the step.
     fn restart_slopes<S: System + ?Sized>(&mut self, system: &S) {
         self.forget_step();
-        system.slopes(self.extent.time, &self.begin[..self.dimension], &mut self.ends.first);
+        let first = &mut self.ends.first[..self.total];
+        system.slopes(self.extent.time, &self.begin[..self.dimension], first);
         self.evaluations += 1;
         self.coasts = system.coasts();
         self.ends.first_known = true;
@@ -110,7 +111,8 @@ impl DormandPrince {
     /// Evaluates the slopes at the end of the step tried.
     fn end_slopes<S: System + ?Sized>(&mut self, system: &S) {
         if !self.ends.last_known {
-            system.slopes(self.extent.end_time, &self.end[..self.dimension], &mut self.ends.last);
+            let last = &mut self.ends.last[..self.total];
+            system.slopes(self.extent.end_time, &self.end[..self.dimension], last);
             self.evaluations += 1;
             self.ends.last_known = true;
         }
@@ -144,7 +146,8 @@ impl Method for DormandPrince {
 impl Step for DormandPrince {
     /// States have `total` components.
     fn span(&self) -> Span<'_> {
-        Span { time: self.extent.time, end_time: self.extent.end_time, begin: &self.begin, end: &self.end }
+        let (begin, end) = (&self.begin[..self.total], &self.end[..self.total]);
+        Span { time: self.extent.time, end_time: self.extent.end_time, begin, end }
     }
 
     /// Of any component; NaN where it is not known.
@@ -153,7 +156,7 @@ impl Step for DormandPrince {
             End::Start => (&self.ends.first, self.ends.first_known),
             End::End => (&self.ends.last, self.ends.last_known),
         };
-        slopes.get(i).filter(|_| known).map_or(f64::NAN, |slope| *slope)
+        slopes[..self.total].get(i).filter(|_| known).map_or(f64::NAN, |slope| *slope)
     }
 
     /// NaN where there is no dense output.
@@ -200,7 +203,7 @@ impl Step for DormandPrince {
     fn first_slopes(&self, slopes: &mut Vec<f64>) {
         slopes.clear();
         if self.ends.first_known {
-            slopes.extend_from_slice(&self.ends.first);
+            slopes.extend_from_slice(&self.ends.first[..self.total]);
         }
     }
 }
@@ -210,7 +213,7 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.extent.time = t;
         self.begin.fill(0.0);
-        for (to, from) in self.begin.iter_mut().zip(y) {
+        for (to, from) in self.begin[..self.total].iter_mut().zip(y) {
             *to = *from;
         }
         self.restart_slopes(system);
@@ -218,14 +221,13 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
 
     /// Slopes of another number than there are components are none.
     fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), _: Hand, slopes: &[f64]) {
-        if slopes.len() != self.ends.first.len() {
+        if slopes.len() != self.total {
             return self.start(system, t, y);
         }
         self.extent.time = t;
-        let count = self.begin.len();
-        self.begin.copy_from_slice(&y[..count]);
+        self.begin[..self.total].copy_from_slice(&y[..self.total]);
         self.forget_step();
-        self.ends.first.copy_from_slice(slopes);
+        self.ends.first[..self.total].copy_from_slice(slopes);
         (self.ends.first_known, self.coasts) = (true, system.coasts());
     }
 

@@ -3,7 +3,7 @@
 mod systems;
 
 use stickslip_stepper::{
-    Attempt, Completion, DormandPrince, End, Method, Step, StepControl, StepLimits, System, Target,
+    Attempt, Completion, DormandPrince, End, Grade, Method, Step, StepControl, StepLimits, System, Target,
 };
 use systems::{Forced, Kepler, Oscillator, order};
 
@@ -240,5 +240,60 @@ fn kepler_under_control_keeps_its_tolerance() {
         // absolute tolerances, with 758, 1634 and 2858 evaluations.
         assert!(error < 200.0 * tolerance, "{tolerance}: {error}");
         assert!(stepper.evaluations() < most, "{tolerance}: {}", stepper.evaluations());
+    }
+}
+
+/// ẏ = -r y cos t for each of some rates, and the integral of the first one's square.
+struct Fading<'a>(&'a [f64]);
+
+impl System for Fading<'_> {
+    fn dimension(&self) -> usize {
+        self.0.len()
+    }
+
+    fn positions(&self) -> usize {
+        0
+    }
+
+    fn total(&self) -> usize {
+        self.0.len() + 1
+    }
+
+    fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+        assert_eq!((y.len(), dy.len()), (self.0.len(), self.0.len() + 1), "no component more than there are");
+        dy.iter_mut().zip(y).zip(self.0).for_each(|((dy, y), rate)| *dy = -rate * y * t.cos());
+        dy[self.0.len()] = y[0] * y[0];
+    }
+}
+
+/// What lies side by side is stepped to the bits that it has alone, whether it has a neighbour or not: even, few and graded
+/// steps, their ends, dense output and error.
+#[test]
+fn neighbours_change_no_bit() {
+    let rates = [0.3, 1.1, -0.7, 2.3, 0.9];
+    for grade in [Grade::Even, Grade::Few, Grade::Start, Grade::End] {
+        let stepped = |rates: &[f64]| {
+            let mut stepper = DormandPrince::new(rates.len(), rates.len() + 1);
+            stepper.start(&Fading(rates), 0.1, &vec![1.0; rates.len()]);
+            let scale = vec![1e-9; rates.len()];
+            let error = stepper.attempt(&Fading(rates), Target { end: 0.7, grade }, &scale);
+            stepper.complete(&Fading(rates), Completion::Dense);
+            (stepper, error)
+        };
+        let alone = rates.map(|rate| stepped(&[rate]));
+        for count in 1..=rates.len() {
+            let (stepper, error) = stepped(&rates[..count]);
+            assert_eq!(stepper.span().end.len(), count + 1);
+            for (i, (own, _)) in alone[..count].iter().enumerate() {
+                assert_eq!(stepper.span().end[i], own.span().end[0], "{grade:?} {count} {i}");
+                assert_eq!(stepper.value(i, 0.45), own.value(0, 0.45), "{grade:?} {count} {i}");
+                assert_eq!(stepper.slope(i, End::End), own.slope(0, End::End), "{grade:?} {count} {i}");
+            }
+            assert_eq!(stepper.span().end[count], alone[0].0.span().end[1]);
+            assert!(stepper.value(count + 1, 0.45).is_nan() && stepper.slope(count + 1, End::End).is_nan());
+            let most = alone[..count].iter().fold(0.0, |most: f64, (_, error)| most.max(*error));
+            // Of order 5 the largest error is the largest of all; of order 8 it is made of the largest of two estimates.
+            assert!(if grade == Grade::Few { error == most } else { error > 0.0 }, "{error} {most}");
+        }
     }
 }

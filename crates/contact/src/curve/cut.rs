@@ -58,9 +58,14 @@ impl Drag {
 
 /// Anchor at a height of a curve of at least one knot.
 pub(super) fn anchor(knots: &[Knot], h: f64) -> f64 {
+    anchor_and_slope(knots, h)[0]
+}
+
+/// The same, and the slope dp/dh of the piece on which it lies.
+pub(super) fn anchor_and_slope(knots: &[Knot], h: f64) -> [f64; 2] {
     // By halves, other than a drag: whoever asks for an anchor asks anywhere in the curve.
-    let above = knots.partition_point(|k| k.h < h).max(1).min(knots.len() - 1);
-    knots[above].p - knots[above].slope * (knots[above].h - h)
+    let end = &knots[knots.partition_point(|k| k.h < h).max(1).min(knots.len() - 1)];
+    [end.p - end.slope * (end.h - h), end.slope]
 }
 
 /// Whether the piece that ends in a knot runs along the edge of a sense itself.

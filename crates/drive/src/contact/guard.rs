@@ -122,16 +122,28 @@ impl Guard {
             // stick.
             (Self::Drag, _) => mode.sense() * at.du - slope * at.dd,
             (Self::Piece, Mode::Slip(branch)) => branch.margin(at.d, at.u),
-            (Self::Side, Mode::Slip(branch)) => {
-                let above = memory.branching().and_then(|branching| branching.beside(at.apex()));
-                above.map_or(f64::INFINITY, |above| branch.sense() * above)
-            }
-            (Self::Piece | Self::Side, _) => f64::INFINITY,
+            (Self::Side, mode) => Self::beside((memory, mode), at)[0],
+            (Self::Piece, _) => f64::INFINITY,
             (Self::Lower, _) => slope * at.dd - at.du,
             (Self::Upper, _) => slope * at.dd + at.du,
             (Self::Contact, _) => at.d,
             (Self::Gap, _) => -at.d,
         }
+    }
+
+    /// The value of [`Guard::Side`], σ(u - p(d)), m, and its rate, σ(u̇ - p'(d)ḋ), m/s, p the old curve.
+    #[inline]
+    pub(crate) fn beside((memory, mode): (&Memory, &Mode), at: &Motion) -> [f64; 2] {
+        let Mode::Slip(branch) = mode else { return [f64::INFINITY, 0.0] };
+        match memory.branching().and_then(|branching| branching.beside(at.apex())) {
+            Some([above, slope]) => [above, at.du - slope * at.dd].map(|of| branch.sense() * of),
+            None => [f64::INFINITY, 0.0],
+        }
+    }
+
+    /// Whether it asks only where the contact stands, and not how fast it moves.
+    pub(crate) fn is_length(self) -> bool {
+        !matches!(self, Self::Drag | Self::Lower | Self::Upper | Self::Edge)
     }
 
     /// Its rate, from the motion and its second derivatives (d̈, ü), where the bodies alone move the contact.

@@ -2,7 +2,7 @@
 
 use super::order5;
 use super::order8::{Dense5, Dense6, Dense7, Dense8, END, NODES, Stage14, Stage15, Stage16, Weights};
-use super::tableau::{Row, Slopes};
+use super::tableau::{Pair, Row, Slopes, pairs_of};
 use super::{DormandPrince, Grade};
 use crate::System;
 
@@ -26,7 +26,9 @@ impl DormandPrince {
         }
         if self.extent.grade == Grade::Few {
             // The slopes at the end are a stage: all is there.
-            self.polynomials_of::<order5::Weights>(order5::END, |k| [order5::Dense5::dot(k), 0.0, 0.0, 0.0]);
+            self.polynomials_of::<order5::Weights>(order5::END, |k| {
+                [order5::Dense5::dot(k), Pair::default(), Pair::default(), Pair::default()]
+            });
         } else {
             self.refine(system);
         }
@@ -52,22 +54,19 @@ impl DormandPrince {
 
     /// The polynomials of all components, from the slopes at both ends and four forms of the stages.
     #[inline(always)]
-    fn polynomials_of<R: Row>(&mut self, last: usize, lift: impl Fn(&Slopes) -> [f64; 4]) {
+    fn polynomials_of<R: Row>(&mut self, last: usize, lift: impl Fn(&Slopes) -> [Pair; 4]) {
         let (h, grade) = (self.extent.step, self.extent.grade);
-        for (((c, k), begin), end) in self.polynomials.iter_mut().zip(&self.k).zip(&self.begin).zip(&self.end)
-        {
+        let ends = pairs_of(&self.begin).iter().zip(pairs_of(&self.end));
+        for ((c, k), (begin, end)) in self.polynomials.chunks_mut(2).zip(&self.k).zip(ends) {
+            let (begin, end) = (Pair(*begin), Pair(*end));
             let rise = if grade.is_even() { end - begin } else { h * R::dot(k) };
             let (bend, lifted) = (h * k[0] - rise, lift(k));
-            *c = [
-                *begin,
-                rise,
-                bend,
-                rise - h * k[last] - bend,
-                h * lifted[0],
-                h * lifted[1],
-                h * lifted[2],
-                h * lifted[3],
-            ];
+            let cubic = [begin, rise, bend, rise - h * k[last] - bend];
+            for (lane, c) in c.iter_mut().enumerate() {
+                let [first, second, third, fourth] = cubic.map(|Pair(of)| of[lane]);
+                let [fifth, sixth, seventh, eighth] = lifted.map(|of| (h * of).0[lane]);
+                *c = [first, second, third, fourth, fifth, sixth, seventh, eighth];
+            }
         }
         // The straight part that graded stages leave out: φ = σ ∓ σ(1-σ).
         let bend = match grade {

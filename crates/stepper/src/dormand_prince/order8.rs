@@ -8,7 +8,7 @@
 //! k₁₃ is the slope at its end, stages 14 to 16 are for the dense output alone. Tests hold the rows against the conditions
 //! of order: Σ_j a_ij = c_i, Σ b_i c_i^{q-1} = 1/q, and those of the taller trees.
 
-use super::tableau::{Slopes, rows};
+use super::tableau::rows;
 
 /// Index of the slope at the end of the step (k₁₃).
 pub(super) const END: usize = 12;
@@ -17,7 +17,7 @@ pub(super) const END: usize = 12;
 // The crate `ode_solvers` 0.6.2 has 0 for the twelfth of them: its method has no order where slopes depend on the time. For
 // ẏ = y cos t up to t = 4 at a tolerance of 1e-6 it takes 6 530 evaluations and ends anywhere; this one takes 165 and is
 // 9e-8 off. So the coefficients stand here, and of that crate only `Dopri5` is used, as a reference.
-pub(super) const NODES: Slopes = [
+pub(super) const NODES: [f64; 16] = [
     0.0,
     0.05260015195876773,
     0.0789002279381516,

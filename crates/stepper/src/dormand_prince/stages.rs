@@ -4,7 +4,7 @@ use super::order5;
 use super::order8::{
     NODES, Stage2, Stage3, Stage4, Stage5, Stage6, Stage7, Stage8, Stage9, Stage10, Stage11, Stage12, Weights,
 };
-use super::tableau::Row;
+use super::tableau::{Pair, Row, pairs_of};
 use super::{DormandPrince, Grade};
 use crate::{System, Target};
 
@@ -73,8 +73,10 @@ impl DormandPrince {
     #[inline(always)]
     fn end_by<R: Row>(&mut self) {
         let h = self.extent.step;
-        for ((to, y), k) in self.end.iter_mut().zip(&self.begin).zip(&self.k) {
-            *to = y + h * R::dot(k);
+        let pairs = self.k.len();
+        let (begin, end) = (&pairs_of(&self.begin)[..pairs], &mut self.end.as_chunks_mut::<2>().0[..pairs]);
+        for (i, k) in self.k.iter().enumerate() {
+            end[i] = (Pair(begin[i]) + h * R::dot(k)).0;
         }
         if !self.extent.grade.is_even() {
             self.end.iter_mut().zip(&self.ends.first).for_each(|(to, first)| *to += h * first);
@@ -90,15 +92,18 @@ impl DormandPrince {
         // of one oscillator. Rounding differs from the order of the books by a last place.
         let h = self.extent.step;
         let last = h * R::LAST;
-        for (((to, y), k), newest) in
-            self.stage.iter_mut().zip(&self.begin).zip(&mut self.k).zip(&self.newest)
-        {
-            *to = (y + h * R::rest(k)) + last * newest;
-            k[R::NEWEST] = *newest;
+        // Lists cut to one length and then read by place: zips of five cost as much as the sums.
+        let stage = self.stage.as_chunks_mut::<2>().0;
+        let (coupled, quadratures) = self.k.split_at_mut(stage.len());
+        let (begin, newest) = (&pairs_of(&self.begin)[..coupled.len()], pairs_of(&self.newest));
+        let (newest, rates) = newest.split_at(coupled.len());
+        let stage = &mut stage[..coupled.len()];
+        for (i, k) in coupled.iter_mut().enumerate() {
+            stage[i] = ((Pair(begin[i]) + h * R::rest(k)) + last * Pair(newest[i])).0;
+            k[R::NEWEST] = Pair(newest[i]);
         }
-        let quadratures = self.k[self.dimension..].iter_mut().zip(&self.newest[self.dimension..]);
-        for (k, newest) in quadratures {
-            k[R::NEWEST] = *newest;
+        for (k, rates) in quadratures.iter_mut().zip(rates) {
+            k[R::NEWEST] = Pair(*rates);
         }
         // Over σ the slopes begin with 0 at a singular start; the straight motion with the first slope is taken apart from
         // them and added here exactly.
@@ -112,7 +117,7 @@ impl DormandPrince {
         } else {
             self.extent.time + self.extent.grade.time(node) * h
         };
-        system.slopes(t, &self.stage, &mut self.newest);
+        system.slopes(t, &self.stage[..self.dimension], &mut self.newest[..self.total]);
         self.evaluations += 1;
         self.pace(self.extent.grade.pace(node));
     }
@@ -131,8 +136,8 @@ impl DormandPrince {
     /// Keeps the newest slopes as those of stage `J`.
     #[inline(always)]
     pub(super) fn keep<const J: usize>(&mut self) {
-        for (k, slope) in self.k.iter_mut().zip(&self.newest) {
-            k[J] = *slope;
+        for (k, slopes) in self.k.iter_mut().zip(pairs_of(&self.newest)) {
+            k[J] = Pair(*slopes);
         }
     }
 

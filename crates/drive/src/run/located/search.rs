@@ -12,9 +12,10 @@ mod side;
 
 use super::watch::{Moving, Watch};
 use super::watched::Watched;
-use crate::contact::{Guard, Motion, NEARNESS, bands};
+use crate::contact::{Contact, Guard, Motion, NEARNESS, bands};
 use crate::equations::Equations;
-use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, root, root_near};
+use arrayvec::ArrayVec;
+use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, Span, root, root_near};
 
 /// A guard that falls inside the step just attempted, and when, s.
 #[derive(Clone, Copy)]
@@ -32,6 +33,15 @@ struct Search<'r, 'e, A> {
     eq: &'r Equations<'e>,
     /// Whether it ends where it was cut: slopes are not known there.
     is_cut: bool,
+    /// What was seen of the contact under way inside the step.
+    seen: ArrayVec<Seen, { LOOKS.len() + side::EARLY.len() }>,
+}
+
+/// The motion of a contact at a part of the step.
+struct Seen {
+    contact: usize,
+    part: f64,
+    motion: Motion,
 }
 
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
@@ -49,7 +59,8 @@ impl Watch {
         eq: &Equations<'e>,
     ) -> Option<Fall<'e>> {
         let Self { from, to, tolerance, .. } = self;
-        Search { from, to, tolerance: *tolerance, solver, eq, is_cut: false }.first_fall()
+        Search { from, to, tolerance: *tolerance, solver, eq, is_cut: false, seen: ArrayVec::new() }
+            .first_fall()
     }
 
     /// Ends the step where a guard falls, or where one does that is up at both ends of the step but down there, such as that of a
@@ -67,7 +78,8 @@ impl Watch {
             self.arrive_at_cut(eq, solver);
         }
         let Self { from, to, tolerance, fired } = self;
-        let search = Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true };
+        let search =
+            Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true, seen: ArrayVec::new() };
         fired.clear();
         fired.push(fall.watched.fallen());
         // Of many contacts hardly ever another one is: then this one look at them is all.
@@ -144,7 +156,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
             let slope = contact.interface.stick_slope();
             let closes = |at: &Motion| at.dd < 0.0 && at.du.abs() < -slope * at.dd;
             let shrinks = closes(&self.from[index].motion) || closes(&self.to[index].motion);
-            return if shrinks || watched.is_sampled() { self.side(watched, g1) } else { None };
+            return if shrinks || watched.is_sampled() { self.side((index, contact)) } else { None };
         }
         if watched.is_sampled() {
             return self.looks(watched);
@@ -169,7 +181,13 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// The first of some moments inside the step at which a guard has fallen, and its value there.
     fn looks(&mut self, watched: Watched<'e>) -> Option<(f64, f64)> {
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
-        let mut looks = LOOKS.into_iter().map(|share| self.look(watched, t0 + share * h));
+        let mut looks = LOOKS.into_iter().map(|share| match watched {
+            Watched::Contact(index, contact, guard) => {
+                let (t, motion) = self.motion_at(index, contact, share);
+                (t, guard.value(contact, self.eq.law(index), &motion))
+            }
+            _ => self.look(watched, t0 + share * h),
+        });
         let (t, g) = looks.find(|(_, g)| *g < 0.0)?;
         self.has_fallen(watched, g).then_some((t, g))
     }
@@ -304,10 +322,33 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
                 steady.guard(guard, &at)
             }
             Watched::Contact(index, contact, guard) => {
-                guard.value(contact, self.eq.law(index), &self.eq.motion(contact, t, value))
+                let at = if guard.is_length() {
+                    self.eq.standing(contact, t, value)
+                } else {
+                    self.eq.motion(contact, t, value)
+                };
+                guard.value(contact, self.eq.law(index), &at)
             }
             Watched::Block(k, guard) => self.eq.block_guard(k, guard, t, value),
         }
+    }
+
+    /// The motion of a contact at a part of the step, on the dense output; of one that many guards ask for, once.
+    fn motion_at(&mut self, index: usize, contact: &Contact, part: f64) -> (f64, Motion) {
+        let Span { time, end_time, .. } = self.solver.span();
+        let t = time + part * (end_time - time);
+        if self.seen.first().is_some_and(|seen| seen.contact != index) {
+            self.seen.clear();
+        }
+        if let Some(seen) = self.seen.iter().find(|seen| seen.part == part) {
+            return (t, seen.motion);
+        }
+        self.solver.complete(self.eq, Completion::Dense);
+        let at = self.solver.part(t);
+        let motion = self.eq.motion(contact, t, |i| self.solver.value_at(i, at));
+        // Where there is no room it is read again.
+        let _ = self.seen.try_push(Seen { contact: index, part, motion });
+        (t, motion)
     }
 
     /// Its deadband and how near to zero it is as good as there.

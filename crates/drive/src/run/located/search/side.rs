@@ -1,18 +1,17 @@
 //! The apex of a shrinking contact beside an old curve of its memory.
 //!
-//! How far it is from that curve is no polynomial: the curve has knots. Values are cheap once the dense output is there, rates are
-//! differences of them.
+//! How far it is from that curve is no polynomial: the curve has knots. Values and rates are cheap once the dense output is there.
 
-use super::{Search, Watched};
+use super::{LOOKS, Search};
+use crate::contact::{Contact, Guard, Motion};
 use crate::equations::Equations;
+use crate::run::located::watched::Watched;
 use stickslip_stepper::{Attempt, Completion};
 
-/// Places inside a step that are looked at, nearest to where the apex may have gone across.
-const LOOKS: [f64; 7] = [0.03125, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0];
+/// Places near the start of a step, where the apex may have gone across, that are looked at before [`LOOKS`].
+pub(super) const EARLY: [f64; 3] = [0.03125, 0.0625, 0.125];
 /// How often tangents are laid where it dips.
 const DIPS: usize = 8;
-/// Over which part of a step its rate is taken.
-const APART: f64 = 1e-6;
 
 /// The tangent of a guard at a moment.
 #[derive(Clone, Copy)]
@@ -40,27 +39,28 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// way is bent to one side.
     // Looked at three times, without its rates, an apex that went back after 3 and forth after another 0.5 thousandths of a period was seen
     // in every other period only, and what was not seen moved the step by 3e-4 u_c at any tolerance.
-    pub(super) fn side(&mut self, watched: Watched<'e>, g1: f64) -> Option<(f64, f64)> {
-        let (t0, t1) = (self.solver.span().time, self.solver.span().end_time);
-        self.solver.complete(self.eq, Completion::Dense);
-        let apart = APART * (t1 - t0);
-        let tangent = |t: f64, y: f64| {
-            let beside = if t + apart > t1 { t - apart } else { t + apart };
-            // By what rounding has left of the way between them.
-            Tangent { t, y, rate: (self.inside(watched, beside) - y) / (beside - t) }
+    pub(super) fn side(&mut self, (index, contact): (usize, &'e Contact)) -> Option<(f64, f64)> {
+        let watched = Watched::Contact(index, contact, Guard::Side);
+        let law = self.eq.law(index);
+        let tangent = |t: f64, motion: &Motion| {
+            let [y, rate] = Guard::beside(law, motion);
+            Tangent { t, y, rate }
         };
-        let mut before = tangent(t0, self.at_begin(watched));
-        for share in LOOKS {
-            let t = t0 + share * (t1 - t0);
-            let g = if share < 1.0 { self.inside(watched, t) } else { g1 };
-            if g < 0.0 && self.has_fallen(watched, g) {
-                return Some((t, g));
+        let (t0, t1) = (self.solver.span().time, self.solver.span().end_time);
+        let (begin, end) = (self.from[index].motion, self.to[index].motion);
+        self.solver.complete(self.eq, Completion::Dense);
+        let mut before = tangent(t0, &begin);
+        for share in EARLY.into_iter().chain(LOOKS).chain([1.0]) {
+            let (t, motion) = if share < 1.0 { self.motion_at(index, contact, share) } else { (t1, end) };
+            let after = tangent(t, &motion);
+            if after.y < 0.0 && self.has_fallen(watched, after.y) {
+                return Some((after.t, after.y));
             }
-            let after = tangent(t, g);
             let mut part = [before, after];
             for _ in 0..DIPS {
                 let Some((t, _)) = Tangent::meet(part).filter(|(_, y)| *y < 0.0) else { break };
-                let lowest = tangent(t, self.inside(watched, t));
+                let at = self.solver.part(t);
+                let lowest = tangent(t, &self.eq.motion(contact, t, |i| self.solver.value_at(i, at)));
                 if lowest.y < 0.0 && self.has_fallen(watched, lowest.y) {
                     return Some((t, lowest.y));
                 }
