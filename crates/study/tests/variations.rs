@@ -63,13 +63,18 @@ const STEADILY: [(&str, &[&str]); 5] = [
 const OFF: f64 = 1e-7;
 const SHARP: f64 = 1e-8;
 
-/// The slopes of a scene that variations tell, each with the five-point difference and what is known of that, and their natural size:
-/// figure over quantity, or the slope itself if that is larger.
-fn pairs(
-    file: &Path,
-    set: &[(String, String)],
-    asked: &Asked,
-) -> Result<Vec<(String, Slope, (f64, f64), f64)>, Box<dyn Error>> {
+/// A slope that a variation tells, and what differences say.
+struct Pair {
+    what: String,
+    found: Slope,
+    /// The five-point difference, and how far that may be off.
+    wanted: (f64, f64),
+    /// Natural size: figure over quantity, or the slope itself if that is larger.
+    size: f64,
+}
+
+/// The slopes of a scene that variations tell.
+fn pairs(file: &Path, set: &[(String, String)], asked: &Asked) -> Result<Vec<Pair>, Box<dyn Error>> {
     let set = set.to_vec();
     let asked = Sensitivity::new(file, &set, asked, &())?;
     let (taken, mut pairs) = (asked.take(2, &()), Vec::new());
@@ -80,7 +85,6 @@ fn pairs(
             _ => None,
         };
         if led(0).is_none() {
-            println!("{}: {} by differences", file.display(), quantity.path);
             continue;
         }
         let wanted = slopes(file, &set, (&quantity.path, quantity.value), &names)?;
@@ -88,7 +92,7 @@ fn pairs(
             let Some(found) = led(f) else { continue };
             let what = format!("{} by {} of {set:?}", names[f], quantity.path);
             let size = (asked.figures[f].value / quantity.value).abs().max(wanted.0.abs());
-            pairs.push((what, found, wanted, size));
+            pairs.push(Pair { what, found, wanted, size });
         }
     }
     Ok(pairs)
@@ -108,10 +112,8 @@ struct Compared {
 impl Compared {
     /// Some quantities of a scene with some values set.
     fn take(&mut self, file: &Path, set: &[(String, String)], asked: &Asked) -> Checked {
-        for (what, found, wanted, size) in pairs(file, set, asked)? {
+        for Pair { what, found, wanted, size } in pairs(file, set, asked)? {
             let off = (found.value - wanted.0).abs();
-            let told = [off, found.error, wanted.1].map(|it| it / size);
-            println!("off {:.1e}, told {:.1e}, differences {:.1e}: {what}", told[0], told[1], told[2]);
             self.all += 1;
             self.within += usize::from(off <= found.error + wanted.1);
             if wanted.1 <= SHARP * size {
@@ -144,7 +146,6 @@ fn drawn_slopes_are_those_of_differences() -> Checked {
         }
     }
     let (told, Compared { all, sharp, within, .. }) = (compared.told(), compared);
-    println!("{told}");
     assert!(sharp >= 200, "{told}");
     assert!((all - within) * 20 <= all, "{told}");
     Ok(())
@@ -160,7 +161,6 @@ fn slopes_of_steady_steps_are_those_of_differences() -> Checked {
         compared.take(&example(name), &[], &asked)?;
     }
     let told = compared.told();
-    println!("{told}");
     assert!(compared.all == 18 && compared.sharp >= 14, "{told}");
     Ok(())
 }
@@ -191,9 +191,8 @@ fn events_at_one_moment_leave_the_slopes_of_differences() -> Checked {
     let asked = Asked { of: names(&["steps.last_m", "slider.x_m"]), to, ..Asked::default() };
     let pairs = pairs(&file, &[], &asked)?;
     assert_eq!(pairs.len(), 4);
-    for (what, found, wanted, size) in pairs {
+    for Pair { what, found, wanted, size } in pairs {
         let off = (found.value - wanted.0).abs();
-        println!("off {:.1e}, differences {:.1e}: {what}", off / size, wanted.1 / size);
         assert!(off <= OFF * size + wanted.1, "{what}: {found:?} instead of {wanted:?}");
     }
     Ok(())
