@@ -155,7 +155,7 @@ impl<'a> Recorder<'a> {
         self.recorded.books.read_event(values);
         self.recorded.tally.row(values);
         self.recorded.tally.account(Some((source, kind)), values);
-        self.moment(values, true);
+        self.moment(values, Some(source));
         if !self.selection.takes(source, kind, values.first().copied().unwrap_or(0.0)) {
             return;
         }
@@ -174,8 +174,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// Takes a moment that figures are taken at, and tells the cycles that it ends.
-    fn moment(&mut self, values: &[f64], bends: bool) {
-        self.recorded.tally.moment(self.job, (values, bends), &mut self.ended);
+    fn moment(&mut self, values: &[f64], event: Option<Source>) {
+        self.recorded.tally.moment(self.job, (values, event), &mut self.ended);
         if !self.ended.is_empty() {
             self.tell_cycles();
         }
@@ -317,7 +317,7 @@ impl Record for Recorder<'_> {
         self.recorded.tally.account(None, values);
         let t = values.first().copied().unwrap_or(0.0);
         if self.marks.is_common(t) {
-            self.moment(values, false);
+            self.moment(values, None);
         }
         match self.marks.period_ended(t) {
             Some(0) => self.recorded.tally.begin_range(),

@@ -16,6 +16,9 @@ const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 /// What figures are taken from.
 pub(crate) struct Tally {
     contacts: Vec<ContactTally>,
+    /// Contacts of each part of the scene, and the part of each contact; none of a scene that is one.
+    parts: Vec<Vec<usize>>,
+    part_of: Vec<usize>,
     walker: Option<Walker>,
     accounts: Option<Accounts>,
     /// Least and largest x of the body of the figures in the period under way, m.
@@ -60,9 +63,12 @@ impl Tally {
         let places: HashMap<&str, usize> =
             channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
         let names = job.model.contacts().map(|(name, _)| name).enumerate();
-        let contacts = names.map(|(c, name)| ContactTally::new((job, c), name, &places)).collect();
+        let contacts: Vec<_> = names.map(|(c, name)| ContactTally::new((job, c), name, &places)).collect();
+        let parts: Vec<Vec<usize>> = job.model.part_contacts().map(<[usize]>::to_vec).collect();
+        let mut part_of = vec![0; contacts.len()];
+        parts.iter().enumerate().for_each(|(k, part)| part.iter().for_each(|c| part_of[*c] = k));
         let (walker, accounts) = (Walker::of(job, &places), Accounts::of(job, &places));
-        Self { contacts, walker, accounts, range: NOWHERE }
+        Self { contacts, parts, part_of, walker, accounts, range: NOWHERE }
     }
 
     /// Keeps what there is too much of in a file without a name.
@@ -83,16 +89,29 @@ impl Tally {
         }
     }
 
-    /// Takes a moment that figures are taken at: a mark, or after an event, where something `bends`.
+    /// Takes a moment that figures are taken at: after an event, where something bends, or else a mark. Contacts of other parts than that of
+    /// the event feel nothing of it: of a thousand parts each keeps its own moments, not those of all.
     pub(crate) fn moment(
         &mut self,
         job: &Job,
-        (values, bends): (&[f64], bool),
+        (values, event): (&[f64], Option<Source>),
         ended: &mut Vec<(usize, CycleFigures)>,
     ) {
-        for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(job.model.contacts()).enumerate() {
-            let Some(loops) = &mut contact.loops else { continue };
-            ended.extend(loops.take(law, values, bends).map(|figures| (c, figures)));
+        let part = match event {
+            Some(Source::Contact(c)) => self.part_of.get(c).and_then(|k| self.parts.get(*k)),
+            _ => None,
+        };
+        let count = self.contacts.len();
+        let take = |c: usize| {
+            let loops = self.contacts.get_mut(c).and_then(|contact| contact.loops.as_mut());
+            let figures = loops
+                .zip(job.model.contacts().nth(c))
+                .and_then(|(loops, (_, law))| loops.take(law, values, event.is_some()));
+            ended.extend(figures.map(|figures| (c, figures)));
+        };
+        match part {
+            Some(part) => part.iter().copied().for_each(take),
+            None => (0..count).for_each(take),
         }
         if let Some(walker) = &mut self.walker {
             walker.moment(values);

@@ -1,12 +1,13 @@
 //! Where branches of drawn sliders end, and what is told on the way, against closed forms and what a slider can do.
 
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::PathBuf;
 use stickslip_results::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::Options;
 use stickslip_study::steady::continuation::{
-    Bifurcation, Branch, Continuation, ContinuationError, Course, End,
+    Bifurcation, Branch, Continuation, ContinuationError, Course, End, Mark,
 };
 
 type Checked = Result<(), Box<dyn Error>>;
@@ -105,6 +106,51 @@ const DRAGGED: Slider = Slider {
     more: "",
 };
 
+/// On a cycloid, pulled by 80 % of what friction holds.
+const SWEPT: Slider = Slider {
+    waveforms: r#""drive": {"cycloid": {"stroke": 2.74478793716773e-8, "flyback": 0.00256132511688786, "period": 0.0256132511688786}}"#,
+    mass: 0.13890905692718117,
+    radius: 3.616350858754622e-4,
+    friction: 0.15,
+    normal: "0.18103361483236785",
+    load: 0.02172403377988414,
+    more: "",
+};
+
+/// On a trapezoid, pulled back by 80 % of what friction holds: near that gross slips come and go all the time.
+const HELD_BACK: Slider = Slider {
+    waveforms: r#""drive": {"trapezoid": {"stroke": 9.442806301183679e-8, "rise": 6.352485154329077e-5, "hold": 5.293737628607564e-6, "fall": 1.905745546298723e-5, "period": 1.0587475257215128e-4}}"#,
+    mass: 1.4786533858320991e-5,
+    radius: 6.632489651944627e-4,
+    friction: 0.08,
+    normal: "4.869762656393218",
+    load: -0.31166481000916596,
+    more: "",
+};
+
+/// Pressed in time with its foot, and pulled back by 80 % of what friction holds on the average.
+const SQUEEZED: Slider = Slider {
+    waveforms: r#""drive": {"sine": {"amplitude": 4.971388967257197e-8, "period": 0.001329620376180839}},
+        "press": {"sine": {"amplitude": 0.1104989948770782, "period": 0.001329620376180839, "phase": 2.7177771864437354, "offset": 0.18416499146179702}}"#,
+    mass: 0.0017246456948788915,
+    radius: 4.5839206686720753e-4,
+    friction: 0.08,
+    normal: r#"{"follows": "press"}"#,
+    load: -0.01178655945355501,
+    more: "",
+};
+
+/// On a trapezoid, pulled back by 40 % of what friction holds.
+const LOADED: Slider = Slider {
+    waveforms: r#""drive": {"trapezoid": {"stroke": 6.634095312135536e-7, "rise": 6e-4, "hold": 5e-5, "fall": 1e-4, "period": 1e-3}}"#,
+    mass: 0.016733347499236488,
+    radius: 0.0010219344200093619,
+    friction: 0.08,
+    normal: "7.850537662031753",
+    load: -0.2512172051850161,
+    more: "",
+};
+
 /// A ball that a table throws up, and strides along below.
 const BOUNCING: &str = r#"{
     "stickslip": 1,
@@ -126,8 +172,20 @@ const BOUNCING: &str = r#"{
     "run": {"cycles": 300, "start": "equilibrium", "stepper": {"event": {"tolerance": 1e-10}}}
 }"#;
 
-/// What a branch tells is what its motions are: multipliers where they must be, and events in which something changes.
+/// What a branch tells is what its motions are: multipliers where they must be, and events in which something changes. Where the varied
+/// number rises all along, as often as something happens above one of them it happens below the next.
 fn is_sound(branch: &Branch) -> Checked {
+    let mut counts = BTreeMap::new();
+    let rises = branch.points.windows(2).all(|pair| pair[0].value <= pair[1].value);
+    for mark in branch.marks.iter().filter(|_| rises) {
+        let Bifurcation::Event(changes) = &mark.kind else { continue };
+        for change in changes {
+            let before = counts.insert((change.source.as_str(), change.kind), change.above);
+            if before.is_some_and(|count| count != change.below) {
+                return Err(format!("{before:?} above the one before, and then {mark:?}").into());
+            }
+        }
+    }
     for mark in &branch.marks {
         let there = |at: f64| {
             let near = branch.points.iter().filter(|point| point.value == mark.value);
@@ -181,17 +239,56 @@ fn a_branch_ends_where_the_load_is_what_friction_holds() -> Checked {
     Ok(())
 }
 
-/// A multiplier of the ball jumps from 12 to -110, and is near neither -1 nor 1 on the way: no doubling, and no branching.
+/// Near the load that friction holds much happens in a period, and the branch goes on to that load.
 #[test]
-fn multipliers_that_jump_are_no_bifurcation() -> Checked {
+fn a_branch_does_not_turn_back_where_multipliers_are_small() -> Checked {
+    let branch = SWEPT.branch(LOAD, [0.0, 0.06517])?;
+    is_sound(&branch)?;
+    assert_eq!(branch.ends[1], End::SlidesAway("slider".to_owned()));
+    let (end, most) = (branch.points.last().ok_or("a motion")?, SWEPT.friction * 0.18103361483236785);
+    assert!((end.value - most).abs() < 1e-8 * most, "{:e} {most:e}", end.value);
+    let rises = branch.points.windows(2).all(|pair| pair[0].value < pair[1].value);
+    assert!(rises && branch.marks.iter().all(|mark| mark.kind.name() == "event"));
+    Ok(())
+}
+
+/// Where much comes and goes in a period the branch goes on all the same, and tells each of it once.
+#[test]
+fn branches_go_on_where_events_come_and_go() -> Checked {
+    let branch = HELD_BACK.branch(LOAD, [-0.935, 0.0])?;
+    is_sound(&branch)?;
+    let (end, most) = (branch.points.first().ok_or("a motion")?, HELD_BACK.friction * 4.869762656393218);
+    assert_eq!(branch.ends, [End::SlidesAway("slider".to_owned()), End::Shakedown(vec!["ball".to_owned()])]);
+    assert!((end.value + most).abs() < 1e-5 * most, "{:e} {most:e}", end.value);
+
+    let branch = SQUEEZED.branch("waveforms.drive.sine.amplitude", [1.49e-8, 1.49e-7])?;
+    is_sound(&branch)?;
+    assert_eq!(branch.ends[1], End::Range);
+
+    let branch = LOADED.branch("bodies.slider.mass", [0.00335, 0.0837])?;
+    is_sound(&branch)?;
+    assert_eq!(branch.ends, [End::Range, End::Range]);
+    Ok(())
+}
+
+/// A ball that is thrown up a little less than it is would touch the table once more: differences that reach so far made a multiplier of
+/// 12 one of -110, which is near neither -1 nor 1 on the way. There is no doubling, no branching and no break, but the touch itself.
+#[test]
+fn a_touch_beside_the_motion_is_none_of_its_own() -> Checked {
     let path = "waveforms.table.sine.amplitude";
     let job = Job::new(Scenario::from_str_alone(BOUNCING, "ball")?, "ball".to_owned(), PathBuf::new())?;
     let steady = Options { tolerance: 1e-10, ..Options::default() };
     let of = Continuation::new(job, path, [3e-6, 1.6e-5])?;
     let branch = of.follow(&Course { steady, ..Course::default() })?;
     is_sound(&branch)?;
-    let breaks: Vec<_> = branch.marks.iter().filter(|mark| mark.kind.name() == "break").collect();
-    assert!(matches!(&breaks[..], [mark] if (14.59e-6..14.72e-6).contains(&mark.value)), "{breaks:?}");
+    let [Mark { kind: Bifurcation::Event(changes), value, .. }] = &branch.marks[..] else {
+        return Err(format!("{:?}", branch.marks).into());
+    };
+    let touch = changes.iter().find(|change| change.kind == "touch").ok_or("a touch")?;
+    assert_eq!((touch.below, touch.above), (1, 2));
+    let before: Vec<_> = branch.points.iter().filter(|point| point.value < *value).collect();
+    let mut radii = before.windows(2).map(|pair| pair[1].radius() / pair[0].radius());
+    assert!(before.len() > 50 && radii.all(|ratio| (0.9..1.1).contains(&ratio)), "{}", before.len());
     Ok(())
 }
 

@@ -81,6 +81,24 @@ fn the_branch_of_p1_ends_where_gross_slip_ceases() -> Checked {
     Ok(())
 }
 
+/// However little friction there is, the slider comes to go along with the ramp, 0.5 µm in 0.9 ms, which a flyback of 0.1 ms hardly slows: by μ F_N τ²/m a
+/// period. Where that is rounding the branch ends, and says so.
+#[test]
+fn the_branch_of_p1_goes_on_to_next_to_no_friction() -> Checked {
+    let friction = "contacts.ball.friction";
+    let of = Continuation::new(job("p1.json", &[(friction, "0.001")])?, friction, [0.0, 0.0011])?;
+    let branch = of.follow(&Course::default())?;
+    assert!(matches!(branch.ends, [End::Rounded(_), End::Range]), "{:?}", branch.ends);
+    let low: Vec<_> = branch.points.iter().filter(|point| point.value < 1e-6).collect();
+    assert!(low.len() > 2 && low[0].value < 1e-7, "{low:?}");
+    let ramp = 0.5e-6 / 0.9;
+    for point in low {
+        let off = (point.step.ok_or("a step")? - ramp).abs();
+        assert!(off < 2.0 * point.value * 1e-8 / 20e-3 && point.is_stable(), "{point:?}");
+    }
+    Ok(())
+}
+
 #[test]
 fn what_cannot_be_followed_is_told() -> Checked {
     let refused =

@@ -42,6 +42,9 @@ struct Pressed {
     force: f64,
 }
 
+/// How often a row is widened at most.
+const WIDENED: usize = 16;
+
 /// What is wrong with which field of a contact.
 type Refused = (Field, SceneFault);
 
@@ -126,10 +129,33 @@ fn engine(
                 }
                 _ => deepest,
             };
-            let span = span.unwrap_or_else(|| 2.0 * law.profile().radius(reach()));
-            Ok(Engine::Row(Arc::new(row(law, (count, span), known.first)?)))
+            let is_forced = matches!(press, Press::Constant { .. } | Press::Force(_));
+            let springs = match span {
+                Some(span) => row(law, (count, span), known.first)?,
+                None if is_forced => bearing(law, count, known)?,
+                None => row(law, (count, 2.0 * law.profile().radius(reach())), known.first)?,
+            };
+            Ok(Engine::Row(Arc::new(springs)))
         }
     }
+}
+
+/// A row that bears the largest force: where it is softer than the profile that is deeper than the profile's largest indentation, and
+/// the row wider.
+fn bearing(law: &Interface, count: usize, known: Pressed) -> Result<Springs, Refused> {
+    let width = |reach: f64| 2.0 * law.profile().radius(reach);
+    let mut span = width(known.deepest);
+    let mut springs = row(law, (count, span), known.first)?;
+    for _ in 0..WIDENED {
+        let borne = springs.height_of_reduced_force(law.reduced_force(known.deepest));
+        // The springs of a wider row lie elsewhere: a little more than is missing.
+        let wider = width(borne + (borne - springs.reach()));
+        if borne <= springs.reach() || !(wider > span && wider.is_finite()) {
+            break;
+        }
+        (span, springs) = (wider, row(law, (count, wider), known.first)?);
+    }
+    Ok(springs)
 }
 
 /// A row of springs that is wide enough for the contact's first indentation.
@@ -235,4 +261,40 @@ fn coupled(
     let deepest = reach::deepest(law, f64::from(part.count.max(1)), &d, around);
     NormalGiven::Indentation(deepest).indentation(law).map_err(|error| (Field::Normal, error.into()))?;
     Ok((Press::Coupled(d), Pressed { deepest, first, force: law.normal_force(first) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_contact::{Material, Pair, Profile};
+
+    /// Rows of worn profiles are softer at their edge than the profile: as wide as the contact they were outgrown by a constant force.
+    #[test]
+    fn a_row_without_a_span_bears_its_force() {
+        let soft = Material::new(1e9, 0.3).unwrap();
+        let profiles = [
+            Profile::truncated_paraboloid(5e-6, 1e-3).unwrap(),
+            Profile::truncated_cone(5e-6, 0.05).unwrap(),
+            Profile::paraboloid(1e-3).unwrap(),
+        ];
+        let mut widened = 0;
+        for profile in profiles {
+            let law = Interface::new(Pair::new(soft, soft), profile, 0.3).unwrap();
+            for (count, force) in
+                (0..60).flat_map(|k| [16, 64, 256].map(|count| (count, 1e-4 * 1.1_f64.powi(k))))
+            {
+                let d = law.indentation(force);
+                let springs = bearing(&law, count, Pressed { deepest: d, first: d, force }).unwrap();
+                assert!(springs.height_of_reduced_force(law.reduced_force(d)) <= springs.reach());
+                let span = 2.0 * law.profile().radius(d);
+                let as_wide = row(&law, (count, span), d).unwrap();
+                let is_outgrown = as_wide.height_of_reduced_force(law.reduced_force(d)) > as_wide.reach();
+                assert!(is_outgrown || springs == as_wide);
+                widened += u32::from(is_outgrown);
+                let cells = |row: &Springs| row.positions().last().copied().unwrap_or_default();
+                assert!(cells(&springs) < 1.1 * cells(&as_wide));
+            }
+        }
+        assert!(widened > 10, "{widened}");
+    }
 }

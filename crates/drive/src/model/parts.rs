@@ -43,6 +43,11 @@ impl Model {
         self.parts.len().max(1)
     }
 
+    /// The contacts of each part; none where the scene is one part.
+    pub fn part_contacts(&self) -> impl Iterator<Item = &[usize]> {
+        self.parts.iter().map(|part| part.contacts.as_slice())
+    }
+
     /// Steps all parts together, as one: for a record that wants so many rows of its own ([`Record::next_mark`](crate::Record))
     /// that parts would have to wait for each other at every step.
     pub fn keep_together(&mut self) {

@@ -29,14 +29,16 @@ use std::thread::available_parallelism;
 use std::time::Instant;
 use stickslip_contact::Memory;
 
-/// A first stretch, in periods of the fastest swing.
-const FIRST: f64 = 64.0;
+/// A first stretch, in periods of the fastest swing, over the number of parts: each has its events, and each a row of all.
+const FIRST: f64 = 1.0;
 /// By how much stretches lengthen while they are little work.
 const GROWTH: f64 = 8.0;
 /// Attempts of a stretch, each with its contacts and springs, with which it is long enough: tens of milliseconds.
 const WORK: f64 = 8192.0;
 /// Attempts of a stretch from which on parts go on several cores: a millisecond of work, in which threads begin many times.
 const SHARED: f64 = 1024.0;
+/// Numbers of rows that are as much work as an attempt. They are kept until all parts have theirs.
+const NUMBERS: f64 = 512.0;
 /// Most rows of a stretch: they are kept until all parts have theirs.
 const ROWS: f64 = 4096.0;
 /// How often a stretch that is beyond the limit of steps is tried again shorter.
@@ -58,6 +60,8 @@ pub(super) struct Parted<'m> {
     begun: Instant,
     /// Length of the next stretch, s.
     span: f64,
+    /// Work of rows so far.
+    written: f64,
     /// Work with which the record was asked last whether to go on.
     asked: f64,
     /// Cores, and whether the last stretch was enough work to share among them.
@@ -82,7 +86,8 @@ impl<'m> Parted<'m> {
             merged: Merged::new(model),
             begun: Instant::now(),
             // Where nothing swings and no waveform is quick time itself tells.
-            span: (FIRST * natural).min(plan.duration),
+            span: (FIRST / model.parts.len().max(1) as f64 * natural).min(plan.duration),
+            written: 0.0,
             threads: available_parallelism().map_or(1, NonZero::get),
             is_busy: false,
             asked: 0.0,
@@ -171,9 +176,9 @@ impl<'m> Parted<'m> {
         if end > t && end < goal.moment() { Goal::Glance(end) } else { goal }
     }
 
-    /// Attempts so far, each with what it has to go through.
+    /// Attempts so far, each with what it has to go through, and rows.
     fn work(&self) -> f64 {
-        self.lanes.iter().map(Lane::work).sum::<f64>() + self.calendar.work(&self.lanes)
+        self.lanes.iter().map(Lane::work).sum::<f64>() + self.calendar.work(&self.lanes) + self.written
     }
 
     /// One stretch of all parts: ahead for their events, on, and written up to its end.
@@ -188,6 +193,7 @@ impl<'m> Parted<'m> {
             Some((t, fault)) => (t.max(whole.t), Some(fault)),
             None => (outcome?, None),
         };
+        self.written += self.lanes.iter().map(|lane| lane.sheet.numbers()).sum::<usize>() as f64 / NUMBERS;
         self.merged.write(&mut self.lanes, t, record);
         self.put_down(whole, t);
         if let Goal::Moment(_) = stop {

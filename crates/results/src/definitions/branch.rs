@@ -74,7 +74,7 @@ pub(super) const BRANCH: &[Definition] = &[
     key(
         "ends.kind",
         "`range` (its end), `shakedown` (beyond, a contact never slips grossly: a whole family of motions), `slides away` (what pulls a \
-         body is as much as friction holds: any speed does), `lost` (no motion was found beyond), `refused` (the scenario allows no value beyond), `points` (as many as were allowed) or `interrupted`",
+         body is as much as friction holds: any speed does), `rounded` (rounding leaves nothing of what friction does in a period), `lost` (no motion was found beyond), `refused` (the scenario allows no value beyond), `points` (as many as were allowed) or `interrupted`",
     ),
     key("ends.words", "the same in words"),
     key("files", "names of all files that were written together"),

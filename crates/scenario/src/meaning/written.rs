@@ -2,7 +2,7 @@
 
 use super::{Builder, Figures, names, range, run};
 use crate::fault::Fault;
-use crate::form::{EventsOutputForm, KindForm, MOST_EVENTS, StatesForm};
+use crate::form::{EventsOutputForm, KindForm, StatesForm};
 use crate::guide::Help;
 use crate::path::At;
 use stickslip_drive::{Plan, Waveform};
@@ -10,6 +10,9 @@ use stickslip_drive::{Plan, Waveform};
 /// Digits that a number can be rounded to: with 17 it has its bits.
 const DIGITS: (u64, u64) = (1, 17);
 
+/// Events that are written before they are thinned, and those times contacts: an event's row has some numbers of every contact.
+const MOST: u64 = 100_000;
+const MOST_OF_ALL: u64 = 5_000_000;
 /// Fewest events before they are thinned: they are in blocks of a hundredth.
 const LEAST: u64 = 100;
 
@@ -67,12 +70,13 @@ impl Builder<'_> {
     fn written_events(&self, at: &At<'_>) -> Result<WrittenEvents, Fault> {
         let all = |most: u64| WrittenEvents { kinds: None, contacts: None, most };
         let some = match &self.form.output.events {
-            None => return Ok(all(MOST_EVENTS)),
+            None => return Ok(all(self.most_events())),
             Some(EventsOutputForm::All) => return Ok(all(u64::MAX)),
             Some(EventsOutputForm::Off) => return Ok(all(0)),
             Some(EventsOutputForm::Some(some)) => some,
         };
-        let most = range::count_between(&at.key("most"), some.most.0, LEAST, u64::MAX)?;
+        let asked = some.most.map(|most| range::count_between(&at.key("most"), most.0, LEAST, u64::MAX));
+        let most = asked.transpose()?.unwrap_or_else(|| self.most_events());
         let kinds = some.kinds.as_ref().map(|kinds| kinds.iter().copied().map(KindForm::name).collect());
         let places = |names: &Vec<String>| {
             let list = at.key("contacts");
@@ -80,6 +84,12 @@ impl Builder<'_> {
         };
         let contacts: Option<Result<Vec<usize>, Fault>> = some.contacts.as_ref().map(places);
         Ok(WrittenEvents { kinds, contacts: contacts.transpose()?, most })
+    }
+
+    /// Events that are written before they are thinned, where the scenario does not say.
+    fn most_events(&self) -> u64 {
+        let contacts = self.form.contacts.0.len().max(1) as u64;
+        MOST.min(MOST_OF_ALL / contacts).max(LEAST)
     }
 
     /// The place of a contact by name.

@@ -3,6 +3,7 @@
 //! Numbers are counted in natural scales: u_c of a coordinate's contacts, u_c ω of its speed.
 
 use super::newton::Fixed;
+use super::tally::Tally;
 use super::{Options, SteadyError};
 use crate::interruptible::Interruptible;
 use nalgebra::{DMatrix, DVector};
@@ -43,6 +44,8 @@ pub(super) struct Image {
     pub(super) way: Vec<f64>,
     /// How both change with the state that they came from, where that was led along.
     pub(super) gradient: Option<Gradient>,
+    /// What has happened on the way, where that was noted.
+    happened: Option<Tally>,
 }
 
 /// The gradient of a map.
@@ -59,6 +62,14 @@ pub(super) struct Gradient {
 /// Accepted and rejected steps so far.
 fn tried(state: &State) -> u64 {
     state.counts().steps + state.counts().rejected
+}
+
+impl Image {
+    /// Whether as much has happened on the way to another one, as far as that is known.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let both = self.happened.as_ref().zip(other.happened.as_ref());
+        both.is_none_or(|(one, other)| one.is_like(other))
+    }
 }
 
 impl<'m> Map<'m> {
@@ -139,6 +150,12 @@ impl<'m> Map<'m> {
         of_places.map(|(_, scale)| way / scale).fold(0.0, f64::max)
     }
 
+    /// How far anything goes in a period, in natural lengths.
+    pub(super) fn reach(&self, image: &Image) -> f64 {
+        let lengths = self.section.as_ref().map(Section::lengths).unwrap_or_default();
+        image.way.iter().zip(lengths).map(|(way, length)| (way / length).abs()).fold(0.0, f64::max)
+    }
+
     /// A state led on to a time, s, its memories where it stands.
     pub(super) fn lead(
         &mut self,
@@ -192,8 +209,9 @@ impl<'m> Map<'m> {
 
     /// Where a state of the section gets to in a period, by the tolerance times `finer`.
     pub(super) fn image(&mut self, state: &State, finer: f64) -> Result<Image, SteadyError> {
-        let end = self.a_period_on(state, finer, &mut ())?;
-        Ok(self.brought_back(end))
+        let mut happened = Tally::default();
+        let end = self.a_period_on(state, finer, &mut happened)?;
+        Ok(Image { happened: Some(happened), ..self.brought_back(end) })
     }
 
     /// The same with its gradient, by the variation of the run, where that has one.
@@ -241,7 +259,7 @@ impl<'m> Map<'m> {
             Some(section) => section.back(end),
             None => (end, Vec::new()),
         };
-        Image { state, way, gradient: None }
+        Image { state, way, gradient: None, happened: None }
     }
 
     /// By how much a state some periods after a fixed point is off, in natural scales: of its numbers, and of the way, which alone tells
@@ -289,7 +307,8 @@ impl<'m> Map<'m> {
         })
     }
 
-    /// The gradient, else by differences to both sides, or to one where the other is of another kind.
+    /// The gradient, else by differences to both sides, or to one where the other is of another kind: its memories have other knots,
+    /// or something else happens on the way.
     pub(super) fn fine_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
         if let Some(gradient) = self.exact_gradient(state, image)? {
             return Ok(gradient);
@@ -297,7 +316,13 @@ impl<'m> Map<'m> {
         self.gradient(image, |map, j| {
             let [ahead, behind] = [map.beside(state, (j, FINE))?, map.beside(state, (j, -FINE))?];
             Ok(match (ahead, behind) {
-                (Some(ahead), Some(behind)) => Some((ahead, behind, 2.0 * FINE)),
+                (Some(ahead), Some(behind)) => {
+                    Some(match [&ahead, &behind].map(|side| image.is_like(side)) {
+                        [true, false] => (ahead, image.clone(), FINE),
+                        [false, true] => (image.clone(), behind, FINE),
+                        _ => (ahead, behind, 2.0 * FINE),
+                    })
+                }
                 (Some(ahead), None) => Some((ahead, image.clone(), FINE)),
                 (None, Some(behind)) => Some((image.clone(), behind, FINE)),
                 (None, None) => None,

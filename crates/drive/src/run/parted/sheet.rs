@@ -90,6 +90,11 @@ impl Sheet {
         self.watched.is_some()
     }
 
+    /// Numbers of the rows that are asked of it in a stretch.
+    pub(super) fn numbers(&self) -> usize {
+        self.width * self.asked.len()
+    }
+
     /// Forgets what is asked of the part, for another stretch; `repeats` says that it begins before where the whole stands.
     pub(super) fn ask_anew(&mut self, repeats: bool) {
         self.anew = !self.asked.is_empty();

@@ -38,6 +38,8 @@ pub enum End {
     Shakedown(Vec<String>),
     /// What pulls a body is as much as friction holds: any speed does, and beyond it slides away.
     SlidesAway(String),
+    /// So many natural lengths are gone in a period that rounding leaves nothing of what friction does in it.
+    Rounded(f64),
     /// No motion was found beyond.
     Lost(String),
     /// The scenario allows no other values.
@@ -221,11 +223,16 @@ impl<'a> Walk<'a> {
         let row = by_value(place.fixed.defect.len(), here.pace().signum());
         let mut there = Standing::of(self.bench, place, period, (Some(self.measure), &row)).ok()?;
         there.point.piece = here.point.piece;
+        // The plain periods on the way have led away from a motion that no run stays in.
+        let probe = self.probe(&there, 0.0, Some(here.point.value)).ok()?;
+        if probe.corrected.steps > 0 {
+            there = self.stand(&there, probe).ok()?;
+        }
         if there.margin <= here.margin {
             return None;
         }
         // What fell on the moment before was counted once too often, or not at all.
-        self.event(here, (there.point.value, &there.happened, there.point.is_stable()));
+        self.event(here.pace(), here, (there.point.value, &there.happened, there.point.is_stable()));
         Some(there)
     }
 }

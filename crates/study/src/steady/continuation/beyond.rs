@@ -1,6 +1,7 @@
 //! Beyond a place where a branch does not go on by steps, however short: what the drive comes to there by itself.
 
 use super::arm::{End, Walk};
+use super::corrector::ROUNDING;
 use super::error::Trouble;
 use super::happened::{Period, stretch};
 use super::standing::{Standing, by_value};
@@ -21,6 +22,8 @@ const AWAY: [f64; 3] = [1e-6, 1e-4, 1e-3];
 const SLIDES: u32 = 64;
 /// Each of its steps is longer by more than this share than the one before.
 const FASTER: f64 = 1e-9;
+/// What rounding leaves of a period is as much as a defect may be that counts as none, but for the few steps that add it up.
+const ROUNDED: f64 = 0.1 * ROUNDING;
 const AXES: [Axis; 3] = [Axis::X, Axis::Z, Axis::Pitch];
 
 impl Walk<'_> {
@@ -40,7 +43,16 @@ impl Walk<'_> {
         if self.slides_away(here) {
             return Err(self.sliding());
         }
+        if let Some(lengths) = self.lengths(here).filter(|lengths| lengths * f64::EPSILON > ROUNDED) {
+            return Err(End::Rounded(lengths));
+        }
         Err(End::Lost(format!("{trouble}; beyond, {}", nearest.unwrap_or_default())))
+    }
+
+    /// How many natural lengths a period of a motion leads.
+    fn lengths(&self, of: &Standing) -> Option<f64> {
+        let map = self.bench.map_at(&of.place).ok()?;
+        Some(map.reach(&of.place.fixed.image))
     }
 
     /// The motion that the drive comes to by itself, so far beyond, if it is one that the branch goes on with.
@@ -63,7 +75,7 @@ impl Walk<'_> {
         let period = Period::of(self.bench, &place).map_err(other)?;
         if !still.is_empty() {
             // What is held for ever neither fades nor grows.
-            self.event(here, (value, &period.happened, true));
+            self.event(here.pace(), here, (value, &period.happened, true));
             return Err(End::Shakedown(named(&place.variant.drive.model, &still)));
         }
         let row = by_value(place.fixed.defect.len(), sense);
@@ -76,7 +88,7 @@ impl Walk<'_> {
         if !self.is_alike(here, &next).map_err(other)? {
             return Err(lost(&"the drive comes to another motion"));
         }
-        self.event(here, (value, &next.happened, next.point.is_stable()));
+        self.event(here.pace(), here, (value, &next.happened, next.point.is_stable()));
         self.keep(&next);
         Ok(next)
     }

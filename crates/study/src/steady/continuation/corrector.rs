@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 /// A defect this many times the tolerance is none.
 const GOAL: f64 = 10.0;
 /// A defect below this, in natural scales, that gets no smaller is one of rounding.
-const ROUNDING: f64 = 1e-8;
+pub(super) const ROUNDING: f64 = 1e-8;
 /// Most steps.
 const STEPS: u32 = 14;
 /// A step that leaves more of the defect asks for a new gradient.

@@ -4,8 +4,9 @@ use super::error::Trouble;
 use super::place::{Bench, Place};
 use crate::grip::{Grip, Loose};
 use crate::steady::map::Map;
+use crate::steady::tally::tells;
 use std::collections::BTreeMap;
-use stickslip_drive::{Event, EventKind, Record, Source, State};
+use stickslip_drive::{Event, Record, Source, State};
 
 /// How often something happens in a period, by who and what.
 pub(super) type Happened = BTreeMap<(String, &'static str), usize>;
@@ -51,7 +52,8 @@ impl Record for Events {
 impl Period {
     /// The period of a place.
     pub(super) fn of(bench: &Bench<'_>, place: &Place) -> Result<Self, Trouble> {
-        let (state, period) = (&place.fixed.state, place.variant.drive.period);
+        // The period after: the place itself may stand where the period before had not come to yet, and what happens in between is missed.
+        let (state, period) = (&place.fixed.image.state, place.variant.drive.period);
         let (from, job) = (state.time(), &place.variant.job);
         let mut grip = job.scenario.figures.body.map(|body| Grip::new(job, body));
         let (_, events, loose) = stretch(&mut bench.map_at(place)?, state.clone(), period, grip.as_mut())?;
@@ -64,10 +66,7 @@ impl Period {
                 Source::Block(b) => blocks.get(b).map(|block| block.name.clone()),
                 Source::Waveform(_) => None,
             };
-            // Corners are the waveform's, and turns are told of some contacts alone. Whether a loop closes just before the next event or with
-            // it is a matter of rounding, and it closes smoothly where it begins.
-            let counts = !matches!(event.kind, EventKind::Turn | EventKind::LoopClosed);
-            let source = source.filter(|_| counts);
+            let source = source.filter(|_| tells(event));
             if let Some(source) = source {
                 order.push((source.clone(), event.kind.name()));
                 *happened.entry((source, event.kind.name())).or_default() += 1;

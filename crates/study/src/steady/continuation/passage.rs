@@ -23,6 +23,11 @@ impl Walk<'_> {
                 Ok::<_, Trouble>((test.at(&standing, self.measure), (at, standing)))
             };
             let ([low, high], best) = root((0.0, at_here), (length, at_next), self.accuracy, value)?;
+            // A branch turns back where a multiplier is 1: elsewhere only what is taken for its tangent does.
+            let nearest = best.as_ref().map_or(next, |(_, standing)| standing);
+            if test == Test::Fold && !test.is_met(nearest) {
+                return Err(Trouble::Bends);
+            }
             let Some((at, standing)) = best else { continue };
             if !test.is_met(&standing) {
                 // It has jumped over zero: for the others, too.
@@ -101,7 +106,8 @@ impl Walk<'_> {
         };
         let mut beyond = self.stand(&before, far)?;
         beyond.point.piece += 1;
-        self.event(&before, (beyond.point.value, &beyond.happened, beyond.point.is_stable()));
+        let after = (beyond.point.value, &beyond.happened, beyond.point.is_stable());
+        self.event(here.pace(), &before, after);
         if beyond.is_loose {
             return Err(Trouble::Slides);
         }
@@ -109,12 +115,17 @@ impl Walk<'_> {
         Ok(beyond)
     }
 
-    /// Tells what differs between a motion and one just beyond, if anything does.
-    pub(super) fn event(&mut self, before: &Standing, (value, happened, stable): (f64, &Happened, bool)) {
+    /// Tells what differs between a motion and one just beyond, if anything does, where the varied number goes on in a sense.
+    pub(super) fn event(
+        &mut self,
+        sense: f64,
+        before: &Standing,
+        (value, happened, stable): (f64, &Happened, bool),
+    ) {
         let values = [before.point.value, value];
         let mut sides = [(&before.happened, before.point.is_stable()), (happened, stable)];
-        // Along the branch: how far the two are apart in the varied number may be rounding.
-        if before.pace() < 0.0 {
+        // How far the two are apart in the varied number may be rounding.
+        if sense < 0.0 {
             sides.reverse();
         }
         let changes = changes(sides[0].0, sides[1].0);

@@ -14,8 +14,10 @@ use stickslip_drive::section::Section;
 use stickslip_results::Job;
 use stickslip_scenario::{Scenario, ScenarioError};
 
-/// Change of the defect, in natural scales, that a difference by the varied number aims at: rounding and bends weigh about the same.
-const SEEN: f64 = 1e-4;
+/// Change of the defect, in tolerances, that a difference by the varied number aims at, and the most, in natural scales: runs beside each
+/// other take the same steps and miss alike, far less than by a tolerance, and where a drive rings its map has waves in the varied number.
+const SEEN: f64 = 1e5;
+const MOST_SEEN: f64 = 1e-4;
 /// Tries to come within ten times of it.
 const TRIES: u32 = 6;
 /// By how little and by how much the varied number is moved, as a share of its range.
@@ -159,16 +161,25 @@ impl<'a> Bench<'a> {
         Ok(Slopes { gradient, by_value: self.by_value(place)? })
     }
 
-    /// Of the defect by the varied number: by differences to both sides, or to one where the other is of another form.
+    /// Of the defect by the varied number: by differences to both sides, or to one where on the other memories have another form or something
+    /// else happens in the period.
     pub(super) fn by_value(&self, place: &Place) -> Result<DVector<f64>, Trouble> {
         let mut why = Trouble::OtherForm;
+        let seen = (SEEN * self.options.tolerance).min(MOST_SEEN);
         for _ in 0..TRIES {
             let by = self.apart.get();
             let [ahead, behind] = [by, -by].map(|by| self.beside(place, by));
+            let here = &place.fixed;
             let (change, apart) = match (ahead, behind) {
-                (Ok(ahead), Ok(behind)) => (ahead - behind, 2.0 * by),
-                (Ok(ahead), Err(_)) => (ahead - &place.fixed.defect, by),
-                (Err(_), Ok(behind)) => (&place.fixed.defect - behind, by),
+                (Ok(ahead), Ok(behind)) => {
+                    match [&ahead, &behind].map(|side| here.image.is_like(&side.image)) {
+                        [true, false] => (ahead.defect - &here.defect, by),
+                        [false, true] => (&here.defect - behind.defect, by),
+                        _ => (ahead.defect - behind.defect, 2.0 * by),
+                    }
+                }
+                (Ok(ahead), Err(_)) => (ahead.defect - &here.defect, by),
+                (Err(_), Ok(behind)) => (&here.defect - behind.defect, by),
                 (Err(trouble), Err(_)) if trouble.is_final() => return Err(trouble),
                 (Err(trouble), Err(_)) => {
                     why = trouble;
@@ -176,7 +187,7 @@ impl<'a> Bench<'a> {
                     continue;
                 }
             };
-            let share = change.amax() / SEEN;
+            let share = change.amax() / seen;
             let better = if share > 0.0 { (by / share).clamp(LEAST, MOST) } else { by };
             self.apart.set(better);
             if (0.1..=10.0).contains(&(better / by)) {
@@ -186,12 +197,12 @@ impl<'a> Bench<'a> {
         Err(why)
     }
 
-    /// The defect of the same state at another value.
-    fn beside(&self, place: &Place, by: f64) -> Result<DVector<f64>, Trouble> {
+    /// The same state at another value.
+    fn beside(&self, place: &Place, by: f64) -> Result<Fixed, Trouble> {
         let variant = self.variant(place.variant.value + by * self.span)?;
         let still = DVector::zeros(place.fixed.defect.len());
         let state = self.elsewhere((&place.fixed.state, &place.variant), &variant, &still)?;
-        let defect = self.place(&variant, state)?.fixed.defect;
-        if defect.len() == still.len() { Ok(defect) } else { Err(Trouble::OtherForm) }
+        let fixed = self.place(&variant, state)?.fixed;
+        if fixed.defect.len() == still.len() { Ok(fixed) } else { Err(Trouble::OtherForm) }
     }
 }

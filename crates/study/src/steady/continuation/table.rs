@@ -129,6 +129,7 @@ impl End {
             Self::Range => "range",
             Self::Shakedown(_) => "shakedown",
             Self::SlidesAway(_) => "slides away",
+            Self::Rounded(_) => "rounded",
             Self::Lost(_) => "lost",
             Self::Refused(_) => "refused",
             Self::Points => "points",
@@ -147,6 +148,9 @@ impl End {
             ),
             Self::SlidesAway(body) => format!(
                 "what pulls {body} is as much here as friction holds: any speed does, and beyond it slides away"
+            ),
+            Self::Rounded(lengths) => format!(
+                "a period leads {lengths:.1e} times as far as contacts move before they slip: of that, numbers of 16 digits leave nothing beyond"
             ),
             Self::Lost(why) => format!("no motion was found beyond: {why}"),
             Self::Refused(why) => {
