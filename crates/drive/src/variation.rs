@@ -38,9 +38,9 @@ use parameter::Moment;
 use stickslip_stepper::{Coefficients, Components, Gauss, NODES};
 use tangent::Laws;
 
-/// What a step of the variation may miss, in natural scales: multipliers of the impact drive, the climber and the three-ball stage are
-/// those of 1e-12 to ten digits.
-const ALLOWED: f64 = 1e-10;
+/// What a step of the variation may miss, in natural scales, in tolerances of the run's own steps: multipliers of the impact drive, the
+/// climber and the three-ball stage by 1e-10 are those by 1e-12 to ten digits.
+const ALLOWED: f64 = 100.0;
 /// What a step of a swing misses whose slopes have the last Legendre coefficient c, in natural scales, is 1.25e-3 c^2.2: a swing by one
 /// radian 1e-10.
 const MISSED: (f64, f64) = (1.25e-3, 2.2);
@@ -263,7 +263,7 @@ impl<'m> Variation<'m> {
         while self.acts() && at < 1.0 {
             // No stub is left for the last step.
             let to = if at + 1.01 * length >= 1.0 { 1.0 } else { at + length };
-            let missed = self.attempt(from, stride, (at, to)) / ALLOWED;
+            let missed = self.attempt(from, stride, (at, to)) / (ALLOWED * self.tolerance);
             if missed <= 1.0 {
                 self.grow(from, stride, (at, to));
                 self.columns.copy_from_slice(self.method.end());

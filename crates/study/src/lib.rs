@@ -7,13 +7,14 @@
 //! a run), `line` (what is told of it), `batch` (the runs); [`steady`], the motion that repeats itself every period, and how it
 //! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
 //! figure changes with each number of the scenario. `each` does many things side by side, `grip` tells whether something holds a
-//! body.
+//! body, `interruptible` lets a run be given up.
 
 mod batch;
 pub mod curve;
 mod each;
 mod figure;
 mod grip;
+mod interruptible;
 mod line;
 mod number;
 pub mod sensitivity;

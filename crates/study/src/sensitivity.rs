@@ -3,13 +3,15 @@
 //! A [`Sensitivity`] is of a scenario file, some [`Figure`]s and some [`Quantity`]s; [`Sensitivity::take`] tells the [`Derivative`] of
 //! each figure with respect to each quantity, with how far it may be off. Where no number is true it tells why, and both sides.
 //!
-//! In reading order: `figure` and `quantity`, what is asked; `sample`, what a variant comes to; `ladder`, which variants are
-//! run; `stencil`, slopes from their values; `derivative`, what these mean; `table`, what is told of them.
+//! In reading order: `figure` and `quantity`, what is asked; `led`, slopes that variations of the scenario's own run tell; `sample`, what a
+//! variant comes to; `ladder`, which variants are run; `stencil`, slopes from their values; `derivative`, what these mean; `table`, what
+//! is told of them.
 
 mod derivative;
 mod error;
 mod figure;
 mod ladder;
+mod led;
 mod quantity;
 mod sample;
 mod stencil;
@@ -80,6 +82,9 @@ const LITTLE: f64 = 0.1;
 const ENOUGH: usize = 4;
 /// Noise where none could be measured, in tolerances.
 const UNMEASURED: f64 = 100.0;
+/// Share of what the slopes on both sides differ by that their mean may be off by. A variation is as one of the sides has it: where there
+/// is a kink, the mean is off by half of it.
+const BEND: f64 = 1.0 / 64.0;
 
 /// A watcher who is asked and not told.
 struct Silent<'a>(&'a dyn Watcher);
@@ -118,11 +123,13 @@ impl Sensitivity {
         Ok(Self { job, figures, quantities, tolerance, happened })
     }
 
-    /// How many runs it takes, about: fewer are not done, more where something happens near by.
+    /// How many runs it takes, about: fewer are not done, more where something happens near by, or where no variation is known.
     #[must_use]
     pub fn runs(&self) -> usize {
+        let is_led = led::tells(&self.job, &self.figures);
         let of = |quantity: &Quantity| match quantity.value {
             0.0 => ladder::probes().count() + ladder::first().count(),
+            _ if is_led => ladder::beside().count(),
             _ => ladder::first().count(),
         };
         self.quantities.iter().map(of).sum()
@@ -132,26 +139,59 @@ impl Sensitivity {
     /// end, what hangs on others is [`Missing::NotRun`].
     pub fn take(&self, cores: usize, watcher: &(dyn Watcher + Sync)) -> Taken {
         let bench = Bench { asked: self, cores, watcher, done: AtomicUsize::new(0) };
+        let goes_on = || watcher.goes_on();
+        let asked = (&self.figures[..], &self.quantities[..]);
+        let led = led::slopes(&self.job, asked, (self.tolerance, cores), &goes_on);
         let scales = bench.scales();
-        let all = |shares: fn() -> Vec<(f64, bool)>, wanted: &dyn Fn(usize) -> bool| {
-            let quantities = (0..self.quantities.len()).filter(|q| wanted(*q));
-            let variants: Vec<_> =
-                quantities.flat_map(|q| shares().into_iter().map(move |share| (q, share))).collect();
-            bench.run(&scales, &variants)
+        let all = |of: &dyn Fn(usize) -> Vec<(f64, bool)>| {
+            let variants =
+                (0..self.quantities.len()).flat_map(|q| of(q).into_iter().map(move |one| (q, one)));
+            bench.run(&scales, &variants.collect::<Vec<_>>())
         };
-        let mut tried = all(|| ladder::first().collect(), &|_| true);
-        let near = all(|| ladder::finer().collect(), &|q| {
-            self.needs_finer(&tried[q]) || {
-                let noise = self.noises(&tried);
-                (0..self.figures.len()).any(|f| self.near(&tried[q], f, noise[f]).bends_near_by())
-            }
+        let mut tried = all(&|q| led[q].iter().flat_map(|_| ladder::beside()).collect());
+        let agreed = led.iter().zip(&tried).map(|(led, tried)| match led {
+            Some(slopes) => self.agree(tried, slopes),
+            None => false,
+        });
+        let agreed: Vec<bool> = agreed.collect();
+        let further = |q: usize| ladder::further(&tried[q]).collect();
+        let more = all(&|q| if agreed[q] { Vec::new() } else { further(q) });
+        tried.iter_mut().zip(more).for_each(|(tried, more)| tried.extend(more));
+        let near = all(&|q| {
+            let is_needed = !agreed[q] && (self.needs_finer(&tried[q]) || self.bends_near_by(&tried, q));
+            if is_needed { ladder::finer().collect() } else { Vec::new() }
         });
         tried.iter_mut().zip(near).for_each(|(tried, finer)| tried.extend(finer));
         let noise = self.noises(&tried);
-        let derivative = |f: usize, q: usize| self.near(&tried[q], f, noise[f]).derivative();
+        let derivative = |f: usize, q: usize| match &led[q] {
+            Some(slopes) if agreed[q] => Derivative::led(slopes[f]),
+            Some(slopes) => self.near(&tried[q], f, noise[f]).derivative().or_led(slopes[f]),
+            None => self.near(&tried[q], f, noise[f]).derivative(),
+        };
         let of = |f: usize| (0..self.quantities.len()).map(|q| derivative(f, q)).collect();
         let derivatives = (0..self.figures.len()).map(of).collect();
         Taken { derivatives, noise, runs: bench.done.into_inner() }
+    }
+
+    /// Whether a figure still bends where the nearest variants of a quantity are.
+    fn bends_near_by(&self, tried: &[Vec<Tried>], q: usize) -> bool {
+        let noise = self.noises(tried);
+        (0..self.figures.len()).any(|f| self.near(&tried[q], f, noise[f]).bends_near_by())
+    }
+
+    /// Whether the runs on both sides of a quantity's value say of all figures what a variation does, its errors beside its slopes.
+    fn agree(&self, tried: &[Tried], slopes: &[(f64, f64)]) -> bool {
+        let beside = |sense: f64, f: usize| {
+            let (offset, value, _) = ladder::levels(tried, sense).first()?.figure(f).ok()?;
+            Some((offset.abs(), (value - self.figures[f].value) / offset))
+        };
+        self.figures.iter().zip(slopes).enumerate().all(|(f, (figure, (slope, error)))| {
+            let (Some((distance, below)), Some((_, above))) = (beside(-1.0, f), beside(1.0, f)) else {
+                return false;
+            };
+            let noise = UNMEASURED * self.tolerance * figure.value.abs() / distance;
+            (0.5 * (below + above) - slope).abs() <= BEND * (above - below).abs() + noise + error
+        })
     }
 
     /// Whether something else happens on a side of a quantity before there are enough levels.

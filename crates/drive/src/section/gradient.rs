@@ -3,28 +3,34 @@
 use super::{Section, Unknown};
 use crate::contact::Contact;
 use crate::variation::Anchors;
-use crate::{State, Variation, VariationError};
+use crate::{Parameter, State, Variation, VariationError};
 use stickslip_contact::{Legs, Memory};
 
-/// How the state of a period later changes with the numbers of the one that it came from, both in natural scales.
+/// How the state of a period later changes with the numbers of the one that it came from, both in natural scales, and with those of the
+/// scene, where the state is led along by them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gradient {
-    /// Derivatives of the numbers, row by row, each by every number.
+    /// Derivatives of the numbers, row by row, each by every number, those of the scene last.
     pub numbers: Vec<Vec<f64>>,
     /// Derivatives of the way of each free coordinate, m or rad, likewise.
     pub way: Vec<Vec<f64>>,
 }
 
 impl<'m> Section<'m> {
-    /// The variation of a run that begins with a state at the section, by all its numbers in natural scales. The run's own local error
-    /// per step, `tolerance`, tells which turns are as good as none.
+    /// The variation of a run that begins with a state at the section, by all its numbers in natural scales, and by `parameters` of the
+    /// scene, with which no number of the state moves. The run's own local error per step, `tolerance`, tells which turns are as good as
+    /// none.
     ///
     /// # Errors
     ///
     /// A scene with a part whose variation is not known.
-    pub fn variation(&self, state: &State, tolerance: f64) -> Result<Variation<'m>, VariationError> {
+    pub fn variation(
+        &self,
+        (state, parameters): (&State, &'m [Parameter]),
+        tolerance: f64,
+    ) -> Result<Variation<'m>, VariationError> {
         let (model, layout) = (self.model, self.model.layout());
-        let (count, scales) = (self.unknowns.len(), self.scales());
+        let (count, scales) = (self.unknowns.len() + parameters.len(), self.scales());
         let mut columns = vec![0.0; count * layout.dimension()];
         for ((unknown, scale), column) in
             self.unknowns.iter().zip(&scales).zip(columns.chunks_exact_mut(layout.dimension()))
@@ -40,17 +46,23 @@ impl<'m> Section<'m> {
             let Memory::Curve(curve) = memory else { return Anchors::default() };
             let (legs, d) = (curve.legs(), memory.apex().d);
             let each = self.unknowns.iter().zip(&scales).zip(columns.chunks_exact(layout.dimension()));
-            let by_number: Vec<Vec<[f64; 2]>> = each
-                .map(|((unknown, scale), column)| {
-                    lines((&legs, d), own(contact, *unknown, *scale), apex(contact, column))
-                })
-                .collect();
+            let by_state = each.map(|((unknown, scale), column)| {
+                let [height, slope] = own(contact, *unknown, *scale);
+                lines((&legs, d), height, |piece| at(slope, piece), apex(contact, column))
+            });
+            // Edges are as steep as the law has them.
+            let by_scene = parameters.iter().map(|parameter| {
+                let sense = |piece| legs.sense(&contact.interface, piece).unwrap_or(0.0);
+                let turn = |piece| sense(piece) * parameter.slope(contact.place);
+                lines((&legs, d), None, turn, parameter.moves(contact, state))
+            });
+            let by_number: Vec<Vec<[f64; 2]>> = by_state.chain(by_scene).collect();
             let lines =
                 (0..legs.slopes.len()).flat_map(|piece| by_number.iter().map(move |lines| lines[piece]));
             Anchors::new(count, lines.collect())
         });
         let anchors = anchors.collect();
-        Variation::new((model, &[]), (columns, anchors), tolerance)
+        Variation::new((model, parameters), (columns, anchors), tolerance)
     }
 
     /// What a [finished](Variation::finish) variation says of the state a period later, brought [back](Self::back) to the section;
@@ -58,7 +70,7 @@ impl<'m> Section<'m> {
     #[must_use]
     pub fn gradient(&self, variation: &Variation<'_>, end: &State) -> Option<Gradient> {
         let layout = self.model.layout();
-        let (count, scales) = (self.unknowns.len(), self.scales());
+        let (count, scales) = (variation.count(), self.scales());
         let of = |place: usize, j: usize| variation.column(j).map_or(0.0, |column| column[place]);
         let along = |i: usize, j: usize| -> f64 {
             self.drifts.iter().map(|drift| drift.shape[i] * of(drift.pivot, j)).sum()
@@ -94,23 +106,27 @@ fn own(contact: &Contact, unknown: Unknown, scale: f64) -> [Option<(usize, f64)>
     }
 }
 
+/// By how much a number moves what has a place.
+fn at(number: Option<(usize, f64)>, place: usize) -> f64 {
+    number.filter(|(k, _)| *k == place).map_or(0.0, |(_, by)| by)
+}
+
 /// By how much anchors move, piece by piece from the centre, as a form changes that stands where its contact does: at a knot a
 /// line goes on from the one above, δp = δp' + (k' - k)δh there, and at the apex from (δu, δd).
 fn lines(
     (legs, d): (&Legs, f64),
-    [height, slope]: [Option<(usize, f64)>; 2],
+    height: Option<(usize, f64)>,
+    turn: impl Fn(usize) -> f64,
     apex: (f64, f64),
 ) -> Vec<[f64; 2]> {
-    let of =
-        |number: Option<(usize, f64)>, place| number.filter(|(k, _)| *k == place).map_or(0.0, |(_, by)| by);
     let mut lines = vec![[0.0; 2]; legs.slopes.len()];
     for piece in (0..lines.len()).rev() {
         let (top, k) = (legs.heights.get(piece).copied().unwrap_or(d), legs.slopes[piece]);
         let value = match (lines.get(piece + 1), legs.slopes.get(piece + 1)) {
-            (Some([a, b]), Some(above)) => a + b * top + (above - k) * of(height, piece),
+            (Some([a, b]), Some(above)) => a + b * top + (above - k) * at(height, piece),
             _ => apex.0 - k * apex.1,
         };
-        let turn = of(slope, piece);
+        let turn = turn(piece);
         lines[piece] = [value - turn * top, turn];
     }
     lines

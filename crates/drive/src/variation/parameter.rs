@@ -191,8 +191,14 @@ impl Parameter {
         Shift { u: rates.u + u, d, du }
     }
 
+    /// How far a contact is moved, (u, d) in m, at the moment of a state.
+    pub(crate) fn moves(&self, contact: &Contact, state: &State) -> (f64, f64) {
+        let shift = self.shift(contact, Moment { pieces: &state.pieces, t: state.t });
+        (shift.u, shift.d)
+    }
+
     /// How κ of a contact moves.
-    pub(super) fn slope(&self, c: usize) -> f64 {
+    pub(crate) fn slope(&self, c: usize) -> f64 {
         self.contacts[c].slope
     }
 

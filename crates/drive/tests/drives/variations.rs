@@ -25,7 +25,7 @@ pub(crate) fn varied(
     until: f64,
 ) -> Result<(Columns, State), VariationError> {
     let Stepper::Event { tolerance } = plan.stepper else { panic!("a stepper between events") };
-    let mut variation = section.variation(section.base(), tolerance)?;
+    let mut variation = section.variation((section.base(), &[]), tolerance)?;
     let mut run = Run::new(model, plan, section.base().clone()).unwrap();
     run.advance(until, &mut variation).unwrap();
     run.stop(&mut ());
@@ -194,7 +194,7 @@ fn parts_without_a_variation_are_named() {
     let refused = |scene: &Scene| {
         let model = Model::new(scene).unwrap();
         let section = Section::new(&model, model.start(&plan).unwrap());
-        section.variation(section.base(), 1e-10).err()
+        section.variation((section.base(), &[]), 1e-10).err()
     };
     let mut scene = p1();
     scene.contacts[0].part = damped(&scene.contacts[0].part, 1e-6);
@@ -210,7 +210,7 @@ fn parts_without_a_variation_are_named() {
 fn a_run_by_fixed_steps_has_no_variation() {
     let (model, plan) = (Model::new(&p1()).unwrap(), event(1e-10, f64::MAX));
     let section = Section::new(&model, model.start(&plan).unwrap());
-    let mut variation = section.variation(section.base(), 1e-10).unwrap();
+    let mut variation = section.variation((section.base(), &[]), 1e-10).unwrap();
     let fixed = Plan { stepper: Stepper::Rk4 { step: 1e-6 }, ..plan };
     let mut run = Run::new(&model, &fixed, section.base().clone()).unwrap();
     run.advance(1e-4, &mut variation).unwrap();

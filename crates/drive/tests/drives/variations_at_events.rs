@@ -52,7 +52,7 @@ fn a_flat_end_that_touches_varies_with_where_it_has_touched() {
         _ => [sine_z / swing + touch * cosine_z, cosine_z - touch * swing * sine_z],
     };
     assert_eq!(section.unknowns(), [Unknown::Place(1), Unknown::Speed(0), Unknown::Speed(1)]);
-    let mut variation = section.variation(section.base(), 1e-13).unwrap();
+    let mut variation = section.variation((section.base(), &[]), 1e-13).unwrap();
     let mut run = Run::new(&model, &tight, section.base().clone()).unwrap();
     run.advance(touch + tau, &mut variation).unwrap();
     run.stop(&mut ());

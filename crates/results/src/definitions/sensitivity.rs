@@ -19,13 +19,13 @@ const QUANTITY_UNIT: &str = "its SI unit; empty of a plain number";
 const QUANTITY_VALUE: &str = "what it is in the scenario";
 const SIDE: &str = "`below` or `above` of slopes that hold on one side of the quantity's value; none of those that hold on both";
 const DERIVATIVE: &str = "change of the figure per change of the quantity";
-const DERIVATIVE_ERROR: &str =
-    "how far that may be off: by bends that the extrapolation misses, and by measured noise";
+const DERIVATIVE_ERROR: &str = "how far that may be off: by what a coarser variation differs, or by bends that the extrapolation misses and by measured noise";
 const UNIT: &str = "unit of both";
 const ELASTICITY: &str =
     "by how many per cent the figure changes with one per cent of the quantity; none of figures that are 0";
 const ELASTICITY_ERROR: &str = "how far that may be off";
-const SOURCE: &str = "where the derivative comes from: `differences` of runs";
+const SOURCE: &str =
+    "where the derivative comes from: `variation` of the scenario's own run, or `differences` between runs";
 const NOTE: &str = "why there is none, or why both sides have their own";
 
 pub(super) const SENSITIVITY: &[Definition] = &[
@@ -67,7 +67,7 @@ pub(super) const SENSITIVITY: &[Definition] = &[
     key("figures.derivatives.source", SOURCE),
     key(
         "figures.derivatives.reach",
-        "how far from its value the quantity was in the farthest run that counts, in its unit",
+        "how far from its value the quantity was in the farthest run that counts, in its unit; none of a variation",
     ),
     key(
         "figures.derivatives.split",

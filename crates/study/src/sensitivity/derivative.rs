@@ -12,6 +12,8 @@ pub enum Source {
         /// Largest distance.
         reach: f64,
     },
+    /// The variation of the scenario's own run.
+    Variation,
 }
 
 /// A slope.
@@ -210,6 +212,7 @@ impl Source {
     pub fn word(self) -> &'static str {
         match self {
             Self::Differences { .. } => "differences",
+            Self::Variation => "variation",
         }
     }
 }
@@ -228,6 +231,21 @@ impl Split {
 }
 
 impl Derivative {
+    /// What a variation tells: a slope and its error.
+    pub(super) fn led((value, error): (f64, f64)) -> Self {
+        Self::Known(Slope { value, error, source: Source::Variation })
+    }
+
+    /// What a variation tells instead, if this is the same within both errors.
+    pub(super) fn or_led(self, (value, error): (f64, f64)) -> Self {
+        match self {
+            Self::Known(own) if (own.value - value).abs() <= APART * (own.error + error) => {
+                Self::led((value, error))
+            }
+            own => own,
+        }
+    }
+
     /// The slopes that it has, each with its side; the same on both has none.
     #[must_use]
     pub fn sides(&self) -> Vec<(Option<&'static str>, Result<Slope, Missing>)> {

@@ -28,6 +28,8 @@ impl Tried {
 
 /// Powers of two of the levels: from 0.8 % inwards each a quarter of the one before.
 const LEVELS: [i32; 7] = [7, 9, 11, 13, 15, 17, 19];
+/// That of the level at which bends and noise weigh about the same in a single difference.
+const NEAR: i32 = 15;
 /// The same where something else happens as near as these: to where noise leaves a few digits.
 const FINER: [i32; 5] = [21, 23, 25, 27, 29];
 /// A power of two of distances between values that noise is measured of, and how many of them to a side: the second is a level.
@@ -44,6 +46,16 @@ pub(super) fn first() -> impl Iterator<Item = (f64, bool)> {
     let levels = LEVELS.into_iter().map(|power| (2.0_f64.powi(-power), true));
     let beside = (1..=BESIDE).filter(|k| *k != 2).map(|k| (f64::from(k) * 2.0_f64.powi(-NOISE), false));
     both(levels.chain(beside))
+}
+
+/// Those of them at which runs are compared with what a variation tells.
+pub(super) fn beside() -> impl Iterator<Item = (f64, bool)> {
+    first().filter(|(share, _)| share.abs() == 2.0_f64.powi(-NEAR))
+}
+
+/// Those that have not been tried.
+pub(super) fn further(tried: &[Tried]) -> impl Iterator<Item = (f64, bool)> + '_ {
+    first().filter(|(share, _)| tried.iter().all(|tried| tried.share != *share))
 }
 
 /// Those that follow where these are too far away.

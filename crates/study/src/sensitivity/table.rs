@@ -80,8 +80,9 @@ impl Sensitivity {
         let (side, slope) = side;
         let slope = slope.ok();
         let elasticity = |value: f64| Taken::elasticity(self, place, value).map(Real);
-        let reach = slope.map(|slope| match slope.source {
-            Source::Differences { reach } => Real(reach),
+        let reach = slope.and_then(|slope| match slope.source {
+            Source::Differences { reach } => Some(Real(reach)),
+            Source::Variation => None,
         });
         let split = match derivative {
             Derivative::Split { why, .. } => Some(Split::name(why)),

@@ -5,9 +5,10 @@
 use super::newton::Fixed;
 use super::tally::Tally;
 use super::{Options, SteadyError};
+use crate::interruptible::Interruptible;
 use nalgebra::{DMatrix, DVector};
 use stickslip_drive::section::{Section, Unknown};
-use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper, Stride};
+use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
 use stickslip_results::Job;
 
 /// Differences on the way, in natural scales: steps of 1e-12 leave an error of 1e-6, and so does a bend of 1.
@@ -56,42 +57,6 @@ pub(super) struct Gradient {
     pub(super) way: DMatrix<f64>,
     /// Whether it is exact, but for the tolerance of the run.
     pub(super) is_exact: bool,
-}
-
-/// Passes on whether its caller has had enough.
-struct Asked<'a> {
-    record: &'a mut dyn Record,
-    goes_on: &'a dyn Fn() -> bool,
-}
-
-impl Record for Asked<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.record.row(values);
-    }
-    fn event(&mut self, event: &stickslip_drive::Event, values: &[f64]) {
-        self.record.event(event, values);
-    }
-    fn wants_events(&self) -> bool {
-        self.record.wants_events()
-    }
-    fn wants_event_rows(&self) -> bool {
-        self.record.wants_event_rows()
-    }
-    fn leaves(&mut self, state: &State) {
-        self.record.leaves(state);
-    }
-    fn enters(&mut self, state: &State) {
-        self.record.enters(state);
-    }
-    fn strides(&self) -> bool {
-        self.record.strides()
-    }
-    fn stride(&mut self, stride: &mut dyn Stride) {
-        self.record.stride(stride);
-    }
-    fn goes_on(&mut self, _: f64) -> bool {
-        (self.goes_on)()
-    }
 }
 
 /// Accepted and rejected steps so far.
@@ -233,7 +198,7 @@ impl<'m> Map<'m> {
         if !(self.options.goes_on)() {
             return Err(SteadyError::Interrupted(self.work()));
         }
-        let mut asked = Asked { record, goes_on: self.options.goes_on };
+        let mut asked = Interruptible { record, goes_on: self.options.goes_on };
         let mut run = Run::new(self.model, &plan, state).map_err(interrupted)?;
         run.advance(until, &mut asked).map_err(interrupted)?;
         run.stop(&mut ());
@@ -252,7 +217,7 @@ impl<'m> Map<'m> {
     /// The same with its gradient, by the variation of the run, where that has one.
     pub(super) fn image_with_gradient(&mut self, state: &State) -> Result<Image, SteadyError> {
         let tolerance = self.options.tolerance;
-        let made = self.section.as_ref().and_then(|section| section.variation(state, tolerance).ok());
+        let made = self.section.as_ref().and_then(|section| section.variation((state, &[]), tolerance).ok());
         let Some(mut variation) = made else { return self.image(state, 1.0) };
         let end = self.a_period_on(state, 1.0, &mut variation)?;
         let outcome = variation.finish(&end);
@@ -322,7 +287,7 @@ impl<'m> Map<'m> {
     /// The gradient at a state by the variation of a run, if it has one: that of its image, if that has come with it.
     fn exact_gradient(&mut self, state: &State, image: &Image) -> Result<Option<Gradient>, SteadyError> {
         let tolerance = self.options.tolerance;
-        let varies = |section: &Section<'_>| section.variation(state, tolerance).is_ok();
+        let varies = |section: &Section<'_>| section.variation((state, &[]), tolerance).is_ok();
         match &image.gradient {
             Some(gradient) => Ok(Some(gradient.clone())),
             None if self.section.as_ref().is_some_and(varies) => {

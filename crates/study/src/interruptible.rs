@@ -1,0 +1,39 @@
+//! A record whose run may be given up.
+
+use stickslip_drive::{Event, Record, State, Stride};
+
+/// Passes on what a run between located events tells, and whether its caller has had enough.
+pub(crate) struct Interruptible<'a> {
+    pub(crate) record: &'a mut dyn Record,
+    pub(crate) goes_on: &'a dyn Fn() -> bool,
+}
+
+impl Record for Interruptible<'_> {
+    fn row(&mut self, values: &[f64]) {
+        self.record.row(values);
+    }
+    fn event(&mut self, event: &Event, values: &[f64]) {
+        self.record.event(event, values);
+    }
+    fn wants_events(&self) -> bool {
+        self.record.wants_events()
+    }
+    fn wants_event_rows(&self) -> bool {
+        self.record.wants_event_rows()
+    }
+    fn leaves(&mut self, state: &State) {
+        self.record.leaves(state);
+    }
+    fn enters(&mut self, state: &State) {
+        self.record.enters(state);
+    }
+    fn strides(&self) -> bool {
+        self.record.strides()
+    }
+    fn stride(&mut self, stride: &mut dyn Stride) {
+        self.record.stride(stride);
+    }
+    fn goes_on(&mut self, _: f64) -> bool {
+        (self.goes_on)()
+    }
+}
