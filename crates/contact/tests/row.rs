@@ -558,3 +558,34 @@ fn a_lull_is_the_row_until_its_end() {
     }
     assert!(looked > 1500, "{looked}");
 }
+
+/// A spring that touched while the contact stood still has no stretch: where the indentation falls it comes to both limits and parts
+/// at one moment. Whichever of these is found first, the springs below it bear what they bore; the row asks every spring.
+#[test]
+fn a_spring_that_parts_unstretched_moves_no_other() {
+    let profile = Profile::paraboloid(1.0).unwrap();
+    let (springs, _) = row(&profile, 101);
+    let springs = Arc::new(springs);
+    let law = law(profile).on_springs(Arc::clone(&springs));
+    let slack = Slack { d: 1e-9, u: 1e-9 };
+    let mut looked = 0;
+    for height in springs.heights_by_position().filter(|height| (0.1..0.9).contains(height)) {
+        // All that touch below 0.1 are stretched, all above are not.
+        let mut row = Row::at(&springs, Apex { d: 0.1, u: 0.0 });
+        for to in [Apex { d: 0.1, u: 0.01 }, Apex { d: 0.95, u: 0.01 }, Apex { d: height + 1e-10, u: 0.01 }] {
+            row.commit(&springs, &law, Segment::Straight(to)).unwrap();
+        }
+        let from = row.apex();
+        let at = Motion { d: from.d, u: from.u, dd: -1.0, du: 0.0 };
+        for change in [Change::Parts, Change::Slips(1.0), Change::Slips(-1.0), Change::Any] {
+            let lull = row.lull(&springs, &law, (&at, change), slack, false);
+            let to = Apex { d: height - 1e-4, u: from.u };
+            for to in [from, to] {
+                let (one, all) = (lull.force(&law, to), row.force(&springs, &law, to));
+                assert!((one - all).abs() < 1e-9, "{one} and {all} at {to:?} after {change:?}");
+            }
+            looked += 1;
+        }
+    }
+    assert!(looked > 100, "{looked}");
+}

@@ -23,7 +23,7 @@ pub enum Change {
     Touches,
     /// The highest spring has parted.
     Parts,
-    /// The highest spring that sticks has reached its limit in a sense, +1 or -1.
+    /// The highest spring that sticks has reached its limit in a sense, +1 or -1; unless it has parted at that moment.
     Slips(f64),
     /// The springs that slip come to stick: u̇ and κḋ are equal.
     Sticks,
@@ -85,16 +85,17 @@ impl Row {
         }
         let left = |rank: usize, sense: f64| self.left(springs, still.slope, (rank, sense));
         let top = touching - 1;
-        let reached = |sense: f64| sense * at.du > still.slope * at.dd && left(top, sense) <= slack.u;
+        let near = |sense: f64| left(top, sense) <= slack.u;
+        let reached = |sense: f64| sense * at.du > still.slope * at.dd && near(sense);
         let sense = match change {
-            Change::Slips(sense) => sense,
             Change::Sticks => 0.0,
+            // A spring without stretch comes to its limits where it parts: that says nothing about the one below it.
+            Change::Slips(sense) if near(sense) => sense,
             _ if reached(1.0) => 1.0,
             _ if reached(-1.0) => -1.0,
             _ => 0.0,
         };
-        // One at least: what was found to have reached its limit has.
-        let mut stick = if sense == 0.0 { touching } else { top };
+        let mut stick = touching;
         while sense != 0.0 && stick > 0 && left(stick - 1, sense) <= slack.u {
             stick -= 1;
         }
