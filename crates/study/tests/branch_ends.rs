@@ -172,6 +172,30 @@ const BOUNCING: &str = r#"{
     "run": {"cycles": 300, "start": "equilibrium", "stepper": {"event": {"tolerance": 1e-10}}}
 }"#;
 
+/// A slider between its foot and a guide that brakes it.
+const GUIDED: &str = r#"{
+    "stickslip": 1,
+    "materials": {"steel": {"youngs_modulus": 210e9, "poisson_ratio": 0.3}},
+    "waveforms": {"drive": {"trapezoid": {
+        "stroke": 1.1153847354713443e-6, "rise": 5.135838905745581e-3, "hold": 4.279865754787985e-4, "fall": 2.5679194528727906e-3,
+        "period": 8.55973150957597e-3
+    }}},
+    "bodies": {"foot": {"x": {"follows": "drive"}}, "slider": {"mass": 3.0590896813594735, "x": "free"}},
+    "contacts": {
+        "ball": {
+            "between": ["foot", "slider"], "materials": ["steel", "steel"], "profile": {"paraboloid": {"radius": 4.253200135519673e-3}},
+            "friction": 0.15, "normal": {"force": 13.492378889166558}
+        },
+        "guide": {
+            "between": ["ground", "slider"], "materials": ["steel", "steel"], "profile": {"paraboloid": {"radius": 4.253200135519673e-3}},
+            "friction": 0.07366877452602237, "normal": {"force": 6.6555017474344345}
+        }
+    },
+    "loads": [{"on": "slider", "x": 1.6190854666999868}],
+    "figures": {"waveform": "drive", "body": "slider"},
+    "run": {"cycles": 20, "stepper": {"event": {"tolerance": 1e-10}}}
+}"#;
+
 /// What a branch tells is what its motions are: multipliers where they must be, and events in which something changes. Where the varied
 /// number rises all along, as often as something happens above one of them it happens below the next.
 fn is_sound(branch: &Branch) -> Checked {
@@ -249,6 +273,21 @@ fn a_branch_does_not_turn_back_where_multipliers_are_small() -> Checked {
     assert!((end.value - most).abs() < 1e-8 * most, "{:e} {most:e}", end.value);
     let rises = branch.points.windows(2).all(|pair| pair[0].value < pair[1].value);
     assert!(rises && branch.marks.iter().all(|mark| mark.kind.name() == "event"));
+    Ok(())
+}
+
+/// With ever less friction at its foot: the branch does not turn back at an event where no multiplier is beyond 1 on either side, but goes on to where
+/// foot and guide hold no more than the load.
+#[test]
+fn a_branch_does_not_turn_back_at_an_event() -> Checked {
+    let job = Job::new(Scenario::from_str_alone(GUIDED, "guided")?, "guided".to_owned(), PathBuf::new())?;
+    let of = Continuation::new(job, "contacts.ball.friction", [0.05, 0.3])?;
+    let branch = of.follow(&Course::default())?;
+    is_sound(&branch)?;
+    assert_eq!(branch.ends[0], End::SlidesAway("slider".to_owned()));
+    let least = (1.6190854666999868 - 0.07366877452602237 * 6.6555017474344345) / 13.492378889166558;
+    let end = branch.points.first().ok_or("a motion")?;
+    assert!((end.value - least).abs() < 1e-8 * least, "{:e} {least:e}", end.value);
     Ok(())
 }
 

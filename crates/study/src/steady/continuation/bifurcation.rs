@@ -147,6 +147,11 @@ impl Test {
     }
 }
 
+/// ∏(1 - λ): where the branch turns back it changes its sign, through 0 at a fold, by a jump at an event.
+pub(super) fn turn(standing: &Standing) -> f64 {
+    eigenvalues(&standing.point.multipliers).iter().map(|value| 1.0 - value).product::<Complex<f64>>().re
+}
+
 /// All of them, both of each pair.
 fn eigenvalues(multipliers: &[Multiplier]) -> Vec<Complex<f64>> {
     let both = |multiplier: &Multiplier| {

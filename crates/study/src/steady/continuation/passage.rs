@@ -1,7 +1,7 @@
 //! What lies between two motions of a branch: a place where its motions change their kind, or an event.
 
 use super::arm::{Probe, Walk};
-use super::bifurcation::{Bifurcation, Mark, Test, root};
+use super::bifurcation::{Bifurcation, Mark, Test, root, turn};
 use super::error::Trouble;
 use super::happened::{Happened, changes, swap};
 use super::standing::Standing;
@@ -23,9 +23,8 @@ impl Walk<'_> {
                 Ok::<_, Trouble>((test.at(&standing, self.measure), (at, standing)))
             };
             let ([low, high], best) = root((0.0, at_here), (length, at_next), self.accuracy, value)?;
-            // A branch turns back where a multiplier is 1: elsewhere only what is taken for its tangent does.
-            let nearest = best.as_ref().map_or(next, |(_, standing)| standing);
-            if test == Test::Fold && !test.is_met(nearest) {
+            // Elsewhere only what is taken for its tangent turns back.
+            if test == Test::Fold && turn(here) * turn(next) > 0.0 {
                 return Err(Trouble::Bends);
             }
             let Some((at, standing)) = best else { continue };
@@ -96,15 +95,17 @@ impl Walk<'_> {
             return Err(Trouble::Bends);
         }
         let before = match near {
-            Some(near) => {
-                let near = self.stand(here, near)?;
-                self.cross(here, &near, low)?;
-                self.keep(&near);
-                near
-            }
+            Some(near) => self.stand(here, near)?,
             None => here.clone(),
         };
         let mut beyond = self.stand(&before, far)?;
+        if beyond.pace() * here.pace() < 0.0 && turn(&beyond) * turn(here) > 0.0 {
+            return Err(Trouble::Bends);
+        }
+        if low > 0.0 {
+            self.cross(here, &before, low)?;
+            self.keep(&before);
+        }
         beyond.point.piece += 1;
         let after = (beyond.point.value, &beyond.happened, beyond.point.is_stable());
         self.event(here.pace(), &before, after);
