@@ -120,7 +120,8 @@ pub(crate) struct SpringsForm {
     /// Number of springs, 1 to 1 000 000; typical 256 to 4096.
     #[schemars(range(min = 1, max = 1_000_000), example = 1024)]
     pub(crate) count: Count,
-    /// Length of the row, m, above 0; by default the contact's width at the largest indentation known.
+    /// Length of the row, m, above 0; by default the contact's width at the largest indentation known, or as much as it takes to bear
+    /// the largest force known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 um", transform = above_zero)]
     pub(crate) span: Option<Length>,
