@@ -60,7 +60,8 @@ pub enum EngineChoice {
     Springs {
         /// Number of springs.
         count: usize,
-        /// Length of the row, m; by default the contact's width at the largest indentation known.
+        /// Length of the row, m; by default the contact's width at the largest indentation known, or as much as it takes to bear the
+        /// largest force known.
         span: Option<f64>,
     },
 }
