@@ -19,8 +19,8 @@ const SAMPLE: u64 = 160;
 /// another library 1.9e-8 and 4.2e-8. So has 133, of 107 springs: at 1e-10 they miss 1.1e-8 since steps to gross slip are aimed anew, 7.6e-9
 /// before; at 3e-11 3.1e-8 and 2.0e-8; on the exact curve 1.8e-11.
 /// 24 came and 98 went as guards learned what rounding is in them, of 400 seeds 25 had such books before it and after; 14, 24 and 90
-/// went with short steps, 45 with steps to gross slip that are aimed nearer.
-const KNOWN: [u64; 6] = [36, 73, 87, 120, 133, 149];
+/// went with short steps, 45 with steps to gross slip that are aimed nearer, 87 with rows whose springs part without stretch.
+const KNOWN: [u64; 5] = [36, 73, 120, 133, 149];
 
 #[test]
 fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
