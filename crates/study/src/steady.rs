@@ -6,11 +6,11 @@
 //! disturbance comes back after a period: it fades, grows, beats.
 //!
 //! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
-//! period the map is taken; `tally`, what happens in it; `map`, the map and its gradient by differences; `newton`, its fixed point; `multiplier`, what the
-//! gradient means; `bound`, how far the step may be off; `slope`, how it changes with numbers of the scenario; `orbit`, the motion from the
-//! beginning of a period on, from which a run
-//! goes on; `aftermath`, what a run ends on that leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is
-//! about to run the drive; [`continuation`], steady motions one after another, as a number of the scenario changes.
+//! period the map is taken; `tally`, what happens in it; `map`, the map and its gradient by differences; `newton`, its fixed
+//! point; `multiplier`, what the gradient means; `bound`, how far the step may be off; `slope`, how it changes with numbers of the
+//! scenario; `orbit`, the motion from the beginning of a period on, from which a run goes on; `aftermath`, what a run ends on that
+//! leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive;
+//! [`continuation`], steady motions one after another, as a number of the scenario changes.
 
 mod aftermath;
 mod bound;

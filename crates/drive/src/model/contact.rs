@@ -108,8 +108,8 @@ impl Surroundings<'_> {
     }
 }
 
-/// The curve, or a row over the asked span; without one over the width of the largest indentation, of a coupled contact of
-/// the deepest that the start can press. Fails where the row has no springs, or is too narrow for the start.
+/// The curve, or a row over the asked span; without one over the width of the largest indentation, or as much as it takes to bear a
+/// given force, and of a coupled contact over that of the deepest that the start can press. Fails where the row has no springs, or is too narrow for the start.
 fn engine(
     part: &scene::Contact,
     press: &Press,

@@ -84,13 +84,20 @@ impl Beside {
         self.rate_between(self.models.each_ref().map(of))
     }
 
-    /// The same of what all four have: f(-2h) - 8f(-h) + 8f(h) - f(2h) over 12h, exact but for the fifth derivative.
-    fn rate_between(&self, [far_below, below, above, far_above]: [f64; 4]) -> f64 {
-        (far_below - far_above + 8.0 * (above - below)) / (12.0 * self.distance)
+    /// The same of what all four have.
+    fn rate_between(&self, values: [f64; 4]) -> f64 {
+        Parameter::rate(values, self.distance)
     }
 }
 
 impl Parameter {
+    /// The derivative of what has these values at -2, -1, 1 and 2 distances: f(-2h) - 8f(-h) + 8f(h) - f(2h) over 12h, exact but for the
+    /// fifth derivative.
+    #[must_use]
+    pub fn rate([far_below, below, above, far_above]: [f64; 4], distance: f64) -> f64 {
+        (far_below - far_above + 8.0 * (above - below)) / (12.0 * distance)
+    }
+
     /// A number by which a model moves to those `beside` it, at -2, -1, 1 and 2 distances from its value. Derivatives are by the unit in
     /// which the distance is told.
     ///

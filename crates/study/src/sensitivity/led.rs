@@ -345,8 +345,7 @@ impl Neighbours {
             return None;
         }
         Some(std::array::from_fn(|moment| {
-            let [far_below, below, above, far_above] = beside.map(|course| course.moments[moment]);
-            (far_below - far_above + 8.0 * (above - below)) / (12.0 * self.distance)
+            Parameter::rate(beside.map(|course| course.moments[moment]), self.distance)
         }))
     }
 }

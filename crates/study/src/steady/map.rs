@@ -65,10 +65,15 @@ fn tried(state: &State) -> u64 {
 }
 
 impl Image {
-    /// Whether as much has happened on the way to another one, as far as that is known.
-    pub(super) fn is_like(&self, other: &Self) -> bool {
-        let both = self.happened.as_ref().zip(other.happened.as_ref());
-        both.is_none_or(|(one, other)| one.is_like(other))
+    /// Whether a difference is taken of the images ahead and behind of this one: of those that there are, or of one alone where in the
+    /// other something else has happened on the way.
+    pub(super) fn sides(&self, beside: [Option<&Self>; 2]) -> [bool; 2] {
+        let is_like = |other: &Self| {
+            let both = self.happened.as_ref().zip(other.happened.as_ref());
+            both.is_none_or(|(one, other)| one.is_like(other))
+        };
+        let alike = beside.map(|side| side.is_some_and(is_like));
+        if alike == [false; 2] { beside.map(|side| side.is_some()) } else { alike }
     }
 }
 
@@ -315,14 +320,11 @@ impl<'m> Map<'m> {
         }
         self.gradient(image, |map, j| {
             let [ahead, behind] = [map.beside(state, (j, FINE))?, map.beside(state, (j, -FINE))?];
+            let sides = image.sides([ahead.as_ref(), behind.as_ref()]);
+            let [ahead, behind] =
+                [(ahead, sides[0]), (behind, sides[1])].map(|(side, counts)| side.filter(|_| counts));
             Ok(match (ahead, behind) {
-                (Some(ahead), Some(behind)) => {
-                    Some(match [&ahead, &behind].map(|side| image.is_like(side)) {
-                        [true, false] => (ahead, image.clone(), FINE),
-                        [false, true] => (image.clone(), behind, FINE),
-                        _ => (ahead, behind, 2.0 * FINE),
-                    })
-                }
+                (Some(ahead), Some(behind)) => Some((ahead, behind, 2.0 * FINE)),
                 (Some(ahead), None) => Some((ahead, image.clone(), FINE)),
                 (None, Some(behind)) => Some((image.clone(), behind, FINE)),
                 (None, None) => None,

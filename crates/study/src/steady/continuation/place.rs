@@ -170,16 +170,13 @@ impl<'a> Bench<'a> {
             let by = self.apart.get();
             let [ahead, behind] = [by, -by].map(|by| self.beside(place, by));
             let here = &place.fixed;
+            let sides =
+                here.image.sides([&ahead, &behind].map(|side| side.as_ref().ok().map(|side| &side.image)));
             let (change, apart) = match (ahead, behind) {
-                (Ok(ahead), Ok(behind)) => {
-                    match [&ahead, &behind].map(|side| here.image.is_like(&side.image)) {
-                        [true, false] => (ahead.defect - &here.defect, by),
-                        [false, true] => (&here.defect - behind.defect, by),
-                        _ => (ahead.defect - behind.defect, 2.0 * by),
-                    }
-                }
+                (Ok(ahead), Ok(behind)) if sides == [true; 2] => (ahead.defect - behind.defect, 2.0 * by),
+                (Ok(ahead), Ok(_)) if sides[0] => (ahead.defect - &here.defect, by),
                 (Ok(ahead), Err(_)) => (ahead.defect - &here.defect, by),
-                (Err(_), Ok(behind)) => (&here.defect - behind.defect, by),
+                (_, Ok(behind)) => (&here.defect - behind.defect, by),
                 (Err(trouble), Err(_)) if trouble.is_final() => return Err(trouble),
                 (Err(trouble), Err(_)) => {
                     why = trouble;
