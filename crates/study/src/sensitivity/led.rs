@@ -55,7 +55,8 @@ const FIRST: usize = 1;
 const LAST: [usize; 2] = [2, 3];
 const END: usize = 4;
 
-/// Scenarios beside a quantity's value.
+/// Scenarios beside a quantity's value, and how far, as a share of it: derivatives are led by that share, since a variation takes its
+/// numbers for such as are in natural scales. By one metre of a stroke it took steps as short as a metre asks for.
 struct Neighbours {
     jobs: [Job; 4],
     distance: f64,
@@ -131,7 +132,7 @@ impl Pass<'_> {
         let of_steady = self.told.iter().any(|told| told.is_steady()).then(|| self.of_steady(&neighbours));
         let of = |q: usize, f: usize| {
             let slopes = if self.told[f].is_steady() { &of_steady } else { &of_run };
-            Some(slopes.as_ref()?[q].as_ref()?[f])
+            Some(slopes.as_ref()?[q].as_ref()?[f] / quantities[q].value.abs())
         };
         (0..quantities.len()).map(|q| (0..self.told.len()).map(|f| of(q, f)).collect()).collect()
     }
@@ -329,7 +330,7 @@ impl Neighbours {
             Some(job)
         };
         let [a, b, c, d] = BESIDE.map(at);
-        (distance > 0.0).then_some(Self { jobs: [a?, b?, c?, d?], distance })
+        (distance > 0.0).then_some(Self { jobs: [a?, b?, c?, d?], distance: share })
     }
 
     /// The quantity as a number that moves a model.
@@ -337,7 +338,7 @@ impl Neighbours {
         Parameter::new(model, self.jobs.each_ref().map(|job| job.model.clone()), self.distance).ok()
     }
 
-    /// How the moments of a run move with the quantity, s per unit; none where their number does.
+    /// How the moments of a run move with a share of the quantity, s; none where their number does.
     fn course(&self, own: &Course) -> Option<[f64; 5]> {
         let [a, b, c, d] = self.jobs.each_ref().map(Course::of);
         let beside = [a?, b?, c?, d?];
