@@ -87,7 +87,7 @@ pub struct Variation<'m> {
     /// The motion at a node.
     y: Vec<f64>,
     /// The same at all nodes, where numbers of the scene need it, and when a step begins and how long it is, s.
-    passed: Vec<(f64, Vec<f64>)>,
+    passed: [(f64, Vec<f64>); NODES],
     time: f64,
     length: f64,
 }
@@ -115,7 +115,7 @@ impl<'m> Variation<'m> {
             nodes: Default::default(),
             scale: natural(model, layout).split_off(layout.free),
             y: vec![0.0; layout.total()],
-            passed: Vec::new(),
+            passed: Default::default(),
             time: 0.0,
             length: 0.0,
             model,
@@ -304,19 +304,21 @@ impl<'m> Variation<'m> {
         let known =
             if components.rates > self.layout.free { self.layout.dimension() } else { 2 * self.layout.free };
         let mut paces = [0.0; NODES];
-        self.passed.clear();
-        for ((place, pace), node) in Gauss::places().into_iter().zip(&mut paces).zip(&mut self.nodes) {
+        let nodes = self.nodes.iter_mut().zip(&mut self.passed);
+        for ((place, pace), (node, passed)) in Gauss::places().into_iter().zip(&mut paces).zip(nodes) {
             let [t, rate] = stride.at(begin + place * (end - begin), &mut self.y[..known]);
             *pace = rate * (end - begin);
             laws.lay_out((t, &self.y), node);
             if !self.parameters.is_empty() {
-                self.passed.push((t, self.y.clone()));
+                passed.0 = t;
+                passed.1.clone_from(&self.y);
             }
         }
         // A leap tells places by a time of its own.
         let (times, length) = Gauss::times(paces);
         self.length = length;
-        for ((time, (t, y)), node) in times.iter().zip(&self.passed).zip(&mut self.nodes) {
+        let passed = self.passed.iter().filter(|_| !self.parameters.is_empty());
+        for ((time, (t, y)), node) in times.iter().zip(passed).zip(&mut self.nodes) {
             laws.move_by_numbers(self.time + time, (*t, y), node);
         }
         let last = self.method.attempt((paces, &self.nodes), components, &self.columns, &self.scale);

@@ -54,6 +54,8 @@ struct ContactRates {
     profile: bool,
     /// Whether what presses it moves otherwise.
     presses: bool,
+    /// Whether anything of it moves.
+    any: bool,
 }
 
 /// How a starting state moves: its components, and of each memory the anchors, a line [a, b] of each piece.
@@ -99,7 +101,8 @@ impl Parameter {
     }
 
     /// A number by which a model moves to those `beside` it, at -2, -1, 1 and 2 distances from its value. Derivatives are by the unit in
-    /// which the distance is told.
+    /// which the distance is told, and as exact as a change by that unit asks for: a share of the value, and not metres of a stroke, or steps
+    /// are needlessly short.
     ///
     /// # Errors
     ///
@@ -158,10 +161,11 @@ impl Parameter {
 
     /// How a waveform moves at a moment.
     pub(super) fn sample(&self, w: usize, at: Moment<'_>) -> Sample {
-        let of = |read: fn(Sample) -> f64| self.beside.rate(|other| read(sampled(other, w, at)));
         if !self.waveforms.get(w).copied().unwrap_or(false) {
             return Sample { value: 0.0, rate: 0.0, acceleration: 0.0 };
         }
+        let beside = self.beside.models.each_ref().map(|other| sampled(other, w, at));
+        let of = |read: fn(&Sample) -> f64| self.beside.rate_between(beside.each_ref().map(read));
         Sample { value: of(|it| it.value), rate: of(|it| it.rate), acceleration: 0.0 }
     }
 
@@ -262,6 +266,11 @@ impl Parameter {
         self.coordinates[i]
     }
 
+    /// Whether the force of contact `c` is another one where its bodies and anchors are where they are.
+    pub(super) fn touches(&self, c: usize) -> bool {
+        self.contacts[c].any
+    }
+
     /// Whether a mass moves.
     pub(super) fn weighs(&self) -> bool {
         self.coordinates.iter().any(|[_, mobility]| *mobility != 0.0)
@@ -295,7 +304,7 @@ impl ContactRates {
         let profile = beside.models.iter().any(|it| it.contacts[c].interface.profile() != law.profile());
         let normal = rate(|it| it.interface.normal_modulus()) / law.normal_modulus();
         let moves = contact.press.waveform().is_some_and(|w| waveforms[w]);
-        Self {
+        let rates = Self {
             u: rate(|it| it.u.constant),
             d: rate(|it| match &it.press {
                 Press::Constant { d, .. } => *d,
@@ -307,7 +316,15 @@ impl ContactRates {
             slope: rate(|it| it.interface.stick_slope()),
             profile,
             presses: moves || profile || normal != 0.0,
-        }
+            any: false,
+        };
+        let Self { u, d, tangential, slope, presses, .. } = rates;
+        let follows = |measure: &Measure| measure.driven.iter().any(|(w, _)| waveforms[*w]);
+        let any = [u, d, tangential, slope].iter().any(|rate| *rate != 0.0)
+            || presses
+            || follows(&contact.u)
+            || contact.coupling().is_some_and(follows);
+        Self { any, ..rates }
     }
 }
 

@@ -22,6 +22,16 @@ struct Stiffness {
     front: f64,
 }
 
+/// Where a contact stands at a moment, as all numbers find it.
+struct Stand {
+    motion: Motion,
+    stiffness: Stiffness,
+    /// G\*m(d), N/m.
+    whole: f64,
+    /// F_x where it slips, N.
+    force: f64,
+}
+
 /// (δu, δd) of a contact by each number, from the derivatives of the components.
 pub(super) fn moved(contact: &Contact, columns: &[f64], layout: Layout) -> Vec<(f64, f64)> {
     let of = |measure: &Measure, column: &[f64]| measure.free.iter().map(|(i, a)| a * column[*i]).sum();
@@ -128,26 +138,48 @@ impl Laws<'_> {
     }
 
     /// Adds what numbers of the scene make of the equations, `now` being the time; the motion is told as [`Self::lay_out`] has it.
-    pub(super) fn move_by_numbers(&self, now: f64, motion: (f64, &[f64]), node: &mut Coefficients) {
+    pub(super) fn move_by_numbers(&self, now: f64, (t, y): (f64, &[f64]), node: &mut Coefficients) {
         node.forcing.resize(self.components.rates * self.count, 0.0);
-        let (first, now) = (self.count - self.parameters.len(), Moment { pieces: self.eq.pieces, t: now });
-        for (j, parameter) in (first..).zip(self.parameters) {
-            self.move_by(parameter, (now, motion), (j, &mut node.forcing));
+        let (eq, now) = (&self.eq, Moment { pieces: self.eq.pieces, t: now });
+        let mut slopes = Vec::new();
+        if self.parameters.iter().any(Parameter::weighs) {
+            slopes.resize(eq.layout.total(), 0.0);
+            eq.slopes(t, y, &mut slopes);
+        }
+        for (j, parameter) in self.numbers() {
+            self.move_by(parameter, (now, (t, y), &slopes), (j, &mut node.forcing));
+        }
+        for c in self.acting {
+            // Where a contact stands is asked once for all numbers that move it.
+            if self.parameters.iter().any(|parameter| parameter.touches(*c)) {
+                let contact = &eq.model.contacts[*c];
+                self.move_contact(contact, (now, eq.motion(contact, t, |i| y[i])), &mut node.forcing);
+            }
         }
     }
 
-    /// What a number of the scene makes of the rates of column `j` where all stands as it does.
+    /// Numbers of the scene, with their columns.
+    fn numbers(&self) -> impl Iterator<Item = (usize, &Parameter)> {
+        (self.count - self.parameters.len()..).zip(self.parameters)
+    }
+
+    /// What a number of the scene makes of the rates of column `j` where all stands as it does, but by contacts; `slopes` where a mass
+    /// moves.
     fn move_by(
         &self,
         parameter: &Parameter,
-        (now, (t, y)): (Moment<'_>, (f64, &[f64])),
+        (now, (t, y), slopes): (Moment<'_>, (f64, &[f64]), &[f64]),
         (j, forcing): (usize, &mut [f64]),
     ) {
         let (eq, model) = (&self.eq, self.eq.model);
         let at = equations::Components { t, y: |i: usize| y[i] };
         let mut add = |row: usize, rate: f64| forcing[row * self.count + j] += rate;
         for (i, free) in model.free.iter().enumerate() {
-            add(i, free.mobility * parameter.coordinate(i)[0]);
+            let [force, mobility] = parameter.coordinate(i);
+            add(i, free.mobility * force);
+            if mobility != 0.0 {
+                add(i, mobility * slopes[eq.layout.velocity(i)]);
+            }
         }
         for (l, link) in model.links.iter().enumerate() {
             let (length, stroke) = (eq.read(&link.elongation, &at), eq.stroke(link, &at));
@@ -159,21 +191,26 @@ impl Laws<'_> {
             let value = eq.sample(load.waveform, t).value;
             add(load.free, model.free[load.free].mobility * parameter.load(model, l, value, now));
         }
-        for c in self.acting {
-            let contact = &model.contacts[*c];
-            let motion = eq.motion(contact, t, |i| y[i]);
-            let [along, across] = self.pulls(contact, parameter, (now, &motion), &mut add);
+    }
+
+    /// What all numbers of the scene make of the rates by way of one contact.
+    fn move_contact(&self, contact: &Contact, (now, motion): (Moment<'_>, Motion), forcing: &mut [f64]) {
+        let (law, model) = (self.eq.law(contact.place), self.eq.model);
+        let stiffness = Stiffness::of(contact, law, &motion);
+        let whole = contact.interface.stick_stiffness(motion.d);
+        let force = match law.1 {
+            Mode::Slip(_) if !contact.inert => contact.force(law, &motion, || 0.0),
+            _ => 0.0,
+        };
+        let stand = Stand { motion, stiffness, whole, force };
+        for (j, parameter) in self.numbers().filter(|(_, parameter)| parameter.touches(contact.place)) {
+            let mut add = |row: usize, rate: f64| forcing[row * self.count + j] += rate;
+            let [along, across] = self.pulls(contact, parameter, (now, &stand), &mut add);
             let terms = contact.u.free.iter().map(|(i, a)| (*i, a * along));
             let depth = contact.coupling().into_iter().flat_map(|d| &d.free);
             terms
                 .chain(depth.map(|(i, a)| (*i, a * across)))
                 .for_each(|(i, force)| add(i, -model.free[i].mobility * contact.count * force));
-        }
-        if parameter.weighs() {
-            let mut slopes = vec![0.0; eq.layout.total()];
-            eq.slopes(t, y, &mut slopes);
-            (0..model.free.len())
-                .for_each(|i| add(i, parameter.coordinate(i)[1] * slopes[eq.layout.velocity(i)]));
         }
     }
 
@@ -182,22 +219,21 @@ impl Laws<'_> {
         &self,
         contact: &Contact,
         parameter: &Parameter,
-        (now, motion): (Moment<'_>, &Motion),
+        (now, stand): (Moment<'_>, &Stand),
         add: &mut impl FnMut(usize, f64),
     ) -> [f64; 2] {
         let (law, shift) = (self.eq.law(contact.place), parameter.shift(contact, now));
-        let Stiffness { along, normal, front, .. } = Stiffness::of(contact, law, motion);
+        let Stand { motion, whole, force, .. } = stand;
+        let Stiffness { along, normal, front, .. } = stand.stiffness;
         let across = match contact.coupling() {
             Some(_) => normal * shift.d + parameter.press(contact, motion.d),
             None => 0.0,
         };
-        let whole = contact.interface.stick_stiffness(motion.d);
         match (law.1, contact.slot) {
             (Mode::Slip(branch), _) if !contact.inert => {
                 let at = edge(contact, branch.sense(), front, motion);
-                let force = contact.force(law, motion, || 0.0);
                 let moved = along * shift.u + at[2] * (whole - along) * shift.d;
-                [moved + parameter.pull(contact, law.0, force, at), across]
+                [moved + parameter.pull(contact, law.0, *force, at), across]
             }
             (Mode::Grow, Some(slot)) => {
                 let swell = contact.interface.tangential_modulus() * swelling(contact, motion.d);
