@@ -312,7 +312,7 @@ fn contact_columns(
     let slot = contact.slot.filter(|_| layout.growing > 0);
     let straight = contact.goes_straight(equations.pieces);
     // In full stick the memory stands at the step's start: force and energy are the states, and every spring
-    // sticks.
+    // sticks. Errors of steps may leave an energy of zero a little below it; raised to zero it would be missing in the books.
     let mut outcome = match (state.modes[c], slot.filter(|_| !straight)) {
         (Mode::Grow, Some(slot)) => Outcome {
             force: y(layout.force(slot)),

@@ -89,6 +89,17 @@ pub struct Counts {
     pub missed: u64,
 }
 
+/// Magnitude from which on a component of a state counts as no longer finite: energies are products of two of them and a mass or
+/// a stiffness, and must be numbers.
+const REACH: f64 = 1e120;
+
+/// The first component that is no longer finite, if any.
+#[inline]
+pub(crate) fn beyond(y: &[f64]) -> Option<usize> {
+    // What is no number is not below, either.
+    y.iter().position(|y| !(y.abs() < REACH))
+}
+
 impl Model {
     /// The error of component `i` that is no longer finite; forces and work are laid at the first body's door.
     pub(crate) fn not_finite(&self, t: f64, i: usize) -> RunError {

@@ -33,6 +33,8 @@ pub struct Scenario {
     pub plan: Plan,
     /// Whose period and whose motion make steps and speeds.
     pub figures: Figures,
+    /// Whether the motion that the drive would settle on is looked for beside its run.
+    pub steady_motion: bool,
     /// Columns of the trace; none: all.
     pub channels: Option<Vec<String>>,
     /// What every spring does over time, if asked for.
@@ -134,6 +136,7 @@ impl Scenario {
             scene: meaning.scene,
             plan: meaning.plan,
             figures: meaning.figures,
+            steady_motion: form.figures.steady_motion,
             channels: meaning.channels,
             springs: meaning.springs,
             memory: meaning.memory,

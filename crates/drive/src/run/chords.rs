@@ -19,7 +19,7 @@ use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
-use crate::state::{FixedWay, Layout, State, Underway};
+use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
 use branches::{Branches, KNOTS};
 pub(super) use step::Between;
@@ -187,7 +187,7 @@ impl<'a> Chords<'a> {
         (t, y): (f64, &[f64]),
         record: &mut dyn Record,
     ) -> Result<bool, RunError> {
-        if let Some(i) = y.iter().position(|y| !y.is_finite()) {
+        if let Some(i) = beyond(y) {
             return Err(self.model.not_finite(t, i));
         }
         let end = self.horizon.end;

@@ -44,7 +44,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "trace.csv",
         "CONTACT.elastic_J",
-        "energy stored by the tangential springs, count · 2∫₀^a G*s²/2 dx, s their stretch",
+        "energy stored by the tangential springs, count · 2∫₀^a G*s²/2 dx, s their stretch; never below 0 but by the error of the steps: in full stick of a contact that is pressed deeper it is an integral of the run, less than a tolerance of μF_N u_c off",
     ),
     of(
         "trace.csv",

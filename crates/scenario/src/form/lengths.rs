@@ -38,7 +38,7 @@ impl<'de> Deserialize<'de> for Lengths {
             }
 
             fn visit_f64<E: de::Error>(self, si: f64) -> Result<Lengths, E> {
-                Ok(Lengths::All(Length::new(si)))
+                Length::from_si(si).map(Lengths::All).map_err(E::custom)
             }
 
             fn visit_i64<E: de::Error>(self, value: i64) -> Result<Lengths, E> {

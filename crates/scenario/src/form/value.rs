@@ -185,7 +185,7 @@ impl<'de, D: Dimension> Deserialize<'de> for Moving<D> {
             }
 
             fn visit_f64<E: de::Error>(self, si: f64) -> Result<Moving<D>, E> {
-                Ok(Moving::Constant(Quantity::new(si)))
+                Quantity::from_si(si).map(Moving::Constant).map_err(E::custom)
             }
 
             fn visit_i64<E: de::Error>(self, value: i64) -> Result<Moving<D>, E> {

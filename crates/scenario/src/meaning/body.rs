@@ -44,7 +44,8 @@ impl Builder<'_> {
     }
 
     fn body_of(&mut self, at: &At<'_>, form: &BodyForm) -> Result<Body, Fault> {
-        let (mass, inertia) = (form.mass.map(|mass| mass.si), form.inertia.map(|inertia| inertia.si));
+        let mass = form.mass.map(|mass| range::above_zero(&at.key("mass"), mass)).transpose()?;
+        let inertia = form.inertia.map(|it| range::above_zero(&at.key("inertia"), it)).transpose()?;
         let x = self.coordinate(at, Axis::X, form)?;
         let z = self.coordinate(at, Axis::Z, form)?;
         let pitch = self.coordinate(at, Axis::Pitch, form)?;

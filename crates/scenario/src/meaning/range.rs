@@ -2,15 +2,15 @@
 
 use crate::fault::Fault;
 use crate::path::At;
-use crate::quantity::{Dimension, Quantity};
+use crate::quantity::{Dimension, Quantity, SMALLEST};
 use crate::units::Kind;
 
 /// The value of a quantity above zero.
 pub(super) fn above_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) -> Result<f64, Fault> {
-    if quantity.si > 0.0 {
+    if quantity.si >= SMALLEST {
         return Ok(quantity.si);
     }
-    Err(at.expected(above(D::KIND)))
+    Err(at.expected(if quantity.si > 0.0 { least(D::KIND) } else { above(D::KIND) }))
 }
 
 /// The value of a quantity of at least zero.
@@ -24,6 +24,11 @@ pub(super) fn at_least_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) ->
 /// What stands where a quantity must be above zero.
 pub(super) fn above(kind: Kind) -> String {
     format!("{} above 0 {}", kind.article(), kind.si())
+}
+
+/// What stands where a quantity above zero is smaller than anything is.
+pub(super) fn least(kind: Kind) -> String {
+    format!("{} of at least {SMALLEST:e} {}", kind.article(), kind.si())
 }
 
 /// What stands where a quantity must be at least zero.

@@ -1,7 +1,7 @@
 //! A CSV file: its columns, its numbers, and the place of each cell.
 
 use crate::document::shown;
-use crate::quantity::{convert, number_help};
+use crate::quantity::{LARGEST, convert, number_help};
 use crate::units::Scale;
 use std::ops::Range;
 
@@ -48,8 +48,16 @@ pub(super) fn numbers<const N: usize>(
         let number = |(column, scale): (usize, Scale)| {
             let field = record.get(column).unwrap_or("");
             let value = field.parse::<f64>().ok().filter(|value| value.is_finite());
-            match value.map(|_| convert(field, scale)).filter(|value| value.is_finite()) {
-                Some(value) => Ok(value),
+            match value.map(|_| convert(field, scale)) {
+                Some(value) if value.abs() <= LARGEST => Ok(value),
+                Some(_) => Err(Slip {
+                    range: field_at(text, start, column),
+                    message: format!(
+                        "expected a number between -{LARGEST:e} and {LARGEST:e} in SI, got \"{}\"",
+                        shown(field)
+                    ),
+                    help: None,
+                }),
                 None => Err(Slip {
                     range: field_at(text, start, column),
                     message: format!("expected a number, got \"{}\"", shown(field)),

@@ -20,7 +20,8 @@ pub enum SteadyError {
     Commanded(String),
     /// Two waveforms whose periods have no common multiple worth the name.
     #[error(
-        "the waveforms \"{first}\" and \"{second}\" have periods of {periods:?} s and no common period below {most} of the longer\n   help: give them periods in the ratio of small whole numbers"
+        "the waveforms \"{first}\" and \"{second}\" have periods of {} s and {} s and no common period below {most} of the longer\n   help: give them periods in the ratio of small whole numbers",
+        .periods[0], .periods[1]
     )]
     Incommensurate {
         /// Name of one.
@@ -92,7 +93,8 @@ pub enum SteadyError {
     },
     /// The same where a contact never slips grossly.
     #[error(
-        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: {contacts:?} never slip grossly: what they hold near their centres they hold for ever, steady motions are a whole family (a shakedown), and a run comes near one of them slowly: look at a plain run, drive it further, so that all slip, or damp it"
+        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: {} never slip grossly: what they hold near their centres they hold for ever, steady motions are a whole family (a shakedown), and a run comes near one of them slowly: look at a plain run, drive it further, so that all slip, or damp it",
+        .contacts.join(", ")
     )]
     Shakedown {
         /// Names of the contacts.

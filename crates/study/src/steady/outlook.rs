@@ -1,13 +1,18 @@
 //! What a drive would settle on, as far as a glance tells.
 
 use super::{Options, Steady, SteadyError, find};
+use stickslip_drive::scene::{Coordinate, EngineChoice, Freedom, Scene};
 use stickslip_results::outlook::{Outlook, Repetition};
 use stickslip_results::{Job, Real};
 
 /// Local error per step: six digits of a step are enough to compare a run with.
 const TOLERANCE: f64 = 1e-9;
-/// Steps that a glance may take: more than all examples need that have a motion to be found but one.
+/// Steps that a glance may take where a step is cheap: more than all examples need that have a motion to be found but one.
 const STEPS: u64 = 75_000;
+/// Coordinates and contacts up to which a step is: more than those of any example.
+const FEW: usize = 16;
+/// Springs of a row that cost what a contact without a row does.
+const SPRINGS: usize = 64;
 
 impl Steady {
     /// What is told of it beside a run; none where no body steps.
@@ -37,11 +42,26 @@ impl Steady {
     }
 }
 
+/// Steps that a glance at a scene may take: the fewer, the more there is to every one. Counted, not timed, so that a scenario has one
+/// answer on all machines.
+fn steps(scene: &Scene) -> u64 {
+    let is_free = |coordinate: &Coordinate| coordinate.freedom == Freedom::Free;
+    let coordinates = scene.bodies.iter().flat_map(|body| body.part.coordinates());
+    let free = coordinates.filter(|(_, coordinate)| is_free(coordinate)).count();
+    let contacts = scene.contacts.iter().map(|contact| match contact.part.engine {
+        EngineChoice::Curve => 1,
+        EngineChoice::Springs { count, .. } => 1 + count / SPRINGS,
+    });
+    let parts = (free + contacts.sum::<usize>()).max(FEW);
+    STEPS * FEW as u64 / parts as u64
+}
+
 /// What a job's drive would settle on, if that can be told at little cost; none of scenes that do not ask the question: without a
-/// period, without a free body that figures are of. `goes_on` is asked before every period; `false` gives up.
+/// period, without a free body that figures are of, and of those that say no to it. `goes_on` is asked before every period; `false` gives up.
 pub fn outlook(job: &Job, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
-    job.scenario.figures.body.zip(job.scenario.figures.waveform)?;
-    let options = Options { tolerance: TOLERANCE, steps: STEPS, goes_on, ..Options::default() };
+    job.scenario.figures.body.zip(job.scenario.figures.waveform).filter(|_| job.scenario.steady_motion)?;
+    let steps = steps(&job.scenario.scene);
+    let options = Options { tolerance: TOLERANCE, steps, goes_on, ..Options::default() };
     match find(job, &options) {
         Ok(found) => found.repetition().map(Outlook::Found),
         Err(

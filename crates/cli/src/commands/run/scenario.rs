@@ -5,6 +5,7 @@ use crate::console::interrupt::Interrupt;
 use crate::console::pace::Paced;
 use crate::console::progress::Progress;
 use std::io;
+use std::time::Instant;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
@@ -96,7 +97,10 @@ pub(crate) fn write(
 ) -> io::Result<Report> {
     let mut summary = Summary::new(job, outcome);
     if summary.status == Status::Done {
-        summary.set_outlook(outlook(job, goes_on));
+        // What the run has left of its time is all that is taken.
+        let (begun, wall) = (Instant::now(), job.scenario.plan.limits.wall.unwrap_or(f64::INFINITY));
+        let has_time = || outcome.wall + begun.elapsed().as_secs_f64() < wall;
+        summary.set_outlook(outlook(job, &|| goes_on() && has_time()));
     }
     summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;

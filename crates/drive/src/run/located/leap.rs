@@ -15,7 +15,7 @@ use crate::interval::{Closed, PhasePoint};
 use crate::method::Method;
 use crate::record::Record;
 use crate::run::horizon::Progress;
-use crate::state::{Books, State};
+use crate::state::{Books, State, beyond};
 use stickslip_stepper::Attempt;
 
 /// Velocity, relative to those around, below which the turn is so near that a cubic has it.
@@ -233,7 +233,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// Fails where place or velocity is not finite.
     fn land(&mut self, state: &mut State, to: PhasePoint, ends: bool) -> Result<(), RunError> {
-        if let Some(i) = [to.x, to.v].iter().position(|y| !y.is_finite()) {
+        if let Some(i) = beyond(&[to.x, to.v]) {
             return Err(self.setting.model.not_finite(to.t, i));
         }
         state.y[self.setting.layout.input()] = self.input_at(&to);

@@ -14,7 +14,7 @@ use crate::equations::Equations;
 use crate::method::Method;
 use crate::record::Record;
 use crate::run::horizon::Progress;
-use crate::state::{Books, State, Whereabouts};
+use crate::state::{Books, State, Whereabouts, beyond};
 use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, StepHistory, Verdict};
 
 /// How a step ends.
@@ -199,7 +199,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let end = self.motion.solver.span().end;
         // Checked on the whole of the end: a value that is not finite must not reach a memory.
-        if let Some(i) = end.iter().position(|y| !y.is_finite()) {
+        if let Some(i) = beyond(end) {
             return Err(self.setting.model.not_finite(t, i));
         }
         // Some solvers carry the work put in as their only integral; the rest of y is not theirs.
