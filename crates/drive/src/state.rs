@@ -96,8 +96,7 @@ const REACH: f64 = 1e120;
 /// The first component that is no longer finite, if any.
 #[inline]
 pub(crate) fn beyond(y: &[f64]) -> Option<usize> {
-    // What is no number is not below, either.
-    y.iter().position(|y| !(y.abs() < REACH))
+    y.iter().position(|y| y.is_nan() || y.abs() >= REACH)
 }
 
 impl Model {
