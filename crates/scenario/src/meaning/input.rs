@@ -4,7 +4,6 @@ use super::range;
 use super::waveform::Values;
 use crate::fault::Fault;
 use crate::form::{InputForm, InterpolationForm};
-use crate::guide::Help;
 use crate::path::At;
 use crate::units::Kind;
 use stickslip_drive::{Interpolation, Shape};
@@ -18,10 +17,6 @@ pub(super) fn shape(at: &At<'_>, form: &InputForm, values: &mut Values<'_>) -> R
     if high < low {
         let fault = bounds.index(1).expected(format_args!("a value of at least {}", shown(low, values.kind)));
         return Err(fault.against_path(bounds.path()).help("a range is [smallest, largest]"));
-    }
-    // The largest jump; what is beyond all numbers is no value of it.
-    if !(high - low).is_finite() {
-        return Err(bounds.fault("expected bounds whose difference is a finite number").ask(Help::Meaning));
     }
     if initial < low || initial > high {
         let (low, high) = (shown(low, values.kind), shown(high, values.kind));

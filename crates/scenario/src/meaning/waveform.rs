@@ -243,9 +243,6 @@ fn timing(at: &At<'_>, form: &Periodic, name: &str) -> Result<Timing, Fault> {
                 .help("keep one of them"));
         }
     };
-    if !period.is_finite() {
-        return Err(at.key("frequency").expected("a frequency whose period is a number"));
-    }
     let delay = range::at_least_zero(&at.key("delay"), form.delay)?;
     let cycles = form.cycles.map(|cycles| range::number_above_zero(&at.key("cycles"), cycles)).transpose()?;
     Ok(Timing { period, delay, phase: form.phase.si, cycles })
