@@ -46,7 +46,7 @@ pub use run::{Run, VariantError, Variants, WALK_TOLERANCE, run};
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
 pub use state::{BytesError, CommandError, Counts, Generated, InputError, State};
-pub use variation::{Parameter, Variation, VariationError};
+pub use variation::{EnergyRates, Parameter, Variation, VariationError};
 pub use waveform::{
     Command, Cycle, Generator, Harmonic, Heading, Interpolation, Piece, Sample, Section, Shape, Steps, Sweep,
     Timing, Waveform, WaveformError,

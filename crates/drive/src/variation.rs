@@ -14,18 +14,21 @@
 
 mod anchors;
 mod corners;
+mod energies;
 mod error;
 mod growth;
 mod parameter;
+mod steps;
 mod tangent;
 mod turning;
+mod works;
 
+pub use energies::EnergyRates;
 pub use error::VariationError;
 pub use parameter::Parameter;
 
 use crate::Model;
 use crate::contact::{Contact, Mode};
-use crate::equations::Equations;
 use crate::event::Event;
 use crate::model::Binding;
 use crate::record::{Record, Stride};
@@ -35,21 +38,9 @@ pub(crate) use anchors::Anchors;
 use anchors::Held;
 use corners::Corner;
 use parameter::Moment;
-use stickslip_stepper::{Coefficients, Components, Gauss, NODES};
-use tangent::Laws;
-
-/// What a step of the variation may miss, in natural scales, in tolerances of the run's own steps: multipliers of the impact drive, the
-/// climber and the three-ball stage by 1e-10 are those by 1e-12 to ten digits.
-const ALLOWED: f64 = 100.0;
-/// What a step of a swing misses whose slopes have the last Legendre coefficient c, in natural scales, is 1.25e-3 c^2.2: a swing by one
-/// radian 1e-10.
-const MISSED: (f64, f64) = (1.25e-3, 2.2);
-/// It falls with the power 11 of the step. Part of the step that would just do, the strongest shortening at once, and the shortest step
-/// that is tried, as a part of the run's.
-const FALLS: f64 = 1.0 / 11.0;
-const SAFETY: f64 = 0.9;
-const SHRINK: f64 = 0.2;
-const SHORTEST: f64 = 1e-3;
+use steps::Passed;
+use stickslip_stepper::{Coefficients, Gauss, NODES};
+use works::Works;
 
 /// How a run's state changes with a few numbers: a record that a run is told to.
 ///
@@ -74,6 +65,8 @@ pub struct Variation<'m> {
     left: Option<State>,
     outcome: Result<(), VariationError>,
     tolerance: f64,
+    /// What is put in and lost on the way.
+    works: Works,
     /// What the contacts hold in the interval, and which of them act on the derivatives; what links make of these.
     held: Vec<Held>,
     acting: Vec<usize>,
@@ -87,7 +80,7 @@ pub struct Variation<'m> {
     /// The motion at a node.
     y: Vec<f64>,
     /// The same at all nodes, where numbers of the scene need it, and when a step begins and how long it is, s.
-    passed: [(f64, Vec<f64>); NODES],
+    passed: [Passed; NODES],
     time: f64,
     length: f64,
 }
@@ -128,7 +121,13 @@ impl<'m> Variation<'m> {
             left: None,
             outcome: Ok(()),
             tolerance,
+            works: Works::default(),
         })
+    }
+
+    /// Leads works along as well, from here on.
+    fn beginning(self, works: Works) -> Self {
+        Self { works: works.of(self.layout), ..self }
     }
 
     /// Ends the variation where the run stands, its memories come along ([`Run::stop`](crate::Run::stop)).
@@ -184,6 +183,7 @@ impl<'m> Variation<'m> {
         if to.memories.iter().any(|memory| memory.merged().knots > 0) {
             return Err(VariationError::Accumulates { t: to.t });
         }
+        self.works.look(to);
         self.corner = self.corner_at(to)?;
         if !self.acts() {
             self.drift(to.t - from.t);
@@ -200,11 +200,6 @@ impl<'m> Variation<'m> {
             }
         }
         Ok(())
-    }
-
-    /// Whether anything acts on the derivatives: else velocities stay as they are.
-    fn acts(&self) -> bool {
-        !self.acting.is_empty() || !self.model.links.is_empty() || !self.parameters.is_empty()
     }
 
     /// (δu, δd) of a contact by each number.
@@ -227,15 +222,6 @@ impl<'m> Variation<'m> {
         self.parameters.iter().map(|parameter| parameter.slope(c)).collect()
     }
 
-    /// Leads the derivatives over a time in which nothing acts on them, s.
-    fn drift(&mut self, time: f64) {
-        let free = self.layout.free;
-        for column in self.columns.chunks_exact_mut(self.layout.dimension().max(1)) {
-            let (x, rest) = column.split_at_mut(free);
-            x.iter_mut().zip(rest).for_each(|(x, v)| *x += time * *v);
-        }
-    }
-
     /// The laws of an interval begin.
     fn take_up(&mut self, state: &State) {
         self.strode = false;
@@ -252,77 +238,6 @@ impl<'m> Variation<'m> {
                 self.acting.push(c);
             }
         }
-    }
-
-    /// Leads the derivatives along a step of the run, in as many steps as it takes.
-    fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
-        if !self.parameters.is_empty() {
-            [self.time, _] = stride.at(0.0, &mut self.y[..2 * self.layout.free]);
-        }
-        let (mut at, mut length) = (0.0, 1.0);
-        while self.acts() && at < 1.0 {
-            // No stub is left for the last step.
-            let to = if at + 1.01 * length >= 1.0 { 1.0 } else { at + length };
-            let missed = self.attempt(from, stride, (at, to)) / (ALLOWED * self.tolerance);
-            if missed <= 1.0 {
-                self.grow(from, stride, (at, to));
-                self.columns.copy_from_slice(self.method.end());
-                self.time += self.length;
-                at = to;
-                continue;
-            }
-            let shorter = (SAFETY * missed.powf(-FALLS)).max(SHRINK) * (to - at);
-            if shorter.is_nan() || shorter < SHORTEST {
-                return Err(VariationError::NotSmooth { t: from.t });
-            }
-            // As many steps as it takes, of one length.
-            length = (1.0 - at) / ((1.0 - at) / shorter).ceil();
-        }
-        Ok(())
-    }
-
-    /// The components of an interval: the forces of growing contacts are led along where one grows.
-    fn components(&self, from: &State) -> Components {
-        let grows = from.modes.contains(&Mode::Grow);
-        let rates = if grows { self.layout.dimension() - self.layout.free } else { self.layout.free };
-        Components { positions: self.layout.free, rates, stride: self.layout.dimension() }
-    }
-
-    /// Tries one step between two parts of a stride and tells what it misses, in natural scales.
-    fn attempt(&mut self, from: &State, stride: &mut dyn Stride, (begin, end): (f64, f64)) -> f64 {
-        let components = self.components(from);
-        let laws = Laws {
-            eq: Equations::on(self.model, from, self.layout, false),
-            held: &self.held,
-            acting: &self.acting,
-            links: &self.links,
-            components,
-            count: self.count(),
-            parameters: self.parameters,
-        };
-        // The forces of growing contacts are components of a step; no leap has any.
-        let known =
-            if components.rates > self.layout.free { self.layout.dimension() } else { 2 * self.layout.free };
-        let mut paces = [0.0; NODES];
-        let nodes = self.nodes.iter_mut().zip(&mut self.passed);
-        for ((place, pace), (node, passed)) in Gauss::places().into_iter().zip(&mut paces).zip(nodes) {
-            let [t, rate] = stride.at(begin + place * (end - begin), &mut self.y[..known]);
-            *pace = rate * (end - begin);
-            laws.lay_out((t, &self.y), node);
-            if !self.parameters.is_empty() {
-                passed.0 = t;
-                passed.1.clone_from(&self.y);
-            }
-        }
-        // A leap tells places by a time of its own.
-        let (times, length) = Gauss::times(paces);
-        self.length = length;
-        let passed = self.passed.iter().filter(|_| !self.parameters.is_empty());
-        for ((time, (t, y)), node) in times.iter().zip(passed).zip(&mut self.nodes) {
-            laws.move_by_numbers(self.time + time, (*t, y), node);
-        }
-        let last = self.method.attempt((paces, &self.nodes), components, &self.columns, &self.scale);
-        MISSED.0 * last.powf(MISSED.1)
     }
 }
 

@@ -29,8 +29,8 @@ struct Rule {
     values: [[f64; NODES + 1]; NODES],
     /// a: what the slopes at all nodes add up to at each.
     inner: [Each; NODES],
-    /// The last Legendre coefficient of what has these values at the nodes.
-    last: Each,
+    /// The last four Legendre coefficients, from the first, of what has these values at the nodes.
+    tail: [Each; NODES - 1],
 }
 
 /// Legendre's polynomials at x.
@@ -54,8 +54,11 @@ impl Rule {
 
 static RULE: LazyLock<Rule> = LazyLock::new(|| {
     let values = PLACES.map(legendre);
-    let last = array::from_fn(|j| 9.0 * SHARES[j] * values[j][NODES - 1]);
-    let mut rule = Rule { values, inner: [[0.0; NODES]; NODES], last };
+    let tail = array::from_fn(|k| {
+        let order = k + 1;
+        array::from_fn(|j| (2.0 * order as f64 + 1.0) * SHARES[j] * values[j][order])
+    });
+    let mut rule = Rule { values, inner: [[0.0; NODES]; NODES], tail };
     rule.inner = PLACES.map(|x| rule.row(x));
     rule
 });
@@ -108,31 +111,34 @@ impl Gauss {
         (RULE.inner.each_ref().map(add), add(&SHARES))
     }
 
-    /// Tries a step in which time goes at `paces` per step at the nodes, s: an even one has its length for all of them. Tells the last
-    /// Legendre coefficient of the rates' slopes, the largest in units of `scale`; infinite where there is no result.
+    /// Tries a step in which time goes at `paces` per step at the nodes, s: an even one has its length for all of them. Tells how the rates'
+    /// slopes look by their Legendre coefficients, in units of `scale`; infinite where there is no result.
     pub fn attempt(
         &mut self,
         (paces, nodes): (Each, &[Coefficients; NODES]),
         of: Components,
         columns: &[f64],
         scale: &[f64],
-    ) -> f64 {
+    ) -> Tail {
         let count = columns.len().checked_div(of.stride).unwrap_or(0);
         self.reach = Reach::of(paces);
         self.set_up(nodes, of, columns);
         if !solve(&mut self.matrix, &mut self.right, count) {
-            return f64::INFINITY;
+            return Tail { last: f64::INFINITY, rest: f64::INFINITY };
         }
         self.finish(of, columns);
-        let mut largest = 0.0_f64;
+        let mut tail = Tail::default();
         for (c, scale) in (0..of.rates).zip(scale) {
             for column in 0..count {
                 let at = |j: usize| self.right[(j * of.rates + c) * count + column];
-                let last: f64 = (0..NODES).map(|j| self.reach.last[j] * at(j)).sum();
-                largest = largest.max(last.abs() / scale);
+                let coefficient = |weights: &Each| {
+                    let sum: f64 = (0..NODES).map(|j| weights[j] * at(j)).sum();
+                    sum.abs() / scale
+                };
+                tail = tail.or(Tail::of(self.reach.tail.each_ref().map(coefficient)));
             }
         }
-        largest
+        tail
     }
 
     /// The columns at the end of the step tried.
@@ -156,6 +162,39 @@ impl Gauss {
                 let slope = |j: usize| self.right[(j * rates + p) * count + number];
                 let gain: f64 = (0..NODES).map(|j| twice[j] * slope(j)).sum();
                 to[p] += time * to[positions + p] + gain;
+            }
+        }
+    }
+
+    /// Adds to `sums`, row by row a number for each column, what the rows of `slopes` come to over the step tried: integrals on which
+    /// nothing depends, `columns` being what it began with.
+    pub fn integrate(
+        &self,
+        slopes: &[Coefficients; NODES],
+        of: Components,
+        columns: &[f64],
+        sums: &mut [f64],
+    ) {
+        let Components { positions, rates, stride } = of;
+        let (count, wide) = (columns.len().checked_div(stride).unwrap_or(0), positions + rates);
+        for (node, slopes) in slopes.iter().enumerate() {
+            let (reach, share) = (&self.reach, self.reach.end_once[node]);
+            for (number, column) in columns.chunks_exact(stride).enumerate() {
+                let rate = |j: usize, c: usize| self.right[(j * rates + c) * count + number];
+                let reached = |row: &Each, c: usize| -> f64 { (0..NODES).map(|j| row[j] * rate(j, c)).sum() };
+                let at = |p: usize| match p.checked_sub(positions) {
+                    Some(c) => column[p] + reached(&reach.once[node], c),
+                    None => {
+                        column[p] + reach.time[node] * column[positions + p] + reached(&reach.twice[node], p)
+                    }
+                };
+                let rows = sums.chunks_exact_mut(count).zip(slopes.matrix.chunks_exact(wide));
+                for (row, (sums, matrix)) in rows.enumerate() {
+                    let acting = matrix.iter().enumerate().filter(|(_, a)| **a != 0.0);
+                    let slope: f64 = acting.map(|(p, a)| a * at(p)).sum();
+                    let forcing = slopes.forcing.get(row * count + number).copied().unwrap_or(0.0);
+                    sums[number] += share * (slope + forcing);
+                }
             }
         }
     }
@@ -218,6 +257,30 @@ impl Gauss {
     }
 }
 
+/// How slopes over a step look by their Legendre coefficients.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tail {
+    /// The last coefficient.
+    pub last: f64,
+    /// What the tenth one is, which the method misses, where they go on to fall as they do: in a constant proportion, as those of what has
+    /// a root near by.
+    pub rest: f64,
+}
+
+impl Tail {
+    /// Of four coefficients, which may vanish by turns: two of them have as much as the two before by a proportion, of which
+    /// the cube leads from there to the tenth.
+    fn of([first, second, third, fourth]: [f64; 4]) -> Self {
+        let (before, after) = (first.max(second), third.max(fourth));
+        let falls = if after < before { after / before } else { 1.0 };
+        Self { last: fourth, rest: if after == 0.0 { 0.0 } else { after * falls.powi(3) } }
+    }
+
+    fn or(self, other: Self) -> Self {
+        Self { last: self.last.max(other.last), rest: self.rest.max(other.rest) }
+    }
+}
+
 /// What the slopes at the nodes add up to, once and twice integrated, at each node and at the end.
 #[derive(Debug, Clone, Default)]
 struct Reach {
@@ -229,7 +292,7 @@ struct Reach {
     length: f64,
     end_once: Each,
     end_twice: Each,
-    last: Each,
+    tail: [Each; NODES - 1],
 }
 
 impl Reach {
@@ -244,7 +307,7 @@ impl Reach {
             end_twice: after(&end_once),
             time: array::from_fn(|i| once[i].iter().sum()),
             length: end_once.iter().sum(),
-            last: array::from_fn(|j| rule.last[j] * paces[j]),
+            tail: rule.tail.map(|row| array::from_fn(|j| row[j] * paces[j])),
             once,
             end_once,
             paces,
@@ -309,7 +372,7 @@ mod tests {
         for k in 0..steps {
             // The first step goes as the square of its part.
             let paces = if graded && k == 0 { Gauss::places().map(|s| 2.0 * s * h) } else { [h; NODES] };
-            assert!(gauss.attempt((paces, &nodes), ONE, &columns, &[1.0]).is_finite());
+            assert!(gauss.attempt((paces, &nodes), ONE, &columns, &[1.0]).last.is_finite());
             columns.copy_from_slice(gauss.end());
         }
         columns
@@ -352,12 +415,24 @@ mod tests {
         assert!((inside[0] - gauss.end()[0]).abs() < 1e-15);
     }
 
+    /// Over a swing x = cos t from 0 to 1 the integral of 2x + 3ẋ + t, in closed form.
+    #[test]
+    fn an_integral_beside_is_that_of_the_swing() {
+        let nodes = array::from_fn(|_| Coefficients { matrix: vec![-1.0, 0.0], forcing: Vec::new() });
+        let slopes = Gauss::places().map(|t| Coefficients { matrix: vec![2.0, 3.0], forcing: vec![t] });
+        let (mut gauss, mut sums) = (Gauss::default(), [0.5]);
+        gauss.attempt(([1.0; NODES], &nodes), ONE, &[1.0, 0.0], &[1.0]);
+        gauss.integrate(&slopes, ONE, &[1.0, 0.0], &mut sums);
+        let exact = 0.5 + 2.0 * 1.0_f64.sin() + 3.0 * (1.0_f64.cos() - 1.0) + 0.5;
+        assert!((sums[0] - exact).abs() < 1e-9, "{:e}", sums[0] - exact);
+    }
+
     /// ẍ = t² from rest: x = t⁴/12, forced alone.
     #[test]
     fn a_forcing_is_integrated_twice() {
         let nodes = Gauss::places().map(|t| Coefficients { matrix: vec![0.0, 0.0], forcing: vec![t * t] });
         let mut gauss = Gauss::default();
-        let last = gauss.attempt(([1.0; NODES], &nodes), ONE, &[0.0, 0.0], &[1.0]);
+        let Tail { last, .. } = gauss.attempt(([1.0; NODES], &nodes), ONE, &[0.0, 0.0], &[1.0]);
         assert!((gauss.end()[0] - 1.0 / 12.0).abs() < 1e-15 && (gauss.end()[1] - 1.0 / 3.0).abs() < 1e-15);
         assert!(last < 1e-15, "{last:e}");
     }

@@ -63,7 +63,7 @@ pub(crate) struct Reading {
     /// m/s.
     pub(crate) rate: f64,
     /// The part of the rate that followers make, m/s.
-    pub(super) driven: f64,
+    pub(crate) driven: f64,
 }
 
 /// Forces on the free coordinates, and powers, as they add up.

@@ -91,6 +91,11 @@ impl Variation<'_> {
         };
         let (after, free, dimension) = (self.slopes(state), self.layout.free, self.layout.dimension());
         let first = self.count() - times.len();
+        let powers = |slopes: &[f64]| [slopes[self.layout.input()], slopes[self.layout.damping()]];
+        let powers = [&slopes, &after].map(|slopes| powers(slopes));
+        if self.works.are_led() {
+            times.iter().enumerate().for_each(|(j, time)| self.works.turn(j, powers, *time));
+        }
         for (column, time) in self.columns.chunks_exact_mut(dimension).skip(first).zip(times) {
             for i in free..dimension {
                 column[i] += (slopes[i] - after[i]) * time;

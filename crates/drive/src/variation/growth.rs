@@ -44,6 +44,12 @@ impl Variation<'_> {
                 continue;
             }
             let touches = left.is_some_and(|left| left.modes[c] == Mode::Open);
+            if self.works.are_led() {
+                for (j, moved) in moved.iter().enumerate() {
+                    let stored = self.held_energy(contact, state, *moved, j);
+                    self.works.store(slot, j, stored);
+                }
+            }
             let (modulus, profile) = (contact.interface.tangential_modulus(), contact.interface.profile());
             let held = Held::of(&self.anchors[c], contact, memory);
             for (j, (du, dd)) in moved.into_iter().enumerate() {

@@ -6,6 +6,7 @@
 
 mod contact;
 
+use super::works::Works;
 use super::{Anchors, Variation, VariationError};
 use crate::model::{Measure, Stroke, Terms};
 use crate::{Model, Piece, Plan, Sample, State};
@@ -35,18 +36,31 @@ struct Beside {
 
 /// How the constants of a link move.
 #[derive(Debug, Clone, Copy)]
-struct LinkRates {
-    stiffness: f64,
-    damping: f64,
-    preload: f64,
+pub(super) struct LinkRates {
+    pub(super) stiffness: f64,
+    pub(super) damping: f64,
+    pub(super) preload: f64,
     length: f64,
     stroke: f64,
 }
 
-/// How a starting state moves: its components, and of each memory the anchors, a line [a, b] of each piece.
+/// How a link is moved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretched {
+    /// Its stretch s - e and its length e, m.
+    pub(super) stretch: f64,
+    pub(super) length: f64,
+    /// The rates of its stroke and of its length, m/s.
+    pub(super) stroke_rate: f64,
+    pub(super) rate: f64,
+}
+
+/// How a starting state moves: its components, of each memory the anchors, a line [a, b] of each piece, and where the books of energies
+/// begin, what is stored and what has been put in, J.
 struct Start {
     column: Vec<f64>,
     anchors: Vec<Vec<[f64; 2]>>,
+    books: [f64; 2],
 }
 
 /// Waveforms on their pieces at a time, s.
@@ -132,7 +146,9 @@ impl Parameter {
             Ok((0..count).map(line).collect())
         };
         let anchors = (0..state.memories.len()).map(of_contact).collect::<Result<_, _>>()?;
-        Ok(Start { column, anchors })
+        let books: [fn(&State) -> f64; 2] = [|state| state.origin, |state| state.jumps];
+        let books = books.map(|of| rate(states.each_ref().map(of)));
+        Ok(Start { column, anchors, books })
     }
 
     /// How a waveform moves at a moment.
@@ -175,6 +191,18 @@ impl Parameter {
 
     /// How the force along a link moves, N, its stretch s - e and the rate of that at hand.
     pub(super) fn link(&self, model: &Model, l: usize, [stretch, speed]: [f64; 2], at: Moment<'_>) -> f64 {
+        let (link, rates, moved) = (&model.links[l], &self.links[l], self.stretched(model, l, at));
+        let held = link.stiffness * moved.stretch + link.damping * (moved.stroke_rate - moved.rate);
+        rates.stiffness * stretch + rates.damping * speed + rates.preload + held
+    }
+
+    /// How the constants of a link move.
+    pub(super) fn link_rates(&self, l: usize) -> LinkRates {
+        self.links[l]
+    }
+
+    /// How a link is stretched where its bodies stand as they do.
+    pub(super) fn stretched(&self, model: &Model, l: usize, at: Moment<'_>) -> Stretched {
         let (link, rates) = (&model.links[l], &self.links[l]);
         let stroke = match link.stroke {
             Stroke::Constant(_) => [rates.stroke, 0.0],
@@ -184,8 +212,13 @@ impl Parameter {
             }
         };
         let [length, rate] = self.followed(&link.elongation, at);
-        let held = link.stiffness * (stroke[0] - rates.length - length) + link.damping * (stroke[1] - rate);
-        rates.stiffness * stretch + rates.damping * speed + rates.preload + held
+        let stretch = stroke[0] - rates.length - length;
+        Stretched { stretch, length: rates.length + length, stroke_rate: stroke[1], rate }
+    }
+
+    /// How the mass of a free coordinate moves, kg or kg m².
+    pub(super) fn mass(&self, i: usize) -> f64 {
+        self.beside.rate(|other| other.free[i].mass)
     }
 
     /// How a load moves, N or N m, its waveform's value at hand.
@@ -222,7 +255,7 @@ fn strokes(model: &Model) -> impl Iterator<Item = Option<usize>> {
 }
 
 /// The lines α + βh of a memory's pieces, [α, β].
-fn lines(memory: &Memory) -> Vec<[f64; 2]> {
+pub(super) fn lines(memory: &Memory) -> Vec<[f64; 2]> {
     let Memory::Curve(curve) = memory else { return Vec::new() };
     let slopes = curve.legs().slopes;
     curve.knots().zip(slopes).map(|((h, p), slope)| [p - slope * h, slope]).collect()
@@ -249,6 +282,8 @@ impl Model {
             Anchors::new(count, lines.collect())
         };
         let anchors = (0..self.contacts.len()).map(of_contact).collect();
-        Variation::new((self, parameters), (columns, anchors), self.tolerance(plan.stepper))
+        let books = starts.iter().map(|start| start.books).collect();
+        let variation = Variation::new((self, parameters), (columns, anchors), self.tolerance(plan.stepper))?;
+        Ok(variation.beginning(Works::new(books, start)))
     }
 }

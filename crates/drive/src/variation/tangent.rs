@@ -1,7 +1,8 @@
 //! The linear equations of a variation.
 
-use super::anchors::Held;
+use super::anchors::{Cut, Held};
 use super::parameter::{Moment, Parameter, edge};
+use super::steps::Passed;
 use crate::Model;
 use crate::contact::{Contact, Mode, Motion};
 use crate::equations::{self, Equations};
@@ -23,13 +24,23 @@ struct Stiffness {
 }
 
 /// Where a contact stands at a moment, as all numbers find it.
-struct Stand {
-    motion: Motion,
+pub(super) struct Stand {
+    pub(super) motion: Motion,
     stiffness: Stiffness,
     /// G\*m(d), N/m.
     whole: f64,
     /// F_x where it slips, N.
-    force: f64,
+    pub(super) force: f64,
+}
+
+/// How the forces of a contact answer to its bodies, and to what it holds.
+pub(super) struct Response<'a> {
+    contact: &'a Contact,
+    stiffness: Stiffness,
+    /// Place of F_x where it is a state.
+    slot: Option<usize>,
+    held: &'a Held,
+    cut: Option<Cut>,
 }
 
 /// (δu, δd) of a contact by each number, from the derivatives of the components.
@@ -94,6 +105,38 @@ impl Stiffness {
     }
 }
 
+impl Response<'_> {
+    /// Adds so many times what F_x of one contact makes of places and velocities to a row of the equations.
+    pub(super) fn pull(&self, times: f64, row: &mut [f64]) {
+        match self.slot {
+            Some(slot) => row[slot] += times,
+            None => {
+                let Stiffness { along, across, .. } = self.stiffness;
+                self.contact.u.free.iter().for_each(|(k, b)| row[*k] += times * along * b);
+                self.depth().for_each(|(k, b)| row[*k] += times * across * b);
+            }
+        }
+    }
+
+    /// Adds so many times what it is by anchors that are moved, by each number.
+    pub(super) fn hold(&self, times: f64, row: Option<&mut [f64]>) {
+        if let (Some(cut), Some(row)) = (&self.cut, row) {
+            let pull = times * self.contact.interface.tangential_modulus();
+            row.iter_mut().enumerate().for_each(|(j, x)| *x -= pull * self.held.sum(cut, j));
+        }
+    }
+
+    /// Adds so many times what F_N makes of places to a row.
+    pub(super) fn press(&self, times: f64, row: &mut [f64]) {
+        let press = times * self.stiffness.normal;
+        self.depth().for_each(|(k, b)| row[*k] += press * b);
+    }
+
+    fn depth(&self) -> impl Iterator<Item = &(usize, f64)> {
+        self.contact.coupling().into_iter().flat_map(|d| &d.free)
+    }
+}
+
 /// m'(d): the contact length grows by twice what the radius does, dg/da = 1/a'.
 fn swelling(contact: &Contact, d: f64) -> f64 {
     let profile = contact.interface.profile();
@@ -137,10 +180,11 @@ impl Laws<'_> {
         }
     }
 
-    /// Adds what numbers of the scene make of the equations, `now` being the time; the motion is told as [`Self::lay_out`] has it.
-    pub(super) fn move_by_numbers(&self, now: f64, (t, y): (f64, &[f64]), node: &mut Coefficients) {
+    /// Adds what numbers of the scene make of the equations where the motion has passed a node.
+    pub(super) fn move_by_numbers(&self, passed: &Passed, node: &mut Coefficients) {
         node.forcing.resize(self.components.rates * self.count, 0.0);
-        let (eq, now) = (&self.eq, Moment { pieces: self.eq.pieces, t: now });
+        let (t, y) = (passed.t, &passed.y[..]);
+        let (eq, now) = (&self.eq, Moment { pieces: self.eq.pieces, t: passed.now });
         let mut slopes = Vec::new();
         if self.parameters.iter().any(Parameter::weighs) {
             slopes.resize(eq.layout.total(), 0.0);
@@ -159,7 +203,7 @@ impl Laws<'_> {
     }
 
     /// Numbers of the scene, with their columns.
-    fn numbers(&self) -> impl Iterator<Item = (usize, &Parameter)> {
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (usize, &Parameter)> {
         (self.count - self.parameters.len()..).zip(self.parameters)
     }
 
@@ -195,14 +239,7 @@ impl Laws<'_> {
 
     /// What all numbers of the scene make of the rates by way of one contact.
     fn move_contact(&self, contact: &Contact, (now, motion): (Moment<'_>, Motion), forcing: &mut [f64]) {
-        let (law, model) = (self.eq.law(contact.place), self.eq.model);
-        let stiffness = Stiffness::of(contact, law, &motion);
-        let whole = contact.interface.stick_stiffness(motion.d);
-        let force = match law.1 {
-            Mode::Slip(_) if !contact.inert => contact.force(law, &motion, || 0.0),
-            _ => 0.0,
-        };
-        let stand = Stand { motion, stiffness, whole, force };
+        let (model, stand) = (self.eq.model, self.stand(contact, motion));
         for (j, parameter) in self.numbers().filter(|(_, parameter)| parameter.touches(contact.place)) {
             let mut add = |row: usize, rate: f64| forcing[row * self.count + j] += rate;
             let [along, across] = self.pulls(contact, parameter, (now, &stand), &mut add);
@@ -214,8 +251,19 @@ impl Laws<'_> {
         }
     }
 
+    /// Where a contact stands.
+    pub(super) fn stand(&self, contact: &Contact, motion: Motion) -> Stand {
+        let law = self.eq.law(contact.place);
+        let force = match law.1 {
+            Mode::Slip(_) if !contact.inert => contact.force(law, &motion, || 0.0),
+            _ => 0.0,
+        };
+        let stiffness = Stiffness::of(contact, law, &motion);
+        Stand { stiffness, whole: contact.interface.stick_stiffness(motion.d), force, motion }
+    }
+
     /// How F_x and F_N of one contact change by a number of the scene, N; of one that grows F_x is a state, whose rate does.
-    fn pulls(
+    pub(super) fn pulls(
         &self,
         contact: &Contact,
         parameter: &Parameter,
@@ -246,38 +294,31 @@ impl Laws<'_> {
         }
     }
 
+    /// How a contact answers at a moment.
+    pub(super) fn response<'c>(&'c self, contact: &'c Contact, motion: &Motion) -> Response<'c> {
+        let law = self.eq.law(contact.place);
+        let (stiffness, held) = (Stiffness::of(contact, law, motion), &self.held[contact.place]);
+        let slot = contact.slot.filter(|_| *law.1 == Mode::Grow).map(|slot| self.eq.layout.force(slot));
+        let cut = held.at(contact.interface.profile(), stiffness.front);
+        Response { contact, stiffness, slot, held, cut }
+    }
+
     /// Adds what a contact does to each number's accelerations.
     fn act(&self, contact: &Contact, motion: &Motion, node: &mut Coefficients) {
-        let law = self.eq.law(contact.place);
-        let Stiffness { along, across, normal, front } = Stiffness::of(contact, law, motion);
+        let response = self.response(contact, motion);
         let wide = self.components.positions + self.components.rates;
-        let slot = contact.slot.filter(|_| *law.1 == Mode::Grow);
-        let held = &self.held[contact.place];
-        let cut = held.at(contact.interface.profile(), front);
-        if cut.is_some() && node.forcing.is_empty() {
+        if response.cut.is_some() && node.forcing.is_empty() {
             node.forcing.resize(self.components.rates * self.count, 0.0);
         }
-        let across_to = contact.coupling().map_or(&[][..], |d| &d.free);
-        for (i, a) in &contact.u.free {
-            let share = -self.eq.model.free[*i].mobility * a * contact.count;
-            let row = &mut node.matrix[i * wide..(i + 1) * wide];
-            match slot {
-                Some(slot) => row[self.eq.layout.force(slot)] += share,
-                None => {
-                    contact.u.free.iter().for_each(|(k, b)| row[*k] += share * along * b);
-                    across_to.iter().for_each(|(k, b)| row[*k] += share * across * b);
-                }
-            }
-            if let Some(cut) = &cut {
-                let pull = share * contact.interface.tangential_modulus();
-                let row = &mut node.forcing[i * self.count..(i + 1) * self.count];
-                row.iter_mut().enumerate().for_each(|(j, x)| *x -= pull * held.sum(cut, j));
-            }
+        let Coefficients { matrix, forcing } = node;
+        let share = |(i, a): &(usize, f64)| -self.eq.model.free[*i].mobility * a * contact.count;
+        for term in &contact.u.free {
+            let i = term.0;
+            response.pull(share(term), &mut matrix[i * wide..(i + 1) * wide]);
+            response.hold(share(term), forcing.get_mut(i * self.count..(i + 1) * self.count));
         }
-        for (i, a) in across_to {
-            let share = -self.eq.model.free[*i].mobility * a * contact.count * normal;
-            let row = &mut node.matrix[i * wide..(i + 1) * wide];
-            across_to.iter().for_each(|(k, b)| row[*k] += share * b);
+        for term in contact.coupling().into_iter().flat_map(|d| &d.free) {
+            response.press(share(term), &mut matrix[term.0 * wide..(term.0 + 1) * wide]);
         }
     }
 

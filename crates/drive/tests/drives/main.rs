@@ -53,4 +53,5 @@ mod units;
 mod variations;
 mod variations_at_events;
 mod variations_by_parameters;
+mod variations_of_energies;
 mod vibrated;

@@ -15,9 +15,9 @@ use stickslip_drive::{
 const NEAR: f64 = 5e-5;
 
 /// A number of a scene: what multiplies it by a factor; false where the scene has none.
-type Number = (&'static str, fn(&mut Scene, f64) -> bool);
+pub(crate) type Number = (&'static str, fn(&mut Scene, f64) -> bool);
 
-const NUMBERS: [Number; 15] = [
+pub(crate) const NUMBERS: [Number; 15] = [
     ("friction", |scene, by| {
         let contact = &mut scene.contacts[0].part;
         *contact = of_friction(by * contact.interface.friction(), contact);
@@ -124,7 +124,7 @@ fn taller(waveform: &mut Waveform, by: f64) {
     *waveform = Waveform::new(shape, *waveform.given()).unwrap();
 }
 
-fn built(scene: &Scene) -> Model {
+pub(crate) fn built(scene: &Scene) -> Model {
     let mut model = Model::new(scene).unwrap();
     model.keep_together();
     model
@@ -136,7 +136,7 @@ fn motions(model: &Model, state: &State) -> Vec<f64> {
 }
 
 /// The number of a scene, its models beside the value at so many distances.
-fn parameter(of: &dyn Fn(f64) -> Scene, model: &Model) -> Result<Parameter, VariationError> {
+pub(crate) fn parameter(of: &dyn Fn(f64) -> Scene, model: &Model) -> Result<Parameter, VariationError> {
     let beside = [-2.0, -1.0, 1.0, 2.0].map(|k| built(&of(1.0 + k * NEAR)));
     Parameter::new(model, beside, NEAR)
 }

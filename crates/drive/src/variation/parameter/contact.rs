@@ -1,10 +1,10 @@
 //! What of a contact moves with a number of its scene.
 
 use super::{Beside, Moment, Parameter, sampled};
-use crate::State;
 use crate::contact::{Contact, Motion, Press};
 use crate::model::Measure;
-use stickslip_contact::Memory;
+use crate::{Model, State};
+use stickslip_contact::{Memory, Profile};
 
 /// How the constants of a contact move.
 #[derive(Debug, Clone, Copy)]
@@ -29,8 +29,9 @@ pub(super) struct ContactRates {
 pub(in crate::variation) struct Shift {
     pub(in crate::variation) u: f64,
     pub(in crate::variation) d: f64,
-    /// By which its rate of sliding changes, m/s.
+    /// By which its rate of sliding changes, and that of its depth where bodies press it, m/s.
     pub(in crate::variation) du: f64,
+    pub(in crate::variation) dd: f64,
 }
 
 impl ContactRates {
@@ -69,15 +70,19 @@ impl Parameter {
     pub(in crate::variation) fn shift(&self, contact: &Contact, at: Moment<'_>) -> Shift {
         let (c, rates) = (contact.place, &self.contacts[contact.place]);
         let [u, du] = self.followed(&contact.u, at);
-        let d = match &contact.press {
-            Press::Constant { .. } => rates.d,
-            Press::Coupled(measure) => rates.d + self.followed(measure, at)[0],
-            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) if rates.presses => {
-                self.beside.rate(|other| other.contacts[c].pressed(sampled(other, *w, at), None).0)
+        let [d, dd] = match &contact.press {
+            Press::Constant { .. } => [rates.d, 0.0],
+            Press::Coupled(measure) => {
+                let [d, dd] = self.followed(measure, at);
+                [rates.d + d, dd]
             }
-            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => 0.0,
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) if rates.presses => {
+                let d = |other: &Model| other.contacts[c].pressed(sampled(other, *w, at), None).0;
+                [self.beside.rate(d), 0.0]
+            }
+            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => [0.0; 2],
         };
-        Shift { u: rates.u + u, d, du }
+        Shift { u: rates.u + u, d, du, dd }
     }
 
     /// How far a contact is moved, (u, d) in m, at the moment of a state.
@@ -133,6 +138,35 @@ impl Parameter {
             return self.beside.rate(|other| other.contacts[c].interface.normal_force(d));
         }
         self.contacts[c].normal * contact.interface.normal_force(d)
+    }
+
+    /// How the energy of pressing moves at the depth d, J.
+    pub(in crate::variation) fn normal_energy(&self, contact: &Contact, d: f64) -> f64 {
+        let c = contact.place;
+        if self.contacts[c].profile {
+            return self.beside.rate(|other| other.contacts[c].interface.normal_energy(d));
+        }
+        self.contacts[c].normal * contact.interface.normal_energy(d)
+    }
+
+    /// G\*, as a share of it.
+    pub(in crate::variation) fn tangential(&self, c: usize) -> f64 {
+        self.contacts[c].tangential
+    }
+
+    /// m(h), M(h) and N(h) of the profile; none where it stays as it is.
+    pub(in crate::variation) fn sums(&self, c: usize, h: f64) -> Option<[f64; 3]> {
+        let rate = |of: fn(&Profile, f64) -> f64| {
+            self.beside.rate(|other| of(other.contacts[c].interface.profile(), h))
+        };
+        let sums: [fn(&Profile, f64) -> f64; 3] =
+            [Profile::reduced_stiffness, Profile::reduced_force, Profile::reduced_energy];
+        self.contacts[c].profile.then(|| sums.map(rate))
+    }
+
+    /// M(h) of a profile that moves, m².
+    pub(in crate::variation) fn reduced(&self, c: usize, h: f64) -> f64 {
+        if self.contacts[c].profile { self.reduced_force(c, h) } else { 0.0 }
     }
 
     fn reduced_force(&self, c: usize, h: f64) -> f64 {

@@ -1,0 +1,204 @@
+//! Steps of a variation: the linear equations led along the steps of the run.
+
+use super::tangent::Laws;
+use super::{Variation, VariationError};
+use crate::contact::Mode;
+use crate::equations::Equations;
+use crate::record::Stride;
+use crate::state::State;
+use stickslip_stepper::{Components, Gauss, NODES};
+
+/// What a step of the variation may miss, in natural scales, in tolerances of the run's own steps: multipliers of the impact drive, the
+/// climber and the three-ball stage by 1e-10 are those by 1e-12 to ten digits.
+const ALLOWED: f64 = 100.0;
+/// What a step of a swing misses whose slopes have the last Legendre coefficient c, in natural scales, is 1.25e-3 c^2.2: a swing by one
+/// radian 1e-10.
+const MISSED: (f64, f64) = (1.25e-3, 2.2);
+/// Where roots are near it is this part of the tenth coefficient that the others let expect. More would be spent on swings, whose
+/// coefficients fall the faster the later they come.
+const ROOT: f64 = 0.1;
+/// It falls with the power 11 of the step. Part of the step that would just do, the strongest shortening at once, and the shortest step
+/// that is tried, as a part of the run's.
+const FALLS: f64 = 1.0 / 11.0;
+const SAFETY: f64 = 0.9;
+const SHRINK: f64 = 0.2;
+const SHORTEST: f64 = 1e-3;
+
+/// Part of the height at which it begins to which a front has to fall that nodes crowd; and what goes slower than this at an end, as a part
+/// of what it does half way, crowds there by itself.
+const LOW: f64 = 0.5;
+const SLOW: f64 = 0.25;
+
+/// How nodes lie in a stride: evenly in the root of a height that goes evenly with the part.
+#[derive(Debug, Clone, Copy)]
+struct Grade {
+    from: f64,
+    to: f64,
+}
+
+impl Grade {
+    const EVEN: Self = Self { from: 1.0, to: 1.0 };
+
+    /// Where the place of a node lies in a step between two parts of the stride, and how steeply it moves with the place.
+    fn of(self, place: f64, between: [f64; 2]) -> (f64, f64) {
+        let [from, to] = between.map(|part| (self.from + (self.to - self.from) * part).max(0.0).sqrt());
+        let (sum, rise) = (from + to, (to - from) * place);
+        (place * (2.0 * from + rise) / sum, 2.0 * (from + rise) / sum)
+    }
+}
+
+/// The motion at a node of a step, where numbers of the scene need it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Passed {
+    /// Time by which the run tells it, and that of the variation, s.
+    pub(super) t: f64,
+    pub(super) now: f64,
+    pub(super) y: Vec<f64>,
+}
+
+impl Variation<'_> {
+    /// Whether anything acts on the derivatives: else velocities stay as they are.
+    pub(super) fn acts(&self) -> bool {
+        !self.acting.is_empty() || !self.model.links.is_empty() || !self.parameters.is_empty()
+    }
+
+    /// Leads the derivatives over a time in which nothing acts on them, s.
+    pub(super) fn drift(&mut self, time: f64) {
+        let free = self.layout.free;
+        for column in self.columns.chunks_exact_mut(self.layout.dimension().max(1)) {
+            let (x, rest) = column.split_at_mut(free);
+            x.iter_mut().zip(rest).for_each(|(x, v)| *x += time * *v);
+        }
+    }
+
+    /// Leads the derivatives along a step of the run, in as many steps as it takes.
+    pub(super) fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
+        if !self.parameters.is_empty() {
+            [self.time, _] = stride.at(0.0, &mut self.y[..2 * self.layout.free]);
+        }
+        let grade = self.grade(from, stride);
+        let (mut at, mut length) = (0.0, 1.0);
+        while self.acts() && at < 1.0 {
+            // No stub is left for the last step.
+            let to = if at + 1.01 * length >= 1.0 { 1.0 } else { at + length };
+            let missed = self.attempt(from, stride, (at, to), grade) / (ALLOWED * self.tolerance);
+            if missed <= 1.0 {
+                self.grow(from, stride, (at, to));
+                self.work(from);
+                self.columns.copy_from_slice(self.method.end());
+                self.time += self.length;
+                at = to;
+                continue;
+            }
+            let shorter = (SAFETY * missed.powf(-FALLS)).max(SHRINK) * (to - at);
+            if shorter.is_nan() || shorter < SHORTEST {
+                return Err(VariationError::NotSmooth { t: from.t });
+            }
+            // As many steps as it takes, of one length.
+            length = (1.0 - at) / ((1.0 - at) / shorter).ceil();
+        }
+        Ok(())
+    }
+
+    /// Adds up works over the step just tried.
+    fn work(&mut self, from: &State) {
+        if !self.works.are_led() {
+            return;
+        }
+        let mut works = std::mem::take(&mut self.works);
+        let laws = self.laws(from);
+        for (passed, powers) in self.passed.iter().zip(&mut works.powers) {
+            laws.lay_out_powers(passed, powers);
+        }
+        let (powers, sums) = works.sums();
+        self.method.integrate(powers, laws.components, &self.columns, sums);
+        self.works = works;
+    }
+
+    /// The linear equations of an interval.
+    fn laws<'a>(&'a self, from: &'a State) -> Laws<'a> {
+        Laws {
+            eq: Equations::on(self.model, from, self.layout, false),
+            held: &self.held,
+            acting: &self.acting,
+            links: &self.links,
+            components: self.components(from),
+            count: self.count(),
+            parameters: self.parameters,
+        }
+    }
+
+    /// The components of an interval: the forces of growing contacts are led along where one grows.
+    pub(super) fn components(&self, from: &State) -> Components {
+        let grows = from.modes.contains(&Mode::Grow);
+        let rates = if grows { self.layout.dimension() - self.layout.free } else { self.layout.free };
+        Components { positions: self.layout.free, rates, stride: self.layout.dimension() }
+    }
+
+    /// How nodes lie in a stride. The stiffness of a contact goes as a root of the height of its slip front: where that comes near the
+    /// centre nodes lie evenly in the root.
+    fn grade(&mut self, from: &State, stride: &mut dyn Stride) -> Grade {
+        let mut y = std::mem::take(&mut self.y);
+        let laws = self.laws(from);
+        let mut heights = |part: f64| -> (f64, Vec<f64>) {
+            let [t, rate] = stride.at(part, &mut y[..2 * self.layout.free]);
+            let height = |c: &usize| {
+                let (contact, (memory, mode)) = (&self.model.contacts[*c], laws.eq.law(*c));
+                let Mode::Slip(branch) = mode else { return 1.0 };
+                let motion = laws.eq.motion(contact, t, |i| y[i]);
+                if branch.is_gross() {
+                    1.0
+                } else {
+                    contact.front(memory, branch, &motion).max(0.0) / motion.d
+                }
+            };
+            (rate, self.acting.iter().map(height).collect())
+        };
+        let ((first, from), (middle, _), (last, to)) = (heights(0.0), heights(0.5), heights(1.0));
+        let is_even = first.min(last) > SLOW * middle && laws.components.rates == self.layout.free;
+        let lowest = from.into_iter().zip(to).min_by(|a, b| a.1.total_cmp(&b.1));
+        self.y = y;
+        match lowest {
+            Some((from, to)) if is_even && to < LOW * from => Grade { from, to },
+            _ => Grade::EVEN,
+        }
+    }
+
+    /// Tries one step between two parts of a stride and tells what it misses, in natural scales.
+    fn attempt(
+        &mut self,
+        from: &State,
+        stride: &mut dyn Stride,
+        (begin, end): (f64, f64),
+        grade: Grade,
+    ) -> f64 {
+        let (mut nodes, mut passed) = (std::mem::take(&mut self.nodes), std::mem::take(&mut self.passed));
+        let mut y = std::mem::take(&mut self.y);
+        let laws = self.laws(from);
+        let components = laws.components;
+        // The forces of growing contacts are components of a step; no leap has any.
+        let known =
+            if components.rates > self.layout.free { self.layout.dimension() } else { 2 * self.layout.free };
+        let (mut paces, is_moved) = ([0.0; NODES], !self.parameters.is_empty());
+        let each = nodes.iter_mut().zip(&mut passed);
+        for ((place, pace), (node, passed)) in Gauss::places().into_iter().zip(&mut paces).zip(each) {
+            let (part, steep) = grade.of(place, [begin, end]);
+            let [t, rate] = stride.at(begin + part * (end - begin), &mut y[..known]);
+            *pace = rate * steep * (end - begin);
+            laws.lay_out((t, &y), node);
+            if is_moved {
+                passed.t = t;
+                passed.y.clone_from(&y);
+            }
+        }
+        // A leap tells places by a time of its own.
+        let (times, length) = Gauss::times(paces);
+        for ((time, passed), node) in times.iter().zip(&mut passed).zip(&mut nodes).filter(|_| is_moved) {
+            passed.now = self.time + time;
+            laws.move_by_numbers(passed, node);
+        }
+        let tail = self.method.attempt((paces, &nodes), components, &self.columns, &self.scale);
+        (self.nodes, self.passed, self.y, self.length) = (nodes, passed, y, length);
+        (MISSED.0 * tail.last.powf(MISSED.1)).max(ROOT * tail.rest)
+    }
+}
