@@ -46,8 +46,19 @@ struct Watched {
     /// The word of the events at which its u turns.
     turn: &'static str,
     slips: bool,
-    /// Force at its last turn, and the limit of friction there, N.
-    extreme: Option<[f64; 2]>,
+    /// Its force at its last turn.
+    extreme: Option<Extreme>,
+}
+
+/// Where the force of a contact turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extreme {
+    /// Time, s.
+    pub t: f64,
+    /// The force, N.
+    pub force: f64,
+    /// The limit of friction then, N.
+    pub limit: f64,
 }
 
 /// What happened in a period. Of two values the first is of the rising waveform, the second of the falling one.
@@ -77,6 +88,8 @@ pub(crate) struct ContactAccount {
     pub(crate) rings: [Option<f64>; 2],
     /// The last swing, half of peak to peak, as a share of the limit of friction: the mean of that at both turns.
     pub(crate) swing: [f64; 2],
+    /// Both turns of that.
+    pub(crate) turns: [Option<[Extreme; 2]>; 2],
 }
 
 /// Which of two values a way has.
@@ -219,8 +232,8 @@ impl Accounts {
             return;
         }
         // The force turns where slip begins or ends, too.
-        let limit = contact.friction * normal;
-        let before = contact.extreme.replace([force, limit]);
+        let now = Extreme { t, force, limit: contact.friction * normal };
+        let before = contact.extreme.replace(now);
         let (Some(account), Some(side)) =
             (self.now.as_mut().and_then(|it| it.contacts.get_mut(k)), side(sense))
         else {
@@ -228,7 +241,8 @@ impl Accounts {
         };
         if turns {
             account.reversals[side] += 1;
-            account.swing[side] = before.map_or(0.0, |before| swing(before, [force, limit]));
+            account.swing[side] = before.map_or(0.0, |before| swing(&before, &now));
+            account.turns[side] = before.map(|before| [before, now]);
             if account.swing[side] > RINGING {
                 account.rings[side] = Some(t - self.turned);
             }
@@ -247,7 +261,7 @@ impl Accounts {
 
 /// Half of what lies between two forces, as a share of the limit of friction: the mean of both moments, above which no swing of
 /// springs comes, however little presses at either of them.
-fn swing([force, limit]: [f64; 2], [to, limit_there]: [f64; 2]) -> f64 {
-    let limit = 0.5 * (limit + limit_there);
-    if limit > 0.0 { 0.5 * (to - force).abs() / limit } else { 0.0 }
+fn swing(from: &Extreme, to: &Extreme) -> f64 {
+    let limit = 0.5 * (from.limit + to.limit);
+    if limit > 0.0 { 0.5 * (to.force - from.force).abs() / limit } else { 0.0 }
 }

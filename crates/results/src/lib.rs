@@ -81,6 +81,7 @@ mod trail;
 mod warning;
 mod watcher;
 
+pub use account::Extreme;
 pub use columns::Columns;
 pub use contact_path::contact_path;
 pub use definitions::{Definition, definitions, definitions_page};

@@ -31,7 +31,7 @@ pub use crate::cycles::JudgedCycle;
 pub use contacts::ContactSummary;
 pub use drivers::DriverSummary;
 pub use fretting::Fretting;
-pub use period::{ContactPeriod, LastPeriod, PeriodWork, Way};
+pub use period::{ContactPeriod, LastPeriod, PeriodWork, Way, load};
 pub(crate) use steps::flight;
 pub use steps::{DriveSummary, SettlingSummary, Steady, step_bounds};
 

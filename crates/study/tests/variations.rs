@@ -10,19 +10,33 @@ use stickslip_study::sensitivity::{Asked, Derivative, Sensitivity, Slope, Source
 
 type Checked = Result<(), Box<dyn Error>>;
 
-/// Scenes, each for so many periods or so long, and figures of each that are made of places and speeds.
+/// Scenes, each for so many periods or so long, and figures of each that are made of places, speeds, energies and forces.
 const SCENES: [(&str, (&str, &str), &[&str]); 10] = [
-    ("p1", ("run.cycles", "3"), &["steps.last_m", "steps.mean_speed_m_s", "slider.x_m"]),
-    ("quickstart", ("run.duration", "35 ms"), &["steps.last_m", "slider.x_m", "slider.vx_m_s"]),
-    ("ruby_drive", ("run.cycles", "3"), &["steps.last_m", "steps.mean_speed_m_s"]),
-    ("sine_drive", ("run.cycles", "3"), &["steps.last_m", "steps.net_travel_m"]),
-    ("three_ball_stage", ("run.cycles", "2"), &["steps.last_m", "stage.z_m", "stage.pitch_rad"]),
-    ("impact_drive", ("run.cycles", "2"), &["steps.last_m", "carrier.pitch_rad", "counter.x_m"]),
-    ("vertical_climber", ("run.cycles", "2"), &["steps.last_m", "climber.pitch_rad"]),
-    ("oblique_impact", ("title", "drawn"), &["ball.vx_m_s", "ball.vz_m_s", "ball.vpitch_rad_s"]),
+    ("p1", ("run.cycles", "3"), &["steps.last_m", "steps.mean_speed_m_s", "slider.x_m", FRICTION, RINGING]),
+    (
+        "quickstart",
+        ("run.duration", "35 ms"),
+        &["steps.last_m", "slider.x_m", "slider.vx_m_s", FRICTION, "steps.last_period.work.efficiency"],
+    ),
+    ("ruby_drive", ("run.cycles", "3"), &["steps.last_m", "steps.mean_speed_m_s", "energy.input_J", RINGING]),
+    ("sine_drive", ("run.cycles", "3"), &["steps.last_m", "steps.net_travel_m", FRICTION]),
+    (
+        "three_ball_stage",
+        ("run.cycles", "2"),
+        &["steps.last_m", "stage.z_m", "stage.pitch_rad", "steps.last_period.work.friction_J"],
+    ),
+    (
+        "impact_drive",
+        ("run.cycles", "2"),
+        &["steps.last_m", "carrier.pitch_rad", "counter.x_m", "energy.kinetic_J"],
+    ),
+    ("vertical_climber", ("run.cycles", "2"), &["steps.last_m", "climber.pitch_rad", "energy.elastic_J"]),
+    ("oblique_impact", ("title", "drawn"), &["ball.vx_m_s", "ball.vz_m_s", "ball.vpitch_rad_s", FRICTION]),
     ("bouncing_ball", ("title", "drawn"), &["ball.z_m", "ball.vz_m_s"]),
-    ("measured_impact", ("title", "drawn"), &["ball.vx_m_s", "ball.vz_m_s", "ball.vpitch_rad_s"]),
+    ("measured_impact", ("title", "drawn"), &["ball.vx_m_s", "ball.vz_m_s", "ball.vpitch_rad_s", FRICTION]),
 ];
+const FRICTION: &str = "energy.friction_J";
+const RINGING: &str = "steps.last_period.contacts.ball.ringing_left";
 /// Points of each, numbers moved at each of them, and quantities of each.
 const POINTS: usize = 3;
 const MOVED: usize = 2;

@@ -1,6 +1,6 @@
 //! The account of the last period of a drive.
 
-use crate::account::{Account, ContactAccount, Phases};
+use crate::account::{Account, ContactAccount, Extreme, Phases};
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
@@ -158,8 +158,18 @@ fn work(account: &Account, load: Option<f64>) -> PeriodWork {
     }
 }
 
-/// Constant force along x on the body of the figures, its loads and its weight, N; none where a load on it varies.
-fn load(job: &Job) -> Option<f64> {
+impl Outcome {
+    /// The last swing of a contact's force while the waveform of the figures went forth in its last whole period: both of its turns.
+    #[must_use]
+    pub fn last_swing(&self, contact: usize) -> Option<[Extreme; 2]> {
+        let account = self.tally.accounts()?.last()?;
+        account.contacts.iter().find(|it| it.c == contact)?.turns[forth(account)]
+    }
+}
+
+/// Constant force along x on the body of the figures, its loads and its weight, N; none where a load on it varies, or where others
+/// bear one.
+pub fn load(job: &Job) -> Option<f64> {
     let (scene, b) = (&job.scenario.scene, job.scenario.figures.body?);
     let body = &scene.bodies.get(b)?.part;
     let (along, _) = scene.gravity.components();

@@ -1,0 +1,81 @@
+//! What is seen where the slides of contacts turn.
+//!
+//! A run that is told to go as far as to a turn stands there with a velocity of which rounding leaves a root, and its variation goes on
+//! from that: turns are looked at where the run passes them.
+
+use super::told::Told;
+use stickslip_drive::{Event, Record, State, Stride, Variation};
+use stickslip_results::Extreme;
+
+/// Moments that differ by less than this, as a part of them, are one: the run with the variation passes the turns of the run without.
+const SAME: f64 = 1e-12;
+
+/// A turn of a contact: the force there, and how this and the limit of friction, N, change by each quantity.
+pub(super) struct Turn {
+    contact: usize,
+    pub(super) extreme: Extreme,
+    pub(super) moved: Vec<Option<[f64; 2]>>,
+}
+
+/// Both turns of the last swing of each figure that is one.
+pub(super) struct Turns {
+    swings: Vec<Option<[Turn; 2]>>,
+    count: usize,
+}
+
+impl Turns {
+    pub(super) fn of(told: &[Told], swings: &[Option<[Extreme; 2]>], count: usize) -> Self {
+        let swing = |(told, swing): (&Told, &Option<[Extreme; 2]>)| match (told, swing) {
+            (Told::Ringing { contact }, Some(swing)) => {
+                Some(swing.map(|extreme| Turn { contact: *contact, extreme, moved: Vec::new() }))
+            }
+            _ => None,
+        };
+        Self { swings: told.iter().zip(swings).map(swing).collect(), count }
+    }
+
+    /// The swing of figure `f`.
+    pub(super) fn swing(&self, f: usize) -> Option<&[Turn; 2]> {
+        self.swings.get(f)?.as_ref()
+    }
+
+    fn look(&mut self, variation: &Variation<'_>, state: &State) {
+        let t = state.time();
+        for turn in self.swings.iter_mut().flatten().flatten() {
+            if (turn.extreme.t - t).abs() <= SAME * t {
+                turn.moved = (0..self.count).map(|j| variation.turn(state, turn.contact, j)).collect();
+            }
+        }
+    }
+}
+
+/// A variation that is looked at where its run passes turns.
+pub(super) struct Turning<'a, 'm> {
+    pub(super) variation: &'a mut Variation<'m>,
+    pub(super) turns: &'a mut Turns,
+}
+
+impl Record for Turning<'_, '_> {
+    fn row(&mut self, values: &[f64]) {
+        self.variation.row(values);
+    }
+    fn event(&mut self, event: &Event, values: &[f64]) {
+        self.variation.event(event, values);
+    }
+    fn wants_events(&self) -> bool {
+        self.variation.wants_events()
+    }
+    fn leaves(&mut self, state: &State) {
+        self.variation.leaves(state);
+        self.turns.look(self.variation, state);
+    }
+    fn enters(&mut self, state: &State) {
+        self.variation.enters(state);
+    }
+    fn strides(&self) -> bool {
+        self.variation.strides()
+    }
+    fn stride(&mut self, stride: &mut dyn Stride) {
+        self.variation.stride(stride);
+    }
+}
