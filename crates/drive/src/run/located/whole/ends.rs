@@ -13,6 +13,7 @@ use stickslip_stepper::Attempt;
 const SHARE: f64 = 1.0 / 64.0;
 /// First step of a detour, as a part of it.
 const FIRST: f64 = 1e-3;
+
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Leaves the located run for the whole law, where it would have to stop for accumulating events or steps that do not
     /// move on; gives the reason back where there is no such way.
@@ -31,8 +32,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // Time must be able to tell its steps apart.
         let tells = |period: &f64| period.is_normal() && state.t + 0.01 * FIRST * SHARE * period > state.t;
         let Some(period) = period.filter(tells) else { return Err(reason) };
-        // Blocks have events of their own, which only a located run looks for.
-        if self.detour.is_some() || model.contacts.is_empty() || !model.blocks.is_empty() {
+        if self.detour.is_some() || model.contacts.is_empty() {
             return Err(reason);
         }
         if self.ledger.booked.books == Books::Behind {
@@ -56,7 +56,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let model = self.setting.model;
         let dense =
             |contact: &Contact| contact.slot.is_some() && !contact.engine.branches() && !contact.has_lulls();
-        // Blocks have events of their own, which only a located run looks for.
+        // Events of blocks would cut such steps all along: located ones bear that better.
         if model.blocks.is_empty() && model.contacts.iter().any(dense) {
             let period = TAU / model.fastest;
             // Where nothing is free nothing swings, and a period of the waveforms tells how short a step may be.
