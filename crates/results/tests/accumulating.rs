@@ -8,6 +8,7 @@
 //!   second time was not seen in every other period, 3e-4 u_c at any tolerance.
 //! * `hang`: a touch at t = 1e-20 s, after which steps of 1e-28 s followed one another.
 //! * `behind_a_driver`, `rests_behind_a_driver`: the same as elsewhere, but with a driver on the stack: no detour was tried then.
+//! * `walk_damped_heights`: nothing is free, and a flyback of a nanosecond; steps fell to last places of t where damped springs slip.
 
 #![allow(
     clippy::unwrap_used,
@@ -130,4 +131,14 @@ fn a_scene_with_a_driver_takes_detours() {
         assert!(detours > 0 && off < 300.0 * tolerance, "{tolerance:e}: {off:e}, {detours} detours");
     }
     against_fixed_steps("rests_behind_a_driver", ["10 us", "5 us"], &[1e-2, 1e-3, 1e-6], 100.0);
+}
+
+#[test]
+fn a_walk_goes_on_where_damping_is_gone_at_once() {
+    let finest = event("walk_damped_heights", 1e-12).1;
+    for tolerance in [1e-4, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10] {
+        let (job, outcome) = event("walk_damped_heights", tolerance);
+        assert_eq!(outcome.state.counts().detours, 0, "{tolerance:e}");
+        assert!(off(&places(&job, &outcome.state), &places(&job, &finest.state)) < 1e-12);
+    }
 }
