@@ -9,6 +9,7 @@
 //! * `hang`: a touch at t = 1e-20 s, after which steps of 1e-28 s followed one another.
 //! * `behind_a_driver`, `rests_behind_a_driver`: the same as elsewhere, but with a driver on the stack: no detour was tried then.
 //! * `walk_damped_heights`: nothing is free, and a flyback of a nanosecond; steps fell to last places of t where damped springs slip.
+//! * `walk_overloaded`: a load that outgrows friction, at a tolerance near rounding: a step too small was told.
 
 #![allow(
     clippy::unwrap_used,
@@ -17,7 +18,7 @@
 )]
 
 use std::path::Path;
-use stickslip_drive::State;
+use stickslip_drive::{RunError, State};
 use stickslip_results::{Job, Outcome};
 
 fn job(name: &str, stepper: &str) -> Job {
@@ -140,5 +141,16 @@ fn a_walk_goes_on_where_damping_is_gone_at_once() {
         let (job, outcome) = event("walk_damped_heights", tolerance);
         assert_eq!(outcome.state.counts().detours, 0, "{tolerance:e}");
         assert!(off(&places(&job, &outcome.state), &places(&job, &finest.state)) < 1e-12);
+    }
+}
+
+#[test]
+fn an_overload_is_told_as_one_at_any_tolerance() {
+    for tolerance in [1e-3, 1e-8, 1e-12, 1e-13] {
+        let job = job("walk_overloaded", &format!(r#"{{"event": {{"tolerance": {tolerance:e}}}}}"#));
+        let Some(RunError::Unbalanced { t, body, .. }) = job.run(&()).error else {
+            panic!("{tolerance:e}: no overload is told");
+        };
+        assert!(body == "rig" && (t - 1.562_640_370_037_2e-6).abs() < 1e-18, "{tolerance:e}: {t:e}");
     }
 }

@@ -100,7 +100,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return Ok(Progress::Short);
         }
         if !self.setting.model.balanced.is_empty() {
-            times = Times::halved(times.from, self.until_overloaded(state, times.to)?);
+            let least = SHORTEST * detour.length;
+            times = Times::halved(times.from, self.until_overloaded(state, times.to, least)?);
         }
         if !times.moves_on() {
             return self.step_instant(state, (times.to, &detour), record);

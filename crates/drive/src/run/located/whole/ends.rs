@@ -26,7 +26,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let of = |name: &str| model.contacts.iter().find(|contact| contact.name == name);
         let period = match &reason {
             RunError::Zeno { contact, .. } => of(contact).map(|contact| TAU / contact.natural.frequency),
-            RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(TAU / model.fastest),
+            RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(self.pace(state)),
             _ => None,
         };
         // Time must be able to tell its steps apart.
@@ -48,6 +48,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.forget();
         self.take_whole(state);
         Ok(Progress::Made)
+    }
+
+    /// Period of the fastest swing, s. Where nothing is free nothing swings: then how long the waveforms take, or what of them is
+    /// under way.
+    fn pace(&self, state: &State) -> f64 {
+        let model = self.setting.model;
+        if model.fastest > 0.0 {
+            return TAU / model.fastest;
+        }
+        let lengths = model.waveforms.iter().zip(&state.pieces);
+        let lengths = lengths.map(|(waveform, piece)| waveform.extent().min(piece.end - piece.start));
+        lengths.fold(f64::INFINITY, f64::min)
     }
 
     /// Takes the whole law to the end of the run where a row under a moving normal has too many springs to look for the changes
