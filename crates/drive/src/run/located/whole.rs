@@ -11,6 +11,8 @@
 
 mod blocks;
 mod ends;
+#[cfg(test)]
+mod tests;
 mod way;
 
 use super::Located;
