@@ -65,6 +65,18 @@ pub enum RunError {
         /// Length of the window, s.
         window: f64,
     },
+    /// Events of a block accumulate at one moment.
+    #[error("events of block `{block}` accumulate at t = {t:e} s: {count} within {window:e} s")]
+    Chatter {
+        /// Time, s.
+        t: f64,
+        /// Name of the block.
+        block: String,
+        /// Number of events.
+        count: u32,
+        /// Length of the window, s.
+        window: f64,
+    },
     /// Steps that do not move on.
     #[error("at t = {t:e} s {attempts} steps have moved the run on by {advance:e} s")]
     Crawl {
@@ -173,8 +185,8 @@ impl RunError {
             }
             Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
             Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",
-            Self::Zeno { .. } | Self::Crawl { .. } => {
-                "take a fixed step: the whole law by halved steps was tried and found no way on, either"
+            Self::Zeno { .. } | Self::Chatter { .. } | Self::Crawl { .. } => {
+                "take another tolerance, or a fixed step, which looks for no events"
             }
             Self::Contact { source: ContactError::Beyond { .. }, .. } => {
                 "give the profile points further out, or press it less"

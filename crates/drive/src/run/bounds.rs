@@ -149,7 +149,11 @@ impl Bounds {
         }
         *count += 1;
         if *count > most {
-            return Err(RunError::Zeno { t: state.t, contact: name.clone(), count: *count, window });
+            let (t, name, count) = (state.t, name.clone(), *count);
+            return Err(match source {
+                Source::Block(_) => RunError::Chatter { t, block: name, count, window },
+                _ => RunError::Zeno { t, contact: name, count, window },
+            });
         }
         Ok(())
     }

@@ -203,17 +203,52 @@ impl Ledger {
     ) -> Result<(), RunError> {
         let (t, wired, passage) = (state.t, &model.blocks[k], &mut self.passages[k]);
         // Made here and not kept: the inputs may depend on blocks committed before.
-        let at = Components { t, y: |i: usize| state.y[i] };
         let equations = Equations::on(model, state, layout, crossing);
-        passage.inputs.clear();
-        passage.inputs.extend(equations.block_inputs(wired, &at));
-        passage.states.clear();
-        passage.states.extend(equations.block_states(k, &at));
-        (passage.t, passage.located) = (t, layout.located);
-        (passage.duration, passage.law) = (t - self.booked.blocks, state.blocks[k].law);
+        lay_out(passage, (&equations, k), (t, &state.y), t - self.booked.blocks);
         let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
-        let lost = lost.map_err(|Refused(why)| RunError::Block { t, block: wired.name.clone(), why })?;
-        state.lost += lost;
+        state.lost += lost.map_err(|refused| refusal(wired, t, refused))?;
         Ok(())
     }
+
+    /// What all blocks would lose on the way to both ends of the halves of a step that is only tried, J. `kept` is room for what one of
+    /// them remembers.
+    pub(super) fn would_lose(
+        &mut self,
+        equations: &Equations<'_>,
+        ends: [(f64, &[f64]); 2],
+        kept: &mut Vec<f64>,
+    ) -> Result<f64, RunError> {
+        let mut lost = 0.0;
+        for (k, wired) in equations.model.blocks.iter().enumerate() {
+            let passage = &mut self.passages[k];
+            kept.clone_from(&equations.blocks[k].memory);
+            let mut since = self.booked.blocks;
+            for (t, y) in ends {
+                lay_out(passage, (equations, k), (t, y), t - since);
+                lost += wired.block().commit(kept, passage).map_err(|refused| refusal(wired, t, refused))?;
+                since = t;
+            }
+        }
+        Ok(lost)
+    }
+}
+
+/// Writes down the path of block `k` up to a time and components.
+fn lay_out(
+    passage: &mut Passage,
+    (equations, k): (&Equations<'_>, usize),
+    (t, y): (f64, &[f64]),
+    duration: f64,
+) {
+    let at = Components { t, y: |i: usize| y[i] };
+    passage.inputs.clear();
+    passage.inputs.extend(equations.block_inputs(&equations.model.blocks[k], &at));
+    passage.states.clear();
+    passage.states.extend(equations.block_states(k, &at));
+    (passage.t, passage.located) = (t, equations.layout.located);
+    (passage.duration, passage.law) = (duration, equations.blocks[k].law);
+}
+
+fn refusal(wired: &Wired, t: f64, Refused(why): Refused) -> RunError {
+    RunError::Block { t, block: wired.name.clone(), why }
 }

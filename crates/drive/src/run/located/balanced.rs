@@ -35,8 +35,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// How far the whole law may be taken, s: to `to`, or to the last moment before nothing balances a coordinate any more.
     ///
     /// No mode says there that a contact has given way, and beyond it there is no place to go to. What pulls and what holds
-    /// depend on the time alone. Fails where that moment is now.
-    pub(super) fn until_overloaded(&self, state: &State, to: f64) -> Result<f64, RunError> {
+    /// depend on the time alone. Fails where that moment is no more than `least` (s) ahead: about it places change faster than any
+    /// step tells.
+    pub(super) fn until_overloaded(&self, state: &State, to: f64, least: f64) -> Result<f64, RunError> {
         let (model, equations, from) = (self.setting.model, self.setting.plain(state), state.t);
         let over = |t: f64| equations.overloaded(t, &|i| state.y[i]);
         let tried = [from + 0.5 * (to - from), to];
@@ -51,6 +52,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         match over(high) {
             Some((b, forces)) if low <= from => Err(model.unbalanced(b, from, forces)),
+            Some((b, forces)) if low - from <= least => Err(model.unbalanced(b, high, forces)),
             _ => Ok(low),
         }
     }

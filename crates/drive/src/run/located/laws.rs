@@ -36,7 +36,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let mut turns = corner;
         for i in 0..self.watch.fired.len() {
             match self.watch.fired[i] {
-                Fallen::Contact(c, guard) => self.handle_contact(state, (c, guard), record)?,
+                Fallen::Contact(c, guard) => {
+                    if let Err(reason) = self.handle_contact(state, (c, guard), record) {
+                        // A detour that follows looks at contacts afresh, and at no event of a block that has been.
+                        if matches!(reason, RunError::Zeno { .. }) {
+                            self.pass_blocks(state, (i + 1, corner), record)?;
+                        }
+                        return Err(reason);
+                    }
+                }
                 Fallen::Block(k, guard) => {
                     self.handle_block(state, (k, guard), record)?;
                     // Its signal may be what a body follows: velocities jump as at a corner.

@@ -9,7 +9,10 @@
 //! A step h by the classical Runge–Kutta method is compared with two of h/2, the memory moved in between. Across a kink both are
 //! of second order: a third of the difference is the error of the halves.
 
+mod blocks;
 mod ends;
+#[cfg(test)]
+mod tests;
 mod way;
 
 use super::Located;
@@ -20,6 +23,7 @@ use crate::method::Method;
 use crate::record::{self, Record};
 use crate::run::horizon::Progress;
 use crate::state::{Detour, State, Whereabouts};
+use blocks::Fall;
 use stickslip_contact::{Memory, Segment, Timed};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, Stepping, System};
 use way::Way;
@@ -49,6 +53,10 @@ pub(super) struct Halves {
     /// Components at the start, and slopes at both ends of a half that is read inside.
     start: Vec<f64>,
     slopes: [Vec<f64>; 2],
+    /// The same of the second half, where both are looked at.
+    later: [Vec<f64>; 2],
+    /// What a block remembers, for what it would lose on the way.
+    kept: Vec<f64>,
     /// The channels of a moment, for the books.
     row: Vec<f64>,
 }
@@ -64,6 +72,11 @@ struct Times {
 impl Times {
     fn halved(from: f64, to: f64) -> Self {
         Self { from, middle: from + 0.5 * (to - from), to }
+    }
+
+    /// Whether numbers tell its middle from its ends.
+    fn moves_on(self) -> bool {
+        self.from < self.middle && self.middle < self.to
     }
 }
 
@@ -89,20 +102,24 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return Ok(Progress::Short);
         }
         if !self.setting.model.balanced.is_empty() {
-            times = Times::halved(times.from, self.until_overloaded(state, times.to)?);
+            let least = SHORTEST * detour.length;
+            times = Times::halved(times.from, self.until_overloaded(state, times.to, least)?);
         }
-        if times.middle <= times.from || times.to <= times.middle {
+        if !times.moves_on() {
             return self.step_instant(state, (times.to, &detour), record);
         }
         let mut halves = self.halves.take().unwrap_or_else(|| Box::new(self.room(state)));
-        let error = self.try_halves(&mut halves, state, times)?;
-        let slides = self.slides && error.is_finite() && h <= SLIDING * detour.length;
-        let outcome = if error <= 1.0 || slides {
+        let slides = self.slides && h <= SLIDING * detour.length;
+        let (error, times, fall) = self.try_up_to_fall(&mut halves, state, (times, slides))?;
+        let outcome = if error <= 1.0 || slides && error.is_finite() {
             state.counts.missed += u64::from(error > 1.0);
-            detour.step = h * (SAFETY * error.max(1e-6).powf(-1.0 / 3.0)).clamp(1.0, 4.0);
-            self.take_halves(&mut halves, state, times, record)
+            // What a block has cut adds nothing to the wish, and takes nothing from it.
+            if fall.is_none() {
+                detour.step = h * (SAFETY * error.max(1e-6).powf(-1.0 / 3.0)).clamp(1.0, 4.0);
+            }
+            self.take_halves(&mut halves, state, (times, fall), record)
         } else {
-            self.refuse_halves(state, (&mut detour, h), (error, &halves.two))
+            self.refuse_halves(state, (&mut detour, times.to - times.from), (error, &halves.two))
         };
         self.halves = Some(halves);
         self.detour = Some(detour);
@@ -124,6 +141,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return Err(RunError::StepTooSmall { t: state.t, step: to - state.t });
         }
         state.t = to;
+        self.watch.fired.clear();
         self.turn_in_detour(state, record)?;
         if to >= detour.end {
             self.arrive(state, detour);
@@ -131,14 +149,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.step(state, record).map(|()| Progress::Made)
     }
 
-    /// What the waveforms do where a step ends at a corner.
+    /// What the waveforms do where a step ends at a corner, and what blocks do there and where their guards have fallen.
     fn turn_in_detour(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
-        if state.t == self.horizon.corner && !state.waits_for_input(self.setting.model) {
+        let corner = state.t == self.horizon.corner && !state.waits_for_input(self.setting.model);
+        if corner {
             self.turn_corners(state, record)?;
             self.turned(state);
             self.take_whole(state);
         }
-        Ok(())
+        let outcome = self.pass_blocks(state, (0, corner), record);
+        self.watch.fired.clear();
+        outcome
     }
 
     fn room(&self, state: &State) -> Halves {
@@ -152,6 +173,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             memories: state.memories.clone(),
             start: nothing(),
             slopes: [nothing(), nothing()],
+            later: [nothing(), nothing()],
+            kept: Vec::new(),
             row: Vec::new(),
         }
     }
@@ -171,9 +194,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Tries a step and its halves; gives the error of the halves in units of what is allowed.
-    fn try_halves(&self, halves: &mut Halves, state: &mut State, times: Times) -> Result<f64, RunError> {
+    fn try_halves(&mut self, halves: &mut Halves, state: &mut State, times: Times) -> Result<f64, RunError> {
         let Times { from, middle, to } = times;
-        let Halves { stepper, one, half, two, memories, row, .. } = halves;
+        let Halves { stepper, one, half, two, memories, row, kept, .. } = halves;
         let spent = stepper.evaluations();
         let eq = self.setting.plain(state);
         let (before, size) = record::balance(&eq, state, from, &|i| state.y[i], row);
@@ -196,6 +219,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let eq = Equations { memories, ..eq };
         two.copy_from_slice(half);
         stepper.step(&eq, middle, two, to - middle);
+        if !self.setting.model.blocks.is_empty() {
+            friction += self.ledger.would_lose(&eq, [(middle, half), (to, two)], kept)?;
+        }
         // Books that do not close tell of what places and velocities do not: work of friction on a way that bends.
         let books = record::balance(&eq, state, to, &|i| two[i], row).0 - friction - before;
         state.counts.evaluations += stepper.evaluations() - spent;
@@ -231,14 +257,22 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Rows of the step, then both halves one after the other, then what the waveforms do at its end.
+    /// Rows of the step, then both halves one after the other, then what waveforms and blocks do at its end.
     fn take_halves(
         &mut self,
         halves: &mut Halves,
         state: &mut State,
-        Times { from, middle, to }: Times,
+        (times, fall): (Times, Option<Fall>),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
+        self.watch.fired.clear();
+        if let Some(fall) = fall {
+            self.note_falls(state, halves, (times, fall));
+        }
+        if !times.moves_on() {
+            return self.turn_in_detour(state, record);
+        }
+        let Times { from, middle, to } = times;
         let Halves { half, two, start, slopes, .. } = halves;
         start.copy_from_slice(&state.y);
         for (from, to) in [((from, &**start), (middle, &**half)), ((middle, &**half), (to, &**two))] {
@@ -252,8 +286,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         state.counts.steps += 1;
         state.tally.step(Method::Whole);
-        self.turn_in_detour(state, record)?;
-        Ok(())
+        // The run may have ended before it.
+        if state.t < to {
+            self.watch.fired.clear();
+        }
+        self.turn_in_detour(state, record)
     }
 
     /// Whether anything is read of a half that ends at t before its end.
@@ -316,7 +353,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             state.y[i] = half.value(i, t);
         }
         state.t = t;
-        Ok(())
+        if self.setting.model.blocks.is_empty() {
+            return Ok(());
+        }
+        self.ledger.commit_blocks((self.setting.model, self.setting.layout), state)
     }
 
     /// The steps of the drive that are over in a half; the one with which they are constant ends the run.

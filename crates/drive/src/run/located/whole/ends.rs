@@ -13,6 +13,7 @@ use stickslip_stepper::Attempt;
 const SHARE: f64 = 1.0 / 64.0;
 /// First step of a detour, as a part of it.
 const FIRST: f64 = 1e-3;
+
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Leaves the located run for the whole law, where it would have to stop for accumulating events or steps that do not
     /// move on; gives the reason back where there is no such way.
@@ -25,14 +26,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let of = |name: &str| model.contacts.iter().find(|contact| contact.name == name);
         let period = match &reason {
             RunError::Zeno { contact, .. } => of(contact).map(|contact| TAU / contact.natural.frequency),
-            RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(TAU / model.fastest),
+            RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(self.pace(state)),
             _ => None,
         };
         // Time must be able to tell its steps apart.
         let tells = |period: &f64| period.is_normal() && state.t + 0.01 * FIRST * SHARE * period > state.t;
         let Some(period) = period.filter(tells) else { return Err(reason) };
-        // Blocks have events of their own, which only a located run looks for.
-        if self.detour.is_some() || model.contacts.is_empty() || !model.blocks.is_empty() {
+        if self.detour.is_some() || model.contacts.is_empty() {
             return Err(reason);
         }
         if self.ledger.booked.books == Books::Behind {
@@ -50,13 +50,25 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(Progress::Made)
     }
 
+    /// Period of the fastest swing, s. Where nothing is free nothing swings: then how long the waveforms take, or what of them is
+    /// under way.
+    fn pace(&self, state: &State) -> f64 {
+        let model = self.setting.model;
+        if model.fastest > 0.0 {
+            return TAU / model.fastest;
+        }
+        let lengths = model.waveforms.iter().zip(&state.pieces);
+        let lengths = lengths.map(|(waveform, piece)| waveform.extent().min(piece.end - piece.start));
+        lengths.fold(f64::INFINITY, f64::min)
+    }
+
     /// Takes the whole law to the end of the run where a row under a moving normal has too many springs to look for the changes
     /// of each: embedded estimates do not see them.
     pub(in crate::run::located) fn stay_whole(&mut self, state: &mut State) {
         let model = self.setting.model;
         let dense =
             |contact: &Contact| contact.slot.is_some() && !contact.engine.branches() && !contact.has_lulls();
-        // Blocks have events of their own, which only a located run looks for.
+        // Events of blocks would cut such steps all along: located ones bear that better.
         if model.blocks.is_empty() && model.contacts.iter().any(dense) {
             let period = TAU / model.fastest;
             // Where nothing is free nothing swings, and a period of the waveforms tells how short a step may be.
