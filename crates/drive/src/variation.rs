@@ -125,9 +125,15 @@ impl<'m> Variation<'m> {
         })
     }
 
-    /// Leads works along as well, from here on.
+    /// With books of energies that have begun.
     fn beginning(self, works: Works) -> Self {
-        Self { works: works.of(self.layout), ..self }
+        Self { works, ..self }
+    }
+
+    /// Leads energies along as well, from a run's start on ([`Self::energies`]).
+    #[must_use]
+    pub fn with_energies(self) -> Self {
+        Self { works: self.works.led(self.layout), ..self }
     }
 
     /// Ends the variation where the run stands, its memories come along ([`Run::stop`](crate::Run::stop)).

@@ -42,8 +42,8 @@ struct Pressed<'a> {
 }
 
 impl Variation<'_> {
-    /// How the energies of the run change by number `j` where it stands. None where the variation has not led them along: it was not
-    /// made by [`Model::variation`](crate::Model::variation), or a waveform has jumped.
+    /// How the energies of the run change by number `j` where it stands. None where the variation has not led them along
+    /// ([`Self::with_energies`]), was not made by [`Model::variation`](crate::Model::variation), or a waveform has jumped.
     #[must_use]
     pub fn energies(&self, state: &State, j: usize) -> Option<EnergyRates> {
         let [origin, before] = self.works.beginning(j)?;

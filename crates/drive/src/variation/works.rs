@@ -38,15 +38,15 @@ impl Works {
         Self { count: books.len(), jumps: start.jumps, books, ..Self::default() }
     }
 
-    /// With room for so many growing contacts.
-    pub(super) fn of(mut self, layout: Layout) -> Self {
+    /// From here on led along.
+    pub(super) fn led(mut self, layout: Layout) -> Self {
         self.sums = vec![0.0; (STORED + layout.growing) * self.count];
         self
     }
 
     /// What was stored when the books began, and what had been put in, J.
     pub(super) fn beginning(&self, j: usize) -> Option<[f64; 2]> {
-        self.books.get(j).copied().filter(|_| !self.has_jumped)
+        self.books.get(j).copied().filter(|_| self.are_led() && !self.has_jumped)
     }
 
     /// What is put in, J.
@@ -69,9 +69,9 @@ impl Works {
         self.sums[(STORED + slot) * self.count + j]
     }
 
-    /// Whether there are any.
+    /// Whether they are led along.
     pub(super) fn are_led(&self) -> bool {
-        self.count > 0
+        !self.sums.is_empty()
     }
 
     /// Room for all sums of a step.

@@ -20,7 +20,7 @@ fn varied(
     until: f64,
 ) -> Result<Vec<Option<[f64; 5]>>, VariationError> {
     let start = model.start(plan).unwrap();
-    let mut variation = model.variation((plan, &start), parameters)?;
+    let mut variation = model.variation((plan, &start), parameters)?.with_energies();
     let mut run = Run::new(model, plan, start).unwrap();
     run.advance(until, &mut variation).unwrap();
     let rates: Vec<_> =

@@ -181,6 +181,9 @@ impl Pass<'_> {
         let plan = Plan { every: None, until_steady: None, ..self.job.scenario.plan };
         let Ok(start) = model.start(&plan) else { return Ok(None) };
         let mut variation = model.variation((&plan, &start), parameters)?;
+        if self.told.iter().any(|told| told.is_energy()) {
+            variation = variation.with_energies();
+        }
         let Ok(mut run) = Run::new(model, &plan, start) else { return Ok(None) };
         let mut looks = Vec::new();
         let mut turns = Turns::of(self.told, swings, parameters.len());

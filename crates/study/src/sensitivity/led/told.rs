@@ -176,7 +176,7 @@ impl Told {
         }
     }
 
-    fn is_energy(self) -> bool {
+    pub(super) fn is_energy(self) -> bool {
         matches!(self, Self::Energy(_) | Self::Work(_) | Self::Drive | Self::Efficiency)
     }
 
