@@ -5,7 +5,7 @@
 //! δE = G\*[∫₀ʰ (u - p)(δu - δp)dm + κ²δd ∫ₕᵈ (d - h')dm] + F_N δd + …,
 //!
 //! h the height of the slip front; what is put in and what dampers take are led along ([`Works`](super::works::Works)). What friction takes is what is left:
-//! led by itself, its power would grow as a root of the time where the last springs begin to slip.
+//! led by itself, the variation of its power would grow as h^-½ where the last springs of a ball begin to slip.
 
 use super::Variation;
 use super::parameter::{Moment, Parameter, edge, lines};

@@ -1,5 +1,8 @@
-//! Slopes that variations tell: how places and speeds change with numbers of the scenario is led along with its own run, or with a
-//! period of its steady motion, and no variant of it is run.
+//! Slopes that variations tell: how places, speeds and energies change with numbers of the scenario is led along with its own run, or
+//! with a period of its steady motion, and no variant of it is run.
+//!
+//! In reading order: `told`, what is told of which figure; `course`, the moments of the run and the models beside it; `turning`, what is seen
+//! where contacts turn.
 //!
 //! Models beside a quantity's value say how constants move with it (`stickslip_drive::Parameter`), all quantities are led along in one
 //! pass. What the result may be off by is told by a second pass, at a coarser tolerance and with models at another distance.
