@@ -248,6 +248,14 @@ impl Profile {
         of_kind!(self, kind => kind.has_kinks())
     }
 
+    /// Power p of h with which the force begins, M ∝ hᵖ for h → 0: 1 + 1/n of a power law, 3/2 of a paraboloid, 2 of a cone;
+    /// 1 where a width touches at once, as of a flat punch, a worn profile and a list of springs.
+    ///
+    /// A motion that touches with a speed is smooth in time where p is whole.
+    pub fn first_power(&self) -> f64 {
+        of_kind!(self, kind => kind.first_power())
+    }
+
     /// Whether each contact radius belongs to one indentation only.
     pub fn is_strictly_convex(&self) -> bool {
         of_kind!(self, kind => kind.is_strictly_convex())

@@ -157,6 +157,25 @@ fn area_and_volume_are_the_integrals_of_length() {
     }
 }
 
+/// The power with which the force begins is that of its last decade: hm/M.
+#[test]
+fn forces_begin_with_their_first_power() {
+    let others = [
+        ("powers", Profile::powers(&[(1.0, 4.0), (2.0, 1.5)]).unwrap()),
+        ("worn cone", Profile::truncated_cone(1e-4, 0.1).unwrap()),
+        ("worn ball", Profile::truncated_paraboloid(1e-4, 1e-2).unwrap()),
+        ("tip", Profile::tipped_paraboloid(1e-2, 1e-4).unwrap()),
+        ("table", Profile::table(&[(0.0, 0.0), (1e-4, 1e-6), (2e-4, 4e-6), (3e-4, 9e-6)], &[]).unwrap()),
+        ("law", Profile::normal_law(&[(0.0, 0.0), (1e-6, 1e-10), (2e-6, 4e-10)]).unwrap()),
+    ];
+    for (name, profile) in profiles().into_iter().chain(others) {
+        let h = 1e-13;
+        let power = h * profile.reduced_stiffness(h) / profile.reduced_force(h);
+        assert_relative_eq!(profile.first_power(), power, max_relative = 1e-4);
+        println!("{name}: {power}");
+    }
+}
+
 #[test]
 fn inverses_give_back_what_went_in() {
     for (name, profile) in profiles() {

@@ -245,6 +245,14 @@ impl Kind for Chart {
         starts && self.ends.iter().all(rises)
     }
 
+    /// Of the first powers of s in the first panel: a ∝ sⁱ and h ∝ sᵏ make a ∝ h^{i/k}.
+    fn first_power(&self) -> f64 {
+        let first = |c: &[f64; 4]| (0..4).find(|i| c[*i] != 0.0).unwrap_or(0) as f64;
+        let Some(panel) = self.panels.first() else { return 1.0 };
+        let (radius, height) = (first(&panel.radius), first(&panel.height));
+        if height > 0.0 { 1.0 + radius / height } else { 1.0 }
+    }
+
     fn has_kinks(&self) -> bool {
         self.has_jumps
     }

@@ -52,6 +52,11 @@ pub(super) trait Kind {
         false
     }
 
+    /// Power p of h with which M begins: 1 where a width touches at once.
+    fn first_power(&self) -> f64 {
+        1.0
+    }
+
     /// Exponent n, of a power law.
     fn exponent(&self) -> Option<f64> {
         None

@@ -203,6 +203,10 @@ impl Kind for Power {
         true
     }
 
+    fn first_power(&self) -> f64 {
+        1.0 + self.exponent.recip()
+    }
+
     fn exponent(&self) -> Option<f64> {
         Some(self.exponent)
     }

@@ -157,6 +157,12 @@ impl Kind for Powers {
         })
     }
 
+    /// That of the term with the lowest exponent, which is the largest near the axis.
+    fn first_power(&self) -> f64 {
+        let lowest = self.terms.iter().fold(f64::INFINITY, |lowest, term| lowest.min(term.exponent));
+        1.0 + lowest.recip()
+    }
+
     fn is_strictly_convex(&self) -> bool {
         true
     }

@@ -219,6 +219,10 @@ impl Kind for Sphere {
         Some(Peak::Between)
     }
 
+    fn first_power(&self) -> f64 {
+        1.5
+    }
+
     fn is_strictly_convex(&self) -> bool {
         true
     }

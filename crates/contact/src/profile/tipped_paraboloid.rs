@@ -126,6 +126,11 @@ impl Kind for TippedParaboloid {
         Some(Peak::Unbounded)
     }
 
+    /// That of its tip.
+    fn first_power(&self) -> f64 {
+        2.0
+    }
+
     fn is_strictly_convex(&self) -> bool {
         true
     }
