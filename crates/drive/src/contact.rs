@@ -161,6 +161,21 @@ impl Contact {
         matches!(self.press, Press::Constant { .. })
     }
 
+    /// Whether its force begins with a power of d between 1 and 2: its stiffness then has an infinite slope at a touch, and steps
+    /// across it lose their order. Of a higher power steps see little, whole or not.
+    pub(crate) fn is_steep(&self) -> bool {
+        let power = self.interface.profile().first_power();
+        power > 1.0 && power < 2.0
+    }
+
+    /// Whether an even step to its end is as good as a graded one, which it is for a power of d of 2 and more; of damping, for one
+    /// more. Stages beyond the end feel no force: of a graded step they weigh nothing, of an even one as much as the law would
+    /// have there.
+    pub(crate) fn fades_evenly(&self) -> bool {
+        let damped = if self.interface.damping() > 0.0 { 1.0 } else { 0.0 };
+        self.interface.profile().first_power() - damped >= 2.0
+    }
+
     /// Whether nothing will ever press it.
     pub(crate) fn is_never_pressed(&self) -> bool {
         self.natural.depth == 0.0

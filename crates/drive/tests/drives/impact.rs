@@ -1,9 +1,10 @@
 //! A body that lands, rolls and leaves: impacts of a sphere on a plane.
 
+use crate::lottery::Draw;
 use crate::parts::{column, end, event, fitted_order, named, plan, trace};
 use stickslip_contact::{Interface, Pair, Profile};
 use stickslip_drive::scene::{
-    Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Normal, Point, Scene, Side,
+    Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Gravity, Normal, Point, Scene, Side,
 };
 use stickslip_drive::{EventKind, Model, State, Stepper};
 
@@ -180,4 +181,58 @@ fn a_row_of_springs_bounces_like_the_curve() {
         assert!(errors[4].1 < 1e-7, "ψ₁ = {psi}: {errors:?}");
         assert!(fitted_order(&errors) > 1.5, "ψ₁ = {psi}: {errors:?}");
     }
+}
+
+/// A body that bounces on its contact under its weight, drawn: no force but conservative ones acts on it.
+fn bouncer(seed: u64) -> (Scene, f64) {
+    let mut draw = Draw::new(seed);
+    let profile = match seed % 6 {
+        0 => Profile::flat(draw.spread(1e-6, 1e-4)),
+        1 => Profile::cone(draw.spread(1e-3, 0.1)),
+        2 => Profile::power(draw.spread(1e6, 1e9), 3.0),
+        3 => Profile::power(draw.spread(10.0, 1e3), 1.5),
+        4 => Profile::sphere(draw.spread(1e-4, 1e-2)),
+        _ => Profile::paraboloid(draw.spread(1e-4, 1e-2)),
+    };
+    let mut scene = ball(like(0.3), 0.0);
+    let mass = draw.spread(1e-5, 0.1);
+    let acceleration = draw.spread(1.0, 1e3);
+    let pair = Pair::from_moduli(MODULUS, like(0.3) * MODULUS).unwrap();
+    let interface = Interface::new(pair, profile.unwrap(), FRICTION).unwrap();
+    let depth = interface.indentation(mass * acceleration);
+    let frequency = (interface.normal_stiffness(depth) / mass).sqrt();
+    let speed = depth * frequency * draw.spread(0.5, 10.0);
+    let body = &mut scene.bodies[0].part;
+    (body.mass, body.inertia) = (Some(mass), None);
+    (body.x, body.pitch) = (Coordinate::default(), Coordinate::default());
+    body.z = Coordinate { freedom: Freedom::Free, position: 0.0, velocity: -speed };
+    scene.contacts[0].part.interface = interface;
+    scene.contacts[0].part.at = [Point::default(); 2];
+    scene.gravity = Gravity { acceleration, ..Gravity::default() };
+    (scene, 2.0 * speed / acceleration + std::f64::consts::PI / frequency)
+}
+
+/// However often a body bounces, what it would rise to stays what it was: (z + v²/2g) mg and what its contact stores are its energy
+/// at the start. A touch may lose or gain no more of it than some tolerances, at loose ones as at tight ones.
+#[test]
+fn a_body_that_bounces_rises_to_where_it_was() {
+    const BOUNCES: f64 = 12.0;
+    let (mut worst, mut off) = (0.0_f64, Vec::new());
+    for seed in 0..30 {
+        let (scene, time) = bouncer(seed);
+        let (mass, contact) = (scene.bodies[0].part.mass.unwrap(), &scene.contacts[0].part.interface);
+        let speed = scene.bodies[0].part.z.velocity;
+        for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
+            let (model, state) = end(&scene, &plan(Stepper::Event { tolerance }, BOUNCES * time));
+            let (z, v) = state.coordinate(&model, 0, Axis::Z).unwrap();
+            let energy = mass * (0.5 * v * v + scene.gravity.acceleration * z) + contact.normal_energy(-z);
+            let missed = (energy / (0.5 * mass * speed * speed) - 1.0).abs() / tolerance;
+            worst = worst.max(missed);
+            if missed > 20.0 * BOUNCES {
+                off.push((seed, tolerance, missed));
+            }
+        }
+    }
+    println!("at most {worst} tolerances");
+    assert!(off.is_empty(), "off by tolerances: {off:?}");
 }

@@ -5,7 +5,7 @@
 //! leaves to the next; at an event it begins anew.
 
 use super::Setting;
-use super::aim::{Aim, SHRINK, reach};
+use super::aim::{Aim, SHRINK, reach, start};
 use super::allowance::Allowance;
 use crate::Waveform;
 use crate::contact::Contact;
@@ -51,6 +51,8 @@ pub(super) struct Pace {
     pub(super) short: f64,
     /// Longest graded step, as a part of an even one.
     pub(super) reach: f64,
+    /// Longest graded step from a touch, in radians of the swing that the touch begins.
+    pub(super) start: f64,
     /// How near to a singular moment a step must end, as a part of it.
     pub(super) closeness: f64,
     /// How much must be left before such a moment for its law to matter, in natural lengths.
@@ -68,6 +70,7 @@ impl<A> Motion<A> {
             first: scene_time(model),
             short: short(setting.method, model, tolerance),
             reach: reach(tolerance),
+            start: start(tolerance),
             closeness: closeness(model, tolerance),
             resolved: tolerance.powf(2.0 / 3.0),
             gait: Gait::FRESH,
