@@ -285,7 +285,7 @@ pub(super) fn reach(tolerance: f64) -> f64 {
 
 /// The longest graded step from a touch, in radians of the swing that the touch begins: what it misses is then a tenth of the tolerance.
 ///
-/// Of d̈ = -dᵖ from a touch at the speed 1 a step of θ misses 8e-4 θ^{6.5} and less for 1 < p < 2. Its estimate stops growing at
+/// Of d̈ = -dᵖ from a touch at the speed 1 a step of half a radian and more misses 8e-4 θ^{6.5} at most for 1 < p < 2. Its estimate stops growing at
 /// half a radian and passes through 0 where p is nearly 2: by it alone steps of 0.7 to 1.2 rad were accepted at 1e-3 to 1e-5 that
 /// missed up to 7e-4. All touches miss to one side, so that places are off by the square of their number.
 pub(super) fn start(tolerance: f64) -> f64 {
