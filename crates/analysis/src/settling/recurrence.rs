@@ -24,7 +24,7 @@ pub(super) const FEWEST: usize = 6;
 
 /// A recurrence fitted to the end of a sequence.
 pub(super) struct Recurrence {
-    /// What it leaves of the differences: root mean squares over each other.
+    /// What it leaves of the differences: root mean squares over each other, that of what is left by its degrees of freedom.
     pub(super) rest: f64,
     /// The largest root: its magnitude and its angle.
     pub(super) root: (f64, f64),
@@ -81,7 +81,9 @@ impl Recurrence {
         if a.iter().any(|a| !a.is_finite()) {
             return None;
         }
-        let rest = (&matrix * &a - &after).norm() / after.norm();
+        // What is fitted leaves less than it should by its own freedom: six coefficients make a pattern of thirteen numbers of chaos.
+        let freedom = rows as f64 / (rows - order) as f64;
+        let rest = (&matrix * &a - &after).norm() / after.norm() * freedom.sqrt();
         let companion = DMatrix::from_fn(order, order, |i, j| match i {
             0 => a[j],
             _ => f64::from(u8::from(i == j + 1)),
