@@ -138,7 +138,8 @@ impl Sensitivity {
     /// The derivatives, on so many cores; the same for any number. The watcher is told how many runs are done; where it wants an
     /// end, what hangs on others is [`Missing::NotRun`].
     pub fn take(&self, cores: usize, watcher: &(dyn Watcher + Sync)) -> Taken {
-        let bench = Bench { asked: self, cores, watcher, done: AtomicUsize::new(0) };
+        let has_rows = !led::tells(&self.job, &self.figures);
+        let bench = Bench { asked: self, cores, watcher, has_rows, done: AtomicUsize::new(0) };
         let goes_on = || watcher.goes_on();
         let asked = (&self.figures[..], &self.quantities[..]);
         let led = led::slopes(&self.job, asked, (self.tolerance, cores), &goes_on);
@@ -275,6 +276,8 @@ struct Bench<'a> {
     asked: &'a Sensitivity,
     cores: usize,
     watcher: &'a (dyn Watcher + Sync),
+    /// Whether figures may be made of rows: what variations tell of is made of moments and events.
+    has_rows: bool,
     done: AtomicUsize,
 }
 
@@ -292,6 +295,7 @@ impl Bench<'_> {
             } else {
                 Err(Missing::NotRun)
             };
+            let variant = variant.map(|job| if self.has_rows { job } else { sample::without_rows(job) });
             let silent = Silent(self.watcher);
             let sample = variant.and_then(|job| Sample::of(&job, &asked.figures, asked.tolerance, &silent));
             let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;

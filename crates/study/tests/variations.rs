@@ -73,6 +73,56 @@ const STEADILY: [(&str, &[&str]); 5] = [
         ],
     ),
 ];
+/// Scenes whose moments move by a number, and figures of each.
+type Moving = (&'static str, (&'static str, &'static str), &'static str, &'static [&'static str]);
+const MOVING: [Moving; 5] = [
+    (
+        "p1",
+        ("run.cycles", "3"),
+        "waveforms.drive.sawtooth.period",
+        &[
+            "energy.input_J",
+            FRICTION,
+            "energy.elastic_J",
+            "slider.vx_m_s",
+            WORK,
+            "steps.last_period.work.drive_J",
+        ],
+    ),
+    (
+        "quickstart",
+        ("run.cycles", "3"),
+        "waveforms.drive.sawtooth.period",
+        &["energy.kinetic_J", "slider.vx_m_s", WORK, "steps.last_period.work.efficiency"],
+    ),
+    (
+        "sine_drive",
+        ("run.cycles", "3"),
+        "waveforms.drive.sine.frequency",
+        &["energy.input_J", FRICTION, "energy.elastic_J", "slider.vx_m_s", WORK],
+    ),
+    (
+        "three_ball_stage",
+        ("run.cycles", "2"),
+        "waveforms.drive.sawtooth.period",
+        &["energy.input_J", "energy.elastic_J", "stage.vz_m_s", "stage.vpitch_rad_s", WORK],
+    ),
+    (
+        "impact_drive",
+        ("run.cycles", "2"),
+        "waveforms.drive.sawtooth.period",
+        &["energy.input_J", "energy.damping_J", "energy.kinetic_J", "counter.vx_m_s", WORK],
+    ),
+];
+/// Scenes with numbers that move the last swings of forces under normals that vary.
+const SWINGING: [(&str, (&str, &str), &str); 5] = [
+    ("three_ball_stage", ("run.cycles", "3"), "contacts.front.friction"),
+    ("three_ball_stage", ("run.cycles", "3"), "bodies.stage.mass"),
+    ("three_ball_stage", ("run.cycles", "3"), "waveforms.drive.sawtooth.period"),
+    ("impact_drive", ("run.cycles", "2"), "gravity.acceleration"),
+    ("impact_drive", ("run.cycles", "2"), "contacts.rear.friction"),
+];
+const WORK: &str = "steps.last_period.work.friction_J";
 /// How far a slope may be off, and how sharp differences must be that tell, as shares of its natural size.
 const OFF: f64 = 1e-7;
 const SHARP: f64 = 1e-8;
@@ -162,6 +212,52 @@ fn drawn_slopes_are_those_of_differences() -> Checked {
     let (told, Compared { all, sharp, within, .. }) = (compared.told(), compared);
     assert!(sharp >= 200, "{told}");
     assert!((all - within) * 20 <= all, "{told}");
+    Ok(())
+}
+
+/// Energies, speeds and places by numbers that move the moments at which they are read.
+#[test]
+fn what_is_read_at_moments_that_move_goes_on_with_the_time() -> Checked {
+    let mut compared = Compared::default();
+    for (name, end, to, of) in MOVING {
+        let set = [(end.0.to_owned(), end.1.to_owned())];
+        compared.take(
+            &example(name),
+            &set,
+            &Asked { of: names(of), to: names(&[to]), ..Asked::default() },
+        )?;
+    }
+    let (told, Compared { all, sharp, within, .. }) = (compared.told(), &compared);
+    println!("{told}");
+    assert!(*all == MOVING.iter().map(|(_, _, _, of)| of.len()).sum::<usize>(), "{told}");
+    assert!(2 * sharp > *all && 10 * (all - within) <= *all, "{told}");
+    Ok(())
+}
+
+/// The last swings of contacts under normals that vary, whose turns move with every number, against differences.
+#[test]
+fn swings_under_normals_that_vary_change_as_differences_say() -> Checked {
+    let of = ["front", "rear"].map(|ball| format!("steps.last_period.contacts.{ball}.ringing_left"));
+    let mut all = 0;
+    for (name, (key, value), to) in SWINGING {
+        let set = [(key.to_owned(), value.to_owned())];
+        let asked = Asked { of: of.to_vec(), to: names(&[to]), ..Asked::default() };
+        for Pair { what, found, wanted, size } in pairs(&example(name), &set, &asked)? {
+            let off = (found.value - wanted.0).abs();
+            println!(
+                "{what}: off by {:.1e}, told {:.1e}, {:.1e}",
+                off / size,
+                found.error / size,
+                wanted.1 / size
+            );
+            assert!(
+                off <= found.error + wanted.1 && off <= OFF * size,
+                "{what}: {found:?} instead of {wanted:?}"
+            );
+            all += 1;
+        }
+    }
+    assert_eq!(all, 2 * SWINGING.len());
     Ok(())
 }
 

@@ -113,7 +113,8 @@ impl Variation<'_> {
         self.model.contacts.iter().map(place).collect()
     }
 
-    fn slopes(&self, state: &State) -> Vec<f64> {
+    /// Slopes of all components where the run stands.
+    pub(super) fn slopes(&self, state: &State) -> Vec<f64> {
         let mut slopes = vec![0.0; self.layout.total()];
         Equations::on(self.model, state, self.layout, false).slopes(state.t, &state.y, &mut slopes);
         slopes

@@ -11,10 +11,12 @@ use super::Variation;
 use super::parameter::{Moment, Parameter, edge, lines};
 use crate::contact::{Contact, Mode, Motion};
 use crate::equations::{Components, Equations};
+use crate::model::Binding;
+use crate::scene::Axis;
 use crate::state::State;
 use stickslip_contact::{Memory, Profile};
 
-/// Derivatives of the energies of a run, J, as its books have them.
+/// Derivatives of the energies of a run, as its books have them: by a number, J, or by the time, W.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EnergyRates {
     /// Put in since the start.
@@ -72,31 +74,85 @@ impl Variation<'_> {
         Some(rates)
     }
 
-    /// How F_x of a contact under a constant load changes by number `j` where its slide turns, as it does now, and the limit of friction, N,
-    /// of all its identical members. None where it is apart, grows, or has events that accumulate.
+    /// How fast the energies of the run itself change where it stands, W: how they go on with the time.
+    #[must_use]
+    pub fn powers(&self, state: &State) -> EnergyRates {
+        let (model, layout, slopes) = (self.model, self.layout, self.slopes(state));
+        let eq = Equations::on(model, state, layout, false);
+        let velocity = |i: usize| state.y[layout.velocity(i)];
+        let (input, damping) = (slopes[layout.input()] + model.lifted(velocity), slopes[layout.damping()]);
+        let mut powers = EnergyRates { input, damping, ..EnergyRates::default() };
+        for (i, free) in model.free.iter().enumerate() {
+            powers.kinetic += free.mass * velocity(i) * slopes[layout.velocity(i)];
+        }
+        for contact in &model.contacts {
+            let motion = eq.motion(contact, state.t, |i| state.y[i]);
+            if !contact.is_constant() && contact.coupling().is_none() {
+                powers.input += contact.count * contact.interface.normal_force(motion.d) * motion.dd;
+            }
+            if !contact.inert {
+                let rates = contact.growth_rates(eq.law(contact.place), &motion, 0.0);
+                powers.friction += contact.count * rates.friction;
+            }
+        }
+        powers.elastic = powers.input - powers.kinetic - powers.friction - powers.damping;
+        powers
+    }
+
+    /// Acceleration of a free coordinate of a body where the run stands, m/s² or rad/s²; none of one that is not free.
+    #[must_use]
+    pub fn acceleration(&self, state: &State, index: usize, axis: Axis) -> Option<f64> {
+        match self.model.bodies.get(index)?.bindings[axis as usize] {
+            Binding::Free(i) => self.slopes(state).get(self.layout.velocity(i)).copied(),
+            Binding::Held(_) | Binding::Driven(_) => None,
+        }
+    }
+
+    /// How F_x of a contact changes by number `j` where its slide turns, as it does now, and the limit of friction, N, of all its identical
+    /// members: with the moment of the turn, which moves by -δu̇/ü where what presses it varies. None where it is apart, or has
+    /// events that accumulate.
     #[must_use]
     pub fn turn(&self, state: &State, contact: usize, j: usize) -> Option<[f64; 2]> {
         let (contact, parameter) = (self.model.contacts.get(contact)?, self.parameters.get(j)?);
-        let (memory, mode) = state.law(contact.place);
-        let Mode::Slip(branch) = mode else { return None };
         let at = Moment { pieces: &state.pieces, t: state.t };
         let eq = Equations::on(self.model, state, self.layout, false);
         let motion = eq.motion(contact, state.t, |i| state.y[i]);
         let (law, (du, dd)) = (&contact.interface, *self.moved(contact, at).get(j)?);
-        let front = if branch.is_gross() { 0.0 } else { contact.front(memory, branch, &motion) };
-        let edge = edge(contact, branch.sense(), front, &motion);
-        let along = law.stick_stiffness(front);
-        let held = self.held[contact.place].below(law.profile(), front, j);
-        let force = contact.force((memory, mode), &motion, || 0.0);
-        let pull = along * du + edge[2] * (law.stick_stiffness(motion.d) - along) * dd
-            - law.tangential_modulus() * held
-            + parameter.pull(contact, memory, force, edge);
+        let swells = motion.dd != 0.0;
+        let dd = dd + if swells { motion.dd * self.turns_later(contact, state, (parameter, j)) } else { 0.0 };
+        let whole = law.stick_stiffness(motion.d);
+        let pull = match state.law(contact.place) {
+            (memory, Mode::Slip(branch)) => {
+                let front = if branch.is_gross() { 0.0 } else { contact.front(memory, branch, &motion) };
+                let edge = edge(contact, branch.sense(), front, &motion);
+                let along = law.stick_stiffness(front);
+                let held = self.held[contact.place].below(law.profile(), front, j);
+                let force = contact.force(state.law(contact.place), &motion, || 0.0);
+                along * du + edge[2] * (whole - along) * dd - law.tangential_modulus() * held
+                    + parameter.pull(contact, memory, force, edge)
+            }
+            // F_x is a state, which stands still with the slide.
+            (_, Mode::Grow) => *self.column(j)?.get(self.layout.force(contact.slot?))?,
+            _ => return None,
+        };
         // κG*M(d)
         let (slope, modulus) = (law.stick_slope(), law.tangential_modulus());
         let steeper = parameter.slope(contact.place) + slope * parameter.tangential(contact.place);
-        let swell = law.stick_stiffness(motion.d) * dd + modulus * parameter.reduced(contact.place, motion.d);
+        let swell = whole * dd + modulus * parameter.reduced(contact.place, motion.d);
         let limit = steeper * modulus * law.reduced_force(motion.d) + slope * swell;
         Some([pull, limit].map(|force| contact.count * force))
+    }
+
+    /// By how much later a slide turns by number `j`, s.
+    fn turns_later(&self, contact: &Contact, state: &State, (parameter, j): (&Parameter, usize)) -> f64 {
+        let Some(column) = self.column(j) else { return f64::NAN };
+        let eq = Equations::on(self.model, state, self.layout, false);
+        let (slopes, velocity) = (self.slopes(state), |i: usize| self.layout.velocity(i));
+        let view = Components { t: state.t, y: |i: usize| state.y[i] };
+        let pull = eq.acceleration(&contact.u, &view, |i| slopes[velocity(i)]);
+        let shift = parameter.shift(contact, Moment { pieces: &state.pieces, t: state.t });
+        let faster: f64 = contact.u.free.iter().map(|(i, a)| a * column[velocity(*i)]).sum();
+        -(faster + shift.du) / pull
     }
 
     /// How the energy of links changes, J.

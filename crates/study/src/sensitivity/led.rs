@@ -40,16 +40,18 @@ struct Known {
     load: Option<f64>,
 }
 
-/// A moment of the run: the coordinate of each figure that has one, and how energies change, J, by each quantity.
+/// A moment of the run: the coordinate of each figure that has one, and how energies change, J, by each quantity, and with the time, W.
 struct Look {
     places: Vec<Option<Place>>,
     energies: Vec<Option<EnergyRates>>,
+    powers: EnergyRates,
 }
 
-/// A coordinate, its rate, and how both move with each quantity, m and m/s.
+/// A coordinate, its rate and acceleration, and how coordinate and rate move with each quantity, m and m/s.
 struct Place {
     value: f64,
     rate: f64,
+    acceleration: f64,
     moved: Vec<(f64, f64)>,
 }
 
@@ -163,7 +165,7 @@ impl Pass<'_> {
     /// The last swing of each figure that is one: a run of its own tells.
     fn swings(&self) -> Vec<Option<[Extreme; 2]>> {
         let contact = |told: &Told| match told {
-            Told::Ringing { contact } => Some(*contact),
+            Told::Ringing { contact, .. } => Some(*contact),
             _ => None,
         };
         let contacts: Vec<Option<usize>> = self.told.iter().map(contact).collect();
@@ -190,11 +192,17 @@ impl Pass<'_> {
         let Ok(mut run) = Run::new(model, &plan, start) else { return Ok(None) };
         let mut looks = Vec::new();
         let mut turns = Turns::of(self.told, swings, parameters.len());
+        let stands = turns.stands();
         for moment in course.moments {
-            let mut record = Turning { variation: &mut variation, turns: &mut turns };
-            let mut record = Interruptible { record: &mut record, goes_on: self.goes_on };
-            if run.advance(moment.max(run.state().time()), &mut record).is_err() {
-                return Ok(None);
+            let now = run.state().time();
+            let stands = stands.iter().copied().filter(|t| (now..moment).contains(t));
+            for stop in stands.chain([moment.max(now)]) {
+                let mut record = Turning { variation: &mut variation, turns: &mut turns };
+                let mut record = Interruptible { record: &mut record, goes_on: self.goes_on };
+                if run.advance(stop, &mut record).is_err() {
+                    return Ok(None);
+                }
+                turns.look(&variation, run.state(), true);
             }
             looks.push(self.look(&variation, run.state(), parameters.len()));
         }
@@ -208,12 +216,14 @@ impl Pass<'_> {
         let place = |told: &Told| {
             let (body, axis) = told.coordinate(&self.job)?;
             let (value, rate) = state.coordinate(&self.job.model, body, axis)?;
+            let acceleration = variation.acceleration(state, body, axis)?;
             let moved = (0..count).filter_map(|j| variation.coordinate(body, axis, j)).collect();
-            Some(Place { value, rate, moved })
+            Some(Place { value, rate, acceleration, moved })
         };
         Look {
             places: self.told.iter().map(place).collect(),
             energies: (0..count).map(|j| variation.energies(state, j)).collect(),
+            powers: variation.powers(state),
         }
     }
 

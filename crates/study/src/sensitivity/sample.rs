@@ -115,6 +115,12 @@ pub(super) fn variant(job: &Job, path: &str, value: f64, tolerance: f64) -> Resu
     ready(scenario.map_err(refused)?, &job.name, tolerance).map_err(refused)
 }
 
+/// A job with rows at its beginning and its end alone.
+pub(super) fn without_rows(mut job: Job) -> Job {
+    job.scenario.plan.every = Some(job.scenario.plan.duration);
+    job
+}
+
 impl Sample {
     /// Reads figures of a job.
     pub(super) fn of(

@@ -36,6 +36,8 @@ pub(super) enum Told {
     /// The last swing of the force of a contact then, as a share of the limit of friction, between two turns.
     Ringing {
         contact: usize,
+        /// Whether what presses the contact varies.
+        varies: bool,
     },
     /// Step of steady motion.
     SteadyStep,
@@ -98,15 +100,14 @@ impl Told {
         }
         let named = name.strip_prefix("contacts.")?.strip_suffix(".ringing_left")?;
         let contact = job.model.contacts().position(|(name, _)| name == named)?;
-        // Where what presses it varies the force does not stand still where the slide turns.
         let part = &job.scenario.scene.contacts.get(contact)?.part;
-        let is_constant = match part.normal {
+        let varies = match part.normal {
             Normal::Force(by) | Normal::Indentation(by) | Normal::Radius(by) => {
-                matches!(by, Varying::Constant(_))
+                matches!(by, Varying::Follows(_))
             }
-            Normal::Coupled => false,
+            Normal::Coupled => true,
         };
-        is_constant.then_some(Self::Ringing { contact })
+        Some(Self::Ringing { contact, varies })
     }
 
     /// A free coordinate at the end, or its rate, by the name of its channel.
@@ -139,15 +140,16 @@ impl Told {
             place.map_or(f64::NAN, |place| place.moved[j].0 + place.rate * moves[moment])
         };
         let [from, to] = LAST;
-        // Where the moment moves a rate goes on by an acceleration, and an energy by a power, that nobody has asked for.
-        let still = |moment: usize| if moves[moment] == 0.0 { 1.0 } else { f64::NAN };
+        // Where the moment moves, a place goes on by its rate, a rate by an acceleration, and an energy by a power.
         let energy = |moment: usize, of: Energy| {
-            looks[moment].energies[j].as_ref().map_or(f64::NAN, of) * still(moment)
+            let look = &looks[moment];
+            look.energies[j].as_ref().map_or(f64::NAN, |rates| of(rates) + of(&look.powers) * moves[moment])
         };
         let work = |of: Energy| energy(to, of) - energy(from, of);
         match self {
             Self::End { is_rate: true, .. } => {
-                looks[END].places[f].as_ref().map_or(f64::NAN, |place| place.moved[j].1) * still(END)
+                let place = looks[END].places[f].as_ref();
+                place.map_or(f64::NAN, |place| place.moved[j].1 + place.acceleration * moves[END])
             }
             Self::End { is_rate: false, .. } => place(END),
             Self::Last => place(to) - place(from),
@@ -213,11 +215,14 @@ fn energy(name: &str) -> Option<Energy> {
 }
 
 /// What a swing of the force, half of peak to peak, as a share of the limit of friction, changes by: the force stands still where it
-/// turns, and is at the limit where that is so because the contact slips.
+/// turns, and is at the limit where that is so because the contact slips: when, nobody has asked where the limit varies.
 fn ringing(swing: &[Turn; 2], j: usize) -> f64 {
     let turn = |turn: &Turn| {
         let (extreme, [force, limit]) = (&turn.extreme, turn.moved.get(j).copied().flatten()?);
         let is_at_it = (extreme.force.abs() - extreme.limit).abs() <= AT_THE_LIMIT * extreme.limit;
+        if is_at_it && turn.varies {
+            return None;
+        }
         Some([if is_at_it { extreme.force.signum() * limit } else { force }, limit])
     };
     let [Some(from), Some(to)] = swing.each_ref().map(turn) else { return f64::NAN };
