@@ -2,6 +2,7 @@
 //!
 //! * `set_down_on_a_cone`: a body grows into its contact in full stick. Its motion was right to a tolerance, and its books missed
 //!   360 tolerances of 1e-12 and 4 600 of 1e-13, of which a user was warned.
+//! * `faint_friction`: a body on two lists of heights, one with a friction of 1e-6. No tolerance below 1e-6 came to its end.
 
 #![allow(
     clippy::unwrap_used,
@@ -64,5 +65,18 @@ fn books_of_growth_follow_the_tolerance() {
         println!("{tolerance:e}: books miss {missed:.1e}, {off:.1e} u_c from verlet's, {own:.1e}");
         assert!(missed < most * tolerance && !warned, "{tolerance:e}: {missed:e}, warned: {warned}");
         assert!(off < own.max(1e-9), "{tolerance:e}: {off:e}");
+    }
+}
+
+#[test]
+fn a_contact_without_friction_to_speak_of_does_not_stop_its_body() {
+    let (reference, own) = by_verlet("faint_friction", "ball", 1, 1e-8);
+    assert!(own < 1e-9, "{own:e}");
+    for tolerance in [1e-3, 1e-6, 1e-8, 1e-10, 1e-12] {
+        let ran = at("faint_friction", tolerance);
+        let (counts, off) = (ran.1.state.counts(), (place(&ran, "ball", 1) - reference).abs());
+        println!("{tolerance:e}: {off:.1e} u_c from verlet's, {own:.1e}, {counts:?}");
+        assert!(off < f64::max(tolerance, 1e-9), "{tolerance:e}: {off:e}");
+        assert!(counts.steps < 10_000 && counts.detours == 0, "{tolerance:e}: {counts:?}");
     }
 }
