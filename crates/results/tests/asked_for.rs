@@ -3,6 +3,8 @@
 //! * `set_down_on_a_cone`: a body grows into its contact in full stick. Its motion was right to a tolerance, and its books missed
 //!   360 tolerances of 1e-12 and 4 600 of 1e-13, of which a user was warned.
 //! * `faint_friction`: a body on two lists of heights, one with a friction of 1e-6. No tolerance below 1e-6 came to its end.
+//! * `row_under_a_load`: a slider on 256 springs under a constant load was 33 to 85 tolerances off from 1e-8 to 1e-12, and 900 to
+//!   1 400 where its foot jumps.
 
 #![allow(
     clippy::unwrap_used,
@@ -78,5 +80,34 @@ fn a_contact_without_friction_to_speak_of_does_not_stop_its_body() {
         println!("{tolerance:e}: {off:.1e} u_c from verlet's, {own:.1e}, {counts:?}");
         assert!(off < f64::max(tolerance, 1e-9), "{tolerance:e}: {off:e}");
         assert!(counts.steps < 10_000 && counts.detours == 0, "{tolerance:e}: {counts:?}");
+    }
+}
+
+/// Springs slip one by one, and no step ends where they do.
+#[test]
+fn rows_under_a_load_are_as_exact_as_they_are_asked_to_be() {
+    let (reference, moved) = by_verlet("row_under_a_load", "s0", 0, 1e-5);
+    for (tolerance, most) in [(1e-8, 5.0), (1e-9, 2.0)] {
+        let ran = at("row_under_a_load", tolerance);
+        let (counts, off) = (ran.1.state.counts(), (place(&ran, "s0", 0) - reference).abs());
+        println!("{tolerance:e}: {off:.1e} u_c from verlet's, {moved:.1e}, {counts:?}");
+        assert!(off < most * tolerance, "{tolerance:e}: {off:e}");
+    }
+}
+
+/// The drive of a row that rings for long, as it jumps at every period: 1 250 tolerances off at 1e-9, 1 440 at 1e-10.
+#[test]
+fn rows_that_ring_are_nearly_so() {
+    let jumps = r#"{"trapezoid": {"stroke": 1.204e-6, "rise": 0.1697, "hold": 0.08486, "fall": 0, "period": 0.8486}}"#;
+    let at = |tolerance: f64| {
+        let stepper = format!(r#"{{"event": {{"tolerance": {tolerance:e}}}}}"#);
+        let ran = with("row_under_a_load", &[("run.stepper", &stepper), ("waveforms.drive", jumps)]);
+        place(&ran, "s0", 0)
+    };
+    let finest = at(1e-13);
+    for (tolerance, most) in [(1e-8, 300.0), (1e-9, 50.0), (1e-10, 50.0)] {
+        let off = (at(tolerance) - finest).abs();
+        println!("{tolerance:e}: {off:.1e} u_c from 1e-13");
+        assert!(off < most * tolerance, "{tolerance:e}: {off:e}");
     }
 }
