@@ -33,7 +33,7 @@ use stickslip_contact::Interface;
 
 /// Least scale of work, in parts of that of the largest contact.
 // Works go with the square of a friction coefficient, as force and u_c both do. Of a body on two lists of heights, one with a
-// friction of 1e-6 and the other of 0.46, the smaller work was 2e-12 of the larger: a tolerance of 1e-8 asked for works far below
+// friction of 1e-6 and the other of 0.46, the smaller work was some 1e-12 of the larger: a tolerance of 1e-8 asked for works far below
 // their rounding, and runs stopped. With 1e-6 they end, but take detours at 1e-10; with 1e-4 they take none.
 const LEAST_WORK: f64 = 1e-4;
 
