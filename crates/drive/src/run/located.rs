@@ -49,7 +49,7 @@ use crate::state::{Books, Detour, Gait, Layout, LocatedWay, State, Underway, Whe
 use crate::{Limits, Plan, RunError};
 pub(super) use method::{LocatedRun, Workspace};
 use motion::Motion;
-use path::MOST_PIECES;
+use path::most_pieces;
 use room::Room;
 use stickslip_contact::Memory;
 use stickslip_stepper::{Attempt, StepControl, StepHistory, StepLimits};
@@ -137,6 +137,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         let motion = Motion::new(&setting, room.solver, room.scale);
         // No step leaps over a smooth wave.
         let limits = StepLimits { longest: motion.pace.longest, ..limits };
+        // Only contacts that grow have more than one path in a step.
+        let grows = model.contacts.iter().any(|contact| contact.slot.is_some());
+        let pieces = if grows { most_pieces(setting.tolerance) as usize } else { 0 };
         // Where nothing is free nothing swings, and a walk has no pace.
         let period = if model.fastest > 0.0 { std::f64::consts::TAU / model.fastest } else { 0.0 };
         Self {
@@ -151,7 +154,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             motion,
             control: StepControl::new(order, limits),
             watch: room.watch.renewed(model, setting.tolerance),
-            ledger: room.ledger.renewed(model, MOST_PIECES as usize),
+            ledger: room.ledger.renewed(model, pieces),
             turning: room.turning.renewed(model),
             output: room.output.renewed(plan.every, setting.layout),
             bounds: Bounds::new(model, plan.limits, period, room.windows),

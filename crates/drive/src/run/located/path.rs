@@ -16,9 +16,16 @@ use crate::state::State;
 use stickslip_contact::Segment;
 use stickslip_stepper::{Attempt, Completion};
 
-/// Most pieces into which a step's path of growth is cut.
-// Bounds memory. 25 make a rocking slider at 1e-9 two thirds dearer and its books 27 times worse.
-pub(super) const MOST_PIECES: f64 = 256.0;
+/// Most pieces into which a step's path of growth is cut at tolerances down to [`PLAIN`]; below it as many more as let the bend
+/// that is left of a piece fall with the tolerance.
+// Bounds memory. 25 make a rocking slider at 1e-9 two thirds dearer and its books 27 times worse. With 256 at every tolerance
+// the books of a body set down on a cone, right to a tolerance, missed 360 tolerances of 1e-12 and 4 600 of 1e-13.
+const MOST_PIECES: f64 = 256.0;
+/// Tolerance down to which that is enough.
+const PLAIN: f64 = 1e-8;
+/// Most pieces at any tolerance, met at 4e-11: a quarter of the knots that a memory keeps.
+// With 16 000 the books of twelve bodies that bounce are no better at 1e-12 and 1e-13, and runs take up to three times as long.
+const FINEST_PIECES: f64 = 4096.0;
 
 /// How far a piece of a path of growth may bend, in units of the tolerance. Forces at both its ends are those of the state:
 /// a bend counts only where an edge stops inside the piece, and then for less than a hundredth.
@@ -156,6 +163,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
+/// Most pieces into which a step's path of growth is cut at a tolerance.
+pub(super) fn most_pieces(tolerance: f64) -> f64 {
+    let finer = (PLAIN / tolerance).max(1.0).sqrt();
+    (MOST_PIECES * finer).min(FINEST_PIECES).floor()
+}
+
 /// The step in which a contact grows.
 pub(super) struct Growth<'r, 'e, A> {
     pub(super) motion: &'r Motion<A>,
@@ -171,8 +184,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
     /// less than [`BEND`] allows.
     ///
     /// With δ the distance of its middle from the chord, a path is cut into √(δ/(100·tolerance·u_c)) pieces,
-    /// at most
-    /// [`MOST_PIECES`]: the bend of a piece falls with the square of their number. `joins` of the first says
+    /// at most [`most_pieces`]: the bend of a piece falls with the square of their number. `joins` of the first says
     /// whether the growth before went on without a bend, so that collinear pieces can be merged.
     pub(super) fn trace(
         &self,
@@ -191,7 +203,8 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
         let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
         let bend = (middle.u - chord).abs() / (BEND * self.tolerance * contact.natural.displacement);
         // A path that does not deepen has no slope in d; one piece says all of it.
-        let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
+        let most = most_pieces(self.tolerance);
+        let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, most) } else { 1.0 };
         let mut joins = self.state.grew[c];
         for k in 1..=pieces as u32 {
             let share = f64::from(k) / pieces;
