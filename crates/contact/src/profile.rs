@@ -97,8 +97,17 @@ macro_rules! of_kind {
 impl Profile {
     /// m(h), m: the normal stiffness over E\*, which is the total length of the foundation with g < h; 2a(h) for a
     /// convex profile.
-    #[inline]
+    #[inline(always)]
     pub fn reduced_stiffness(&self, h: f64) -> f64 {
+        match &self.shape {
+            Shape::Power(shape) if h > 0.0 => shape.reduced_stiffness(h),
+            _ => self.other_reduced_stiffness(h),
+        }
+    }
+
+    /// As [`Self::other_reduced_force`].
+    #[inline(never)]
+    fn other_reduced_stiffness(&self, h: f64) -> f64 {
         if h.is_nan() || h <= 0.0 {
             return 0.0;
         }
@@ -121,6 +130,15 @@ impl Profile {
             return 0.0;
         }
         of_kind!(self, kind => kind.reduced_force(h))
+    }
+
+    /// M(h) (m²) and m(h) (m): of a power law one root serves both.
+    #[inline(always)]
+    pub(crate) fn reduced_force_and_stiffness(&self, h: f64) -> [f64; 2] {
+        match &self.shape {
+            Shape::Power(shape) if h > 0.0 => shape.force_and_stiffness(h),
+            _ => [self.other_reduced_force(h), self.reduced_stiffness(h)],
+        }
     }
 
     /// N(h) = ∫₀ʰ M, m³: the normal elastic energy over E\*.

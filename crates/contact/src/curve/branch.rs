@@ -165,22 +165,24 @@ impl Branch {
         self.sense
     }
 
-    /// Force, N, and friction power, W, of a moving apex with M(d) at hand, as [`Branch::force`] and
-    /// [`Branch::friction_power`] have them: what both need of the profile is asked for once.
-    #[inline]
-    pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 2] {
+    /// Force, N, friction power, W, and m at the slip front, m, of a moving apex with M(d) at hand, as [`Branch::force`] and
+    /// [`Branch::friction_power`] have them: what they need of the profile is asked for once. m is the length that sticks, none
+    /// in gross slip, all of it where the front lies above d.
+    #[inline(always)]
+    pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 3] {
         let Motion { d, u, dd, du } = *at;
         let drive = law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd);
         if self.is_gross() {
-            return [self.factor * (self.slope * reduced_force), drive * reduced_force];
+            return [self.factor * (self.slope * reduced_force), drive * reduced_force, 0.0];
         }
         let (profile, front) = (law.profile(), self.front(d, u));
-        let inner = profile.reduced_force(front);
+        let [inner, stuck] = profile.reduced_force_and_stiffness(front);
         let force = self.factor * (self.excess * inner + self.offset + self.slope * reduced_force);
         if front >= 0.0 && front <= d {
-            return [force, drive * (reduced_force - inner - (d - front) * profile.reduced_stiffness(front))];
+            return [force, drive * (reduced_force - inner - (d - front) * stuck), stuck];
         }
-        [force, self.friction_power(law, front, at)]
+        let stuck = profile.reduced_stiffness(front.clamp(0.0, d.max(0.0)));
+        [force, self.friction_power(law, front, at), stuck]
     }
 
     /// Friction power, W: G\*κL̇∫(d-h)dm over the springs at their limit, those higher than `front`,

@@ -117,6 +117,13 @@ impl Power {
         [reduced_force, self.energy_factor * h * reduced_force]
     }
 
+    /// M(h) and m(h), h > 0.
+    #[inline]
+    pub(super) fn force_and_stiffness(&self, h: f64) -> [f64; 2] {
+        let radius = self.radius(h);
+        [self.force_factor * h * radius, 2.0 * radius]
+    }
+
     /// The roots that cost a call, kept out of the way of those that do not.
     #[inline(never)]
     fn other_root(&self, x: f64) -> f64 {

@@ -68,7 +68,7 @@ impl Equations<'_> {
             // Force and friction power of one slip front, found once; beyond what the branch covers the
             // memory is asked.
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
-                let [force, friction] = branch.drag(&contact.interface, &motion, reduced_force);
+                let [force, friction, _] = branch.drag(&contact.interface, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }

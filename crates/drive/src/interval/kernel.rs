@@ -134,12 +134,16 @@ impl<'a> Kernel<'a> {
     /// Slopes of all components, as [`Equations::slopes`](stickslip_stepper::System::slopes) has them.
     #[inline(always)]
     pub(crate) fn slopes(&self, eq: &Equations<'_>, (t, y): (f64, &[f64]), dy: &mut [f64]) {
-        match eq.layout.free {
+        match (eq.layout.free, self.moving.is_empty()) {
             _ if self.extent == Extent::Wide => self.wide.slopes(eq, (t, y), dy),
-            1 => self.slopes_of::<1>(eq, (t, y), dy),
-            2 => self.slopes_of::<2>(eq, (t, y), dy),
-            3 => self.slopes_of::<3>(eq, (t, y), dy),
-            _ => self.slopes_of::<4>(eq, (t, y), dy),
+            (1, true) => Self::slopes_of::<1, false>(eq, t, y, dy, self),
+            (2, true) => Self::slopes_of::<2, false>(eq, t, y, dy, self),
+            (3, true) => Self::slopes_of::<3, false>(eq, t, y, dy, self),
+            (_, true) => Self::slopes_of::<4, false>(eq, t, y, dy, self),
+            (1, false) => Self::slopes_of::<1, true>(eq, t, y, dy, self),
+            (2, false) => Self::slopes_of::<2, true>(eq, t, y, dy, self),
+            (3, false) => Self::slopes_of::<3, true>(eq, t, y, dy, self),
+            (_, false) => Self::slopes_of::<4, true>(eq, t, y, dy, self),
         }
     }
 
@@ -161,37 +165,49 @@ impl<'a> Kernel<'a> {
         Sums { forces: std::array::from_fn(|i| self.forces[i]), input: 0.0, damping: 0.0 }
     }
 
+    /// `MOVING` is whether any contact has no constant depth or is damped: their laws take all the registers there are.
+    ///
+    /// In the order of who asks, so that nothing need be moved on the way here.
     #[inline(never)]
-    fn slopes_of<const N: usize>(&self, eq: &Equations<'_>, (t, y): (f64, &[f64]), dy: &mut [f64]) {
-        let (Some((x, rest)), Some((dx, changes))) =
-            (y.split_first_chunk::<N>(), dy.split_first_chunk_mut::<N>())
+    fn slopes_of<const N: usize, const MOVING: bool>(
+        eq: &Equations<'_>,
+        t: f64,
+        y: &[f64],
+        dy: &mut [f64],
+        kernel: &Self,
+    ) {
+        let (Some((coordinates, _)), Some((slopes, extra))) =
+            (y.split_at_checked(2 * N), dy.split_at_mut_checked(2 * N))
         else {
             return;
         };
-        let (Some(v), Some((dv, extra))) = (rest.first_chunk::<N>(), changes.split_first_chunk_mut::<N>())
-        else {
+        let (([x, v], _), ([dx, dv], _)) = (coordinates.as_chunks::<N>(), slopes.as_chunks_mut::<N>()) else {
             return;
         };
         *dx = *v;
-        // Beside the powers there are only the slopes of what grows.
-        if eq.layout.growing > 0 {
+        // Beside the powers there are only the slopes of what grows: blocks and places without mass have no kernel.
+        let growing = eq.layout.growing;
+        if growing > 0 {
             extra.fill(0.0);
         }
-        let mut sums = self.sums::<N>();
-        for steady in &self.steady {
+        let mut sums = kernel.sums::<N>();
+        for steady in &kernel.steady {
             steady.act(t, x, &mut sums);
         }
-        for moving in &self.moving {
-            moving.act((eq, y), t, (x, v), (&mut sums, extra));
+        if MOVING {
+            for moving in &kernel.moving {
+                moving.act((eq, y), t, (x, v), (&mut sums, extra));
+            }
         }
-        for tie in &self.links {
+        for tie in &kernel.links {
             tie.act(t, (x, Some(v)), &mut sums);
         }
-        for ((slope, force), mobility) in dv.iter_mut().zip(sums.forces).zip(self.mobilities) {
+        for ((slope, force), mobility) in dv.iter_mut().zip(sums.forces).zip(kernel.mobilities) {
             *slope = force * mobility;
         }
-        let first = eq.layout.input() - 2 * N;
-        (extra[first], extra[first + 1]) = (sums.input, sums.damping);
+        if let Some([input, damping, ..]) = extra.get_mut(growing..) {
+            (*input, *damping) = (sums.input, sums.damping);
+        }
     }
 
     #[inline(never)]

@@ -110,35 +110,48 @@ impl<'a> Moving<'a> {
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
-        let mut force = match (&self.law, self.slot) {
-            (Law::Slip(branch), Some([friction, ..])) if branch.covers(d, u.value) => {
-                let [force, power] = branch.drag(law, &motion, reduced_force);
-                extra[friction - 2 * N] = power;
-                force
+        let damped = law.damping() > 0.0;
+        let (force, damping) = match &self.law {
+            Law::Slip(branch) if branch.covers(d, u.value) && (damped || self.slot.is_some()) => {
+                let [force, power, stuck] = branch.drag(law, &motion, reduced_force);
+                if let Some([friction, ..]) = self.slot {
+                    extra[friction - 2 * N] = power;
+                }
+                (force, law.viscosity(law.tangential_modulus() * stuck))
             }
-            (Law::Slip(branch), None) if branch.covers(d, u.value) => {
-                branch.force(law, d, u.value, reduced_force)
+            Law::Slip(branch) if branch.covers(d, u.value) => {
+                (branch.force(law, d, u.value, reduced_force), 0.0)
             }
             // Growth, and beyond what the branch covers: the memory is asked.
-            (_, slot) => {
-                let grown = || slot.map_or(0.0, |[_, force, _]| y[force]);
-                let force = contact.force(eq.law(self.index), &motion, grown);
-                if let Some(places) = slot {
-                    let rates = contact.growth_rates(eq.law(self.index), &motion, force);
-                    for (place, rate) in places.into_iter().zip([rates.friction, rates.force, rates.elastic])
-                    {
-                        extra[place - 2 * N] = rate;
-                    }
-                }
-                force
-            }
+            _ => self.ask::<N>((eq, y), &motion, extra),
         };
-        if law.damping() > 0.0 {
-            let damping = contact.viscosity(eq.law(self.index), &motion);
+        if damped {
             // A power of its own, not friction: it is lost where springs stick.
             sums.damping += contact.count * damping * motion.du * motion.du;
-            force += damping * motion.du;
         }
+        let force = if damped { force + damping * motion.du } else { force };
         sums.apply(&self.u.row, u.driven, -contact.count * force);
+    }
+
+    /// The force of one contact, N, and what its springs that stick resist, N s/m, by the memory; beside it the slopes of what
+    /// grows.
+    #[inline(never)]
+    fn ask<const N: usize>(
+        &self,
+        (eq, y): (&Equations<'_>, &[f64]),
+        motion: &Motion,
+        extra: &mut [f64],
+    ) -> (f64, f64) {
+        let (contact, law) = (self.contact, eq.law(self.index));
+        let grown = || self.slot.map_or(0.0, |[_, force, _]| y[force]);
+        let force = contact.force(law, motion, grown);
+        if let Some(places) = self.slot {
+            let rates = contact.growth_rates(law, motion, force);
+            for (place, rate) in places.into_iter().zip([rates.friction, rates.force, rates.elastic]) {
+                extra[place - 2 * N] = rate;
+            }
+        }
+        let damped = contact.interface.damping() > 0.0;
+        (force, if damped { contact.viscosity(law, motion) } else { 0.0 })
     }
 }

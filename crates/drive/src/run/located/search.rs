@@ -393,8 +393,19 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     /// Whether a guard is lower at the end of the step than at its start, and down or about as good as down.
     #[inline(always)]
     fn comes_near(&self, watched: Watched<'_>) -> bool {
-        let g = self.at_end(watched);
-        g < self.at_begin(watched) && g < self.own_bands(watched).1
+        let [begin, end] = self.at_ends(watched);
+        end < begin && end < self.own_bands(watched).1
+    }
+
+    /// Its values at both ends of the step, of what it is looked at once: of many contacts nothing is asked as often.
+    #[inline(always)]
+    fn at_ends(&self, watched: Watched<'_>) -> [f64; 2] {
+        match watched {
+            Watched::Closed(steady, guard) => {
+                [self.from, self.to].map(|ends| steady.guard(guard, &ends[steady.index].motion))
+            }
+            Watched::Contact(..) | Watched::Block(..) => [self.at_begin(watched), self.at_end(watched)],
+        }
     }
 
     /// Whether a guard is down at the end of the step, or as good as down.

@@ -18,8 +18,8 @@ pub struct Harmonic {
     pub phase: f64,
 }
 
-/// Value and derivatives of the sum.
-#[inline]
+/// Value and derivatives of the sum. Apart: a single sine, as most waveforms without corners are, needs none of its registers.
+#[inline(never)]
 pub(super) fn at(terms: &[Harmonic], turn: Turn) -> Sample {
     terms.iter().map(|harmonic| turn.term(*harmonic)).fold(
         Sample { value: 0.0, rate: 0.0, acceleration: 0.0 },

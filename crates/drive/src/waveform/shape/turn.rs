@@ -63,7 +63,8 @@ fn sin_cos(angle: f64) -> [f64; 2] {
 
 #[inline(always)]
 fn near(angle: f64) -> [f64; 2] {
-    let quarters = nearest(angle * std::f64::consts::FRAC_2_PI);
+    // The nearest whole number of them, which no angle here is too large for.
+    let quarters = (angle * std::f64::consts::FRAC_2_PI + WHOLE) - WHOLE;
     // What is left of the quarter turn, and what rounding has taken of it.
     let (most, least) = (angle - quarters * QUARTER[0], quarters * QUARTER[1]);
     let r = most - least;
