@@ -14,12 +14,11 @@ use stickslip_scenario::Scenario;
 const SAMPLE: u64 = 160;
 
 /// Faults of the sample that are known, by seed: books that miss a hundred tolerances by a factor of 1 to 3, of contacts that grow,
-/// whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c. 96 came with more pieces at tolerances
-/// below 1e-8: at 1e-10 its books miss 112 tolerances instead of 40, at 1e-12 5 instead of 830.
+/// whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c.
 /// 36 and 133, on rows of 50 and 107 springs under constant normals, went as estimates of such rows are asked for more than the tolerance.
 /// 24 came and 98 went as guards learned what rounding is in them, of 400 seeds 25 had such books before it and after; 14, 24 and 90
 /// went with short steps, 45 with steps to gross slip that are aimed nearer, 87 with rows whose springs part without stretch.
-const KNOWN: [u64; 4] = [73, 96, 120, 149];
+const KNOWN: [u64; 3] = [73, 120, 149];
 
 #[test]
 fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
