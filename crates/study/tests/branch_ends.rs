@@ -7,7 +7,7 @@ use stickslip_results::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::Options;
 use stickslip_study::steady::continuation::{
-    Bifurcation, Branch, Continuation, ContinuationError, Course, End, Mark,
+    Bifurcation, Branch, Continuation, ContinuationError, Course, End,
 };
 
 type Checked = Result<(), Box<dyn Error>>;

@@ -228,7 +228,6 @@ fn what_is_read_at_moments_that_move_goes_on_with_the_time() -> Checked {
         )?;
     }
     let (told, Compared { all, sharp, within, .. }) = (compared.told(), &compared);
-    println!("{told}");
     assert!(*all == MOVING.iter().map(|(_, _, _, of)| of.len()).sum::<usize>(), "{told}");
     assert!(2 * sharp > *all && 10 * (all - within) <= *all, "{told}");
     Ok(())
@@ -244,12 +243,6 @@ fn swings_under_normals_that_vary_change_as_differences_say() -> Checked {
         let asked = Asked { of: of.to_vec(), to: names(&[to]), ..Asked::default() };
         for Pair { what, found, wanted, size } in pairs(&example(name), &set, &asked)? {
             let off = (found.value - wanted.0).abs();
-            println!(
-                "{what}: off by {:.1e}, told {:.1e}, {:.1e}",
-                off / size,
-                found.error / size,
-                wanted.1 / size
-            );
             assert!(
                 off <= found.error + wanted.1 && off <= OFF * size,
                 "{what}: {found:?} instead of {wanted:?}"
