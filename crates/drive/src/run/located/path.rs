@@ -23,9 +23,9 @@ use stickslip_stepper::{Attempt, Completion};
 const MOST_PIECES: f64 = 256.0;
 /// Tolerance down to which that is enough.
 const PLAIN: f64 = 1e-8;
-/// Most pieces at any tolerance, met at 4e-11: a quarter of the knots that a memory keeps.
-// With 16 000 the books of twelve bodies that bounce are no better at 1e-12 and 1e-13, and runs take up to three times as long.
-const FINEST_PIECES: f64 = 4096.0;
+/// Most pieces at any tolerance, met at 6e-10: a sixteenth of the knots that a memory keeps.
+// With 4 096 books are a third at 1e-12, and a stage on three balls takes 2.7 times the instructions there.
+const FINEST_PIECES: f64 = 1024.0;
 
 /// How far a piece of a path of growth may bend, in units of the tolerance. Forces at both its ends are those of the state:
 /// a bend counts only where an edge stops inside the piece, and then for less than a hundredth.
