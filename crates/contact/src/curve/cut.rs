@@ -7,6 +7,9 @@ use super::front::Front;
 use super::knot::Knot;
 use crate::{Apex, Interface, Response};
 
+/// So many knots below the top are passed one by one.
+const NEAR: usize = 8;
+
 /// What a chord does to the curve.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Drag {
@@ -105,15 +108,15 @@ impl Edge {
     /// Walks down the stack. In the frame of the sense, σp - κh falls along the curve, and all that lies below
     /// its value at the apex is dragged.
     // From the top, though the levels are sorted and halves would do: a chord of a stepper ends within the top piece or the
-    // one below, and one that cuts a thousand gives them all up, so that no knot is passed more often than it was made.
+    // one below. Farther down by halves: stages of a step along a path of a thousand pieces ask without giving any up.
     #[inline]
     pub(super) fn find(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> Self {
         let slope = law.stick_slope();
         let level = sense * to.u - slope * to.d;
-        let mut kept = knots.len();
-        while kept > 0 && (knots[kept - 1].level(sense, slope) < level || knots[kept - 1].h > to.d) {
-            kept -= 1;
-        }
+        let passes = |knot: &Knot| knot.level(sense, slope) < level || knot.h > to.d;
+        let near = knots.iter().rev().take(NEAR).take_while(|knot| passes(knot)).count();
+        let kept = knots.len() - near;
+        let kept = if near == NEAR { knots[..kept].partition_point(|knot| !passes(knot)) } else { kept };
         let Some(base) = kept.checked_sub(1).map(|i| &knots[i]) else {
             return Self { sense, kept, height: 0.0, splits: false };
         };

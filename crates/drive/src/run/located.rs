@@ -49,7 +49,7 @@ use crate::state::{Books, Detour, Gait, Layout, LocatedWay, State, Underway, Whe
 use crate::{Limits, Plan, RunError};
 pub(super) use method::{LocatedRun, Workspace};
 use motion::Motion;
-use path::most_pieces;
+use path::FINEST_PIECES;
 use room::Room;
 use stickslip_contact::Memory;
 use stickslip_stepper::{Attempt, StepControl, StepHistory, StepLimits};
@@ -139,7 +139,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         let limits = StepLimits { longest: motion.pace.longest, ..limits };
         // Only contacts that grow have more than one path in a step.
         let grows = model.contacts.iter().any(|contact| contact.slot.is_some());
-        let pieces = if grows { most_pieces(setting.tolerance) as usize } else { 0 };
+        let pieces = if grows { FINEST_PIECES as usize } else { 0 };
         // Where nothing is free nothing swings, and a walk has no pace.
         let period = if model.fastest > 0.0 { std::f64::consts::TAU / model.fastest } else { 0.0 };
         Self {

@@ -16,16 +16,16 @@ use crate::state::State;
 use stickslip_contact::Segment;
 use stickslip_stepper::{Attempt, Completion};
 
-/// Most pieces into which a step's path of growth is cut at tolerances down to [`PLAIN`]; below it as many more as let the bend
-/// that is left of a piece fall with the tolerance.
-// Bounds memory. 25 make a rocking slider at 1e-9 two thirds dearer and its books 27 times worse. With 256 at every tolerance
-// the books of a body set down on a cone, right to a tolerance, missed 360 tolerances of 1e-12 and 4 600 of 1e-13.
+/// Most pieces into which a step's path of growth is cut where less than [`LEAST_BEND`] is left of its bend by them.
+// 25 make a rocking slider at 1e-9 two thirds dearer and its books 27 times worse.
 const MOST_PIECES: f64 = 256.0;
-/// Tolerance down to which that is enough.
-const PLAIN: f64 = 1e-8;
-/// Most pieces at any tolerance, met at 6e-10: a sixteenth of the knots that a memory keeps.
-// With 4 096 books are a third at 1e-12, and a stage on three balls takes 2.7 times the instructions there.
-const FINEST_PIECES: f64 = 1024.0;
+/// Bend of a piece, in u_c, below which a path is cut no further, ten times what [`BEND`] allows where that is less; and most pieces, which
+/// bound memory.
+// With 256 pieces alone books of bodies that bounce miss 1 300 to 9 300 tolerances of 1e-12, so 140 to 700, for as many instructions of
+// stages on coupled contacts. A third of it makes these a third dearer, three times as much has books of 190 to 2 200. 1 024 pieces whatever
+// is left have books of 80 to 270, and make stages 1.7 times as dear.
+const LEAST_BEND: f64 = 1e-9;
+pub(super) const FINEST_PIECES: f64 = 1024.0;
 
 /// How far a piece of a path of growth may bend, in units of the tolerance. Forces at both its ends are those of the state:
 /// a bend counts only where an edge stops inside the piece, and then for less than a hundredth.
@@ -163,10 +163,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
-/// Most pieces into which a step's path of growth is cut at a tolerance.
-pub(super) fn most_pieces(tolerance: f64) -> f64 {
-    let finer = (PLAIN / tolerance).max(1.0).sqrt();
-    (MOST_PIECES * finer).min(FINEST_PIECES).floor()
+/// Number of pieces of a path whose middle lies so far from the chord, in u_c.
+fn pieces(bend: f64, tolerance: f64) -> f64 {
+    let allowed = BEND * tolerance;
+    let most = (bend / LEAST_BEND.min(10.0 * allowed)).sqrt().clamp(MOST_PIECES, FINEST_PIECES);
+    (bend / allowed).sqrt().min(most).ceil().max(1.0)
 }
 
 /// The step in which a contact grows.
@@ -184,7 +185,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
     /// less than [`BEND`] allows.
     ///
     /// With δ the distance of its middle from the chord, a path is cut into √(δ/(100·tolerance·u_c)) pieces,
-    /// at most [`most_pieces`]: the bend of a piece falls with the square of their number. `joins` of the first says
+    /// at most as [`pieces`] says: the bend of a piece falls with the square of their number. `joins` of the first says
     /// whether the growth before went on without a bend, so that collinear pieces can be merged.
     pub(super) fn trace(
         &self,
@@ -196,15 +197,14 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
         let (t0, h) = (self.state.t, end - self.state.t);
         let at = |share: f64| {
             let t = t0 + share * h;
-            self.eq.motion(contact, t, |i| self.motion.solver.value(i, t))
+            self.eq.standing(contact, t, |i| self.motion.solver.value(i, t))
         };
         let (from, middle) = (self.state.memories[c].apex(), at(0.5));
         // By d and not by time: what the memory interpolates along is the height.
         let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
-        let bend = (middle.u - chord).abs() / (BEND * self.tolerance * contact.natural.displacement);
+        let bend = (middle.u - chord).abs() / contact.natural.displacement;
         // A path that does not deepen has no slope in d; one piece says all of it.
-        let most = most_pieces(self.tolerance);
-        let pieces = if bend.is_finite() { bend.sqrt().ceil().clamp(1.0, most) } else { 1.0 };
+        let pieces = if bend.is_finite() { pieces(bend, self.tolerance) } else { 1.0 };
         let mut joins = self.state.grew[c];
         for k in 1..=pieces as u32 {
             let share = f64::from(k) / pieces;
