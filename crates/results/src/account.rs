@@ -224,10 +224,14 @@ impl Accounts {
         // In the air its way is nobody's; out of gross slip the turn is the end of that, where the normal varies a little before.
         let has_turned = kind == contact.turn && state != OPEN;
         let turns = has_turned && !contact.slips;
-        // Where gross slip begins or ends the row is of either side; a turn that ends no law changes nothing of it.
-        if kind != EventKind::Turn.name() {
-            contact.slips = begins || !ends && !opens && state == SLIP;
-        }
+        // Where gross slip begins or ends the row is of either side, and a force that comes back to its limit as it turns is as good as
+        // at it: the events tell. Of one that slides as it touches no other one does.
+        contact.slips = match () {
+            () if begins => true,
+            () if ends || opens || kind == EventKind::FullStick.name() => false,
+            () if kind == EventKind::Touch.name() => state == SLIP,
+            () => contact.slips,
+        };
         if !(begins || ends || opens || has_turned) {
             return;
         }

@@ -9,7 +9,7 @@ use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 
 /// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
-/// extremes and corners that are no events. Those of the body that steps have no loops.
+/// extremes and corners that are no events. On what drives it the body that steps has no loops.
 const PARTS: f64 = 512.0;
 /// The same of a period of a load that is shorter, where the contact's body goes to and fro in many of them: parabolas through moments
 /// so near find the extremes of a sine to 4e-6 of it.
@@ -117,8 +117,8 @@ impl Marks {
     }
 }
 
-/// Whether a contact is looked at in parts of a period, or of a table: its force does not follow from the way alone, and its body is not
-/// the one that steps.
+/// Whether a contact is looked at in parts of a period, or of a table: its force does not follow from the way alone, and it is none of
+/// those on which the body of the figures steps. Two free bodies may step together.
 pub(crate) fn are_dense(job: &Job, c: usize) -> bool {
     if is_walked(job, c) {
         return false;
@@ -126,7 +126,12 @@ pub(crate) fn are_dense(job: &Job, c: usize) -> bool {
     let is_free = |body: &usize| {
         job.scenario.scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free)
     };
-    let steps = job.scenario.figures.body.filter(is_free).is_some_and(|body| touches(job, c, body));
+    let steps = job.scenario.figures.body.filter(is_free).is_some_and(|body| {
+        let sides = job.scenario.scene.contacts.get(c).map(|contact| contact.part.between);
+        let others = sides.into_iter().flatten().filter(|side| *side != Side::Body(body));
+        touches(job, c, body)
+            && !others.into_iter().any(|side| matches!(side, Side::Body(it) if is_free(&it)))
+    });
     match Periods::of_contact(job, c, f64::INFINITY) {
         Some(_) => !steps,
         None => table_of(job, c).is_some(),

@@ -313,3 +313,53 @@ fn the_body_of_figures_must_be_free() {
         "{notes}"
     );
 }
+
+/// After gross slip the force of a flat punch swings back to its very limit, and rounding says of that turn that all slips. By Verlet's
+/// method, whose states of slip are read off every step of the last period.
+#[test]
+fn a_force_that_comes_back_to_its_limit_does_not_slip_until_the_next_event() {
+    for friction in ["0.2", "0.20001", "0.1999", "0.2003"] {
+        let set = [("contacts.c.friction", friction), ("figures.steady_motion", "false")];
+        let (steps, _) = account("back_to_the_limit", &set);
+        let verlet =
+            [&set[..], &[("run.stepper", r#"{"verlet":{"step":"50 ns"}}"#), ("output.every", "50 ns")]]
+                .concat();
+        let (_, rows) = account("back_to_the_limit", &verlet);
+        let range = rows.last_period(&steps);
+        let (states, t) = (rows.column("c.state"), rows.column("time_s"));
+        let (from, turn) = (t[range.start], 0.88e-3);
+        let slips = |forth: bool| {
+            let of = range.clone().filter(|i| (t[*i] - from < turn) == forth);
+            let (all, slipping) =
+                of.fold((0, 0), |(all, slipping), i| (all + 1, slipping + u32::from(states[i] == 3.0)));
+            f64::from(slipping) / f64::from(all)
+        };
+        for (key, forth) in [("forth", true), ("back", false)] {
+            let told = number(&steps, &format!("/last_period/contacts/c/slip_share_{key}"));
+            near(told, slips(forth), 5e-3, &format!("{friction} {key}"));
+        }
+    }
+}
+
+/// A row of springs slips as the exact curve does, and says so.
+#[test]
+fn a_row_of_springs_slips_for_as_long_as_the_curve() {
+    let engine = ("contacts.ball.engine", r#"{"springs":{"count":1001}}"#);
+    let plain = [("figures.steady_motion", "false"), ("plots", "[]")];
+    let [(curve, _), (row, _)] = [&plain[..], &[engine, plain[0], plain[1]]].map(|set| account("p1", set));
+    for key in ["slip_share_forth", "slip_share_back"] {
+        let of = |steps: &Value| number(steps, &format!("/last_period/contacts/ball/{key}"));
+        assert!(of(&curve) > 0.9 || key == "slip_share_forth", "{}", of(&curve));
+        near(of(&row), of(&curve), 5e-3, key);
+    }
+}
+
+/// Without a step no way of a sine is the one that leads there: the rising one is forth, whatever rounding makes of the step.
+#[test]
+fn without_a_step_the_rising_way_is_forth() {
+    for amplitude in ["0.4 um", "0.4000001 um", "0.401 um", "0.39 um"] {
+        let (steps, _) = account("held_by_a_spring", &[("waveforms.drive.sine.amplitude", amplitude)]);
+        let stroke = number(&steps, "/last_period/forth/stroke_m");
+        assert!(stroke > 7e-7, "{amplitude}: {stroke:e}");
+    }
+}

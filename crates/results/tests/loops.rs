@@ -322,3 +322,39 @@ fn a_contact_at_rest_has_no_loop() {
         assert!(ratios.iter().all(|ratio| fretting.get(ratio).is_none()), "{fretting}");
     }
 }
+
+/// Two sliders in a row, pressed by a force on a sine: the contact between them has one loop, whichever body the figures are of, and that of
+/// rows a thousandth of a cycle apart.
+#[test]
+fn a_loop_between_two_sliders_does_not_depend_on_the_body_of_the_figures() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/two_sliders_in_a_row.json");
+    let loops = ["b0", "b1", "foot"].map(|body| {
+        let job = prepare(&file, &[("figures.body", body), ("figures.steady_motion", "false")]);
+        last_cycle(&job, 1)
+    });
+    let amplitude = |of: &CycleFigures| of.cycle.displacement_amplitude;
+    let force = |of: &CycleFigures| of.cycle.force_amplitude;
+    for one in &loops {
+        near(amplitude(one), amplitude(&loops[2]), 1e-4, "amplitude");
+        near(force(one), force(&loops[2]), 1e-4, "force");
+    }
+    let job = prepare(&file, &[("figures.steady_motion", "false")]);
+    let mut trace = stickslip_drive::Trace::new(&job.model);
+    let cycle = loops[2].time;
+    let every = Some((cycle[1] - cycle[0]) / 997.0);
+    let plan = stickslip_drive::Plan { every, ..job.scenario.plan };
+    stickslip_drive::run(&job.model, &plan, &mut job.start.clone(), &mut trace).unwrap();
+    let column = |name: &str| {
+        let place = job.model.channels().iter().position(|channel| channel.name == name).unwrap();
+        trace.column(place).collect::<Vec<f64>>()
+    };
+    let t = column("time_s");
+    let half_range = |values: Vec<f64>| {
+        let within = values.iter().zip(&t).filter(|(_, t)| (cycle[0]..=cycle[1]).contains(*t));
+        let (low, high) =
+            within.fold((f64::MAX, f64::MIN), |(low, high), (v, _)| (low.min(*v), high.max(*v)));
+        0.5 * (high - low)
+    };
+    near(half_range(column("c1.u_m")), amplitude(&loops[0]), 1e-3, "amplitude of the rows");
+    near(half_range(column("c1.fx_N")), force(&loops[0]), 1e-3, "force of the rows");
+}

@@ -5,6 +5,7 @@
 //! are counted apart.
 
 mod marks;
+mod rows;
 mod turns;
 
 use crate::equations::Equations;
@@ -15,6 +16,7 @@ use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
 
 pub(super) use marks::{Marks, SAME as SAME_MARK};
+pub(super) use rows::Rows;
 pub(super) use turns::Turns;
 
 /// What a run hands to its record. It reads states and dense outputs and changes neither: with it and without it a run has
@@ -26,6 +28,7 @@ pub(super) struct Output {
     pub(super) looks: Looks,
     pub(super) marks: Marks,
     pub(super) turns: Turns,
+    pub(super) rows: Rows,
     /// Whether the record reads every step.
     pub(super) strides: bool,
     row: Vec<f64>,
@@ -39,9 +42,9 @@ impl Output {
     pub(super) fn new(every: Option<f64>, layout: Layout) -> Self {
         let grid = Grid::new(None, 0.0, EVERYWHERE);
         let (row, components) = (Vec::new(), Vec::new());
-        let (looks, marks, turns) = (Looks::NONE, Marks::none(), Turns::default());
+        let (looks, marks, turns, rows) = (Looks::NONE, Marks::none(), Turns::default(), Rows::default());
         let blank =
-            Self { every, grid, looks, marks, turns, strides: false, row, components, evaluations: 0 };
+            Self { every, grid, looks, marks, turns, rows, strides: false, row, components, evaluations: 0 };
         blank.renewed(every, layout)
     }
 
@@ -50,8 +53,8 @@ impl Output {
         self.components.clear();
         self.components.resize(layout.total(), 0.0);
         let grid = Grid { row: self.grid.row, ..Grid::new(None, 0.0, EVERYWHERE) };
-        let (marks, turns) = (self.marks.renewed(), self.turns.renewed());
-        Self { every, grid, looks: Looks::NONE, marks, turns, strides: false, evaluations: 0, ..self }
+        let (marks, turns, rows) = (self.marks.renewed(), self.turns.renewed(), self.rows.renewed());
+        Self { every, grid, looks: Looks::NONE, marks, turns, rows, strides: false, evaluations: 0, ..self }
     }
 
     /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
@@ -71,6 +74,9 @@ impl Output {
     ) {
         self.looks = Looks::begin(at, opening, record);
         self.turns.begin(at.0, record.watched().filter(|_| record.wants_events()));
+        if record.wants_events() {
+            self.rows.begin(at.0, at.1);
+        }
         self.marks.begin(equations, at, opening == Opening::Resumed, record);
     }
 

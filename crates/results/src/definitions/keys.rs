@@ -160,7 +160,7 @@ pub(super) const KEYS: &[Definition] = &[
     of("steps.last_period.step_m", "how far the body came in it"),
     of(
         "steps.last_period.forth.time_s",
-        "how long the waveform goes forth: its slower way, of two as slow that of the step",
+        "how long the waveform goes forth: its slower way, of two as slow that of the step, or without a step the rising one",
     ),
     of("steps.last_period.forth.stroke_m", "how far it goes forth, with its sign"),
     of("steps.last_period.forth.travel_m", "how far the body goes meanwhile, and while the waveform rests"),

@@ -112,14 +112,18 @@ pub(super) fn of(job: &Job, outcome: &Outcome, is_length: bool) -> Option<LastPe
     })
 }
 
+/// Of two ways as slow the rising one is forth where the step is less than this share of what the body goes on both, or leads that way.
+const STEP: f64 = 1e-3;
+
 /// Which of two ways is forth.
 fn forth(account: &Account) -> usize {
     let [rising, falling] = account.time;
     if (rising - falling).abs() > 1e-3 * (rising + falling) {
         return usize::from(falling > rising);
     }
+    // Without a step rounding would say which.
     let step: f64 = account.travel.iter().sum();
-    usize::from(step < 0.0)
+    usize::from(step < -STEP * (account.travel[0].abs() + account.travel[1].abs()))
 }
 
 /// How far a waveform goes on one of its ways.

@@ -272,11 +272,29 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) {
         state.counts.events += 1;
         if record.wants_events() {
-            let event = Event { t: state.t, source, kind };
-            if !record.wants_event_rows() {
-                return record.event(&event, &[]);
+            let kind = self.output.rows.told(source, kind);
+            self.tell(state, (source, kind), record);
+        }
+    }
+
+    /// Tells which rows of springs have come to slip as a whole in the last step, or to stick again. Such events are the record's: nobody
+    /// counts them.
+    // Apart from the loop, which hardly ever has any.
+    #[inline(never)]
+    pub(super) fn tell_rows(&mut self, state: &State, record: &mut dyn Record) {
+        for k in 0..self.output.rows.count() {
+            if let Some(news) = self.output.rows.news(k, self.setting.model, state) {
+                self.tell(state, news, record);
             }
+        }
+    }
+
+    fn tell(&mut self, state: &State, (source, kind): (Source, EventKind), record: &mut dyn Record) {
+        let event = Event { t: state.t, source, kind };
+        if record.wants_event_rows() {
             self.output.event(&self.setting.plain(state), state, &event, record);
+        } else {
+            record.event(&event, &[]);
         }
     }
 }

@@ -40,7 +40,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             Some(detour) => self.step_whole(state, detour, record),
         };
         match outcome {
-            Ok(progress) => Ok(progress),
+            Ok(progress) => {
+                if self.output.rows.any() {
+                    self.tell_rows(state, record);
+                }
+                Ok(progress)
+            }
             Err(reason) => self.depart(state, reason),
         }
     }
