@@ -266,6 +266,14 @@ impl Profile {
         of_kind!(self, kind => kind.has_kinks())
     }
 
+    /// Whether the stiffness bends, or its slope has a root, at an indentation above 0: that of a normal law does at its points, that of a
+    /// tipped paraboloid where its cone ends.
+    ///
+    /// What moves the indentation, and what asks for the stiffness itself, passes them.
+    pub fn has_bends(&self) -> bool {
+        of_kind!(self, kind => kind.has_bends())
+    }
+
     /// Power p of h with which the force begins, M ∝ hᵖ for h → 0: 1 + 1/n of a power law, 3/2 of a paraboloid, 2 of a cone;
     /// 1 where a width touches at once, as of a flat punch, a worn profile and a list of springs.
     ///

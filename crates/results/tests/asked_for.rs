@@ -5,6 +5,7 @@
 //! * `faint_friction`: a body on two lists of heights, one with a friction of 1e-6. No tolerance below 1e-6 came to its end.
 //! * `row_under_a_load`: a slider on 256 springs under a constant load was 33 to 85 tolerances off from 1e-8 to 1e-12, and 900 to
 //!   1 400 where its foot jumps.
+//! * `law_damped`, `tip_pressed`: the stiffness bends where a damped contact slips, or goes deeper. Places were 40 to 510 tolerances off.
 
 #![allow(
     clippy::unwrap_used,
@@ -109,5 +110,22 @@ fn rows_that_ring_are_nearly_so() {
         let off = (at(tolerance) - finest).abs();
         println!("{tolerance:e}: {off:.1e} u_c from 1e-13");
         assert!(off < most * tolerance, "{tolerance:e}: {off:e}");
+    }
+}
+
+/// A slider on a damped normal law through seven points, and one on a paraboloid with a conical tip under a force on a sine.
+#[test]
+fn bends_of_the_stiffness_cost_no_digits() {
+    for (name, tolerances) in [("law_damped", [1e-6, 1e-8, 1e-10]), ("tip_pressed", [1e-6, 1e-8, 1e-9])] {
+        let place = |tolerance: f64| place(&at(name, tolerance), "slider", 0);
+        let (finest, verlet) = (place(1e-13), by_verlet(name, "slider", 0, 2e-7));
+        println!("{name}: {:.1e} u_c from verlet's, {:.1e}", (finest - verlet.0).abs(), verlet.1);
+        // Turns fall between its steps: what is left does not quite fall with their square.
+        assert!((finest - verlet.0).abs() < 4.0 * verlet.1, "{name}");
+        for tolerance in tolerances {
+            let off = (place(tolerance) - finest).abs();
+            println!("{name}, {tolerance:e}: {off:.1e} u_c from 1e-13");
+            assert!(off < 15.0 * tolerance, "{name}, {tolerance:e}: {off:e}");
+        }
     }
 }

@@ -257,6 +257,11 @@ impl Kind for Chart {
         self.has_jumps
     }
 
+    /// A normal law does at its points.
+    fn has_bends(&self) -> bool {
+        self.outline.is_none() && !self.borders.is_empty()
+    }
+
     fn reach(&self) -> Option<f64> {
         Some(self.reach)
     }

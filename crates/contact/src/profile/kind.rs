@@ -52,6 +52,11 @@ pub(super) trait Kind {
         false
     }
 
+    /// Whether m bends, or its slope has a root, at a height above 0.
+    fn has_bends(&self) -> bool {
+        false
+    }
+
     /// Power p of h with which M begins: 1 where a width touches at once.
     fn first_power(&self) -> f64 {
         1.0

@@ -126,6 +126,11 @@ impl Kind for TippedParaboloid {
         Some(Peak::Unbounded)
     }
 
+    /// Where its cone ends.
+    fn has_bends(&self) -> bool {
+        true
+    }
+
     /// That of its tip.
     fn first_power(&self) -> f64 {
         2.0
