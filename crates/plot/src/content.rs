@@ -57,8 +57,9 @@ impl<B: DrawingBackend> Painter<'_, B> {
     }
 
     fn band(&mut self, place: &Placed<'_, '_>, band: &Band<'_>) -> Result<(), PlotError> {
-        let low = thinned(band.columns().map(|column| column.map(|(x, low, _)| place.pixel((x, low)))));
-        let high = thinned(band.columns().map(|column| column.map(|(x, _, high)| place.pixel((x, high)))));
+        let columns = || place.panel.columns(band);
+        let low = thinned(columns().map(|column| column.map(|(x, low, _)| place.pixel((x, low)))));
+        let high = thinned(columns().map(|column| column.map(|(x, _, high)| place.pixel((x, high)))));
         let colour = self.theme.colour(band.ink);
         // Both edges have their gaps at the same places.
         for (low, mut edge) in low.iter().zip(high) {

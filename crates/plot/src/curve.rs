@@ -216,6 +216,24 @@ mod tests {
         assert!((low + high - 2.0 * middle).abs() <= f64::from(crate::canvas::UNITS), "{marks:?}");
     }
 
+    /// A band stands over the points of its line: its corners at the ends of a logarithmic axis are as far left and right as the marks
+    /// of the line are.
+    #[test]
+    fn a_band_lies_over_its_line_on_a_logarithmic_axis() {
+        let values = [0.1, 1.0, 10.0];
+        let mut curve = MachineCurve { logarithmic: true, present: None, ..curve(&values) };
+        (curve.landmarks, curve.faults) = (Vec::new(), Vec::new());
+        let line = MachineLine { name: "", values: vec![2e-9; 3], spreads: vec![1e-9; 3] };
+        curve.courses = vec![MachineCourse { name: "swing", unit: "m", lines: vec![line] }];
+        let panel = &machine_figure("", &curve).panels[0];
+        let places: Vec<f64> = panel.columns(&panel.bands[0]).flatten().map(|(x, ..)| x).collect();
+        let points: Vec<f64> = panel.points(&panel.series[0]).flatten().map(|(x, _)| x).collect();
+        assert_eq!((&places, &places[..]), (&points, &[-1.0, 0.0, 1.0][..]));
+        let (x, _) = crate::range::extents(panel);
+        let (low, high) = x.range(0.0).unwrap();
+        assert!(low == -1.0 && high == 1.0, "{low} {high}");
+    }
+
     #[test]
     fn a_curve_without_an_answer_says_so() {
         let values = [0.1];

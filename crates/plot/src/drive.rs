@@ -159,7 +159,7 @@ mod tests {
         assert!(figure.panels[0].bands.is_empty());
         let band = &figure.panels[1].bands[0];
         assert_eq!(
-            band.columns().flatten().collect::<Vec<_>>(),
+            figure.panels[1].columns(band).flatten().collect::<Vec<_>>(),
             [(0.0, -2.0, 2.0), (1.0, -2.0, 2.0), (2.5, -2.0, 2.0), (3.0, -2.0, 2.0)]
         );
         assert!(crate::draw_svg(&figure).is_ok());

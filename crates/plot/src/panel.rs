@@ -56,8 +56,8 @@ pub struct Axis {
     pub covers: Option<(f64, f64)>,
     /// Neither ticks nor numbers, for what is not to scale.
     pub unnumbered: bool,
-    /// Decades are as far apart everywhere; values not above 0 are gaps. Series, lanes and reference lines alone may
-    /// stand on such an axis.
+    /// Decades are as far apart everywhere; values not above 0 are gaps. Series, bands, lanes and reference lines
+    /// alone may stand on such an axis.
     pub logarithmic: bool,
 }
 
@@ -222,7 +222,7 @@ impl Panel<'_> {
     /// Whether there is nothing to show.
     pub(crate) fn is_empty(&self) -> bool {
         let series = self.series.iter().all(|series| self.points(series).flatten().next().is_none());
-        let bands = self.bands.iter().all(|band| band.columns().flatten().next().is_none());
+        let bands = self.bands.iter().all(|band| self.columns(band).flatten().next().is_none());
         let mosaic = self.mosaic.as_ref().is_none_or(|mosaic| mosaic.cells.is_empty());
         series && bands && mosaic && self.shapes.is_empty() && self.lanes.is_empty()
     }
@@ -235,6 +235,17 @@ impl Panel<'_> {
         series.xs.iter().zip(series.ys.iter()).map(|(&x, &y)| {
             let (x, y) = (self.x.measure(x), self.y.measure(y));
             (is_drawable(x) && is_drawable(y)).then_some((x, y))
+        })
+    }
+
+    /// Places and both edges of one of its bands as laid off along the axes, with a gap (none) where one cannot be drawn.
+    pub(crate) fn columns<'p>(
+        &'p self,
+        band: &'p Band<'_>,
+    ) -> impl Iterator<Item = Option<(f64, f64, f64)>> + 'p {
+        band.xs.iter().zip(band.low.iter().zip(band.high.iter())).map(|(&x, (&low, &high))| {
+            let [x, low, high] = [self.x.measure(x), self.y.measure(low), self.y.measure(high)];
+            [x, low, high].into_iter().all(is_drawable).then_some((x, low, high))
         })
     }
 
@@ -256,17 +267,6 @@ impl Panel<'_> {
             return Err(PlotError::Mosaic { panel });
         }
         Ok(())
-    }
-}
-
-impl Band<'_> {
-    /// Place and both edges, with a gap (none) where one cannot be drawn.
-    pub(crate) fn columns(&self) -> impl Iterator<Item = Option<(f64, f64, f64)>> + '_ {
-        let edges = self.low.iter().zip(self.high.iter());
-        let column = |(&x, (&low, &high)): (&f64, (&f64, &f64))| {
-            [x, low, high].into_iter().all(is_drawable).then_some((x, low, high))
-        };
-        self.xs.iter().zip(edges).map(column)
     }
 }
 

@@ -52,7 +52,7 @@ pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
         x.include(corner.0);
         y.include(corner.1);
     }
-    for (place, low, high) in panel.bands.iter().flat_map(|band| band.columns().flatten()) {
+    for (place, low, high) in panel.bands.iter().flat_map(|band| panel.columns(band).flatten()) {
         x.include(place);
         y.include(low);
         y.include(high);
