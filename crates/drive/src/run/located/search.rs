@@ -390,22 +390,12 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         found
     }
 
-    /// Whether a guard is lower at the end of the step than at its start, and down or about as good as down.
+    /// Whether a guard is down or about as good as down at the end of the step, and lower than at its start.
+    // In this order: of many contacts nothing is asked as often, and most stand far from any event.
     #[inline(always)]
     fn comes_near(&self, watched: Watched<'_>) -> bool {
-        let [begin, end] = self.at_ends(watched);
-        end < begin && end < self.own_bands(watched).1
-    }
-
-    /// Its values at both ends of the step, of what it is looked at once: of many contacts nothing is asked as often.
-    #[inline(always)]
-    fn at_ends(&self, watched: Watched<'_>) -> [f64; 2] {
-        match watched {
-            Watched::Closed(steady, guard) => {
-                [self.from, self.to].map(|ends| steady.guard(guard, &ends[steady.index].motion))
-            }
-            Watched::Contact(..) | Watched::Block(..) => [self.at_begin(watched), self.at_end(watched)],
-        }
+        let end = self.at_end(watched);
+        end < self.own_bands(watched).1 && end < self.at_begin(watched)
     }
 
     /// Whether a guard is down at the end of the step, or as good as down.
