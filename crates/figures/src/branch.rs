@@ -142,7 +142,7 @@ mod tests {
             step: Some(value),
             bound: 0.0,
             period: 1.0,
-            multipliers: vec![Multiplier { re: -modulus, im: 0.0 }],
+            multipliers: vec![Multiplier { re: -modulus, im: 0.0, error: 0.0 }],
             unknowns: 2,
             piece: 0,
         };

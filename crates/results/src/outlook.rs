@@ -29,8 +29,12 @@ pub struct Repetition {
     /// Step over period, m/s.
     #[serde(rename = "speed_m_s")]
     pub speed: Real,
-    /// Whether a run that is disturbed a little comes back.
-    pub stable: bool,
+    /// Whether a run that is disturbed a little comes back; none where a disturbance stays as it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stable: Option<bool>,
+    /// Periods of the figures' waveform in a period of the motion: the common one of all waveforms may be longer.
+    #[serde(skip_serializing_if = "is_one")]
+    pub periods: u64,
     /// Largest magnitude of a Floquet multiplier: what is left of a disturbance after a period; 0 without any.
     pub radius: Real,
     /// Periods of the drive to a beat of the disturbance that stays longest.
@@ -49,6 +53,11 @@ pub struct Repetition {
     pub shaken_down: Vec<String>,
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_one(periods: &u64) -> bool {
+    *periods == 1
+}
+
 impl Repetition {
     /// Whether there is a step, longer than it may be off.
     #[must_use]
@@ -59,13 +68,20 @@ impl Repetition {
     /// The step in words: `1.2 µm a period`, or that there is none, where it is no longer than it may be off.
     #[must_use]
     pub fn step_words(&self) -> String {
-        step_words(self.step, self.error)
+        let words = step_words(self.step, self.error);
+        match self.periods {
+            1 => words,
+            periods => words.replace(" a period", &format!(" in {periods} periods")),
+        }
     }
 }
 
 /// A step and how far it may be off, m, in words.
 #[must_use]
 pub fn step_words(step: Real, error: Real) -> String {
+    if step.0 == 0.0 && error.0 == 0.0 {
+        return "no step".to_owned();
+    }
     if step.0.abs() <= error.0 {
         return format!("no step, less than {} a period", quantity(Real(step.0.abs() + error.0), "m"));
     }

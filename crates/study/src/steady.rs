@@ -140,6 +140,13 @@ impl Steady {
     pub fn is_stable(&self) -> bool {
         self.multipliers.iter().all(|multiplier| multiplier.kind() != Kind::Grows)
     }
+
+    /// Whether a run that is disturbed a little comes back; none where a disturbance neither fades nor grows.
+    #[must_use]
+    pub fn comes_back(&self) -> Option<bool> {
+        let stays = self.multipliers.iter().any(|multiplier| multiplier.kind() == Kind::Stays);
+        if self.is_stable() && stays { None } else { Some(self.is_stable()) }
+    }
 }
 
 /// Finds the steady motion of a job's drive, as it would be if its waveforms never ended.
@@ -176,7 +183,7 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         tolerance: options.tolerance,
         step: figures.and_then(|body| section.of_body(&fixed.image.way, body, Axis::X)),
         bound: bound.step + slid,
-        multipliers: multiplier::of(&bound.gradient.numbers),
+        multipliers: multiplier::of(&bound.gradient.numbers, bound.gradient.error(options.tolerance)),
         drifts: section.drifts(),
         unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),
         carried: section.carried().to_vec(),

@@ -1,9 +1,10 @@
 //! Branches of steady motions of the examples, against motions that are found by themselves and plain runs.
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
 use stickslip_results::Job;
+use stickslip_scenario::Scenario;
 use stickslip_study::steady::continuation::{
     Bifurcation, Branch, Continuation, ContinuationError, Course, End,
 };
@@ -139,5 +140,25 @@ fn an_interrupted_branch_keeps_what_was_found() -> Checked {
     let of = Continuation::new(job("p1.json", &[])?, STROKE, [60e-9, 2e-6])?;
     let branch = of.follow(&Course { steady, ..Course::default() })?;
     assert!(branch.is_cut() && branch.points.len() > 2, "{:?}", branch.ends);
+    Ok(())
+}
+
+/// A mass on a spring alone: |λ| = 1 all along the branch, but for rounding, and nothing is crossed. In units of its own frequency the period is
+/// 2π·1 ms·√(k/m)/2π turns, and the multipliers are e^{±i2πν}.
+#[test]
+fn what_nothing_damps_crosses_the_unit_circle_nowhere() -> Checked {
+    let scene = r#"{ "stickslip": 1, "waveforms": { "drive": { "sine": { "amplitude": "100 nm", "frequency": "1 kHz" } } },
+        "bodies": { "foot": { "x": { "follows": "drive" } }, "slider": { "mass": "20 g", "x": "free" } },
+        "springs": { "k": { "between": ["foot", "slider"], "stiffness": "2 N/um" } },
+        "run": { "cycles": 30, "stepper": { "event": { "tolerance": 1e-12 } } } }"#;
+    let job = Job::new(Scenario::from_str_alone(scene, "swing")?, "swing".to_owned(), PathBuf::new())?;
+    let branch = Continuation::new(job, "springs.k.stiffness", [1.9e6, 2.4e6])?.follow(&Course::default())?;
+    assert_eq!(branch.ends, [End::Range, End::Range]);
+    assert!(branch.marks.is_empty(), "{:?}", branch.marks);
+    for point in &branch.points {
+        let angle = (point.value / 0.02).sqrt() * 1e-3;
+        let off = (point.multipliers[0].re - angle.cos()).abs();
+        assert!(off < 1e-6 && (point.multipliers[0].modulus() - 1.0).abs() < 1e-6, "{point:?}");
+    }
     Ok(())
 }

@@ -36,3 +36,18 @@ fn a_scenario_can_do_without() -> Result<(), Box<dyn Error>> {
     assert!(!p1(&[])?.resolved.contains("steady_motion"));
     Ok(())
 }
+
+/// Rows of springs told no gross slip, and so the drive was said to make no step.
+#[test]
+fn a_drive_on_a_row_of_springs_steps() -> Result<(), Box<dyn Error>> {
+    let row = p1(&[("contacts.ball.engine", r#"{"springs":{"count":101}}"#), ("plots", "[]")])?;
+    let (Some(Outlook::Found(row)), Some(Outlook::Found(curve))) =
+        (outlook(&row, &|| true), outlook(&p1(&[])?, &|| true))
+    else {
+        return Err("no motion".into());
+    };
+    assert!(row.steps() && row.shaken_down.is_empty(), "{row:?}");
+    // 101 springs are as exact as that.
+    assert!((row.step.0 / curve.step.0 - 1.0).abs() < 0.01, "{} {}", row.step.0, curve.step.0);
+    Ok(())
+}

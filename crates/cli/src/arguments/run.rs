@@ -10,6 +10,7 @@ Examples:
   stickslip run drive.json
   stickslip run drive.json --out small --set waveforms.drive.sawtooth.stroke=\"70 nm\"
   stickslip run scenarios/*.json --threads 4 --json > summaries.jsonl
+  stickslip run drive.json --set figures.steady_motion=false   without looking for what it settles on
   stickslip run drive.json --realtime                    as fast as it happens
   stickslip run drive.json --checkpoint-every \"30 s\"    can go on: stickslip resume results/drive";
 

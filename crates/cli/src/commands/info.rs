@@ -9,6 +9,7 @@ use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::verdict::Verdict;
 use serde::Serialize;
 use std::path::Path;
+use std::time::Instant;
 use stickslip_results::Job;
 use stickslip_results::Parts;
 use stickslip_results::Warning;
@@ -66,6 +67,7 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
 impl Info {
     fn of(job: &Job) -> Self {
         let modes = info::modes(job);
+        let (begun, wall) = (Instant::now(), job.scenario.plan.limits.wall.unwrap_or(f64::INFINITY));
         Self {
             scenario: job.name.clone(),
             title: job.scenario.title.clone(),
@@ -73,7 +75,7 @@ impl Info {
             bodies: info::bodies(job),
             waveforms: info::waveforms(job),
             contacts: info::contacts(job),
-            steady_motion: outlook(job, &|| true),
+            steady_motion: outlook(job, &|| begun.elapsed().as_secs_f64() < wall),
             stepping: Stepping::of(job),
             expected: Expectation::of(job),
             actuators: info::piezos(job),

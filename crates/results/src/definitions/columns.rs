@@ -111,7 +111,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     of(
         "events.csv",
         "kind",
-        "`reversal` (u turns; where the indentation varies the edge of slip that drags does, a little after u, and none where the contact grows in full stick), `loop closed` (a turning point is forgotten), `gross slip`, `gross slip ends`, `full stick` (grows without slip), `slip begins`, `touch`, `lift-off`, `corner` and `jump` of a waveform, `input turns`, `play taken up` and `lag turns` of hysteresis",
+        "`reversal` (u turns; where the indentation varies the edge of slip that drags does, a little after u, and none where the contact grows in full stick), `loop closed` (a turning point is forgotten), `gross slip`, `gross slip ends` (of a row of springs under a constant normal at the end of a step), `full stick` (grows without slip), `slip begins`, `touch`, `lift-off`, `corner` and `jump` of a waveform, `input turns`, `play taken up` and `lag turns` of hysteresis",
     ),
     of("springs.csv", "time_s", "the moment"),
     of("springs.csv", "contact", "the contact; forces are those of one of its count"),

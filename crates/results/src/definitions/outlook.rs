@@ -2,14 +2,21 @@
 
 use super::Definition;
 
-const KEYS: [(&str, &str); 11] = [
+const KEYS: [(&str, &str); 12] = [
     (
         "steady_motion.step_m",
         "way of the body of the figures along x in a period of the steady motion, [found directly](steady.md), as if waveforms never ended",
     ),
     ("steady_motion.step_error_m", "how far that step may be off: an estimate, [doubled](steady.md#bound)"),
     ("steady_motion.speed_m_s", "step over period"),
-    ("steady_motion.stable", "whether a run that is disturbed a little comes back to it"),
+    (
+        "steady_motion.stable",
+        "whether a run that is disturbed a little comes back to it; left out where a disturbance neither fades nor grows",
+    ),
+    (
+        "steady_motion.periods",
+        "periods of the figures' waveform in a period of the motion, which is the common one of all waveforms; left out where it is 1",
+    ),
     (
         "steady_motion.radius",
         "largest magnitude of a Floquet multiplier: what is left of a disturbance after a period",
@@ -34,8 +41,8 @@ const KEYS: [(&str, &str); 11] = [
 pub(super) const SUMMARY: &[Definition] = &of("summary.json");
 pub(super) const INFO: &[Definition] = &of("info --json");
 
-const fn of(file: &'static str) -> [Definition; 11] {
-    let mut keys = [Definition { file, name: "", text: "" }; 11];
+const fn of(file: &'static str) -> [Definition; KEYS.len()] {
+    let mut keys = [Definition { file, name: "", text: "" }; KEYS.len()];
     let mut at = 0;
     while at < keys.len() {
         keys[at].name = KEYS[at].0;

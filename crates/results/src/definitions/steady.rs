@@ -15,7 +15,10 @@ pub(super) const STEADY: &[Definition] = &[
     key("step_m", "way of the body of the figures along x in a period"),
     key("step_error_m", "how far the step may be off: an estimate, [doubled](steady.md#bound)"),
     key("speed_m_s", "step over period"),
-    key("stable", "whether a run that is disturbed a little comes back"),
+    key(
+        "stable",
+        "whether a run that is disturbed a little comes back; left out where a disturbance neither fades nor grows",
+    ),
     key("radius", "ρ, largest magnitude of a multiplier; 0 where there is none"),
     key(
         "multipliers.re",

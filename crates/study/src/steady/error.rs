@@ -35,7 +35,8 @@ pub enum SteadyError {
     },
     /// A motion without a step, where one is asked for.
     #[error(
-        "there is no step: it is less than {least:.3e} m, which is what it may be off\n   help: sensitivity tells figures of a run as well"
+        "there is no step{}\n   help: sensitivity tells figures of a run as well, without --steady and figures that begin with \"steady.\"",
+        if *.least > 0.0 { format!(": it is less than {:.3e} m, which is what it may be off", .least) } else { String::new() }
     )]
     NoStep {
         /// How far the step may be off, m.

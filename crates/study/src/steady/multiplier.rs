@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 
 /// Sweeps of the eigenvalue iteration per row.
 const SWEEPS: usize = 100;
-/// A modulus this near to 1 neither fades nor grows: what the gradient is exact to.
-const NEUTRAL: f64 = 1e-6;
+/// A modulus this near to 1 neither fades nor grows: what a gradient is exact to that variations tell.
+pub(super) const NEUTRAL: f64 = 1e-6;
 /// A multiplier below is forgotten within the period.
 const FORGOTTEN: f64 = 1e-3;
 /// An angle this small, or this near to π, is none but for rounding.
@@ -22,6 +22,8 @@ pub struct Multiplier {
     pub re: f64,
     /// Imaginary part, at least 0: of a pair, the one above.
     pub im: f64,
+    /// How far it may be off: a modulus this near to 1 neither fades nor grows.
+    pub error: f64,
 }
 
 /// What becomes of a disturbance.
@@ -49,8 +51,8 @@ impl Multiplier {
     pub fn kind(&self) -> Kind {
         match self.modulus() {
             modulus if modulus < FORGOTTEN => Kind::Forgotten,
-            modulus if modulus < 1.0 - NEUTRAL => Kind::Fades,
-            modulus if modulus <= 1.0 + NEUTRAL => Kind::Stays,
+            modulus if modulus < 1.0 - self.error => Kind::Fades,
+            modulus if modulus <= 1.0 + self.error => Kind::Stays,
             _ => Kind::Grows,
         }
     }
@@ -111,12 +113,13 @@ fn digits(x: f64) -> String {
     format!("{x:.*}", usize::try_from(places).unwrap_or(0))
 }
 
-/// The multipliers of a gradient, the largest first; of a pair one stands for both. None where its numbers are not finite.
-pub(super) fn of(gradient: &DMatrix<f64>) -> Vec<Multiplier> {
+/// The multipliers of a gradient that may be so far off, the largest first; of a pair one stands for both. None where its numbers are not
+/// finite.
+pub(super) fn of(gradient: &DMatrix<f64>, error: f64) -> Vec<Multiplier> {
     let mut all: Vec<Multiplier> = eigenvalues(gradient)
         .into_iter()
         .filter(|value| value.im >= 0.0)
-        .map(|value| Multiplier { re: value.re, im: value.im })
+        .map(|value| Multiplier { re: value.re, im: value.im, error })
         .collect();
     all.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
     all
@@ -138,7 +141,7 @@ mod tests {
     fn a_turn_that_shrinks_beats_and_fades() {
         let (modulus, angle) = (0.9967_f64, TAU / 12.3);
         let turn = DMatrix::from_row_slice(2, 2, &[angle.cos(), -angle.sin(), angle.sin(), angle.cos()]);
-        let multipliers = of(&(turn * modulus));
+        let multipliers = of(&(turn * modulus), NEUTRAL);
         assert_eq!(multipliers.len(), 1);
         let words = multipliers[0].words();
         assert_eq!(words, "beats every 12.3 periods and fades by 0.330 % a period (1/e after 303 periods)");
@@ -146,7 +149,7 @@ mod tests {
 
     #[test]
     fn what_grows_and_what_changes_sides_is_told() {
-        let words = |re: f64| Multiplier { re, im: 0.0 }.words();
+        let words = |re: f64| Multiplier { re, im: 0.0, error: NEUTRAL }.words();
         assert_eq!(
             words(1.001),
             "grows by 0.100 % a period (e-fold in 1000 periods): a run leaves this motion"
@@ -156,5 +159,8 @@ mod tests {
             "changes sides every period and fades by 50.0 % a period (1/e after 1.44 periods)"
         );
         assert_eq!((words(1.0).as_str(), words(1e-4).as_str()), ("stays as it is", "is gone after a period"));
+        // Differences that may be off by 1e-3 say nothing of a ten-thousandth.
+        let coarse = |re: f64| Multiplier { re, im: 0.0, error: 1e-3 }.kind();
+        assert_eq!((coarse(1.0001), coarse(0.9999), coarse(1.01)), (Kind::Stays, Kind::Stays, Kind::Grows));
     }
 }

@@ -17,7 +17,10 @@ const SPRINGS: usize = 64;
 impl Steady {
     /// What is told of it beside a run; none where no body steps.
     #[must_use]
-    pub fn repetition(&self) -> Option<Repetition> {
+    pub fn repetition(&self, job: &Job) -> Option<Repetition> {
+        let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
+        let own = waveform.and_then(|waveform| waveform.part.period());
+        let periods = own.map_or(1, |own| (self.period / own).round().max(1.0) as u64);
         let largest = self.multipliers.first();
         let carried = self.named(&self.carried);
         let led = match carried.is_empty() {
@@ -30,7 +33,8 @@ impl Steady {
             step: Real(self.step?),
             error: Real(self.bound),
             speed: Real(self.speed()?),
-            stable: self.is_stable(),
+            stable: self.comes_back(),
+            periods,
             radius: Real(self.radius()),
             beat: largest.and_then(super::Multiplier::beat).map(Real),
             fold: largest.and_then(super::Multiplier::periods).map(Real),
@@ -63,7 +67,7 @@ pub fn outlook(job: &Job, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
     let steps = steps(&job.scenario.scene);
     let options = Options { tolerance: TOLERANCE, steps, goes_on, ..Options::default() };
     match find(job, &options) {
-        Ok(found) => found.repetition().map(Outlook::Found),
+        Ok(found) => found.repetition(job).map(Outlook::Found),
         Err(
             SteadyError::NoPeriod
             | SteadyError::NothingFree

@@ -18,7 +18,8 @@ pub struct Report {
     step_error_m: Option<Real>,
     #[serde(skip_serializing_if = "Option::is_none")]
     speed_m_s: Option<Real>,
-    stable: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stable: Option<bool>,
     radius: Real,
     multipliers: Vec<MultiplierReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -93,7 +94,7 @@ impl Report {
             step_m: found.step.map(Real),
             step_error_m: found.step.map(|_| Real(found.bound)),
             speed_m_s: found.speed().map(Real),
-            stable: found.is_stable(),
+            stable: found.comes_back(),
             radius: Real(found.radius()),
             multipliers: found.multipliers.iter().map(MultiplierReport::of).collect(),
             aftermath: aftermath.map(AftermathReport::of),

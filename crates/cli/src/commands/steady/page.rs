@@ -49,6 +49,9 @@ fn stable(found: &Steady) -> String {
     if !found.is_stable() {
         return format!("no: a run leaves this motion, largest |λ| {radius}");
     }
+    if found.comes_back().is_none() {
+        return format!("neither: a disturbance stays as it is, largest |λ| {radius}");
+    }
     match found.radius() {
         0.0 => "yes".to_owned(),
         _ => format!("yes, largest |λ| {radius}"),

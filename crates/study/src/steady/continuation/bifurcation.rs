@@ -129,6 +129,14 @@ impl Test {
         }
     }
 
+    /// Whether it is zero at a motion but for what its multipliers may be off: a pair that nothing damps lies on the unit circle all
+    /// along, and crosses it nowhere.
+    pub(super) fn is_idle(self, standing: &Standing) -> bool {
+        let multipliers = &standing.point.multipliers;
+        self == Self::NeimarkSacker
+            && multipliers.iter().any(|it| it.im != 0.0 && (it.modulus() - 1.0).abs() <= it.error)
+    }
+
     /// What happens where it is zero; none where that is nothing.
     pub(super) fn kind(self, standing: &Standing) -> Option<Bifurcation> {
         match self {
@@ -140,7 +148,8 @@ impl Test {
                 let off = |pair: &[Complex<f64>; 2]| (pair[0] * pair[1] - 1.0).norm();
                 let [one, other] = pairs(&values).min_by(|a, b| off(a).total_cmp(&off(b)))?;
                 let is_pair = one.im != 0.0 && one.im == -other.im;
-                let beat = Multiplier { re: one.re, im: one.im.abs() }.beat().filter(|_| is_pair)?;
+                let beat =
+                    Multiplier { re: one.re, im: one.im.abs(), error: 0.0 }.beat().filter(|_| is_pair)?;
                 Some(Bifurcation::NeimarkSacker { beat })
             }
         }
@@ -223,7 +232,11 @@ mod tests {
     fn the_product_over_pairs_changes_its_sign_with_a_pair() {
         let value = |modulus: f64| {
             let (sin, cos) = 0.8_f64.sin_cos();
-            let all = [Multiplier { re: modulus * cos, im: modulus * sin }, Multiplier { re: 0.3, im: 0.0 }];
+            let all = [(modulus * cos, modulus * sin), (0.3, 0.0)].map(|(re, im)| Multiplier {
+                re,
+                im,
+                error: 0.0,
+            });
             pairs(&eigenvalues(&all)).map(|[a, b]| a * b - 1.0).product::<Complex<f64>>().re
         };
         assert!(value(0.99) * value(1.01) < 0.0);

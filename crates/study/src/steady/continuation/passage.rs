@@ -15,7 +15,7 @@ impl Walk<'_> {
         let mut found: Vec<(f64, Standing, Mark)> = Vec::new();
         for test in Test::ALL {
             let [at_here, at_next] = [here, next].map(|standing| test.at(standing, self.measure));
-            if at_here * at_next >= 0.0 {
+            if at_here * at_next >= 0.0 || [here, next].iter().all(|standing| test.is_idle(standing)) {
                 continue;
             }
             let value = |at: f64| {

@@ -104,7 +104,10 @@ impl Standing {
             step,
             bound: found.step,
             period: place.variant.drive.period,
-            multipliers: multiplier::of(&slopes.gradient.numbers),
+            multipliers: multiplier::of(
+                &slopes.gradient.numbers,
+                slopes.gradient.error(bench.options.tolerance),
+            ),
             unknowns: count,
             piece: 0,
         };
