@@ -74,9 +74,8 @@ impl Output {
     ) {
         self.looks = Looks::begin(at, opening, record);
         self.turns.begin(at.0, record.watched().filter(|_| record.wants_events()));
-        if record.wants_events() {
-            self.rows.begin(at.0, at.1);
-        }
+        // Whoever listens now: a run may be told to another record on its way.
+        self.rows.begin(at.0);
         self.marks.begin(equations, at, opening == Opening::Resumed, record);
     }
 

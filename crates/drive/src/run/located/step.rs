@@ -35,17 +35,20 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Fails where the step would be too small, a value is not finite, a contact or block refuses its path,
     /// or a limit is reached. The state is then that of the last step accepted.
     pub(super) fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
+        let tells_rows = self.output.rows.any() && record.wants_events();
+        if tells_rows {
+            self.output.rows.look(self.setting.model, state);
+        }
         let outcome = match self.detour {
             None => self.step_smoothly(state, record),
             Some(detour) => self.step_whole(state, detour, record),
         };
+        // A step that a limit ends is made.
+        if tells_rows {
+            self.tell_rows(state, record);
+        }
         match outcome {
-            Ok(progress) => {
-                if self.output.rows.any() {
-                    self.tell_rows(state, record);
-                }
-                Ok(progress)
-            }
+            Ok(progress) => Ok(progress),
             Err(reason) => self.depart(state, reason),
         }
     }

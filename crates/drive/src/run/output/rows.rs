@@ -21,11 +21,17 @@ impl Rows {
         self
     }
 
-    /// Watches the rows of a model from a state on.
-    pub(super) fn begin(&mut self, model: &Model, state: &State) {
+    /// Watches the rows of a model.
+    pub(super) fn begin(&mut self, model: &Model) {
         self.0.clear();
         let rows = model.contacts.iter().filter(|contact| !contact.inert && !contact.engine.branches());
-        self.0.extend(rows.map(|contact| (contact.place, slips(contact, state))));
+        self.0.extend(rows.map(|contact| (contact.place, false)));
+    }
+
+    /// Looks at them before a step.
+    // And not only after the one before: a run that is taken up here knows no more than the state.
+    pub(in crate::run) fn look(&mut self, model: &Model, state: &State) {
+        self.0.iter_mut().for_each(|(c, slipping)| *slipping = slips(&model.contacts[*c], state));
     }
 
     /// Whether there are any.
@@ -39,7 +45,7 @@ impl Rows {
         self.0.len()
     }
 
-    /// What the row at place `k` has come to since it was looked at last.
+    /// What the row at place `k` has come to in the step.
     pub(in crate::run) fn news(
         &mut self,
         k: usize,
@@ -57,7 +63,7 @@ impl Rows {
         Some((Source::Contact(c), kind))
     }
 
-    /// What an event is called of a row that slips as a whole until then.
+    /// What an event in the step is called of a row that slips as a whole until then.
     pub(in crate::run) fn told(&mut self, source: Source, kind: EventKind) -> EventKind {
         let row = self.0.iter_mut().find(|(c, slips)| *slips && source == Source::Contact(*c));
         match (row, kind) {
