@@ -284,6 +284,34 @@ fn a_slider_that_lifts_for_ever_has_no_steady_motion() -> Checked {
     Ok(())
 }
 
+/// Every period adds as much to the slider: it is said soon, and not after all periods that are allowed.
+fn gains(job: &Job) -> Checked {
+    let told = std::cell::Cell::new(0);
+    let count = |periods| told.set(periods);
+    let refused = steady::find(job, &Options { told: &count, ..Options::default() }).err();
+    let is_told = matches!(&refused, Some(SteadyError::Gains { number, .. }) if number.contains("slider"));
+    assert!(is_told && told.get() < 400, "{refused:?} after {}", told.get());
+    Ok(())
+}
+
+/// More than μF_N = 0.15 N pulls: from period to period it is faster by the same, the load less friction over the mass.
+#[test]
+fn a_slider_that_is_pulled_away_has_no_steady_motion() -> Checked {
+    gains(&job("p1.json", &[("loads[+]", r#"{"on":"slider","x":"-0.2 N"}"#)])?)
+}
+
+/// x = (a/2)(sin ωt - ωt cos ωt) on a foot a sin ωt, ω = √(k/m): the swing grows by the same in every period.
+#[test]
+fn a_swing_at_its_own_frequency_has_no_steady_motion() -> Checked {
+    let frequency = format!("{:e}", (2e6_f64 / 0.02).sqrt() / std::f64::consts::TAU);
+    let drive = format!(r#"{{"sine":{{"amplitude":"100 nm","frequency":{frequency}}}}}"#);
+    let spring = r#"{"k":{"between":["foot","slider"],"stiffness":"2 N/um"}}"#;
+    gains(&job(
+        "p1.json",
+        &[("waveforms.drive", &drive), ("contacts", "{}"), ("springs", spring), ("plots", "[]")],
+    )?)
+}
+
 /// What never slips grossly is named: in the vibrated slider beside a motion that was found, in a drive that only ever sticks as
 /// the reason why there is none.
 #[test]

@@ -132,6 +132,7 @@ impl Motion {
             Err(
                 SteadyError::NoConvergence { .. }
                 | SteadyError::Shakedown { .. }
+                | SteadyError::Gains { .. }
                 | SteadyError::Commanded(_)
                 | SteadyError::Endless(_)
                 | SteadyError::Incommensurate { .. }

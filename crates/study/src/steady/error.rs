@@ -82,6 +82,16 @@ pub enum SteadyError {
         /// Most steps altogether.
         steps: u64,
     },
+    /// Every period adds the same to a state.
+    #[error(
+        "no steady motion: each of {periods} periods in a row adds as much to {number}\n   help: what pulls may be more than friction holds, or the drive shakes at its own frequency what nothing damps: pull less, press harder, or damp it"
+    )]
+    Gains {
+        /// The number to which most is added, in natural scales.
+        number: String,
+        /// How many.
+        periods: u32,
+    },
     /// The iteration did not end.
     #[error(
         "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: look at a plain run: it may repeat itself every second period, or never; start nearer, with a smaller stroke, or allow more periods"

@@ -23,6 +23,11 @@ const WORN: f64 = 0.1;
 const HALVINGS: u32 = 4;
 /// Plain periods after a step that nothing has helped.
 const PLAIN: u32 = 8;
+/// Plain periods in a row that add the same to a state, after which none is waited for that does not.
+const SAME: u32 = 32;
+/// How far what they add may differ, as a share of it, and how large it is at least, in tolerances.
+const ALIKE: f64 = 1e-6;
+const LARGE: f64 = 1e4;
 /// Singular values below this, as a part of the largest, are directions of no change.
 const FLAT: f64 = 1e-7;
 
@@ -75,6 +80,7 @@ pub(super) fn fixed_point(map: &mut Map<'_>, from: &State) -> Result<Fixed, Stea
             for _ in 0..count {
                 search.plain(map)?;
             }
+            search.check_gains(map)?;
         }
     }
 }
@@ -90,6 +96,8 @@ struct Search {
     gradient: Option<Gradient>,
     goal: f64,
     defects: Vec<Defect>,
+    /// The defect since when plain periods have added the same, and how many have.
+    same: Option<(DVector<f64>, u32)>,
     /// Whether the last Newton step has brought nothing.
     stalled: bool,
 }
@@ -107,6 +115,7 @@ impl Search {
             gradient: None,
             goal,
             defects: Vec::new(),
+            same: None,
             stalled: false,
         };
         search.note(Way::Plain);
@@ -152,7 +161,23 @@ impl Search {
         self.image = map.image(&self.state, 1.0)?;
         self.defect = map.difference(&self.image.state, &self.state);
         self.note(Way::Plain);
+        self.same = self.defect.clone().map(|defect| match self.same.take() {
+            Some((first, count)) if is_alike(&first, &defect, map.tolerance()) => (first, count + 1),
+            _ => (defect, 1),
+        });
         Ok(())
+    }
+
+    /// Fails where every period adds the same to the state: what pulls is more than what holds, or an undamped swing is shaken at
+    /// its own frequency. Ar = r, and no Newton step leads anywhere.
+    fn check_gains(&self, map: &Map<'_>) -> Result<(), SteadyError> {
+        match (&self.same, map.section()) {
+            (Some((defect, periods)), Some(section)) if *periods >= SAME => {
+                let number = section.unknowns()[defect.iamax()];
+                Err(SteadyError::Gains { number: section.name(number), periods: *periods })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// A step of Newton's method, halved until it brings something; false where it does not.
@@ -211,9 +236,18 @@ impl Search {
         self.gradient = (pays && !gradient.is_exact).then(|| mended(gradient, (&along, defect, &after)));
         (self.state, self.image, self.defect) = (state, image, Some(after));
         self.before = Some(before);
+        self.same = None;
         self.note(Way::Newton);
         Ok(true)
     }
+}
+
+/// Whether two defects are one, large enough to tell.
+fn is_alike(first: &DVector<f64>, other: &DVector<f64>, tolerance: f64) -> bool {
+    let size = first.amax();
+    first.len() == other.len()
+        && size > LARGE * tolerance
+        && (first - other).amax() <= ALIKE * size + tolerance
 }
 
 /// (1 - A)⁻¹ r, the smallest where there are several.
