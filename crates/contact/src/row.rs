@@ -215,6 +215,11 @@ impl Row {
         touching.map(move |(rank, &h)| (h, self.apex.u - self.stretch(springs, law, rank)))
     }
 
+    /// State of the lowest spring, the last to slip: where it does, all that touch do.
+    pub fn lowest(&self, springs: &Springs, law: &Interface) -> SpringState {
+        self.state(springs, law, 0)
+    }
+
     /// State of every spring, in the order of [`Springs::positions`].
     pub fn states<'a>(
         &'a self,

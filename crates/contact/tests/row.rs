@@ -589,3 +589,27 @@ fn a_spring_that_parts_unstretched_moves_no_other() {
     }
     assert!(looked > 100, "{looked}");
 }
+
+/// Along drawn paths a row slips as a whole where its lowest spring does, and nowhere else.
+#[test]
+fn the_lowest_spring_is_the_last_to_slip() {
+    let mut seed = 0x1d0_5eed;
+    for (_, profile) in powers() {
+        let law = law(profile);
+        let (springs, mut row) = row(law.profile(), 41);
+        let (mut slips, mut sticks) = (0, 0);
+        for _ in 0..3000 {
+            let (d, u) = (0.2 + 0.8 * random(&mut seed), 1.5 * (random(&mut seed) - 0.5));
+            row.commit(&springs, &law, to(d, u)).unwrap();
+            let whole = row.preview(&springs, &law, chord(d, u)).state == ContactState::Slip;
+            let lowest = row.lowest(&springs, &law);
+            assert_eq!(
+                matches!(lowest, SpringState::SlipForward | SpringState::SlipBackward),
+                whole,
+                "{d} {u}"
+            );
+            if whole { slips += 1 } else { sticks += 1 }
+        }
+        assert!(slips > 200 && sticks > 200, "{slips} {sticks}");
+    }
+}

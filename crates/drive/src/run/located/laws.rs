@@ -263,6 +263,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Writes an event down.
     ///
     /// Counted whether or not somebody watches: counts are of the state, and output does not change it.
+    #[inline(always)]
     pub(super) fn note(
         &mut self,
         state: &mut State,
@@ -272,7 +273,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) {
         state.counts.events += 1;
         if record.wants_events() {
-            let kind = self.output.rows.told(source, kind);
             self.tell(state, (source, kind), record);
         }
     }
@@ -289,8 +289,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
+    #[inline(never)]
     fn tell(&mut self, state: &State, (source, kind): (Source, EventKind), record: &mut dyn Record) {
-        let event = Event { t: state.t, source, kind };
+        let event = Event { t: state.t, source, kind: self.output.rows.told(source, kind) };
         if record.wants_event_rows() {
             self.output.event(&self.setting.plain(state), state, &event, record);
         } else {

@@ -8,7 +8,7 @@ use crate::contact::{Contact, Mode};
 use crate::event::{EventKind, Source};
 use crate::model::Model;
 use crate::state::State;
-use stickslip_contact::ContactState;
+use stickslip_contact::{Memory, SpringRow, SpringState};
 
 /// The rows of a run, and whether each of them slips as a whole.
 #[derive(Debug, Default)]
@@ -78,14 +78,15 @@ impl Rows {
 
 /// Whether every spring that touches slips in the sense in which the row is led.
 fn slips(contact: &Contact, state: &State) -> bool {
-    let (memory, law) = (&state.memories[contact.place], &contact.interface);
-    match &state.modes[contact.place] {
-        Mode::Lull { lull, .. } => lull.sense() != 0.0 && lull.stiffness(law) == 0.0,
+    let law = &contact.interface;
+    match (&state.modes[contact.place], &state.memories[contact.place]) {
+        (Mode::Lull { lull, .. }, _) => lull.sense() != 0.0 && lull.stiffness(law) == 0.0,
         // Where it turns all are at their limits still.
-        Mode::Whole { sense } => {
-            let now = memory.preview(law, memory.apex());
-            now.state == ContactState::Slip && now.force * sense >= 0.0
-        }
-        Mode::Open | Mode::Grow | Mode::Slip(_) => false,
+        (Mode::Whole { sense }, Memory::Row(SpringRow { row, springs })) => match row.lowest(springs, law) {
+            SpringState::SlipForward => *sense >= 0.0,
+            SpringState::SlipBackward => *sense <= 0.0,
+            SpringState::Open | SpringState::Stick => false,
+        },
+        _ => false,
     }
 }
