@@ -126,11 +126,10 @@ pub(crate) fn are_dense(job: &Job, c: usize) -> bool {
     let is_free = |body: &usize| {
         job.scenario.scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free)
     };
-    let steps = job.scenario.figures.body.filter(is_free).is_some_and(|body| {
-        let sides = job.scenario.scene.contacts.get(c).map(|contact| contact.part.between);
-        let others = sides.into_iter().flatten().filter(|side| *side != Side::Body(body));
-        touches(job, c, body)
-            && !others.into_iter().any(|side| matches!(side, Side::Body(it) if is_free(&it)))
+    let sides = job.scenario.scene.contacts.get(c).map(|contact| contact.part.between);
+    let steps = job.scenario.figures.body.filter(is_free).zip(sides).is_some_and(|(body, sides)| {
+        let frees = |side: &Side| matches!(side, Side::Body(other) if *other != body && is_free(other));
+        sides.contains(&Side::Body(body)) && !sides.iter().any(frees)
     });
     match Periods::of_contact(job, c, f64::INFINITY) {
         Some(_) => !steps,
@@ -169,12 +168,6 @@ fn turns(job: &Job, periods: &Periods) -> Vec<Grid> {
     let Some(phases) = curved.and_then(Phases::of) else { return Vec::new() };
     let grid = |turn: f64| Grid { start: periods.start + turn, ..Grid::of(periods, 1.0) };
     phases.turns().map(grid).collect()
-}
-
-/// Whether a contact is one of a body.
-fn touches(job: &Job, c: usize, body: usize) -> bool {
-    let contact = job.scenario.scene.contacts.get(c);
-    contact.is_some_and(|contact| contact.part.between.contains(&Side::Body(body)))
 }
 
 impl Grid {

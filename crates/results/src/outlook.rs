@@ -68,22 +68,19 @@ impl Repetition {
     /// The step in words: `1.2 µm a period`, or that there is none, where it is no longer than it may be off.
     #[must_use]
     pub fn step_words(&self) -> String {
-        let words = step_words(self.step, self.error);
-        match self.periods {
-            1 => words,
-            periods => words.replace(" a period", &format!(" in {periods} periods")),
-        }
+        step_words(self.step, self.error, self.periods)
     }
 }
 
-/// A step and how far it may be off, m, in words.
+/// A step and how far it may be off, m, in so many periods of a drive, in words.
 #[must_use]
-pub fn step_words(step: Real, error: Real) -> String {
+pub fn step_words(step: Real, error: Real, periods: u64) -> String {
+    let each = if periods == 1 { "a period".to_owned() } else { format!("in {periods} periods") };
     if step.0 == 0.0 && error.0 == 0.0 {
         return "no step".to_owned();
     }
     if step.0.abs() <= error.0 {
-        return format!("no step, less than {} a period", quantity(Real(step.0.abs() + error.0), "m"));
+        return format!("no step, less than {} {each}", quantity(Real(step.0.abs() + error.0), "m"));
     }
-    format!("{} ± {} a period", quantity(step, "m"), quantity(error, "m"))
+    format!("{} ± {} {each}", quantity(step, "m"), quantity(error, "m"))
 }

@@ -11,7 +11,7 @@ const TOLD: usize = 8;
 /// What was found.
 pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> String {
     let body = job.scenario.figures.body.and_then(|body| job.scenario.scene.bodies.get(body));
-    let step = found.step.map(|step| step_words(Real(step), Real(found.bound)));
+    let step = found.step.map(|step| step_words(Real(step), Real(found.bound), 1));
     let step = step.zip(body).map(|(step, body)| format!("{step}, {}", body.name));
     let told = |places: &[usize], words: &str| {
         (!places.is_empty()).then(|| format!("{}: {words}", found.named(places).join(", ")))
@@ -46,15 +46,11 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
 /// Whether a run stays.
 fn stable(found: &Steady) -> String {
     let radius = format!("{:.6}", found.radius());
-    if !found.is_stable() {
-        return format!("no: a run leaves this motion, largest |λ| {radius}");
-    }
-    if found.comes_back().is_none() {
-        return format!("neither: a disturbance stays as it is, largest |λ| {radius}");
-    }
-    match found.radius() {
-        0.0 => "yes".to_owned(),
-        _ => format!("yes, largest |λ| {radius}"),
+    match found.comes_back() {
+        Some(false) => format!("no: a run leaves this motion, largest |λ| {radius}"),
+        None => format!("neither: a disturbance stays as it is, largest |λ| {radius}"),
+        Some(true) if found.radius() == 0.0 => "yes".to_owned(),
+        Some(true) => format!("yes, largest |λ| {radius}"),
     }
 }
 
