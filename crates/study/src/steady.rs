@@ -135,6 +135,11 @@ impl Steady {
         self.multipliers.first().map_or(0.0, Multiplier::modulus)
     }
 
+    /// How many periods of a waveform, s, there are in one of the motion, the common one of all waveforms.
+    pub(crate) fn periods_of(&self, waveform: f64) -> f64 {
+        (self.period / waveform).round().max(1.0)
+    }
+
     /// Whether a run that is disturbed a little comes back. A multiplier of 1 of a shakedown neither fades nor grows.
     #[must_use]
     pub fn is_stable(&self) -> bool {

@@ -147,7 +147,7 @@ impl Motion {
         let body = job.scenario.figures.body.ok_or(Motionless::NoSteps)?;
         let period = waveform(job)?.period().ok_or(Motionless::NoSteps)?;
         // All waveforms together may take several periods of this one.
-        let share = 1.0 / (found.period / period).round().max(1.0);
+        let share = 1.0 / found.periods_of(period);
         let step = share * found.step.ok_or(Motionless::NoSteps)?;
         let natural = natural(job, body);
         if found.is_dragged && step.abs() > STILL * natural {

@@ -32,8 +32,9 @@ pub(super) struct Bound {
 pub(super) fn bound(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Result<Bound, SteadyError> {
     let gradient = map.fine_gradient(&fixed.state, &fixed.image)?;
     let tightest = (TIGHTEST / map.tolerance()).min(1.0);
-    let [tenth, finest] = FINER.map(|finer| finer.max(tightest));
-    let exact = [map.image(&fixed.state, tenth)?, map.image(&fixed.state, finest)?];
+    let mut finer = FINER.map(|finer| finer.max(tightest)).to_vec();
+    finer.dedup();
+    let exact = finer.iter().map(|finer| map.image(&fixed.state, *finer)).collect::<Result<Vec<_>, _>>()?;
     let of_body = |way: &[f64]| {
         let section = map.section()?;
         section.of_body(way, body?, Axis::X)

@@ -20,7 +20,7 @@ impl Steady {
     pub fn repetition(&self, job: &Job) -> Option<Repetition> {
         let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
         let own = waveform.and_then(|waveform| waveform.part.period());
-        let periods = own.map_or(1, |own| (self.period / own).round().max(1.0) as u64);
+        let periods = own.map_or(1, |own| self.periods_of(own) as u64);
         let largest = self.multipliers.first();
         let carried = self.named(&self.carried);
         let led = match carried.is_empty() {
