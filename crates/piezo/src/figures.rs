@@ -47,6 +47,16 @@ pub(crate) fn last(memory: &[f64]) -> Last {
     Kept::read(memory).map_or_else(Last::default, of)
 }
 
+/// What a source has given over a step wherever it gave any, J: `given` in all, of which at the power of the step's end it would have
+/// given `last`. Between both ends its work is the parabola through these.
+pub(crate) fn drawn(given: f64, last: f64) -> f64 {
+    // Work less that of the end, by the part σ of the step that is left: bσ² - pσ, which turns at p/2b.
+    let bend = last - given;
+    let turn = if bend == 0.0 { 0.0 } else { last / (2.0 * bend) };
+    let after = if turn > 0.0 && turn < 1.0 { 0.5 * last * turn } else { 0.0 };
+    after.max(0.0) + (given - after).max(0.0)
+}
+
 impl Kept {
     /// Read from a memory; none where that is of another kind.
     pub(crate) fn read(memory: &[f64]) -> Option<Self> {
@@ -102,5 +112,21 @@ impl Figures {
             mean_current: farads * over(kept.way),
             limited: kept.limited.map(over),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::drawn;
+
+    /// A power that goes straight from a to b through zero gives half of what lies above it.
+    #[test]
+    fn what_comes_back_within_a_step_is_not_taken_off() {
+        for (a, b) in [(3.0, -1.0), (-1.0, 3.0), (1.0, 2.0), (-1.0, -2.0), (2.0, 0.0), (0.0, 2.0), (0.0, 0.0)]
+        {
+            let above = |x: f64| 0.5 * f64::max(x, 0.0).powi(2);
+            let area = if a == b { f64::max(a, 0.0) } else { (above(b) - above(a)) / (b - a) };
+            assert!((drawn(0.5 * (a + b), b) - area).abs() < 1e-15, "{a} {b}: {}", drawn(0.5 * (a + b), b));
+        }
     }
 }

@@ -226,6 +226,25 @@ fn the_summary_says_what_the_driver_has_done() {
     assert_eq!(of("/at_limit/window_low") + of("/at_limit/window_high") + of("/at_limit/current_up"), 0.0);
 }
 
+/// A sine of 80 V about 40 V makes the source pay wherever the voltage goes away from zero: C(120² + 40²)/2 a period, at no end of a step.
+#[test]
+fn what_a_source_gives_is_counted_up_to_where_it_turns() {
+    let mut scenario = value("stage_by_voltage");
+    scenario["waveforms"]["drive"] =
+        json!({ "sine": { "amplitude": "80 V", "frequency": "1 kHz", "offset": "40 V" } });
+    scenario["actuators"]["stack"]["driver"] = json!({ "window": ["-60 V", "130 V"], "current": "20 A" });
+    let drawn = 20.0 * 0.5 * 7.2e-6 * (120.0 * 120.0 + 40.0 * 40.0);
+    for (tolerance, close) in [(1e-3, 3e-5), (1e-6, 1e-6), (1e-9, 1e-7)] {
+        scenario["run"]["stepper"] = json!({ "event": { "tolerance": tolerance } });
+        let job = job(&scenario);
+        let outcome = job.run(&());
+        let summary: Value = serde_json::from_str(&Summary::new(&job, &outcome).pretty().unwrap()).unwrap();
+        let told = summary["drivers"]["stack"]["drawn_J"].as_f64().unwrap();
+        println!("{tolerance:e}: {:e}", told / drawn - 1.0);
+        assert!((told / drawn - 1.0).abs() < close, "{tolerance:e}: {told} {drawn}");
+    }
+}
+
 /// Frames of a few microseconds and steps of fixed length come to the stage's steps, too.
 #[test]
 fn frames_and_fixed_steps_agree() {

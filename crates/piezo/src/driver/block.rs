@@ -7,7 +7,7 @@
 use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
 use super::stage::{At, LOST, LOW, LOW_RATE, Now, ROUNDING, VOLTAGE, WORK};
 use super::{Course, Driver, Output, Window};
-use crate::figures::{Kept, last};
+use crate::figures::{Kept, drawn, last};
 use stickslip_drive::component::{Block, Component, Input, Passage, Powers, Refused, States};
 use stickslip_drive::{EventKind, Sample};
 
@@ -132,7 +132,8 @@ impl Component for Driver {
         kept.elongation = elongation.value;
         let given = passage.states[WORK] - kept.work;
         kept.way += self.flow(voltage.value - kept.last, elongation.value - before).abs();
-        kept.drawn += given.max(0.0);
+        let power = self.source(followed, self.flow(voltage.rate, elongation.rate));
+        kept.drawn += drawn(given, power * passage.duration);
         (kept.last, kept.work) = (voltage.value, passage.states[WORK]);
         kept.time += passage.duration;
         let at = [
@@ -180,10 +181,10 @@ impl Block for Driver {
 
     fn slopes(&self, standing: Now<'_>, at: &At<'_>, slopes: &mut [f64], _: &mut [f64]) -> Powers {
         let (_, followed, voltage) = self.now(standing, at);
-        let current = self.current(self.flow(voltage.rate, self.elongation(at.inputs).rate));
+        let flow = self.flow(voltage.rate, self.elongation(at.inputs).rate);
         slopes[VOLTAGE] = voltage.rate;
-        slopes[WORK] = followed.value / self.spec.gain * current;
-        slopes[LOST] = (followed.value - voltage.value) / self.spec.gain * current;
+        slopes[WORK] = self.source(followed, flow);
+        slopes[LOST] = (followed.value - voltage.value) / self.spec.gain * self.current(flow);
         if self.spec.low.is_some() {
             (slopes[LOW], slopes[LOW_RATE]) = (followed.rate, followed.acceleration);
         }

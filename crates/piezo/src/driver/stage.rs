@@ -158,4 +158,9 @@ impl Driver {
     pub(super) fn current(&self, flow: f64) -> f64 {
         self.spec.capacitance * flow / self.spec.gain
     }
+
+    /// Power of the source, W, at what the output stage follows and the current, both as strokes.
+    pub(super) fn source(&self, followed: Sample, flow: f64) -> f64 {
+        followed.value / self.spec.gain * self.current(flow)
+    }
 }
