@@ -7,7 +7,12 @@ const fn of(file: &'static str, name: &'static str, text: &'static str) -> Defin
 }
 
 pub(super) const COLUMNS: &[Definition] = &[
-    of("trace.csv", "time_s", "time t since the start"),
+    of(
+        "trace.csv",
+        "time_s",
+        "time t since the start; a row at the moment of a jump shows what is before it, also the last row, where the end in \
+         summary.json is after it",
+    ),
     of("trace.csv", "BODY.x_m", "displacement along the slide from the position drawn"),
     of("trace.csv", "BODY.vx_m_s", "its rate, dx/dt"),
     of("trace.csv", "BODY.z_m", "displacement along the normal, up, from the position drawn"),
