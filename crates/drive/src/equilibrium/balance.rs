@@ -11,8 +11,8 @@ use std::rc::Rc;
 // Bounds the search where there is no equilibrium: no start differs with 40.
 const ITERATIONS: u32 = 400;
 /// Iterations without progress after which the rest is rounding.
-// Half of it gives the same bits; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
-const PATIENCE: u32 = 8;
+// Twice as much gives the same bits; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
+const PATIENCE: u32 = 4;
 /// Most halvings of a step that goes too far.
 const HALVINGS: u32 = 40;
 /// Largest imbalance of an equilibrium, in units of what acts on a coordinate.
@@ -21,7 +21,7 @@ const BALANCED: f64 = 1e-9;
 /// Forces that are added up on a coordinate, about.
 const ROUNDED: f64 = 4.0;
 /// A step this long finds nothing that holds a body any more, m or rad.
-// Bounds the search where there is no equilibrium: no start differs with 100 m.
+// With 1e12 natural lengths instead a body that nothing holds finds a rest far away.
 const LOST: f64 = 1e3;
 
 /// Places that a search remembers. Where only rounding is left it comes to the same few over and over.
@@ -52,6 +52,15 @@ pub(super) struct Search<'a> {
     held: &'a [bool],
     /// Places looked at last, the next one to be forgotten first.
     seen: VecDeque<Rc<Balance>>,
+}
+
+impl Balance {
+    /// Whether part of a step from here comes to a place, to the last bit.
+    fn leads_to(&self, place: &Self, (step, share): (&DVector<f64>, f64)) -> bool {
+        // Coordinates come first, the rest stays as it is.
+        let moved = self.y.iter().zip(step).map(|(y, step)| y + share * step);
+        moved.zip(&place.y).all(|(a, b)| a.to_bits() == b.to_bits())
+    }
 }
 
 impl<'a> Search<'a> {
@@ -87,7 +96,7 @@ impl<'a> Search<'a> {
             if good {
                 now = whole;
             } else if push > 0.0 {
-                now = self.shorter(&now, &step);
+                now = self.shorter(&now, whole, &step);
             }
             if now.size < best.size {
                 (best, idle) = (Rc::clone(&now), 0);
@@ -114,18 +123,27 @@ impl<'a> Search<'a> {
 
     /// A step that goes too far is halved towards the place where nothing pushes along it any more. Without friction that
     /// is the lowest energy along the step, so that the energy falls from iteration to iteration.
-    fn shorter(&mut self, now: &Rc<Balance>, step: &DVector<f64>) -> Rc<Balance> {
-        let (mut near, mut far) = (0.0, 1.0);
+    fn shorter(&mut self, now: &Rc<Balance>, whole: Rc<Balance>, step: &DVector<f64>) -> Rc<Balance> {
+        let (mut near, mut far) = ((0.0, Rc::clone(now)), (1.0, whole));
         let mut place = Rc::clone(now);
         for _ in 0..HALVINGS {
-            let middle = 0.5 * (near + far);
+            let middle = 0.5 * (near.0 + far.0);
+            // Where only rounding is left it comes back to one of both ends, of which is known on which side they are.
+            if now.leads_to(&near.1, (step, middle)) {
+                (near.0, place) = (middle, Rc::clone(&near.1));
+                continue;
+            }
+            if now.leads_to(&far.1, (step, middle)) {
+                (far.0, place) = (middle, Rc::clone(&far.1));
+                continue;
+            }
             place = self.along(now, step, middle);
             // Between half of the push gone and half of it turned round a step is good enough: the next one
             // is Newton's again.
             if overshoots(now, &place, step) {
-                far = middle;
+                far = (middle, Rc::clone(&place));
             } else if place.residual.dot(step) > 0.5 * now.residual.dot(step) {
-                near = middle;
+                near = (middle, Rc::clone(&place));
             } else {
                 break;
             }
