@@ -90,7 +90,10 @@ impl Variation<'_> {
             self.follow_trail(from)?;
             return self.follow(from, stride);
         }
-        if self.trail.length() < self.likely { Ok(()) } else { self.follow_trail(from) }
+        if self.trail.length() < self.likely && !self.trail.is_full() {
+            return Ok(());
+        }
+        self.follow_trail(from)
     }
 
     /// Leads them along the steps that were kept.

@@ -6,6 +6,9 @@ use std::sync::LazyLock;
 /// Places at which a step of the run is read, and how many: dense outputs are polynomials of degree 8 at most.
 const SAMPLES: usize = 9;
 
+/// Most steps: memory is bounded where a step of the variation would go over thousands.
+const MOST: usize = 64;
+
 /// Chebyshev's extreme points over [0, 1], and the weights of the polynomial through values there.
 ///
 /// Source: J.-P. Berrut, L. N. Trefethen, *SIAM Review* 46 (2004) 501, equations (4.2) and (5.4).
@@ -50,6 +53,11 @@ impl Trail {
             ends[usize::from(k > 0)] = t;
         }
         let [begin, end] = ends;
+        if end <= begin {
+            // Nothing happens in no time.
+            self.samples.truncate(from);
+            return true;
+        }
         if self.times.is_empty() {
             self.times.push(begin);
         }
@@ -61,6 +69,11 @@ impl Trail {
     /// Whether there is no step.
     pub(super) fn is_empty(&self) -> bool {
         self.times.is_empty()
+    }
+
+    /// Whether there is room for no more steps.
+    pub(super) fn is_full(&self) -> bool {
+        self.times.len() > MOST
     }
 
     /// How long it is, s.
@@ -171,5 +184,22 @@ mod tests {
         }
         let mut trail = Trail::default();
         assert!(!trail.add(&mut Uneven, 2) && trail.is_empty());
+    }
+
+    #[test]
+    fn a_step_that_takes_no_time_is_left_out_and_there_is_an_end_to_them() {
+        let mut trail = Trail::default();
+        assert!(trail.add(&mut Eighth([1.0, 1.0]), 2) && trail.is_empty());
+        for k in 0..MOST {
+            assert!(!trail.is_full());
+            let t = k as f64;
+            trail.add(&mut Eighth([t, t + 1.0]), 2);
+            trail.add(&mut Eighth([t + 1.0, t + 1.0]), 2);
+        }
+        assert!(trail.is_full());
+        trail.close();
+        let mut y = [0.0; 2];
+        trail.at(0.5, &mut y);
+        assert!((y[1] - 1.0 + MOST as f64).abs() < 1e-12, "{y:?}");
     }
 }
