@@ -88,7 +88,7 @@ impl Variation<'_> {
         if !self.trail.add(stride, known) {
             // A leap, or a step in which time is graded.
             self.follow_trail(from)?;
-            return self.follow(from, stride);
+            return self.follow(from, stride, SHORTEST);
         }
         if self.trail.length() < self.likely && !self.trail.is_full() {
             return Ok(());
@@ -103,7 +103,8 @@ impl Variation<'_> {
         }
         let mut trail = std::mem::take(&mut self.trail);
         trail.close();
-        let outcome = self.follow(from, &mut trail);
+        let shortest = SHORTEST * trail.shortest();
+        let outcome = self.follow(from, &mut trail, shortest);
         trail.clear();
         self.trail = trail;
         outcome
@@ -118,8 +119,8 @@ impl Variation<'_> {
         }
     }
 
-    /// Leads the derivatives along a step of the run, in as many steps as it takes.
-    fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
+    /// Leads the derivatives along a step of the run, in as many steps as it takes, none of them shorter than a part of it.
+    fn follow(&mut self, from: &State, stride: &mut dyn Stride, shortest: f64) -> Result<(), VariationError> {
         let (grade, [begin, end]) = self.grade(from, stride);
         self.time = begin;
         let (mut at, mut has_failed) = (0.0, false);
@@ -142,7 +143,7 @@ impl Variation<'_> {
             }
             has_failed = true;
             let shorter = (SAFETY * missed.powf(-FALLS)).max(SHRINK) * (to - at);
-            if shorter.is_nan() || shorter < SHORTEST {
+            if shorter.is_nan() || shorter < shortest {
                 return Err(VariationError::NotSmooth { t: from.t });
             }
             length = (1.0 - at) / ((1.0 - at) / shorter).ceil();

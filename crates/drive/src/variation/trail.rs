@@ -82,6 +82,12 @@ impl Trail {
         end - begin
     }
 
+    /// Its shortest step, as a part of it.
+    pub(super) fn shortest(&self) -> f64 {
+        let steps = self.times.windows(2).map(|ends| ends[1] - ends[0]);
+        steps.fold(f64::INFINITY, f64::min) / self.length()
+    }
+
     /// Readies it to be read as a whole.
     pub(super) fn close(&mut self) {
         let ([begin, _], length) = (self.ends(), self.length());
@@ -159,7 +165,7 @@ mod tests {
         let mut trail = Trail::default();
         assert!(trail.add(&mut Eighth([1.0, 3.0]), 2) && trail.add(&mut Eighth([3.0, 3.5]), 2));
         trail.close();
-        assert_eq!(trail.knots(), [(3, 0.4), (3, 0.9)]);
+        assert_eq!((trail.knots(), trail.shortest()), (&[(3, 0.4), (3, 0.9)][..], 0.2));
         let mut y = [0.0; 2];
         for part in [0.0, 0.1, 0.35, 0.8, 0.93, 1.0] {
             let [t, pace] = trail.at(part, &mut y);
