@@ -11,8 +11,8 @@ use std::rc::Rc;
 // Bounds the search where there is no equilibrium: no start differs with 40.
 const ITERATIONS: u32 = 400;
 /// Iterations without progress after which the rest is rounding.
-// Twice as much gives the same bits; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
-const PATIENCE: u32 = 4;
+// Half of it moves one example by rounding; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
+const PATIENCE: u32 = 8;
 /// Most halvings of a step that goes too far.
 const HALVINGS: u32 = 40;
 /// Largest imbalance of an equilibrium, in units of what acts on a coordinate.
