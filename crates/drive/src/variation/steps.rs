@@ -85,8 +85,10 @@ impl Variation<'_> {
     /// Leads the derivatives along a step of the run, or keeps it until more of them are as long as a step is likely to be.
     pub(super) fn go_along(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
         let known = self.known(from);
-        if !self.trail.add(stride, known) {
-            // A leap, or a step in which time is graded.
+        // Where paths of growth are read off inside a step, which is of order 5 there, it is no longer than the run's.
+        let grows = from.modes.contains(&Mode::Grow);
+        if grows || !self.trail.add(stride, known) {
+            // Else a leap, or a step in which time is graded.
             self.follow_trail(from)?;
             return self.follow(from, stride, SHORTEST);
         }
