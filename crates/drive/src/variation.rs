@@ -20,7 +20,6 @@ mod growth;
 mod parameter;
 mod steps;
 mod tangent;
-mod trail;
 mod turning;
 mod works;
 
@@ -38,10 +37,9 @@ use crate::state::{Layout, State};
 pub(crate) use anchors::Anchors;
 use anchors::Held;
 use corners::Corner;
-use parameter::{Moment, Moving};
+use parameter::Moment;
 use steps::Passed;
 use stickslip_stepper::{Coefficients, Gauss, NODES};
-use trail::Trail;
 use works::Works;
 
 /// How a run's state changes with a few numbers: a record that a run is told to.
@@ -73,23 +71,16 @@ pub struct Variation<'m> {
     held: Vec<Held>,
     acting: Vec<usize>,
     links: Vec<f64>,
-    /// How high their fronts are where a step of the run begins, as parts of the depth.
-    heights: Vec<f64>,
-    /// How each number of the scene moves each waveform in the interval.
-    moving: Vec<Moving>,
     /// Whether the run has told a step of it.
     strode: bool,
-    /// Its steps along which derivatives have yet to be led, and how long a step of these is likely to be, s.
-    trail: Trail,
-    likely: f64,
     method: Gauss,
-    nodes: Vec<Coefficients>,
+    nodes: [Coefficients; NODES],
     /// Natural scales of velocities and forces.
     scale: Vec<f64>,
     /// The motion at a node.
     y: Vec<f64>,
     /// The same at all nodes, where numbers of the scene need it, and when a step begins and how long it is, s.
-    passed: Vec<Passed>,
+    passed: [Passed; NODES],
     time: f64,
     length: f64,
 }
@@ -109,19 +100,15 @@ impl<'m> Variation<'m> {
         check(model)?;
         let layout = model.layout();
         Ok(Self {
-            held: vec![Held::default(); model.contacts.len()],
+            held: Vec::new(),
             acting: Vec::new(),
-            heights: Vec::new(),
-            moving: Vec::new(),
             links: tangent::links(model),
             strode: false,
-            trail: Trail::default(),
-            likely: 0.0,
             method: Gauss::default(),
-            nodes: vec![Coefficients::default(); NODES],
+            nodes: Default::default(),
             scale: natural(model, layout).split_off(layout.free),
             y: vec![0.0; layout.total()],
-            passed: vec![Passed::default(); NODES],
+            passed: Default::default(),
             time: 0.0,
             length: 0.0,
             model,
@@ -149,15 +136,6 @@ impl<'m> Variation<'m> {
         Self { works: self.works.led(self.layout), ..self }
     }
 
-    /// Leads derivatives to where the run stands.
-    fn catch_up(&mut self) {
-        let Some(from) = self.from.take() else { return };
-        if self.outcome.is_ok() {
-            self.outcome = self.follow_trail(&from);
-        }
-        self.from = Some(from);
-    }
-
     /// Ends the variation where the run stands, its memories come along ([`Run::stop`](crate::Run::stop)).
     ///
     /// # Errors
@@ -183,8 +161,7 @@ impl<'m> Variation<'m> {
     /// Derivatives by number `j`, in its natural scale, of a body's coordinate and its rate, m and m/s or rad and rad/s: the body at
     /// this place of the scene; those of a coordinate that is not free are 0.
     #[must_use]
-    pub fn coordinate(&mut self, index: usize, axis: Axis, j: usize) -> Option<(f64, f64)> {
-        self.catch_up();
+    pub fn coordinate(&self, index: usize, axis: Axis, j: usize) -> Option<(f64, f64)> {
         let column = self.column(j)?;
         Some(match self.model.bodies.get(index)?.bindings[axis as usize] {
             Binding::Free(i) => (column[i], column[self.layout.velocity(i)]),
@@ -239,9 +216,8 @@ impl<'m> Variation<'m> {
     /// The same from other derivatives of the components.
     fn moved_by(&self, contact: &Contact, columns: &[f64], at: Moment<'_>) -> Vec<(f64, f64)> {
         let mut moved = tangent::moved(contact, columns, self.layout);
-        let first = self.count() - self.parameters.len();
-        for ((place, parameter), moved) in self.parameters.iter().enumerate().zip(&mut moved[first..]) {
-            let shift = parameter.shift(contact, at.by(place));
+        for (moved, parameter) in moved.iter_mut().rev().zip(self.parameters.iter().rev()) {
+            let shift = parameter.shift(contact, at);
             *moved = (moved.0 + shift.u, moved.1 + shift.d);
         }
         moved
@@ -255,15 +231,15 @@ impl<'m> Variation<'m> {
     /// The laws of an interval begin.
     fn take_up(&mut self, state: &State) {
         self.strode = false;
+        self.held.clear();
         self.acting.clear();
-        self.moving.clear();
-        for parameter in self.parameters {
-            self.moving.extend(parameter.moving(&state.pieces, state.t));
-        }
         for (c, contact) in self.model.contacts.iter().enumerate() {
-            if !contact.inert {
-                self.held[c].renew(&mut self.anchors[c], (contact, &state.memories[c]));
-            }
+            let held = if contact.inert {
+                Held::default()
+            } else {
+                Held::of(&self.anchors[c], contact, &state.memories[c])
+            };
+            self.held.push(held);
             if tangent::acts(contact, &state.modes[c], !self.parameters.is_empty()) {
                 self.acting.push(c);
             }
@@ -287,14 +263,13 @@ impl Record for Variation<'_> {
     fn stride(&mut self, stride: &mut dyn Stride) {
         let Some(from) = self.from.take() else { return };
         if self.outcome.is_ok() && !self.columns.is_empty() {
-            self.outcome = self.go_along(&from, stride);
+            self.outcome = self.follow(&from, stride);
         }
         self.strode = true;
         self.from = Some(from);
     }
 
     fn leaves(&mut self, state: &State) {
-        self.catch_up();
         let Some(from) = self.from.take() else { return };
         if self.outcome.is_ok() {
             self.outcome = self.pass(&from, state);
@@ -303,7 +278,6 @@ impl Record for Variation<'_> {
     }
 
     fn enters(&mut self, state: &State) {
-        self.catch_up();
         let left = self.left.take();
         if self.outcome.is_ok()
             && let Some(left) = &left

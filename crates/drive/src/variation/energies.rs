@@ -47,8 +47,7 @@ impl Variation<'_> {
     /// How the energies of the run change by number `j` where it stands. None where the variation has not led them along
     /// ([`Self::with_energies`]), was not made by [`Model::variation`](crate::Model::variation), or a waveform has jumped.
     #[must_use]
-    pub fn energies(&mut self, state: &State, j: usize) -> Option<EnergyRates> {
-        self.catch_up();
+    pub fn energies(&self, state: &State, j: usize) -> Option<EnergyRates> {
         let [origin, before] = self.works.beginning(j)?;
         let (parameter, column) = (self.parameters.get(j)?, self.column(j)?);
         let (model, layout) = (self.model, self.layout);
@@ -60,7 +59,7 @@ impl Variation<'_> {
             rates.input += force * (state.shifts[i] + state.y[i]);
             rates.kinetic += free.mass * v * moved + 0.5 * parameter.mass(i) * v * v;
         }
-        let at = Moment::of(self.model, state);
+        let at = Moment { pieces: &state.pieces, t: state.t };
         for contact in &model.contacts {
             let [normal, tangential] = self.stored(contact, state, (parameter, j, at))?;
             rates.elastic += contact.count * (normal + tangential);
@@ -113,10 +112,9 @@ impl Variation<'_> {
     /// members: with the moment of the turn, which moves by -δu̇/ü where what presses it varies. None where it is apart, or has
     /// events that accumulate.
     #[must_use]
-    pub fn turn(&mut self, state: &State, contact: usize, j: usize) -> Option<[f64; 2]> {
-        self.catch_up();
+    pub fn turn(&self, state: &State, contact: usize, j: usize) -> Option<[f64; 2]> {
         let (contact, parameter) = (self.model.contacts.get(contact)?, self.parameters.get(j)?);
-        let at = Moment::of(self.model, state);
+        let at = Moment { pieces: &state.pieces, t: state.t };
         let eq = Equations::on(self.model, state, self.layout, false);
         let motion = eq.motion(contact, state.t, |i| state.y[i]);
         let (law, (du, dd)) = (&contact.interface, *self.moved(contact, at).get(j)?);
@@ -152,7 +150,7 @@ impl Variation<'_> {
         let (slopes, velocity) = (self.slopes(state), |i: usize| self.layout.velocity(i));
         let view = Components { t: state.t, y: |i: usize| state.y[i] };
         let pull = eq.acceleration(&contact.u, &view, |i| slopes[velocity(i)]);
-        let shift = parameter.shift(contact, Moment::of(self.model, state));
+        let shift = parameter.shift(contact, Moment { pieces: &state.pieces, t: state.t });
         let faster: f64 = contact.u.free.iter().map(|(i, a)| a * column[velocity(*i)]).sum();
         -(faster + shift.du) / pull
     }

@@ -1,6 +1,6 @@
 //! Steps of a variation: the linear equations led along the steps of the run.
 
-use super::tangent::{Laws, Stand};
+use super::tangent::Laws;
 use super::{Variation, VariationError};
 use crate::contact::Mode;
 use crate::equations::Equations;
@@ -23,10 +23,6 @@ const FALLS: f64 = 1.0 / 11.0;
 const SAFETY: f64 = 0.9;
 const SHRINK: f64 = 0.2;
 const SHORTEST: f64 = 1e-3;
-
-/// The same of the next one, of which less is known, and its strongest growth.
-const CAUTION: f64 = 0.8;
-const GROWTH: f64 = 2.0;
 
 /// Part of the height at which it begins to which a front has to fall that nodes crowd; and what goes slower than this at an end, as a part
 /// of what it does half way, crowds there by itself.
@@ -58,13 +54,6 @@ pub(super) struct Passed {
     pub(super) t: f64,
     pub(super) now: f64,
     pub(super) y: Vec<f64>,
-    /// Where the contacts stand that act.
-    pub(super) stands: Vec<Stand>,
-}
-
-/// Length of steps that are about as long as one is likely to be, of which some make up what is left; all of it where nothing is known.
-fn even(left: f64, likely: f64) -> f64 {
-    if likely > 0.0 { left / (left / likely).round().max(1.0) } else { left }
 }
 
 impl Variation<'_> {
@@ -82,51 +71,13 @@ impl Variation<'_> {
         }
     }
 
-    /// Leads the derivatives along a step of the run, or keeps it until more of them are as long as a step is likely to be.
-    pub(super) fn go_along(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
-        let known = self.known(from);
-        // Where paths of growth are read off inside a step, which is of order 5 there, it is no longer than the run's.
-        let grows = from.modes.contains(&Mode::Grow);
-        if grows || !self.trail.add(stride, known) {
-            // Else a leap, or a step in which time is graded.
-            self.follow_trail(from)?;
-            return self.follow(from, stride, SHORTEST);
+    /// Leads the derivatives along a step of the run, in as many steps as it takes.
+    pub(super) fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
+        if !self.parameters.is_empty() {
+            [self.time, _] = stride.at(0.0, &mut self.y[..2 * self.layout.free]);
         }
-        if self.trail.length() < self.likely && !self.trail.is_full() {
-            return Ok(());
-        }
-        self.follow_trail(from)
-    }
-
-    /// Leads them along the steps that were kept.
-    pub(super) fn follow_trail(&mut self, from: &State) -> Result<(), VariationError> {
-        if self.trail.is_empty() {
-            return Ok(());
-        }
-        let mut trail = std::mem::take(&mut self.trail);
-        trail.close();
-        let shortest = SHORTEST * trail.shortest();
-        let outcome = self.follow(from, &mut trail, shortest);
-        trail.clear();
-        self.trail = trail;
-        outcome
-    }
-
-    /// How many components a step tells: the forces of growing contacts are some of them; no leap has any.
-    fn known(&self, from: &State) -> usize {
-        if self.components(from).rates > self.layout.free {
-            self.layout.dimension()
-        } else {
-            2 * self.layout.free
-        }
-    }
-
-    /// Leads the derivatives along a step of the run, in as many steps as it takes, none of them shorter than a part of it.
-    fn follow(&mut self, from: &State, stride: &mut dyn Stride, shortest: f64) -> Result<(), VariationError> {
-        let (grade, [begin, end]) = self.grade(from, stride);
-        self.time = begin;
-        let (mut at, mut has_failed) = (0.0, false);
-        let mut length = even(1.0, self.likely / (end - begin));
+        let grade = self.grade(from, stride);
+        let (mut at, mut length) = (0.0, 1.0);
         while self.acts() && at < 1.0 {
             // No stub is left for the last step.
             let to = if at + 1.01 * length >= 1.0 { 1.0 } else { at + length };
@@ -137,17 +88,13 @@ impl Variation<'_> {
                 self.columns.copy_from_slice(self.method.end());
                 self.time += self.length;
                 at = to;
-                let longer = (CAUTION * missed.powf(-FALLS)).min(GROWTH) * self.length;
-                // One that an event has cut short tells of no other.
-                self.likely = if has_failed { longer } else { longer.max(self.likely) };
-                length = even(1.0 - at, longer / (end - begin));
                 continue;
             }
-            has_failed = true;
             let shorter = (SAFETY * missed.powf(-FALLS)).max(SHRINK) * (to - at);
-            if shorter.is_nan() || shorter < shortest {
+            if shorter.is_nan() || shorter < SHORTEST {
                 return Err(VariationError::NotSmooth { t: from.t });
             }
+            // As many steps as it takes, of one length.
             length = (1.0 - at) / ((1.0 - at) / shorter).ceil();
         }
         Ok(())
@@ -178,49 +125,43 @@ impl Variation<'_> {
             components: self.components(from),
             count: self.count(),
             parameters: self.parameters,
-            moving: &self.moving,
         }
     }
 
-    /// The components of an interval: the forces of growing contacts are led along as far as any of these grows.
+    /// The components of an interval: the forces of growing contacts are led along where one grows.
     pub(super) fn components(&self, from: &State) -> Components {
-        let growing = self.model.contacts.iter().zip(&from.modes).filter(|(_, mode)| **mode == Mode::Grow);
-        let highest = growing.filter_map(|(contact, _)| contact.slot).max();
-        let free = self.layout.free;
-        let rates = highest.map_or(free, |slot| self.layout.force(slot) + 1 - free);
-        Components { positions: free, rates, stride: self.layout.dimension() }
+        let grows = from.modes.contains(&Mode::Grow);
+        let rates = if grows { self.layout.dimension() - self.layout.free } else { self.layout.free };
+        Components { positions: self.layout.free, rates, stride: self.layout.dimension() }
     }
 
     /// How nodes lie in a stride. The stiffness of a contact goes as a root of the height of its slip front: where that comes near the
-    /// centre nodes lie evenly in the root. Also when it begins and when it ends, s.
-    fn grade(&mut self, from: &State, stride: &mut dyn Stride) -> (Grade, [f64; 2]) {
-        let (mut y, mut heights) = (std::mem::take(&mut self.y), std::mem::take(&mut self.heights));
+    /// centre nodes lie evenly in the root.
+    fn grade(&mut self, from: &State, stride: &mut dyn Stride) -> Grade {
+        let mut y = std::mem::take(&mut self.y);
         let laws = self.laws(from);
-        let mut rate = |part: f64, y: &mut [f64]| stride.at(part, &mut y[..2 * self.layout.free]);
-        // Parts of the depth.
-        let height = |c: usize, t: f64, y: &[f64]| {
-            let (contact, (memory, mode)) = (&self.model.contacts[c], laws.eq.law(c));
-            match mode {
-                Mode::Slip(branch) if !branch.is_gross() => {
-                    let motion = laws.eq.motion(contact, t, |i| y[i]);
+        let mut heights = |part: f64| -> (f64, Vec<f64>) {
+            let [t, rate] = stride.at(part, &mut y[..2 * self.layout.free]);
+            let height = |c: &usize| {
+                let (contact, (memory, mode)) = (&self.model.contacts[*c], laws.eq.law(*c));
+                let Mode::Slip(branch) = mode else { return 1.0 };
+                let motion = laws.eq.motion(contact, t, |i| y[i]);
+                if branch.is_gross() {
+                    1.0
+                } else {
                     contact.front(memory, branch, &motion).max(0.0) / motion.d
                 }
-                _ => 1.0,
-            }
+            };
+            (rate, self.acting.iter().map(height).collect())
         };
-        let ([_, middle], [begin, first]) = (rate(0.5, &mut y), rate(0.0, &mut y));
-        heights.clear();
-        heights.extend(self.acting.iter().map(|c| height(*c, begin, &y)));
-        let [end, last] = rate(1.0, &mut y);
-        let ends = self.acting.iter().zip(&heights).map(|(c, from)| (*from, height(*c, end, &y)));
-        let lowest = ends.min_by(|a, b| a.1.total_cmp(&b.1));
+        let ((first, from), (middle, _), (last, to)) = (heights(0.0), heights(0.5), heights(1.0));
         let is_even = first.min(last) > SLOW * middle && laws.components.rates == self.layout.free;
-        (self.y, self.heights) = (y, heights);
-        let grade = match lowest {
+        let lowest = from.into_iter().zip(to).min_by(|a, b| a.1.total_cmp(&b.1));
+        self.y = y;
+        match lowest {
             Some((from, to)) if is_even && to < LOW * from => Grade { from, to },
             _ => Grade::EVEN,
-        };
-        (grade, [begin, end])
+        }
     }
 
     /// Tries one step between two parts of a stride and tells what it misses, in natural scales.
@@ -235,14 +176,16 @@ impl Variation<'_> {
         let mut y = std::mem::take(&mut self.y);
         let laws = self.laws(from);
         let components = laws.components;
-        let known = self.known(from);
+        // The forces of growing contacts are components of a step; no leap has any.
+        let known =
+            if components.rates > self.layout.free { self.layout.dimension() } else { 2 * self.layout.free };
         let (mut paces, is_moved) = ([0.0; NODES], !self.parameters.is_empty());
         let each = nodes.iter_mut().zip(&mut passed);
         for ((place, pace), (node, passed)) in Gauss::places().into_iter().zip(&mut paces).zip(each) {
             let (part, steep) = grade.of(place, [begin, end]);
             let [t, rate] = stride.at(begin + part * (end - begin), &mut y[..known]);
             *pace = rate * steep * (end - begin);
-            laws.lay_out((t, &y), node, &mut passed.stands);
+            laws.lay_out((t, &y), node);
             if is_moved {
                 passed.t = t;
                 passed.y.clone_from(&y);

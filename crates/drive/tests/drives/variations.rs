@@ -30,12 +30,11 @@ pub(crate) fn varied(
     run.advance(until, &mut variation).unwrap();
     run.stop(&mut ());
     variation.finish(run.state())?;
-    let count = variation.count();
     let of = |j: usize| {
         let bodies = (0..).map_while(|body| variation.coordinate(body, Axis::X, j));
         bodies.flat_map(|(x, v)| [x, v]).collect()
     };
-    Ok(((0..count).map(of).collect(), run.into_state()))
+    Ok(((0..variation.count()).map(of).collect(), run.into_state()))
 }
 
 /// x and ẋ of all bodies.

@@ -202,9 +202,9 @@ impl Pass<'_> {
                 if run.advance(stop, &mut record).is_err() {
                     return Ok(None);
                 }
-                turns.look(&mut variation, run.state(), true);
+                turns.look(&variation, run.state(), true);
             }
-            looks.push(self.look(&mut variation, run.state(), parameters.len()));
+            looks.push(self.look(&variation, run.state(), parameters.len()));
         }
         run.stop(&mut ());
         variation.finish(run.state())?;
@@ -212,8 +212,8 @@ impl Pass<'_> {
     }
 
     /// What is seen at a moment.
-    fn look(&self, variation: &mut Variation<'_>, state: &State, count: usize) -> Look {
-        let mut place = |told: &Told| {
+    fn look(&self, variation: &Variation<'_>, state: &State, count: usize) -> Look {
+        let place = |told: &Told| {
             let (body, axis) = told.coordinate(&self.job)?;
             let (value, rate) = state.coordinate(&self.job.model, body, axis)?;
             let acceleration = variation.acceleration(state, body, axis)?;
@@ -221,7 +221,7 @@ impl Pass<'_> {
             Some(Place { value, rate, acceleration, moved })
         };
         Look {
-            places: self.told.iter().map(&mut place).collect(),
+            places: self.told.iter().map(place).collect(),
             energies: (0..count).map(|j| variation.energies(state, j)).collect(),
             powers: variation.powers(state),
         }

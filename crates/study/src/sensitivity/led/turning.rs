@@ -53,7 +53,7 @@ impl Turns {
 
     /// Looks at turns where the run is: at those of contacts that are pressed by what varies where it stands, at others where it passes
     /// them.
-    pub(super) fn look(&mut self, variation: &mut Variation<'_>, state: &State, stands: bool) {
+    pub(super) fn look(&mut self, variation: &Variation<'_>, state: &State, stands: bool) {
         let t = state.time();
         for turn in self.swings.iter_mut().flatten().flatten() {
             if turn.varies == stands && (turn.extreme.t - t).abs() <= SAME * t {
