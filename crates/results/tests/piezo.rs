@@ -245,6 +245,27 @@ fn what_a_source_gives_is_counted_up_to_where_it_turns() {
     }
 }
 
+/// Steps of fixed length go over the corners of the command, where what the source gives ends at once: against the event stepper, which ends
+/// a step there.
+#[test]
+fn steps_over_corners_give_no_more_than_there_is() {
+    let drawn = |stepper: Value| {
+        let mut scenario = value("stage_by_voltage");
+        scenario["run"] = json!({ "duration": "4.1 ms", "stepper": stepper });
+        scenario["actuators"]["stack"]["driver"] = json!({ "window": ["-1 V", "130 V"] });
+        let job = job(&scenario);
+        let outcome = job.run(&());
+        let summary: Value = serde_json::from_str(&Summary::new(&job, &outcome).pretty().unwrap()).unwrap();
+        summary["drivers"]["stack"]["drawn_J"].as_f64().unwrap()
+    };
+    let exact = drawn(json!({ "event": { "tolerance": 1e-10 } }));
+    for step in ["0.07 us", "0.7 us", "1.3 us"] {
+        let told = drawn(json!({ "rk4": { "step": step } }));
+        println!("{step}: {:e}", told / exact - 1.0);
+        assert!((told / exact - 1.0).abs() < 2e-3, "{step}: {told} {exact}");
+    }
+}
+
 /// Frames of a few microseconds and steps of fixed length come to the stage's steps, too.
 #[test]
 fn frames_and_fixed_steps_agree() {

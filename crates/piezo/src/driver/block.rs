@@ -132,8 +132,10 @@ impl Component for Driver {
         kept.elongation = elongation.value;
         let given = passage.states[WORK] - kept.work;
         kept.way += self.flow(voltage.value - kept.last, elongation.value - before).abs();
+        // In a step over a corner the power at its end tells nothing of how it began.
         let power = self.source(followed, self.flow(voltage.rate, elongation.rate));
-        kept.drawn += drawn(given, power * passage.duration);
+        let last = if passage.located { power * passage.duration } else { given };
+        kept.drawn += drawn(given, last);
         (kept.last, kept.work) = (voltage.value, passage.states[WORK]);
         kept.time += passage.duration;
         let at = [
