@@ -156,6 +156,16 @@ impl Curve {
         self.knots.iter().map(|k| (k.h, k.p))
     }
 
+    /// Heights of the knots from one of them on, by its place from the centre, m; none beyond the apex.
+    pub fn heights_from(&self, place: usize) -> impl Iterator<Item = f64> + '_ {
+        self.knots.get(place..).unwrap_or_default().iter().map(|k| k.h)
+    }
+
+    /// Place of the lowest knot that is above a height, m; that beyond the apex where none is.
+    pub fn above(&self, height: f64) -> usize {
+        self.knots.partition_point(|knot| knot.h <= height)
+    }
+
     /// The straight pieces from the centre to the apex: heights of their ends, m, slope dp/dh and force per ΔM over G\*.
     pub(crate) fn pieces(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
         self.knots.windows(2).map(|pair| [pair[0].h, pair[1].h, pair[1].slope, pair[1].gain])

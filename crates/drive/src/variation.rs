@@ -37,7 +37,7 @@ use crate::state::{Layout, State};
 pub(crate) use anchors::Anchors;
 use anchors::Held;
 use corners::Corner;
-use parameter::Moment;
+use parameter::{Moment, Moving};
 use steps::Passed;
 use stickslip_stepper::{Coefficients, Gauss, NODES};
 use works::Works;
@@ -71,16 +71,20 @@ pub struct Variation<'m> {
     held: Vec<Held>,
     acting: Vec<usize>,
     links: Vec<f64>,
+    /// How high their fronts are where a step of the run begins, as parts of the depth.
+    heights: Vec<f64>,
+    /// How each number of the scene moves each waveform in the interval.
+    moving: Vec<Moving>,
     /// Whether the run has told a step of it.
     strode: bool,
     method: Gauss,
-    nodes: [Coefficients; NODES],
+    nodes: Vec<Coefficients>,
     /// Natural scales of velocities and forces.
     scale: Vec<f64>,
     /// The motion at a node.
     y: Vec<f64>,
     /// The same at all nodes, where numbers of the scene need it, and when a step begins and how long it is, s.
-    passed: [Passed; NODES],
+    passed: Vec<Passed>,
     time: f64,
     length: f64,
 }
@@ -100,15 +104,17 @@ impl<'m> Variation<'m> {
         check(model)?;
         let layout = model.layout();
         Ok(Self {
-            held: Vec::new(),
+            held: vec![Held::default(); model.contacts.len()],
             acting: Vec::new(),
+            heights: Vec::new(),
+            moving: Vec::new(),
             links: tangent::links(model),
             strode: false,
             method: Gauss::default(),
-            nodes: Default::default(),
+            nodes: vec![Coefficients::default(); NODES],
             scale: natural(model, layout).split_off(layout.free),
             y: vec![0.0; layout.total()],
-            passed: Default::default(),
+            passed: vec![Passed::default(); NODES],
             time: 0.0,
             length: 0.0,
             model,
@@ -216,8 +222,9 @@ impl<'m> Variation<'m> {
     /// The same from other derivatives of the components.
     fn moved_by(&self, contact: &Contact, columns: &[f64], at: Moment<'_>) -> Vec<(f64, f64)> {
         let mut moved = tangent::moved(contact, columns, self.layout);
-        for (moved, parameter) in moved.iter_mut().rev().zip(self.parameters.iter().rev()) {
-            let shift = parameter.shift(contact, at);
+        let first = self.count() - self.parameters.len();
+        for ((place, parameter), moved) in self.parameters.iter().enumerate().zip(&mut moved[first..]) {
+            let shift = parameter.shift(contact, at.by(place));
             *moved = (moved.0 + shift.u, moved.1 + shift.d);
         }
         moved
@@ -231,15 +238,15 @@ impl<'m> Variation<'m> {
     /// The laws of an interval begin.
     fn take_up(&mut self, state: &State) {
         self.strode = false;
-        self.held.clear();
         self.acting.clear();
+        self.moving.clear();
+        for parameter in self.parameters {
+            self.moving.extend(parameter.moving(&state.pieces, state.t));
+        }
         for (c, contact) in self.model.contacts.iter().enumerate() {
-            let held = if contact.inert {
-                Held::default()
-            } else {
-                Held::of(&self.anchors[c], contact, &state.memories[c])
-            };
-            self.held.push(held);
+            if !contact.inert {
+                self.held[c].renew(&mut self.anchors[c], (contact, &state.memories[c]));
+            }
             if tangent::acts(contact, &state.modes[c], !self.parameters.is_empty()) {
                 self.acting.push(c);
             }
@@ -287,7 +294,14 @@ impl Record for Variation<'_> {
         }
         self.begin_growth(left.as_ref(), state);
         self.take_up(state);
-        self.from = Some(state.clone());
+        // In the room of the interval before.
+        self.from = Some(match left {
+            Some(mut room) => {
+                room.copy(state);
+                room
+            }
+            None => state.clone(),
+        });
     }
 }
 

@@ -23,6 +23,10 @@ const SHARES: Each = [
     0.118_463_442_528_094_54,
 ];
 
+fn dot(a: &[f64], b: &Each) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// The method over [0, 1].
 struct Rule {
     /// Legendre's polynomials at the nodes.
@@ -31,6 +35,8 @@ struct Rule {
     inner: [Each; NODES],
     /// The last four Legendre coefficients, from the first, of what has these values at the nodes.
     tail: [Each; NODES - 1],
+    /// All of it in a step of length 1.
+    even: Reach,
 }
 
 /// Legendre's polynomials at x.
@@ -48,7 +54,8 @@ impl Rule {
     fn row(&self, x: f64) -> Each {
         let ends = legendre(x);
         let integral = |k: usize| if k == 0 { x + 1.0 } else { ends[k + 1] - ends[k - 1] };
-        array::from_fn(|j| 0.5 * SHARES[j] * (0..NODES).map(|k| self.values[j][k] * integral(k)).sum::<f64>())
+        let integrals: Each = array::from_fn(integral);
+        array::from_fn(|j| 0.5 * SHARES[j] * dot(&self.values[j], &integrals))
     }
 }
 
@@ -58,8 +65,9 @@ static RULE: LazyLock<Rule> = LazyLock::new(|| {
         let order = k + 1;
         array::from_fn(|j| (2.0 * order as f64 + 1.0) * SHARES[j] * values[j][order])
     });
-    let mut rule = Rule { values, inner: [[0.0; NODES]; NODES], tail };
+    let mut rule = Rule { values, inner: [[0.0; NODES]; NODES], tail, even: Reach::default() };
     rule.inner = PLACES.map(|x| rule.row(x));
+    rule.even = Reach::by(&rule, [1.0; NODES]);
     rule
 });
 
@@ -92,7 +100,9 @@ pub struct Components {
 #[derive(Debug, Clone, Default)]
 pub struct Gauss {
     reach: Reach,
-    matrix: Vec<f64>,
+    /// The linear system, its right sides at the end of each row.
+    system: Vec<f64>,
+    /// The slopes at the nodes, row by row.
     right: Vec<f64>,
     end: Vec<f64>,
 }
@@ -111,11 +121,11 @@ impl Gauss {
         (RULE.inner.each_ref().map(add), add(&SHARES))
     }
 
-    /// Tries a step in which time goes at `paces` per step at the nodes, s: an even one has its length for all of them. Tells how the rates'
+    /// Tries a step in which time goes at `paces` per step at the [`NODES`] nodes, s: an even one has its length for all of them. Tells how the rates'
     /// slopes look by their Legendre coefficients, in units of `scale`; infinite where there is no result.
     pub fn attempt(
         &mut self,
-        (paces, nodes): (Each, &[Coefficients; NODES]),
+        (paces, nodes): (Each, &[Coefficients]),
         of: Components,
         columns: &[f64],
         scale: &[f64],
@@ -123,18 +133,15 @@ impl Gauss {
         let count = columns.len().checked_div(of.stride).unwrap_or(0);
         self.reach = Reach::of(paces);
         self.set_up(nodes, of, columns);
-        if !solve(&mut self.matrix, &mut self.right, count) {
+        if !solve(&mut self.system, NODES * of.rates, count, &mut self.right) {
             return Tail { last: f64::INFINITY, rest: f64::INFINITY };
         }
         self.finish(of, columns);
         let mut tail = Tail::default();
         for (c, scale) in (0..of.rates).zip(scale) {
             for column in 0..count {
-                let at = |j: usize| self.right[(j * of.rates + c) * count + column];
-                let coefficient = |weights: &Each| {
-                    let sum: f64 = (0..NODES).map(|j| weights[j] * at(j)).sum();
-                    sum.abs() / scale
-                };
+                let slopes: Each = array::from_fn(|j| self.right[(j * of.rates + c) * count + column]);
+                let coefficient = |weights: &Each| dot(weights, &slopes).abs() / scale;
                 tail = tail.or(Tail::of(self.reach.tail.each_ref().map(coefficient)));
             }
         }
@@ -153,28 +160,24 @@ impl Gauss {
         let count = columns.len().checked_div(stride).unwrap_or(0);
         let (row, reach) = (RULE.row(2.0 * part - 1.0), &self.reach);
         let first: Each = array::from_fn(|k| row[k] * reach.paces[k]);
-        let twice: Each = array::from_fn(|j| (0..NODES).map(|k| first[k] * reach.once[k][j]).sum());
+        let mut twice = [0.0; NODES];
+        for (first, once) in first.iter().zip(&reach.once) {
+            twice.iter_mut().zip(once).for_each(|(twice, once)| *twice += first * once);
+        }
         let time: f64 = first.iter().sum();
         to.clear();
         to.extend_from_slice(columns);
         for (number, to) in to.chunks_exact_mut(stride).enumerate() {
             for p in 0..positions {
-                let slope = |j: usize| self.right[(j * rates + p) * count + number];
-                let gain: f64 = (0..NODES).map(|j| twice[j] * slope(j)).sum();
-                to[p] += time * to[positions + p] + gain;
+                let slopes: Each = array::from_fn(|j| self.right[(j * rates + p) * count + number]);
+                to[p] += time * to[positions + p] + dot(&twice, &slopes);
             }
         }
     }
 
     /// Adds to `sums`, row by row a number for each column, what the rows of `slopes` come to over the step tried: integrals on which
     /// nothing depends, `columns` being what it began with.
-    pub fn integrate(
-        &self,
-        slopes: &[Coefficients; NODES],
-        of: Components,
-        columns: &[f64],
-        sums: &mut [f64],
-    ) {
+    pub fn integrate(&self, slopes: &[Coefficients], of: Components, columns: &[f64], sums: &mut [f64]) {
         let Components { positions, rates, stride } = of;
         let (count, wide) = (columns.len().checked_div(stride).unwrap_or(0), positions + rates);
         for (node, slopes) in slopes.iter().enumerate() {
@@ -200,35 +203,32 @@ impl Gauss {
     }
 
     /// The linear system of the slopes at all nodes.
-    fn set_up(&mut self, nodes: &[Coefficients; NODES], of: Components, columns: &[f64]) {
+    fn set_up(&mut self, nodes: &[Coefficients], of: Components, columns: &[f64]) {
         let Components { positions, rates, stride } = of;
         let (size, wide) = (NODES * rates, positions + rates);
         let count = columns.len().checked_div(stride).unwrap_or(0);
-        self.matrix.clear();
-        self.matrix.resize(size * size, 0.0);
-        self.right.clear();
-        self.right.resize(size * count, 0.0);
+        self.system.clear();
+        let room = wide_of(size, count);
+        self.system.resize(size * room, 0.0);
+        let mut lines = self.system.chunks_exact_mut(room);
         for (i, node) in nodes.iter().enumerate() {
-            for c in 0..rates {
-                let (row, from) = (&node.matrix[c * wide..(c + 1) * wide], i * rates + c);
-                let line = &mut self.matrix[from * size..(from + 1) * size];
-                let right = &mut self.right[from * count..(from + 1) * count];
-                line[from] = 1.0;
+            let (once, twice, time) = (&self.reach.once[i], &self.reach.twice[i], self.reach.time[i]);
+            for (c, row) in node.matrix.chunks_exact(wide).enumerate() {
+                let Some(line) = lines.next() else { return };
+                let (line, right) = line.split_at_mut(size);
+                let right = &mut right[..count];
+                line[i * rates + c] = 1.0;
                 if !node.forcing.is_empty() {
                     right.copy_from_slice(&node.forcing[c * count..(c + 1) * count]);
                 }
                 for (p, a) in row.iter().enumerate().filter(|(_, a)| **a != 0.0) {
-                    let place = p.checked_sub(positions);
-                    let (to, reached) = match place {
-                        Some(rate) => (rate, &self.reach.once[i]),
-                        None => (p, &self.reach.twice[i]),
-                    };
+                    let (to, reached) = p.checked_sub(positions).map_or((p, twice), |rate| (rate, once));
                     for (j, reached) in reached.iter().enumerate() {
                         line[j * rates + to] -= a * reached;
                     }
+                    // A place goes on with its velocity.
                     for (right, column) in right.iter_mut().zip(columns.chunks_exact(stride)) {
-                        let ahead =
-                            if place.is_none() { self.reach.time[i] * column[positions + p] } else { 0.0 };
+                        let ahead = if p < positions { time * column[positions + p] } else { 0.0 };
                         *right += a * (column[p] + ahead);
                     }
                 }
@@ -242,16 +242,15 @@ impl Gauss {
         let count = columns.len().checked_div(stride).unwrap_or(0);
         self.end.clear();
         self.end.extend_from_slice(columns);
+        let (reach, right) = (&self.reach, &self.right);
         for (number, end) in self.end.chunks_exact_mut(stride).enumerate() {
-            let reach = &self.reach;
-            let slope = |j: usize, c: usize| self.right[(j * rates + c) * count + number];
-            for p in 0..positions {
-                let gain: f64 = (0..NODES).map(|j| reach.end_twice[j] * slope(j, p)).sum();
-                end[p] += reach.length * end[positions + p] + gain;
-            }
             for c in 0..rates {
-                let gain: f64 = (0..NODES).map(|j| reach.end_once[j] * slope(j, c)).sum();
-                end[positions + c] += gain;
+                let slopes: Each = array::from_fn(|j| right[(j * rates + c) * count + number]);
+                // The velocity is that of before until its place has gone on with it.
+                if c < positions {
+                    end[c] += reach.length * end[positions + c] + dot(&reach.end_twice, &slopes);
+                }
+                end[positions + c] += dot(&reach.end_once, &slopes);
             }
         }
     }
@@ -297,7 +296,30 @@ struct Reach {
 
 impl Reach {
     fn of(paces: Each) -> Self {
-        let rule = &*RULE;
+        let (rule, [pace, ..]) = (&*RULE, paces);
+        if paces.iter().all(|other| *other == pace) {
+            return rule.even.times(pace);
+        }
+        Self::by(rule, paces)
+    }
+
+    /// Of an even step that is so many times as long.
+    fn times(&self, pace: f64) -> Self {
+        let once = |row: &Each| row.map(|a| pace * a);
+        let twice = |row: &Each| row.map(|a| pace * pace * a);
+        Self {
+            paces: once(&self.paces),
+            once: self.once.each_ref().map(once),
+            twice: self.twice.each_ref().map(twice),
+            time: once(&self.time),
+            length: pace * self.length,
+            end_once: once(&self.end_once),
+            end_twice: twice(&self.end_twice),
+            tail: self.tail.each_ref().map(once),
+        }
+    }
+
+    fn by(rule: &Rule, paces: Each) -> Self {
         let once: [Each; NODES] = array::from_fn(|i| array::from_fn(|j| rule.inner[i][j] * paces[j]));
         let end_once: Each = array::from_fn(|j| SHARES[j] * paces[j]);
         let after =
@@ -315,44 +337,61 @@ impl Reach {
     }
 }
 
-/// Solves a linear system for many right sides, row by row, which it leaves in their place; false where it has no solution.
-fn solve(matrix: &mut [f64], right: &mut [f64], count: usize) -> bool {
-    let size = right.len().checked_div(count).unwrap_or(0);
+/// Numbers that are worked on at once.
+const LANES: usize = 4;
+
+/// Room of a row of a linear system with its right sides: whole lanes.
+fn wide_of(size: usize, count: usize) -> usize {
+    (size + count).next_multiple_of(LANES)
+}
+
+/// Solves a linear system for many right sides, which stand at the end of its rows; false where it has no solution.
+fn solve(system: &mut [f64], size: usize, count: usize, solution: &mut Vec<f64>) -> bool {
+    let wide = wide_of(size, count);
     for k in 0..size {
-        let largest =
-            (k..size).max_by(|a, b| matrix[a * size + k].abs().total_cmp(&matrix[b * size + k].abs()));
-        let pivot = largest.unwrap_or(k);
-        let value = matrix[pivot * size + k];
-        if value == 0.0 || !value.is_finite() {
+        let height = |i: usize| system[i * wide + k].abs();
+        let mut pivot = (k, height(k));
+        for i in k + 1..size {
+            // What is no number counts as the largest.
+            if height(i).total_cmp(&pivot.1).is_gt() {
+                pivot = (i, height(i));
+            }
+        }
+        if pivot.1 == 0.0 || !pivot.1.is_finite() {
             return false;
         }
-        if pivot != k {
-            (k..size).for_each(|j| matrix.swap(pivot * size + j, k * size + j));
-            (0..count).for_each(|j| right.swap(pivot * count + j, k * count + j));
+        let (above, below) = system.split_at_mut((k + 1) * wide);
+        let line = &mut above[k * wide + k..];
+        if let Some(row) = pivot.0.checked_sub(k + 1) {
+            line.swap_with_slice(&mut below[row * wide + k..(row + 1) * wide]);
         }
-        let (above, below) = matrix.split_at_mut((k + 1) * size);
-        let (right_above, right_below) = right.split_at_mut((k + 1) * count);
-        let (line, sides) = (&above[k * size + k + 1..], &right_above[k * count..]);
-        for (row, right) in below.chunks_exact_mut(size).zip(right_below.chunks_exact_mut(count)) {
-            if row[k] == 0.0 {
-                continue;
+        let value = line[0];
+        // In whole lanes: what lies before the pivot is done with.
+        let (lines, _) = above[k * wide..].as_chunks::<LANES>();
+        let from = (k + 1) / LANES;
+        for row in below.chunks_exact_mut(wide) {
+            if row[k] != 0.0 {
+                let factor = row[k] / value;
+                let (row, _) = row.as_chunks_mut::<LANES>();
+                for (row, line) in row[from..].iter_mut().zip(&lines[from..]) {
+                    row.iter_mut().zip(line).for_each(|(x, a)| *x -= factor * a);
+                }
             }
-            let factor = row[k] / value;
-            row[k + 1..].iter_mut().zip(line).for_each(|(x, a)| *x -= factor * a);
-            right.iter_mut().zip(sides).for_each(|(x, a)| *x -= factor * a);
         }
     }
-    for k in (0..size).rev() {
-        let (above, below) = right.split_at_mut((k + 1) * count);
-        let sides = &mut above[k * count..];
-        for (j, solved) in (k + 1..size).zip(below.chunks_exact(count)) {
-            let a = matrix[k * size + j];
-            if a != 0.0 {
-                sides.iter_mut().zip(solved).for_each(|(x, solved)| *x -= a * solved);
-            }
+    solution.clear();
+    solution.resize(size * count, 0.0);
+    for (k, line) in system.chunks_exact(wide).enumerate().rev() {
+        let (row, right) = line.split_at(size);
+        let right = &right[..count];
+        let (rest, below) = solution.split_at_mut((k + 1) * count);
+        let sides = &mut rest[k * count..];
+        sides.copy_from_slice(right);
+        for (a, solved) in row[k + 1..].iter().zip(below.chunks_exact(count)) {
+            sides.iter_mut().zip(solved).for_each(|(x, solved)| *x -= a * solved);
         }
-        let value = matrix[k * size + k];
-        sides.iter_mut().for_each(|x| *x /= value);
+        let share = row[k].recip();
+        sides.iter_mut().for_each(|x| *x *= share);
     }
     true
 }
@@ -366,7 +405,7 @@ mod tests {
     /// ẍ = -ω²x - 2cẋ by its place and by its speed over `steps` of one time unit.
     fn led(steps: u32, graded: bool) -> Vec<f64> {
         let node = Coefficients { matrix: vec![-4.0, -0.2], forcing: Vec::new() };
-        let (nodes, h) = (array::from_fn(|_| node.clone()), f64::from(steps).recip());
+        let (nodes, h) = (vec![node; NODES], f64::from(steps).recip());
         let mut gauss = Gauss::default();
         let mut columns = vec![1.0, 0.0, 0.0, 1.0];
         for k in 0..steps {
@@ -404,7 +443,7 @@ mod tests {
     /// Inside a step a swing is met to a few parts in a million, and at its end as by the step itself.
     #[test]
     fn places_inside_a_step_are_those_of_the_swing() {
-        let nodes = array::from_fn(|_| Coefficients { matrix: vec![-1.0, 0.0], forcing: Vec::new() });
+        let nodes = vec![Coefficients { matrix: vec![-1.0, 0.0], forcing: Vec::new() }; NODES];
         let (mut gauss, mut inside) = (Gauss::default(), Vec::new());
         gauss.attempt(([1.0; NODES], &nodes), ONE, &[1.0, 0.0], &[1.0]);
         for part in [0.1, 0.35, 0.8] {
@@ -418,7 +457,7 @@ mod tests {
     /// Over a swing x = cos t from 0 to 1 the integral of 2x + 3ẋ + t, in closed form.
     #[test]
     fn an_integral_beside_is_that_of_the_swing() {
-        let nodes = array::from_fn(|_| Coefficients { matrix: vec![-1.0, 0.0], forcing: Vec::new() });
+        let nodes = vec![Coefficients { matrix: vec![-1.0, 0.0], forcing: Vec::new() }; NODES];
         let slopes = Gauss::places().map(|t| Coefficients { matrix: vec![2.0, 3.0], forcing: vec![t] });
         let (mut gauss, mut sums) = (Gauss::default(), [0.5]);
         gauss.attempt(([1.0; NODES], &nodes), ONE, &[1.0, 0.0], &[1.0]);

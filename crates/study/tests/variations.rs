@@ -75,7 +75,7 @@ const STEADILY: [(&str, &[&str]); 5] = [
 ];
 /// Scenes whose moments move by a number, and figures of each.
 type Moving = (&'static str, (&'static str, &'static str), &'static str, &'static [&'static str]);
-const MOVING: [Moving; 5] = [
+const MOVING: [Moving; 7] = [
     (
         "p1",
         ("run.cycles", "3"),
@@ -107,6 +107,9 @@ const MOVING: [Moving; 5] = [
         "waveforms.drive.sawtooth.period",
         &["energy.input_J", "energy.elastic_J", "stage.vz_m_s", "stage.vpitch_rad_s", WORK],
     ),
+    // All ten periods: what each step of a variation misses adds up.
+    ("three_ball_stage", WHOLE, "waveforms.drive.sawtooth.period", OF_WHOLE),
+    ("three_ball_stage", WHOLE, "waveforms.drive.sawtooth.flyback", OF_WHOLE),
     (
         "impact_drive",
         ("run.cycles", "2"),
@@ -114,6 +117,9 @@ const MOVING: [Moving; 5] = [
         &["energy.input_J", "energy.damping_J", "energy.kinetic_J", "counter.vx_m_s", WORK],
     ),
 ];
+/// A scene as it is.
+const WHOLE: (&str, &str) = ("title", "drawn");
+const OF_WHOLE: &[&str] = &[FRICTION, WORK, "energy.input_J", "energy.elastic_J", "steps.last_m"];
 /// Scenes with numbers that move the last swings of forces under normals that vary.
 const SWINGING: [(&str, (&str, &str), &str); 5] = [
     ("three_ball_stage", ("run.cycles", "3"), "contacts.front.friction"),

@@ -25,12 +25,22 @@ pub struct Legs {
 impl Legs {
     /// Sense of a piece that an edge made, ±1; none of one that grew in full stick.
     pub fn sense(&self, law: &Interface, piece: usize) -> Option<f64> {
-        let (slope, limit) = (self.slopes.get(piece)?, law.stick_slope());
-        (slope.abs() >= limit * (1.0 - EDGE)).then(|| slope.signum())
+        sense(*self.slopes.get(piece)?, law)
     }
 }
 
+/// Sense of an edge that is so steep; none where it is no edge.
+fn sense(slope: f64, law: &Interface) -> Option<f64> {
+    (slope.abs() >= law.stick_slope() * (1.0 - EDGE)).then(|| slope.signum())
+}
+
 impl Curve {
+    /// Slope of its last piece, and the sense of that as [`Legs::sense`] has it; none of an open contact.
+    pub fn last_piece(&self, law: &Interface) -> Option<(f64, Option<f64>)> {
+        let [.., _, last] = self.knots.as_slice() else { return None };
+        Some((last.slope, sense(last.slope, law)))
+    }
+
     /// Its form.
     pub fn legs(&self) -> Legs {
         let Some(pieces) = self.knots.get(1..) else { return Legs::default() };

@@ -54,7 +54,7 @@ impl<'m> Section<'m> {
             let by_scene = parameters.iter().map(|parameter| {
                 let sense = |piece| legs.sense(&contact.interface, piece).unwrap_or(0.0);
                 let turn = |piece| sense(piece) * parameter.slope(contact.place);
-                lines((&legs, d), None, turn, parameter.moves(contact, state))
+                lines((&legs, d), None, turn, parameter.moves(contact, model, state))
             });
             let by_number: Vec<Vec<[f64; 2]>> = by_state.chain(by_scene).collect();
             let lines =

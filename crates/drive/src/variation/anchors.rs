@@ -10,6 +10,9 @@
 use crate::contact::Contact;
 use stickslip_contact::{Curve, Memory, Profile};
 
+/// Knots that a path of growth is led between.
+const KNOTS: usize = 4;
+
 /// By how much anchors of a memory move, δp(h) = a + bh on each of its pieces, by each number.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Anchors {
@@ -20,6 +23,8 @@ pub(crate) struct Anchors {
     heights: Vec<f64>,
     /// … and δp there, of all numbers, knot by knot.
     grown: Vec<f64>,
+    /// Pieces that are as they were when they were laid out last.
+    kept: usize,
 }
 
 impl Anchors {
@@ -46,20 +51,20 @@ impl Anchors {
         has_edge: bool,
     ) {
         let Memory::Curve(curve) = memory else { return };
-        let legs = curve.legs();
-        let sense = legs.slopes.len().checked_sub(1).and_then(|last| legs.sense(&contact.interface, last));
-        let (slopes, d) = (&legs.slopes, memory.apex().d);
-        let Some((top, below)) = slopes.split_last() else {
-            self.lines.clear();
-            return;
+        let d = memory.apex().d;
+        let Some((top, sense)) = curve.last_piece(&contact.interface) else {
+            return self.keep(0);
         };
+        // Pieces, one less than knots, and those below the last one.
+        let pieces = curve.knot_count() - 1;
+        let below = pieces - 1;
         self.end_growth(curve);
-        if !has_edge && self.pieces() >= slopes.len() {
-            return self.lines.truncate(slopes.len() * self.count);
+        if !has_edge && self.pieces() >= pieces {
+            return self.keep(pieces);
         }
-        self.lines.truncate(below.len() * self.count);
+        self.keep(below);
         // What comes to be below the last piece without having been followed moves with it: pieces of rounding.
-        let mut missing = below.len().saturating_sub(self.pieces());
+        let mut missing = below.saturating_sub(self.pieces());
         let first = moved.len() - steeper.len();
         let turn = |j: usize| {
             sense.zip(j.checked_sub(first)).map_or(0.0, |(sense, parameter)| sense * steeper[parameter])
@@ -72,6 +77,12 @@ impl Anchors {
             }
             missing -= 1;
         }
+    }
+
+    /// Keeps so many pieces, those nearest to the centre.
+    fn keep(&mut self, pieces: usize) {
+        self.lines.truncate(pieces * self.count);
+        self.kept = self.kept.min(pieces);
     }
 
     /// A path of growth begins at a height (m) with the slope dp/dh.
@@ -93,40 +104,71 @@ impl Anchors {
     /// The path has ended: its pieces, up to the knots that the memory has of it, become lines.
     fn end_growth(&mut self, curve: &Curve) {
         let Some(base) = self.heights.first().copied() else { return };
-        let (mut low, mut from) = (base, self.grown_at(base));
-        for (high, _) in curve.knots().filter(|(h, _)| *h > base) {
-            let to = self.grown_at(high);
-            for (from, to) in from.iter().zip(&to) {
-                let slope = (to - from) / (high - low);
-                self.lines.push([from - slope * low, slope]);
-            }
-            (low, from) = (high, to);
+        let (mut low, mut from, mut to) = (base, vec![0.0; self.count], vec![0.0; self.count]);
+        let mut above = 0;
+        self.grown_at(base, above, &mut from);
+        for high in curve.heights_from(curve.above(base)) {
+            // Both ascend.
+            above += self.heights[above..].iter().take_while(|h| **h < high).count();
+            self.grown_at(high, above, &mut to);
+            let rise = high - low;
+            let line = |(from, to): (&f64, &f64)| {
+                let slope = (to - from) / rise;
+                [from - slope * low, slope]
+            };
+            self.lines.extend(from.iter().zip(&to).map(line));
+            low = high;
+            std::mem::swap(&mut from, &mut to);
         }
         self.heights.clear();
         self.grown.clear();
     }
 
-    /// δp of the path at a height, m, by all numbers: the cubic through the four knots about it, or what there are.
-    fn grown_at(&self, height: f64) -> Vec<f64> {
-        let above = self.heights.partition_point(|h| *h < height);
-        let first = above.saturating_sub(2).min(self.heights.len().saturating_sub(4));
-        let about = first..self.heights.len().min(first + 4);
-        let mut sum = vec![0.0; self.count];
-        for k in about.clone() {
-            let at = |i: usize| self.heights[i];
-            let others = about.clone().filter(|i| *i != k);
-            let share: f64 = others.map(|i| (height - at(i)) / (at(k) - at(i))).product();
-            let grown = &self.grown[k * self.count..(k + 1) * self.count];
-            sum.iter_mut().zip(grown).for_each(|(sum, grown)| *sum += share * grown);
+    /// δp of the path at a height, m, by all numbers: the cubic through the four knots about it, or what there are. So many of them are
+    /// below it.
+    fn grown_at(&self, height: f64, below: usize, to: &mut [f64]) {
+        let first = below.saturating_sub(2).min(self.heights.len().saturating_sub(KNOTS));
+        let count = self.count;
+        let grown = &self.grown[first * count..];
+        match &self.heights[first..] {
+            [a, b, c, d, ..] => {
+                let shares = cubic([*a, *b, *c, *d], height);
+                let (left, right) = grown.split_at(2 * count);
+                let ((a, b), (c, d)) = (left.split_at(count), right.split_at(count));
+                let knots = a.iter().zip(b).zip(c.iter().zip(d));
+                for (to, ((a, b), (c, d))) in to.iter_mut().zip(knots) {
+                    *to = shares[0] * a + shares[1] * b + shares[2] * c + shares[3] * d;
+                }
+            }
+            few => {
+                to.fill(0.0);
+                for ((k, at), grown) in few.iter().enumerate().zip(grown.chunks_exact(count)) {
+                    let others = few.iter().enumerate().filter(|(i, _)| *i != k);
+                    let share: f64 = others.map(|(_, other)| (height - other) / (at - other)).product();
+                    to.iter_mut().zip(grown).for_each(|(to, grown)| *to += share * grown);
+                }
+            }
         }
-        sum
     }
+}
+
+/// Lagrange's shares of four knots in what the cubic through them is at x.
+fn cubic([a, b, c, d]: [f64; KNOTS], x: f64) -> [f64; KNOTS] {
+    let (left, right) = ((x - a) * (x - b), (x - c) * (x - d));
+    [
+        (x - b) * right / ((a - b) * (a - c) * (a - d)),
+        (x - a) * right / ((b - a) * (b - c) * (b - d)),
+        left * (x - d) / ((c - a) * (c - b) * (c - d)),
+        left * (x - c) / ((d - a) * (d - b) * (d - c)),
+    ]
 }
 
 /// What the anchors below a height hold, laid out for evaluations between two events.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Held {
     count: usize,
+    /// How many lines stand still below the first that moves.
+    still: usize,
     /// Height, m(h) and M(h) at the foot of each piece.
     feet: Vec<[f64; 3]>,
     lines: Vec<[f64; 2]>,
@@ -137,29 +179,57 @@ pub(super) struct Held {
 impl Held {
     /// Of a contact.
     pub(super) fn of(anchors: &Anchors, contact: &Contact, memory: &Memory) -> Self {
-        let Memory::Curve(curve) = memory else { return Self::default() };
-        let (count, profile) = (anchors.count, contact.interface.profile());
-        // A flat end has springs at the height 0, which the lowest piece holds.
-        let foot = |h: f64| [h, profile.reduced_stiffness(h), profile.reduced_force(h)];
-        let feet: Vec<[f64; 3]> = curve.knots().map(|(h, _)| foot(h)).take(anchors.pieces()).collect();
-        let lines = anchors.lines[..feet.len() * count].to_vec();
-        if lines.iter().all(|line| *line == [0.0; 2]) {
-            return Self::default();
-        }
-        let mut held = Self { count, feet, lines, sums: vec![0.0; count] };
-        for piece in 1..held.feet.len() {
-            for j in 0..count {
-                let sum = held.sums[(piece - 1) * count + j] + held.part(piece - 1, held.feet[piece], j);
-                held.sums.push(sum);
-            }
-        }
+        let mut held = Self::default();
+        held.lay_out(anchors, 0, (contact, memory));
         held
     }
 
-    /// ∫δp dm = a Δm + b Δ(hm - M) from the foot of a piece to a height.
-    fn part(&self, piece: usize, [h, m, force]: [f64; 3], j: usize) -> f64 {
-        let ([low, least, below], [a, b]) = (self.feet[piece], self.lines[piece * self.count + j]);
-        a * (m - least) + b * (h * m - low * least - (force - below))
+    /// Of the contact as it now is, laid out before: what has stayed as it was stays.
+    pub(super) fn renew(&mut self, anchors: &mut Anchors, of: (&Contact, &Memory)) {
+        self.lay_out(anchors, anchors.kept, of);
+        anchors.kept = anchors.pieces();
+    }
+
+    fn lay_out(&mut self, anchors: &Anchors, kept: usize, (contact, memory): (&Contact, &Memory)) {
+        let Memory::Curve(curve) = memory else { return *self = Self::default() };
+        let (count, pieces) = (anchors.count, anchors.pieces());
+        // An edge may have come back to a knot but for rounding: changes lie on top.
+        let mut kept = kept.min(self.feet.len());
+        while kept > 0 && curve.heights_from(kept - 1).next() != Some(self.feet[kept - 1][0]) {
+            kept -= 1;
+        }
+        debug_assert!(self.feet[..kept].iter().zip(curve.heights_from(0)).all(|(foot, h)| foot[0] == h));
+        self.count = count;
+        self.feet.truncate(kept);
+        self.lines.truncate(kept * count);
+        self.sums.truncate(kept * count);
+        // A flat end has springs at the height 0, which the lowest piece holds.
+        let profile = contact.interface.profile();
+        for h in curve.heights_from(kept).take(pieces.saturating_sub(kept)) {
+            self.add([h, profile.reduced_stiffness(h), profile.reduced_force(h)], anchors);
+        }
+        let is_still = |line: &&[f64; 2]| **line == [0.0; 2];
+        let still = self.still.min(kept * count);
+        self.still = still + self.lines[still..].iter().take_while(is_still).count();
+    }
+
+    /// Adds the next piece of anchors by its foot.
+    fn add(&mut self, foot: [f64; 3], anchors: &Anchors) {
+        let (piece, count) = (self.feet.len(), self.count);
+        match piece.checked_sub(1) {
+            Some(below) => {
+                let part = Part::between(self.feet[below], foot);
+                let (from, lines) = (below * count, &self.lines[below * count..]);
+                self.sums.extend_from_within(from..);
+                self.sums[piece * count..]
+                    .iter_mut()
+                    .zip(lines)
+                    .for_each(|(sum, line)| *sum += part.of(line));
+            }
+            None => self.sums.resize(count, 0.0),
+        }
+        self.lines.extend_from_slice(&anchors.lines[piece * count..(piece + 1) * count]);
+        self.feet.push(foot);
     }
 
     /// ∫δp dm over the springs below a height, m², by number `j`.
@@ -169,15 +239,17 @@ impl Held {
 
     /// Where a height lies, asked once for all numbers; none where nothing is held.
     pub(super) fn at(&self, profile: &Profile, height: f64) -> Option<Cut> {
-        let piece = self.feet.partition_point(|[foot, ..]| *foot < height).checked_sub(1)?;
+        let below = || self.feet.partition_point(|[foot, ..]| *foot < height).checked_sub(1);
+        let piece = (self.still < self.lines.len()).then(below).flatten()?;
         let end = [height, profile.reduced_stiffness(height), profile.reduced_force(height)];
-        Some(Cut { piece, end })
+        Some(Cut { piece, part: Part::between(self.feet[piece], end) })
     }
 
     /// ∫δp dm up to there.
     #[inline]
     pub(super) fn sum(&self, at: &Cut, j: usize) -> f64 {
-        self.sums[at.piece * self.count + j] + self.part(at.piece, at.end, j)
+        let place = at.piece * self.count + j;
+        self.sums[place] + at.part.of(&self.lines[place])
     }
 }
 
@@ -185,6 +257,25 @@ impl Held {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cut {
     piece: usize,
-    /// Height, m(h), M(h).
-    pub(super) end: [f64; 3],
+    /// Of that piece, up to the front.
+    part: Part,
+}
+
+/// A part of a piece: ∫δp dm over it is a Δm + b Δ(hm - M).
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    /// Δm and Δ(hm - M).
+    sums: [f64; 2],
+}
+
+impl Part {
+    /// From a height to another, with m and M there.
+    fn between([low, least, below]: [f64; 3], [h, m, force]: [f64; 3]) -> Self {
+        Self { sums: [m - least, h * m - low * least - (force - below)] }
+    }
+
+    #[inline]
+    fn of(&self, [a, b]: &[f64; 2]) -> f64 {
+        a * self.sums[0] + b * self.sums[1]
+    }
 }

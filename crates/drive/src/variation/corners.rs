@@ -54,7 +54,7 @@ impl Variation<'_> {
 
     /// (δu, δd) of a contact by each number where an interval ends or begins, at a corner that moves with them.
     pub(super) fn moved_at_corner(&self, contact: &Contact, at: &State) -> Vec<(f64, f64)> {
-        let mut moved = self.moved(contact, Moment { pieces: &at.pieces, t: at.t });
+        let mut moved = self.moved(contact, Moment::of(self.model, at));
         let Some(corner) = self.corner.as_ref().filter(|corner| !corner.slopes.is_empty()) else {
             return moved;
         };

@@ -59,7 +59,7 @@ impl Variation<'_> {
             rates.input += force * (state.shifts[i] + state.y[i]);
             rates.kinetic += free.mass * v * moved + 0.5 * parameter.mass(i) * v * v;
         }
-        let at = Moment { pieces: &state.pieces, t: state.t };
+        let at = Moment::of(self.model, state);
         for contact in &model.contacts {
             let [normal, tangential] = self.stored(contact, state, (parameter, j, at))?;
             rates.elastic += contact.count * (normal + tangential);
@@ -114,7 +114,7 @@ impl Variation<'_> {
     #[must_use]
     pub fn turn(&self, state: &State, contact: usize, j: usize) -> Option<[f64; 2]> {
         let (contact, parameter) = (self.model.contacts.get(contact)?, self.parameters.get(j)?);
-        let at = Moment { pieces: &state.pieces, t: state.t };
+        let at = Moment::of(self.model, state);
         let eq = Equations::on(self.model, state, self.layout, false);
         let motion = eq.motion(contact, state.t, |i| state.y[i]);
         let (law, (du, dd)) = (&contact.interface, *self.moved(contact, at).get(j)?);
@@ -150,7 +150,7 @@ impl Variation<'_> {
         let (slopes, velocity) = (self.slopes(state), |i: usize| self.layout.velocity(i));
         let view = Components { t: state.t, y: |i: usize| state.y[i] };
         let pull = eq.acceleration(&contact.u, &view, |i| slopes[velocity(i)]);
-        let shift = parameter.shift(contact, Moment { pieces: &state.pieces, t: state.t });
+        let shift = parameter.shift(contact, Moment::of(self.model, state));
         let faster: f64 = contact.u.free.iter().map(|(i, a)| a * column[velocity(*i)]).sum();
         -(faster + shift.du) / pull
     }

@@ -66,14 +66,59 @@ struct Start {
 /// Waveforms on their pieces at a time, s.
 #[derive(Clone, Copy)]
 pub(super) struct Moment<'a> {
+    pub(super) model: &'a Model,
     pub(super) pieces: &'a [Piece],
     pub(super) t: f64,
+    /// How numbers move waveforms there, one number after the other, or the one in question; empty where that is not laid out.
+    pub(super) moving: &'a [Moving],
+}
+
+/// How a number moves a waveform on one piece.
+#[derive(Debug, Clone)]
+pub(super) enum Moving {
+    /// Not at all.
+    Not,
+    /// By what goes straight: the time it is counted from, s, what it is then, and its rate.
+    Straight([f64; 3]),
+    /// As it does on these pieces of the models beside.
+    Curved(Box<[Piece; 4]>),
+    /// By what has to be asked for.
+    Unknown,
+}
+
+impl<'a> Moment<'a> {
+    /// Where a run stands.
+    pub(super) fn of(model: &'a Model, state: &'a State) -> Self {
+        Self { model, pieces: &state.pieces, t: state.t, moving: &[] }
+    }
+
+    /// As the number at this place finds it.
+    pub(super) fn by(self, place: usize) -> Self {
+        let count = self.pieces.len();
+        Self { moving: self.moving.get(place * count..(place + 1) * count).unwrap_or_default(), ..self }
+    }
+
+    /// The waveform itself.
+    fn own(&self, w: usize) -> Sample {
+        self.model.waveforms[w].sample(&self.pieces[w], self.t)
+    }
 }
 
 impl Beside {
     /// The derivative of what a model has at the value.
     fn rate(&self, of: impl Fn(&Model) -> f64) -> f64 {
         self.rate_between(self.models.each_ref().map(of))
+    }
+
+    /// How a waveform on these pieces of theirs moves at a time, s.
+    fn sample(&self, w: usize, pieces: &[Piece; 4], t: f64) -> Sample {
+        let at = |k: usize| self.models[k].waveforms[w].sample(&pieces[k], t);
+        self.sample_between(&[0, 1, 2, 3].map(at))
+    }
+
+    fn sample_between(&self, beside: &[Sample; 4]) -> Sample {
+        let of = |read: fn(&Sample) -> f64| self.rate_between(beside.each_ref().map(read));
+        Sample { value: of(|it| it.value), rate: of(|it| it.rate), acceleration: 0.0 }
     }
 
     /// The same of what all four have.
@@ -130,7 +175,13 @@ impl Parameter {
     }
 
     /// How a run's starting state moves.
-    fn start(&self, plan: &Plan, state: &State) -> Result<Start, VariationError> {
+    fn start(&self, model: &Model, plan: &Plan, state: &State) -> Result<Start, VariationError> {
+        // An equilibrium is dear: none is looked for that is the same.
+        if self.beside.models.iter().all(|other| other.rests_as(model)) {
+            let still = |memory: &Memory| vec![[0.0; 2]; lines(memory).len()];
+            let anchors = state.memories.iter().map(still).collect();
+            return Ok(Start { column: vec![0.0; state.y.len()], anchors, books: [0.0; 2] });
+        }
         let states = self.beside.models.each_ref().map(|model| model.start(plan).ok());
         let [Some(a), Some(b), Some(c), Some(d)] = states else { return Err(VariationError::Form) };
         let states = [a, b, c, d];
@@ -151,14 +202,40 @@ impl Parameter {
         Ok(Start { column, anchors, books })
     }
 
+    /// How each waveform moves on these pieces, from a time on, s.
+    pub(super) fn moving(&self, pieces: &[Piece], from: f64) -> impl Iterator<Item = Moving> {
+        (0..self.waveforms.len()).map(move |w| {
+            if !self.waveforms[w] {
+                return Moving::Not;
+            }
+            let beside = self.beside.models.each_ref().map(|other| other.waveforms[w].piece(pieces[w].index));
+            let [Some(a), Some(b), Some(c), Some(d)] = beside else { return Moving::Unknown };
+            let beside = [a, b, c, d];
+            if beside.iter().any(|piece| piece.line().is_none()) {
+                return Moving::Curved(Box::new(beside));
+            }
+            let Sample { value, rate, .. } = self.beside.sample(w, &beside, from);
+            Moving::Straight([from, value, rate])
+        })
+    }
+
     /// How a waveform moves at a moment.
     pub(super) fn sample(&self, w: usize, at: Moment<'_>) -> Sample {
+        let still = Sample { value: 0.0, rate: 0.0, acceleration: 0.0 };
         if !self.waveforms.get(w).copied().unwrap_or(false) {
-            return Sample { value: 0.0, rate: 0.0, acceleration: 0.0 };
+            return still;
         }
-        let beside = self.beside.models.each_ref().map(|other| sampled(other, w, at));
-        let of = |read: fn(&Sample) -> f64| self.beside.rate_between(beside.each_ref().map(read));
-        Sample { value: of(|it| it.value), rate: of(|it| it.rate), acceleration: 0.0 }
+        match at.moving.get(w) {
+            Some(Moving::Not) => still,
+            Some(Moving::Straight([from, value, rate])) => {
+                Sample { value: value + rate * (at.t - from), rate: *rate, ..still }
+            }
+            Some(Moving::Curved(pieces)) => self.beside.sample(w, pieces, at.t),
+            Some(Moving::Unknown) | None => {
+                let beside = self.beside.models.each_ref().map(|other| sampled(other, w, at));
+                self.beside.sample_between(&beside)
+            }
+        }
     }
 
     /// How the end of a waveform's piece moves, s.
@@ -273,7 +350,7 @@ impl Model {
         parameters: &'m [Parameter],
     ) -> Result<Variation<'m>, VariationError> {
         let (dimension, count) = (self.layout().dimension(), parameters.len());
-        let starts = parameters.iter().map(|parameter| parameter.start(plan, start));
+        let starts = parameters.iter().map(|parameter| parameter.start(self, plan, start));
         let starts = starts.collect::<Result<Vec<_>, _>>()?;
         let columns = starts.iter().flat_map(|start| &start.column[..dimension]).copied().collect();
         let of_contact = |c: usize| {

@@ -1,6 +1,6 @@
 //! Steps of a variation: the linear equations led along the steps of the run.
 
-use super::tangent::Laws;
+use super::tangent::{Laws, Stand};
 use super::{Variation, VariationError};
 use crate::contact::Mode;
 use crate::equations::Equations;
@@ -54,6 +54,10 @@ pub(super) struct Passed {
     pub(super) t: f64,
     pub(super) now: f64,
     pub(super) y: Vec<f64>,
+    /// Where the contacts stand that act.
+    pub(super) stands: Vec<Stand>,
+    /// Rates of all components, where a mass moves.
+    pub(super) slopes: Vec<f64>,
 }
 
 impl Variation<'_> {
@@ -71,12 +75,19 @@ impl Variation<'_> {
         }
     }
 
+    /// How many components a step tells: the forces of growing contacts are some of them; no leap has any.
+    fn known(&self, from: &State) -> usize {
+        if self.components(from).rates > self.layout.free {
+            self.layout.dimension()
+        } else {
+            2 * self.layout.free
+        }
+    }
+
     /// Leads the derivatives along a step of the run, in as many steps as it takes.
     pub(super) fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
-        if !self.parameters.is_empty() {
-            [self.time, _] = stride.at(0.0, &mut self.y[..2 * self.layout.free]);
-        }
-        let grade = self.grade(from, stride);
+        let (grade, begin) = self.grade(from, stride);
+        self.time = begin;
         let (mut at, mut length) = (0.0, 1.0);
         while self.acts() && at < 1.0 {
             // No stub is left for the last step.
@@ -125,43 +136,49 @@ impl Variation<'_> {
             components: self.components(from),
             count: self.count(),
             parameters: self.parameters,
+            moving: &self.moving,
         }
     }
 
-    /// The components of an interval: the forces of growing contacts are led along where one grows.
+    /// The components of an interval: the forces of growing contacts are led along as far as any of these grows.
     pub(super) fn components(&self, from: &State) -> Components {
-        let grows = from.modes.contains(&Mode::Grow);
-        let rates = if grows { self.layout.dimension() - self.layout.free } else { self.layout.free };
-        Components { positions: self.layout.free, rates, stride: self.layout.dimension() }
+        let growing = self.model.contacts.iter().zip(&from.modes).filter(|(_, mode)| **mode == Mode::Grow);
+        let highest = growing.filter_map(|(contact, _)| contact.slot).max();
+        let free = self.layout.free;
+        let rates = highest.map_or(free, |slot| self.layout.force(slot) + 1 - free);
+        Components { positions: free, rates, stride: self.layout.dimension() }
     }
 
     /// How nodes lie in a stride. The stiffness of a contact goes as a root of the height of its slip front: where that comes near the
-    /// centre nodes lie evenly in the root.
-    fn grade(&mut self, from: &State, stride: &mut dyn Stride) -> Grade {
-        let mut y = std::mem::take(&mut self.y);
+    /// centre nodes lie evenly in the root. Also when it begins, s.
+    fn grade(&mut self, from: &State, stride: &mut dyn Stride) -> (Grade, f64) {
+        let (mut y, mut heights) = (std::mem::take(&mut self.y), std::mem::take(&mut self.heights));
         let laws = self.laws(from);
-        let mut heights = |part: f64| -> (f64, Vec<f64>) {
-            let [t, rate] = stride.at(part, &mut y[..2 * self.layout.free]);
-            let height = |c: &usize| {
-                let (contact, (memory, mode)) = (&self.model.contacts[*c], laws.eq.law(*c));
-                let Mode::Slip(branch) = mode else { return 1.0 };
-                let motion = laws.eq.motion(contact, t, |i| y[i]);
-                if branch.is_gross() {
-                    1.0
-                } else {
+        let mut rate = |part: f64, y: &mut [f64]| stride.at(part, &mut y[..2 * self.layout.free]);
+        // Parts of the depth.
+        let height = |c: usize, t: f64, y: &[f64]| {
+            let (contact, (memory, mode)) = (&self.model.contacts[c], laws.eq.law(c));
+            match mode {
+                Mode::Slip(branch) if !branch.is_gross() => {
+                    let motion = laws.eq.motion(contact, t, |i| y[i]);
                     contact.front(memory, branch, &motion).max(0.0) / motion.d
                 }
-            };
-            (rate, self.acting.iter().map(height).collect())
+                _ => 1.0,
+            }
         };
-        let ((first, from), (middle, _), (last, to)) = (heights(0.0), heights(0.5), heights(1.0));
+        let ([_, middle], [begin, first]) = (rate(0.5, &mut y), rate(0.0, &mut y));
+        heights.clear();
+        heights.extend(self.acting.iter().map(|c| height(*c, begin, &y)));
+        let [end, last] = rate(1.0, &mut y);
+        let ends = self.acting.iter().zip(&heights).map(|(c, from)| (*from, height(*c, end, &y)));
+        let lowest = ends.min_by(|a, b| a.1.total_cmp(&b.1));
         let is_even = first.min(last) > SLOW * middle && laws.components.rates == self.layout.free;
-        let lowest = from.into_iter().zip(to).min_by(|a, b| a.1.total_cmp(&b.1));
-        self.y = y;
-        match lowest {
+        (self.y, self.heights) = (y, heights);
+        let grade = match lowest {
             Some((from, to)) if is_even && to < LOW * from => Grade { from, to },
             _ => Grade::EVEN,
-        }
+        };
+        (grade, begin)
     }
 
     /// Tries one step between two parts of a stride and tells what it misses, in natural scales.
@@ -176,16 +193,14 @@ impl Variation<'_> {
         let mut y = std::mem::take(&mut self.y);
         let laws = self.laws(from);
         let components = laws.components;
-        // The forces of growing contacts are components of a step; no leap has any.
-        let known =
-            if components.rates > self.layout.free { self.layout.dimension() } else { 2 * self.layout.free };
+        let known = self.known(from);
         let (mut paces, is_moved) = ([0.0; NODES], !self.parameters.is_empty());
         let each = nodes.iter_mut().zip(&mut passed);
         for ((place, pace), (node, passed)) in Gauss::places().into_iter().zip(&mut paces).zip(each) {
             let (part, steep) = grade.of(place, [begin, end]);
             let [t, rate] = stride.at(begin + part * (end - begin), &mut y[..known]);
             *pace = rate * steep * (end - begin);
-            laws.lay_out((t, &y), node);
+            laws.lay_out((t, &y), node, &mut passed.stands);
             if is_moved {
                 passed.t = t;
                 passed.y.clone_from(&y);

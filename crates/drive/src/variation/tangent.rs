@@ -1,7 +1,7 @@
 //! The linear equations of a variation.
 
 use super::anchors::{Cut, Held};
-use super::parameter::{Moment, Parameter, edge};
+use super::parameter::{Moment, Moving, Parameter, edge};
 use super::steps::Passed;
 use crate::Model;
 use crate::contact::{Contact, Mode, Motion};
@@ -12,7 +12,7 @@ use stickslip_contact::Memory;
 use stickslip_stepper::{Coefficients, Components, System};
 
 /// How the force of one contact changes at a moment.
-#[derive(Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Stiffness {
     /// ∂F_x/∂u and ∂F_x/∂d, N/m.
     along: f64,
@@ -24,12 +24,13 @@ struct Stiffness {
 }
 
 /// Where a contact stands at a moment, as all numbers find it.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Stand {
     pub(super) motion: Motion,
     stiffness: Stiffness,
     /// G\*m(d), N/m.
     whole: f64,
-    /// F_x where it slips, N.
+    /// F_x where it slips and numbers of the scene ask for it, N.
     pub(super) force: f64,
 }
 
@@ -156,11 +157,13 @@ pub(super) struct Laws<'a> {
     /// How many numbers, and those of the scene, which are the last of them.
     pub(super) count: usize,
     pub(super) parameters: &'a [Parameter],
+    /// How these move waveforms.
+    pub(super) moving: &'a [Moving],
 }
 
 impl Laws<'_> {
-    /// The equations at a time, s, and where the motion is then.
-    pub(super) fn lay_out(&self, (t, y): (f64, &[f64]), node: &mut Coefficients) {
+    /// The equations at a time, s, and where the motion is then; and where each contact that acts stands.
+    pub(super) fn lay_out(&self, (t, y): (f64, &[f64]), node: &mut Coefficients, stands: &mut Vec<Stand>) {
         let Components { positions, rates, .. } = self.components;
         let wide = positions + rates;
         node.matrix.clear();
@@ -170,36 +173,45 @@ impl Laws<'_> {
             rows.for_each(|(row, links)| row[..2 * positions].copy_from_slice(links));
         }
         node.forcing.clear();
+        stands.clear();
         for c in self.acting {
             let contact = &self.eq.model.contacts[*c];
-            let motion = self.eq.motion(contact, t, |i| y[i]);
-            self.act(contact, &motion, node);
+            let stand = self.stand(contact, self.eq.motion(contact, t, |i| y[i]), self.is_touched(*c));
+            self.act(contact, &stand, node);
             if let (Some(slot), Mode::Grow) = (contact.slot, self.eq.law(*c).1) {
-                self.grow((contact, slot), &motion, &mut node.matrix);
+                self.grow((contact, slot), &stand.motion, &mut node.matrix);
             }
+            stands.push(stand);
         }
     }
 
     /// Adds what numbers of the scene make of the equations where the motion has passed a node.
-    pub(super) fn move_by_numbers(&self, passed: &Passed, node: &mut Coefficients) {
+    pub(super) fn move_by_numbers(&self, passed: &mut Passed, node: &mut Coefficients) {
         node.forcing.resize(self.components.rates * self.count, 0.0);
-        let (t, y) = (passed.t, &passed.y[..]);
-        let (eq, now) = (&self.eq, Moment { pieces: self.eq.pieces, t: passed.now });
-        let mut slopes = Vec::new();
+        let (eq, now) = (&self.eq, self.moment(passed));
+        let (t, y, slopes) = (passed.t, &passed.y[..], &mut passed.slopes);
         if self.parameters.iter().any(Parameter::weighs) {
             slopes.resize(eq.layout.total(), 0.0);
-            eq.slopes(t, y, &mut slopes);
+            eq.slopes(t, y, slopes);
         }
-        for (j, parameter) in self.numbers() {
-            self.move_by(parameter, (now, (t, y), &slopes), (j, &mut node.forcing));
+        for (place, (j, parameter)) in self.numbers().enumerate() {
+            self.move_by(parameter, (now.by(place), (t, y), slopes), (j, &mut node.forcing));
         }
-        for c in self.acting {
-            // Where a contact stands is asked once for all numbers that move it.
-            if self.parameters.iter().any(|parameter| parameter.touches(*c)) {
-                let contact = &eq.model.contacts[*c];
-                self.move_contact(contact, (now, eq.motion(contact, t, |i| y[i])), &mut node.forcing);
+        for (c, stand) in self.acting.iter().zip(&passed.stands) {
+            if self.is_touched(*c) {
+                self.move_contact(&eq.model.contacts[*c], (now, stand), &mut node.forcing);
             }
         }
+    }
+
+    /// The moment of a node, as waveforms have it.
+    pub(super) fn moment(&self, passed: &Passed) -> Moment<'_> {
+        Moment { model: self.eq.model, pieces: self.eq.pieces, t: passed.now, moving: self.moving }
+    }
+
+    /// Whether numbers of the scene move the force of a contact.
+    fn is_touched(&self, c: usize) -> bool {
+        self.parameters.iter().any(|parameter| parameter.touches(c))
     }
 
     /// Numbers of the scene, with their columns.
@@ -238,11 +250,11 @@ impl Laws<'_> {
     }
 
     /// What all numbers of the scene make of the rates by way of one contact.
-    fn move_contact(&self, contact: &Contact, (now, motion): (Moment<'_>, Motion), forcing: &mut [f64]) {
-        let (model, stand) = (self.eq.model, self.stand(contact, motion));
-        for (j, parameter) in self.numbers().filter(|(_, parameter)| parameter.touches(contact.place)) {
+    fn move_contact(&self, contact: &Contact, (now, stand): (Moment<'_>, &Stand), forcing: &mut [f64]) {
+        let (model, numbers) = (self.eq.model, self.numbers().enumerate());
+        for (place, (j, parameter)) in numbers.filter(|(_, (_, it))| it.touches(contact.place)) {
             let mut add = |row: usize, rate: f64| forcing[row * self.count + j] += rate;
-            let [along, across] = self.pulls(contact, parameter, (now, &stand), &mut add);
+            let [along, across] = self.pulls(contact, parameter, (now.by(place), stand), &mut add);
             let terms = contact.u.free.iter().map(|(i, a)| (*i, a * along));
             let depth = contact.coupling().into_iter().flat_map(|d| &d.free);
             terms
@@ -251,11 +263,11 @@ impl Laws<'_> {
         }
     }
 
-    /// Where a contact stands.
-    pub(super) fn stand(&self, contact: &Contact, motion: Motion) -> Stand {
+    /// Where a contact stands, with its force where that is asked for.
+    pub(super) fn stand(&self, contact: &Contact, motion: Motion, with_force: bool) -> Stand {
         let law = self.eq.law(contact.place);
         let force = match law.1 {
-            Mode::Slip(_) if !contact.inert => contact.force(law, &motion, || 0.0),
+            Mode::Slip(_) if with_force && !contact.inert => contact.force(law, &motion, || 0.0),
             _ => 0.0,
         };
         let stiffness = Stiffness::of(contact, law, &motion);
@@ -295,17 +307,17 @@ impl Laws<'_> {
     }
 
     /// How a contact answers at a moment.
-    pub(super) fn response<'c>(&'c self, contact: &'c Contact, motion: &Motion) -> Response<'c> {
-        let law = self.eq.law(contact.place);
-        let (stiffness, held) = (Stiffness::of(contact, law, motion), &self.held[contact.place]);
+    pub(super) fn response<'c>(&'c self, contact: &'c Contact, stand: &Stand) -> Response<'c> {
+        let (law, stiffness) = (self.eq.law(contact.place), stand.stiffness);
+        let held = &self.held[contact.place];
         let slot = contact.slot.filter(|_| *law.1 == Mode::Grow).map(|slot| self.eq.layout.force(slot));
         let cut = held.at(contact.interface.profile(), stiffness.front);
         Response { contact, stiffness, slot, held, cut }
     }
 
     /// Adds what a contact does to each number's accelerations.
-    fn act(&self, contact: &Contact, motion: &Motion, node: &mut Coefficients) {
-        let response = self.response(contact, motion);
+    fn act(&self, contact: &Contact, stand: &Stand, node: &mut Coefficients) {
+        let response = self.response(contact, stand);
         let wide = self.components.positions + self.components.rates;
         if response.cut.is_some() && node.forcing.is_empty() {
             node.forcing.resize(self.components.rates * self.count, 0.0);

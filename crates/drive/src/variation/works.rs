@@ -29,7 +29,7 @@ pub(super) struct Works {
     /// J, row by row.
     sums: Vec<f64>,
     /// Powers at the nodes of a step.
-    pub(super) powers: [Coefficients; NODES],
+    pub(super) powers: Vec<Coefficients>,
 }
 
 impl Works {
@@ -41,6 +41,7 @@ impl Works {
     /// From here on led along.
     pub(super) fn led(mut self, layout: Layout) -> Self {
         self.sums = vec![0.0; (STORED + layout.growing) * self.count];
+        self.powers = vec![Coefficients::default(); NODES];
         self
     }
 
@@ -75,7 +76,7 @@ impl Works {
     }
 
     /// Room for all sums of a step.
-    pub(super) fn sums(&mut self) -> (&[Coefficients; NODES], &mut [f64]) {
+    pub(super) fn sums(&mut self) -> (&[Coefficients], &mut [f64]) {
         (&self.powers, &mut self.sums)
     }
 
@@ -116,9 +117,10 @@ impl Laws<'_> {
         let at = equations::Components { t, y: |i: usize| y[i] };
         for c in self.acting {
             let contact = &model.contacts[*c];
-            let motion = eq.motion(contact, t, |i| y[i]);
+            let stand = self.stand(contact, eq.motion(contact, t, |i| y[i]), false);
+            let motion = &stand.motion;
             let [along, across] = self.driven(contact, &at).map(|driven| contact.count * driven);
-            let response = self.response(contact, &motion);
+            let response = self.response(contact, &stand);
             if along != 0.0 {
                 response.pull(along, &mut powers.matrix[..wide]);
                 response.hold(along, powers.forcing.get_mut(..self.count));
@@ -152,9 +154,10 @@ impl Laws<'_> {
     /// Adds what numbers of the scene make of the powers.
     fn move_powers(&self, passed: &Passed, powers: &mut Coefficients) {
         let (eq, model, t, y) = (&self.eq, self.eq.model, passed.t, &passed.y[..]);
-        let now = Moment { pieces: eq.pieces, t: passed.now };
+        let now = self.moment(passed);
         let at = equations::Components { t, y: |i: usize| y[i] };
-        for (j, parameter) in self.numbers() {
+        for (place, (j, parameter)) in self.numbers().enumerate() {
+            let now = now.by(place);
             let [mut input, mut damping] = [0.0; 2];
             for (l, link) in model.links.iter().enumerate() {
                 let pull = self.link(link, &at);
@@ -187,13 +190,14 @@ impl Laws<'_> {
         powers: &mut Coefficients,
     ) {
         let at = equations::Components { t, y: |i: usize| y[i] };
-        let stand = self.stand(contact, self.eq.motion(contact, t, |i| y[i]));
+        let stand = self.stand(contact, self.eq.motion(contact, t, |i| y[i]), true);
         let driven = self.driven(contact, &at);
         let growing = contact.slot.filter(|_| *self.eq.law(contact.place).1 == Mode::Grow);
         let force = growing.map_or(stand.force, |slot| y[self.eq.layout.force(slot)]);
         let press = self.pressing(contact, &stand.motion);
-        let own = |(_, parameter): &(usize, &Parameter)| parameter.touches(contact.place);
-        for (j, parameter) in self.numbers().filter(own) {
+        let own = |(_, (_, parameter)): &(usize, (usize, &Parameter))| parameter.touches(contact.place);
+        for (place, (j, parameter)) in self.numbers().enumerate().filter(own) {
+            let now = now.by(place);
             let shift = parameter.shift(contact, now);
             let [along, across] = self.pulls(contact, parameter, (now, &stand), &mut |_, _| ());
             let of_forces = along * driven[0] + across * driven[1];

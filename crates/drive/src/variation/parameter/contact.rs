@@ -3,7 +3,7 @@
 use super::{Beside, Moment, Parameter, sampled};
 use crate::contact::{Contact, Motion, Press};
 use crate::model::Measure;
-use crate::{Model, State};
+use crate::{Model, Sample, State};
 use stickslip_contact::{Memory, Profile};
 
 /// How the constants of a contact move.
@@ -18,7 +18,8 @@ pub(super) struct ContactRates {
     /// κ.
     slope: f64,
     profile: bool,
-    /// Whether what presses it moves otherwise.
+    /// Whether what presses it moves, by its waveform alone or also by the law.
+    follows: bool,
     presses: bool,
     /// Whether anything of it moves.
     any: bool,
@@ -52,13 +53,15 @@ impl ContactRates {
             normal,
             slope: rate(|it| it.interface.stick_slope()),
             profile,
-            presses: moves || profile || normal != 0.0,
+            follows: moves,
+            presses: profile || normal != 0.0,
             any: false,
         };
         let Self { u, d, tangential, slope, presses, .. } = rates;
         let follows = |measure: &Measure| measure.driven.iter().any(|(w, _)| waveforms[*w]);
         let any = [u, d, tangential, slope].iter().any(|rate| *rate != 0.0)
             || presses
+            || moves
             || follows(&contact.u)
             || contact.coupling().is_some_and(follows);
         Self { any, ..rates }
@@ -80,14 +83,20 @@ impl Parameter {
                 let d = |other: &Model| other.contacts[c].pressed(sampled(other, *w, at), None).0;
                 [self.beside.rate(d), 0.0]
             }
+            // As it goes with its waveform it moves with that.
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) if rates.follows => {
+                let moved = Sample { rate: self.sample(*w, at).value, ..at.own(*w) };
+                [contact.pressed(moved, None).1, 0.0]
+            }
             Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => [0.0; 2],
         };
         Shift { u: rates.u + u, d, du, dd }
     }
 
     /// How far a contact is moved, (u, d) in m, at the moment of a state.
-    pub(crate) fn moves(&self, contact: &Contact, state: &State) -> (f64, f64) {
-        let shift = self.shift(contact, Moment { pieces: &state.pieces, t: state.t });
+    pub(crate) fn moves(&self, contact: &Contact, model: &Model, state: &State) -> (f64, f64) {
+        let at = Moment::of(model, state);
+        let shift = self.shift(contact, at);
         (shift.u, shift.d)
     }
 
