@@ -29,8 +29,9 @@ use std::thread::available_parallelism;
 use std::time::Instant;
 use stickslip_contact::Memory;
 
-/// A first stretch, in periods of the fastest swing, over the number of parts: each has its events, and each a row of all.
-const FIRST: f64 = 1.0;
+/// A first stretch, in periods of the fastest swing: so many, or over the square of the number of parts so many. In it each part has
+/// its events, and each of these a row of all.
+const FIRST: [f64; 2] = [64.0, 4096.0];
 /// By how much stretches lengthen while they are little work.
 const GROWTH: f64 = 8.0;
 /// Attempts of a stretch, each with its contacts and springs, with which it is long enough: tens of milliseconds.
@@ -86,7 +87,7 @@ impl<'m> Parted<'m> {
             merged: Merged::new(model),
             begun: Instant::now(),
             // Where nothing swings and no waveform is quick time itself tells.
-            span: (FIRST / model.parts.len().max(1) as f64 * natural).min(plan.duration),
+            span: (FIRST[0].min(FIRST[1] / (model.parts.len() as f64).powi(2)) * natural).min(plan.duration),
             written: 0.0,
             threads: available_parallelism().map_or(1, NonZero::get),
             is_busy: false,
