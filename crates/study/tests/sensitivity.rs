@@ -297,6 +297,19 @@ fn an_event_at_the_very_edge_is_told_from_both_sides() -> Checked {
     Ok(())
 }
 
+/// A lever has no variation: alone it is told by runs, as it is beside a quantity that has one.
+#[test]
+fn where_no_quantity_has_a_variation_runs_tell() -> Checked {
+    let (file, set) = (example("three_ball_stage.json"), [("run.cycles", "1")]);
+    let lever = "contacts.front.at.stage.x";
+    let (_, alone) = taken(&file, &set, &of(&["stage.x_m"], &[lever]))?;
+    let (_, beside) = taken(&file, &set, &of(&["stage.x_m"], &[lever, "bodies.stage.inertia"]))?;
+    let slope = known(&alone.derivatives[0][0])?;
+    assert!(!is_led(slope) && is_led(known(&beside.derivatives[0][1])?));
+    assert_eq!(slope, known(&beside.derivatives[0][0])?);
+    Ok(())
+}
+
 #[test]
 fn any_number_of_cores_tells_the_same() -> Checked {
     let paths = ["contacts.ball.friction", "bodies.slider.mass", "gravity.incline"];

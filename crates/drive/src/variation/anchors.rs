@@ -92,9 +92,9 @@ impl Anchors {
         self.grow(height, slope, moved);
     }
 
-    /// It has come to a knot; what is no higher than the last one is that.
+    /// It has come to a knot; what is no higher than the last one is that. By no number nothing moves.
     pub(super) fn grow(&mut self, height: f64, slope: f64, moved: &[(f64, f64)]) {
-        if self.heights.last().is_some_and(|last| height <= *last) {
+        if moved.is_empty() || self.heights.last().is_some_and(|last| height <= *last) {
             return;
         }
         self.heights.push(height);

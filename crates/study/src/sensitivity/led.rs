@@ -250,6 +250,9 @@ fn led<T>(
     lead: impl Fn(&[&T]) -> Result<Option<Vec<Vec<f64>>>, VariationError>,
 ) -> Slopes {
     let all: Vec<&T> = known.iter().flatten().collect();
+    if all.is_empty() {
+        return known.iter().map(|_| None).collect();
+    }
     let mut found = match lead(&all) {
         Ok(Some(slopes)) => slopes.into_iter().map(Some).collect(),
         Err(VariationError::MovesApart { .. } | VariationError::NotSmooth { .. }) if all.len() > 1 => {
