@@ -2,6 +2,7 @@
 
 mod angle;
 mod chart;
+mod cube_root;
 mod error;
 mod flat;
 mod foundation;

@@ -1,5 +1,6 @@
 //! Power laws g = B|x|ⁿ: closed forms throughout.
 
+use super::cube_root::cube_root;
 use super::error::positive;
 use super::kappa::kappa;
 use super::kind::{Kind, Peak};
@@ -174,7 +175,7 @@ impl Kind for Power {
         let y = reduced_force / self.force_factor;
         match self.root {
             Root::First => (y / self.scale).sqrt(),
-            Root::Second => (y / self.scale * y).cbrt(),
+            Root::Second => cube_root(y / self.scale * y),
             _ => {
                 let n = self.exponent;
                 let h = y.powf(n / (n + 1.0)) / self.scale.powf(1.0 / (n + 1.0));

@@ -9,6 +9,7 @@
 //!
 //! For s → 0 these are the paraboloid's: m = 2√(Rh), M = (4/3)√R h^{3/2}.
 
+use super::cube_root::cube_root;
 use super::error::positive;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
@@ -200,7 +201,7 @@ impl Kind for Sphere {
         // Four steps at most between 1e-6 and 3.8 radii; the rest is for arguments beyond, whose guess may be far off.
         const STEPS: usize = 60;
         let wanted = force / (self.radius * self.radius);
-        let hertz = (0.5625 * wanted * wanted).cbrt();
+        let hertz = cube_root(0.5625 * wanted * wanted);
         let mut eta = if wanted < 1.0 { hertz * (1.0 + hertz / 15.0) } else { 0.5 * (wanted + 1.0) };
         for _ in 0..STEPS {
             let step = (reduced_force(eta) - wanted) / (2.0 * ratio(eta));

@@ -6,6 +6,7 @@ use crate::equations::Equations;
 use crate::interval::Closed;
 use crate::model::Model;
 use crate::state::State;
+use crate::{Piece, Waveform};
 use stickslip_contact::{Branch, FixedDepthBranch, Profile};
 
 /// A contact at constant depth on one branch.
@@ -36,6 +37,8 @@ enum Depth<'a> {
     Constant { d: f64, reduced_force: f64 },
     /// The bodies.
     Coupled(Length<'a>),
+    /// A waveform, on this piece.
+    Prescribed { waveform: &'a Waveform, piece: Piece },
 }
 
 /// Its law.
@@ -71,7 +74,14 @@ impl<'a> Moving<'a> {
         let depth = match &contact.press {
             Press::Constant { d, reduced_force } => Depth::Constant { d: *d, reduced_force: *reduced_force },
             Press::Coupled(measure) => Depth::Coupled(Length::of(measure, model, state)?),
-            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => return None,
+            // One that does not grow may be asked for accelerations alone, which these are not made for.
+            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) if contact.slot.is_none() => {
+                return None;
+            }
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
+                // What a block makes has no piece.
+                Depth::Prescribed { waveform: model.waveforms.get(*w)?, piece: *state.pieces.get(*w)? }
+            }
         };
         let straight = contact.goes_straight(&state.pieces);
         let layout = model.layout();
@@ -107,6 +117,10 @@ impl<'a> Moving<'a> {
                 let press = contact.count * (law.normal_modulus() * reduced_force);
                 sums.apply(&length.row, d.driven, -press);
                 (d.value, d.rate, reduced_force)
+            }
+            Depth::Prescribed { waveform, piece } => {
+                let (d, dd) = contact.pressed(waveform.sample(piece, t), None);
+                (d, dd, law.reduced_force(d))
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };

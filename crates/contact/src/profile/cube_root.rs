@@ -1,0 +1,55 @@
+//! Cube roots: the load of a ball asks for one at every evaluation.
+
+/// A third of the bits of 1, less what makes the first guess of a cube root err as much to either side: by 3.2 %.
+const THIRD: u64 = 0x2a9f_7000_0000_0000;
+/// x^{-1/3} for x from 0.904 to 1.094 within 1.5e-6 of it (Remez's algorithm).
+const CORRECTION: [f64; 4] =
+    [1.731_604_385_595_784, -1.304_638_287_634_387_6, 0.747_786_776_536_794_2, -0.174_754_338_719_011_37];
+/// Half of the first place that is left off, and the places that stay, so that a square of them is exact.
+const PLACES: [u64; 2] = [1 << 26, !((1 << 27) - 1)];
+
+/// ∛x, within 0.7 units of the last place.
+///
+/// Exponent and mantissa over three, one correction by a cubic of t³/x, one step of Halley's, which leaves 1e-18. The same bits on
+/// every machine, and a third of the instructions of a root that is rounded correctly.
+#[inline]
+pub(super) fn cube_root(x: f64) -> f64 {
+    if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&x) {
+        return x.cbrt();
+    }
+    let guess = f64::from_bits(x.to_bits() / 3 + THIRD);
+    let r = guess * guess * (guess / x);
+    let [a, b, c, d] = CORRECTION;
+    let near = guess * (a + r * (b + r * (c + r * d)));
+    let t = f64::from_bits((near.to_bits() + PLACES[0]) & PLACES[1]);
+    let q = x / (t * t);
+    t + t * ((q - t) / (t + t + q))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cubes_have_their_roots() {
+        // The library's are rounded correctly.
+        let mut x = 1e-300_f64;
+        while x < 1e300 {
+            let (root, right) = (cube_root(x), x.cbrt());
+            assert!((root - right).abs() <= f64::EPSILON * right, "{x}: {root} {right}");
+            x *= 1.001_234_567;
+        }
+        for whole in 1..1000_u32 {
+            let whole = f64::from(whole);
+            assert!((cube_root(whole * whole * whole) - whole).abs() == 0.0, "{whole}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_ordinary_number_goes_to_the_library() {
+        for x in [0.0, -8.0, 1e-310, f64::INFINITY, f64::MIN_POSITIVE] {
+            assert!((cube_root(x) - x.cbrt()).abs() <= f64::EPSILON * x.abs() || cube_root(x) == x, "{x}");
+        }
+        assert!(cube_root(f64::NAN).is_nan());
+    }
+}
