@@ -193,12 +193,10 @@ impl Held {
     fn lay_out(&mut self, anchors: &Anchors, kept: usize, (contact, memory): (&Contact, &Memory)) {
         let Memory::Curve(curve) = memory else { return *self = Self::default() };
         let (count, pieces) = (anchors.count, anchors.pieces());
-        // An edge may have come back to a knot but for rounding: changes lie on top.
-        let mut kept = kept.min(self.feet.len());
-        while kept > 0 && curve.heights_from(kept - 1).next() != Some(self.feet[kept - 1][0]) {
-            kept -= 1;
-        }
-        debug_assert!(self.feet[..kept].iter().zip(curve.heights_from(0)).all(|(foot, h)| foot[0] == h));
+        // An edge may have come back to a knot but for rounding, and a knot may have moved below others: heights tell.
+        let alike =
+            self.feet.iter().zip(curve.heights_from(0)).take(kept).take_while(|(foot, h)| foot[0] == *h);
+        let kept = alike.count();
         self.count = count;
         self.feet.truncate(kept);
         self.lines.truncate(kept * count);

@@ -32,6 +32,11 @@ use way::Way;
 const SAFETY: f64 = 0.8;
 /// What of the difference of a step and its halves is the error of the halves.
 const THIRD: f64 = 1.0 / 3.0;
+/// Longest step, rad of the fastest swing: a longer one and its halves may agree by accident.
+const LONGEST: f64 = 0.1;
+/// Where another swing is far faster than that of the contact whose events accumulate, a step may be this part of the detour: its
+/// error tells then, and not the swing.
+const PART: f64 = 0.125;
 /// Shortest step, as a part of the detour: where that is too long there is no way on …
 const SHORTEST: f64 = 1e-10;
 /// … but where damped springs stick and slip in turn the law itself jumps, and the motion slides along the jump: no shorter step
@@ -185,7 +190,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let from = state.t;
         let bound = detour.end.min(self.horizon.next());
         let left = bound - from;
-        let to = match detour.step.min(self.motion.longest(from)) {
+        let agreed = (LONGEST / self.setting.model.fastest).max(PART * detour.length);
+        let to = match detour.step.min(self.motion.longest(from)).min(agreed) {
             step if step >= 0.999 * left => bound,
             step if 2.0 * step > left => from + 0.5 * left,
             step => from + step,

@@ -99,15 +99,15 @@ fn named<T>(name: &str, part: T) -> Named<T> {
     Named { name: name.to_owned(), part }
 }
 
-/// A slider on a foot that follows the shuttle.
-fn scene() -> Option<Scene> {
+/// A slider on a foot that follows the shuttle, pressed by a load in N.
+fn scene(load: f64) -> Option<Scene> {
     let steel = Pair::new(Material::new(210e9, 0.3).ok()?, Material::new(210e9, 0.3).ok()?);
     let interface = Interface::new(steel, Profile::paraboloid(1e-3).ok()?, 0.15).ok()?;
     let contact = Contact {
         between: [Side::Body(0), Side::Body(1)],
         at: [Point::default(); 2],
         interface,
-        normal: Normal::Force(Varying::Constant(1.0)),
+        normal: Normal::Force(Varying::Constant(load)),
         gap: 0.0,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
@@ -138,7 +138,7 @@ fn run(model: &Model, whole: bool) -> Option<(f64, Vec<f64>)> {
     if whole {
         let LocatedRun::General(located) = &mut run else { return None };
         located.settle_books(&mut state);
-        located.detour = Some(Detour { end: f64::MAX, length: PERIOD, step: 1e-4 * PERIOD });
+        located.detour = Some(Detour { end: f64::MAX, length: PERIOD / 64.0, step: 1e-4 * PERIOD });
         located.take_whole(&mut state);
     }
     run.go(&mut state, Goal::End(plan.duration), &mut trace).ok()?;
@@ -148,13 +148,16 @@ fn run(model: &Model, whole: bool) -> Option<(f64, Vec<f64>)> {
 
 #[test]
 fn a_block_turns_on_a_detour_when_it_should() {
-    let model = scene().and_then(|scene| Model::new(&scene).ok());
-    let both = model.as_ref().map(|model| [false, true].map(|whole| run(model, whole)));
-    let Some([Some((located, _)), Some((place, turns))]) = both else { panic!("both end") };
-    assert_eq!(turns.len(), 6, "{turns:?}");
-    for (n, t) in turns.into_iter().enumerate() {
-        let exact = (0.25 + 0.5 * n as f64) * PERIOD;
-        assert!((t - exact).abs() < 1e-11 * PERIOD, "{n}: {t:e} {exact:e}");
+    // By steps of any length, some of which agreed with their halves by accident, places were up to 1.7e-2 of the reach off.
+    for load in (0..12).map(|n| 1.0 + 1e-4 * f64::from(n)) {
+        let model = scene(load).and_then(|scene| Model::new(&scene).ok());
+        let both = model.as_ref().map(|model| [false, true].map(|whole| run(model, whole)));
+        let Some([Some((located, _)), Some((place, turns))]) = both else { panic!("both end") };
+        assert_eq!(turns.len(), 6, "{turns:?}");
+        for (n, t) in turns.into_iter().enumerate() {
+            let exact = (0.25 + 0.5 * n as f64) * PERIOD;
+            assert!((t - exact).abs() < 1e-11 * PERIOD, "{n}: {t:e} {exact:e}");
+        }
+        assert!((place - located).abs() < 1e-4 * REACH, "{load}: {place:e} {located:e}");
     }
-    assert!((place - located).abs() < 1e-5 * REACH, "{place:e} {located:e}");
 }
