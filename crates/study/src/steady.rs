@@ -91,7 +91,7 @@ pub struct Steady {
     pub model: Model,
     /// The fixed point: a run from here repeats itself.
     pub state: State,
-    /// Floquet multipliers, the largest first. Drifts have none.
+    /// Floquet multipliers, the largest first. Drifts have none. None are told where contacts are [`Self::holding`].
     pub multipliers: Vec<Multiplier>,
     /// Ways along which nothing changes but the place: each would have a multiplier of 1.
     pub drifts: usize,
@@ -129,10 +129,31 @@ impl Steady {
         self.step.map(|step| step / self.period)
     }
 
-    /// Largest magnitude of a multiplier; 0 without any.
+    /// Largest magnitude of a multiplier; 0 without any, NaN where they are not known.
     #[must_use]
     pub fn radius(&self) -> f64 {
-        self.multipliers.first().map_or(0.0, Multiplier::modulus)
+        let none = if self.holding().is_empty() { 0.0 } else { f64::NAN };
+        self.multipliers.first().map_or(none, Multiplier::modulus)
+    }
+
+    /// Contacts that hold all through and whose memories are no numbers of the map. A body that they hold swings about what they
+    /// remember: of that swing the map knows half at most, so with any of them there are no multipliers.
+    #[must_use]
+    pub fn holding(&self) -> Vec<usize> {
+        self.carried.iter().copied().filter(|c| self.shaken_down.contains(c)).collect()
+    }
+
+    /// Why it is not known how a disturbance fades, where that is so.
+    #[must_use]
+    pub fn doubt(&self) -> Option<String> {
+        let holding = self.named(&self.holding());
+        match &holding[..] {
+            [] => None,
+            [name] => Some(format!("{name} never slips grossly, and its memory is led along")),
+            names => {
+                Some(format!("{} never slip grossly, and their memories are led along", names.join(", ")))
+            }
+        }
     }
 
     /// How many periods of a waveform, s, there are in one of the motion, the common one of all waveforms.
@@ -146,11 +167,12 @@ impl Steady {
         self.multipliers.iter().all(|multiplier| multiplier.kind() != Kind::Grows)
     }
 
-    /// Whether a run that is disturbed a little comes back; none where a disturbance neither fades nor grows.
+    /// Whether a run that is disturbed a little comes back; none where a disturbance neither fades nor grows, or where that is not
+    /// known.
     #[must_use]
     pub fn comes_back(&self) -> Option<bool> {
         let stays = self.multipliers.iter().any(|multiplier| multiplier.kind() == Kind::Stays);
-        if self.is_stable() && stays { None } else { Some(self.is_stable()) }
+        if self.is_stable() && stays || !self.holding().is_empty() { None } else { Some(self.is_stable()) }
     }
 }
 
@@ -177,7 +199,16 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     if let (Some(Loose::Flies), Some(body)) = (loose, body) {
         return Err(SteadyError::Flies { body: body.name.clone(), periods: map.work() });
     }
+    let holds = |section: &Section<'_>| section.carried().iter().any(|c| never_gave_way.contains(c));
+    let creeps = match map.section().is_some_and(holds) {
+        true => moment::creep(&mut map, &fixed, figures)?,
+        false => 0.0,
+    };
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
+    let multipliers = match holds(section) {
+        true => Vec::new(),
+        false => multiplier::of(&bound.gradient.numbers, bound.gradient.error(options.tolerance)),
+    };
     // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
     // along, has still to come.
     let slides = |c: usize| section.slides(&fixed.image.way, c).abs();
@@ -187,8 +218,8 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         begins: endless.begins,
         tolerance: options.tolerance,
         step: figures.and_then(|body| section.of_body(&fixed.image.way, body, Axis::X)),
-        bound: bound.step + slid,
-        multipliers: multiplier::of(&bound.gradient.numbers, bound.gradient.error(options.tolerance)),
+        bound: bound.step + slid.max(creeps),
+        multipliers,
         drifts: section.drifts(),
         unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),
         carried: section.carried().to_vec(),

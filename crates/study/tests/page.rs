@@ -33,7 +33,8 @@ fn table() -> Result<String, Box<dyn Error>> {
         let job = Job::prepare(&root().join(format!("scenarios/{name}.json")), &[], Path::new(""))?;
         let found = steady::find(&job, &Options::default())?;
         let step = quantity(Real(found.step.ok_or("a step")?), "m");
-        let words = found.multipliers.first().map(steady::Multiplier::words).unwrap_or_default();
+        let doubt = || found.doubt().map(|doubt| format!("is not known: {doubt}")).unwrap_or_default();
+        let words = found.multipliers.first().map_or_else(doubt, steady::Multiplier::words);
         let shaken = if found.shaken_down.is_empty() { "" } else { "; a shakedown" };
         let (unknowns, work) = (found.unknowns.len(), found.work);
         writeln!(table, "| `{name}.json` | {step} | {unknowns} | {work} | {words}{shaken} |")?;

@@ -17,9 +17,12 @@ pub(super) const STEADY: &[Definition] = &[
     key("speed_m_s", "step over period"),
     key(
         "stable",
-        "whether a run that is disturbed a little comes back; left out where a disturbance neither fades nor grows",
+        "whether a run that is disturbed a little comes back; left out where a disturbance neither fades nor grows, and where a contact never slips grossly whose memory is `carried`: of that no multipliers are told",
     ),
-    key("radius", "ρ, largest magnitude of a multiplier; 0 where there is none"),
+    key(
+        "radius",
+        "ρ, largest magnitude of a multiplier; 0 where there is none, null where they are not known",
+    ),
     key(
         "multipliers.re",
         "real part of a Floquet multiplier, the largest first; of a pair one stands for both",

@@ -171,7 +171,8 @@ impl Way {
         Ok(())
     }
 
-    /// After how many periods the last state comes back, away from the motion that it has left.
+    /// After how many periods the states come back, away from the motion that has been left: all of one round, each to where it
+    /// was a round before. A beat that fades passes near itself now and then.
     fn repeats(&self, map: &Map<'_>, (left, far): (&State, f64)) -> Option<usize> {
         let last = self.states.len() - 1;
         let apart = |k: usize, back: usize| -> Option<f64> {
@@ -179,18 +180,27 @@ impl Way {
         };
         let has_left = |k: usize| map.difference(&self.states[k], left).is_none_or(|off| off.amax() > far);
         // What is still to come of the way there, by its last two parts.
-        let to_come = |back: usize| -> Option<f64> {
-            let [now, before] = [apart(last, back)?, apart(last.checked_sub(back)?, back)?];
+        let to_come = |k: usize, back: usize| -> Option<f64> {
+            let [now, before] = [apart(k, back)?, apart(k.checked_sub(back)?, back)?];
             Some(if now <= ROUNDING { 0.0 } else { now / (1.0 - now / before).max(0.0) })
         };
-        // What changes sides on its way comes back after two periods before it does after one.
-        let is_falling = |part: usize, back: usize| {
-            let [now, before] = [Some(last), last.checked_sub(back)].map(|k| apart(k?, part));
-            now.zip(before).is_some_and(|(now, before)| now > ROUNDING && now < FALLING * before)
+        let comes_back = |back: usize| {
+            (0..back)
+                .all(|k| last.checked_sub(k).and_then(|k| to_come(k, back)).is_some_and(|left| left <= NEAR))
         };
-        let comes_back = |back: usize| to_come(back).is_some_and(|left| left <= NEAR);
         let back = (1..=MOST).find(|back| comes_back(*back))?;
-        let shorter = (1..back).any(|part| back % part == 0 && is_falling(part, back));
+        // What changes sides on its way comes back after two periods before it does after one, and a beat after as many as it has
+        // before it has faded.
+        let widest = |before: usize, part: usize| -> Option<f64> {
+            let moments = (0..MOST).map(|k| apart(last.checked_sub(before + k)?, part));
+            moments.collect::<Option<Vec<_>>>().map(|apart| apart.into_iter().fold(0.0, f64::max))
+        };
+        let is_falling = |part: usize| match (widest(0, part), widest(MOST, part)) {
+            (Some(now), Some(before)) => now > ROUNDING && now < FALLING * before,
+            // Too early to tell.
+            _ => true,
+        };
+        let shorter = (1..back).any(|part| back % part == 0 && is_falling(part));
         (!shorter && (0..back).any(|k| has_left(last - k))).then_some(back)
     }
 }

@@ -5,9 +5,10 @@
 //! between two of them is looked at.
 
 use super::SteadyError;
-use super::map::Map;
+use super::map::{Image, Map};
 use super::newton::Fixed;
 use crate::grip::{Grip, Loose};
+use stickslip_drive::scene::Axis;
 use stickslip_drive::{Event, EventKind, Model, Record, Source, State};
 
 /// Stretches that are looked at, the longest first.
@@ -16,6 +17,9 @@ const MOST: usize = 256;
 const AGAIN: f64 = 1e6;
 /// Most of it, in natural scales.
 const OFF: f64 = 1e-3;
+/// Plain periods after which a step has to be the same, and by which share of it it may differ.
+const LASTING: u32 = 16;
+const LASTS: f64 = 1e-3;
 /// Shorter ones are too near to an event on either side, as a part of the period.
 const SHORTEST: f64 = 1e-4;
 
@@ -127,6 +131,22 @@ pub(super) fn twice(
     }
     let never_gave_way = (0..contacts).filter(|c| !moments.gave_way[*c]).collect();
     Ok((never_gave_way, loose))
+}
+
+/// What the step of a motion may still be to lose, m, of which a contact that never gives way remembers what is no number of the
+/// map: all of it where it has changed after some plain periods more. A drive that walks by partial slip keeps it.
+pub(super) fn creep(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Result<f64, SteadyError> {
+    let step = |map: &Map<'_>, image: &Image| {
+        body.zip(map.section()).and_then(|(body, at)| at.of_body(&image.way, body, Axis::X)).unwrap_or(0.0)
+    };
+    let (own, mut state) = (step(map, &fixed.image), fixed.image.state.clone());
+    let mut last = own;
+    for _ in 0..LASTING {
+        let image = map.image(&state, 1.0)?;
+        last = step(map, &image);
+        state = image.state;
+    }
+    Ok(if (last - own).abs() > LASTS * own.abs() { own.abs() } else { 0.0 })
 }
 
 /// Stretches between two events as (middle, length), s, by their middle; those that are too short are left out.

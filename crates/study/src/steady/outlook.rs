@@ -38,8 +38,13 @@ impl Steady {
             radius: Real(self.radius()),
             beat: largest.and_then(super::Multiplier::beat).map(Real),
             fold: largest.and_then(super::Multiplier::periods).map(Real),
-            words: largest.map_or_else(|| "is gone after a period".to_owned(), super::Multiplier::words)
-                + &led,
+            words: match self.doubt() {
+                None => {
+                    largest.map_or_else(|| "is gone after a period".to_owned(), super::Multiplier::words)
+                        + &led
+                }
+                Some(doubt) => format!("fades or stays, which is not known: {doubt}"),
+            },
             carried,
             shaken_down: self.named(&self.shaken_down),
         })

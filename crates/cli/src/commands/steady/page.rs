@@ -46,11 +46,14 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
 /// Whether a run stays.
 fn stable(found: &Steady) -> String {
     let radius = format!("{:.6}", found.radius());
-    match found.comes_back() {
-        Some(false) => format!("no: a run leaves this motion, largest |λ| {radius}"),
-        None => format!("neither: a disturbance stays as it is, largest |λ| {radius}"),
-        Some(true) if found.radius() == 0.0 => "yes".to_owned(),
-        Some(true) => format!("yes, largest |λ| {radius}"),
+    match (found.comes_back(), found.doubt()) {
+        (Some(false), _) => {
+            format!("no: a run leaves this motion, largest |λ| {radius}; there may be others like it")
+        }
+        (None, Some(doubt)) => format!("not known: {doubt}"),
+        (None, None) => format!("neither: a disturbance stays as it is, largest |λ| {radius}"),
+        (Some(true), _) if found.radius() == 0.0 => "yes".to_owned(),
+        (Some(true), _) => format!("yes, largest |λ| {radius}"),
     }
 }
 
