@@ -97,3 +97,36 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("p1", &["--set", "run.limits.steps=100"], (3, "its own run stopped"));
     refused("bouncing_ball", &["--steady"], (2, "nothing to be steady with"));
 }
+
+/// Finished derivatives are not lost to those that somebody ends, which stand beside them until the next are finished.
+#[cfg(unix)]
+#[test]
+fn interrupted_derivatives_leave_finished_ones() {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::{Command, Stdio};
+    let root = tempdir().unwrap();
+    let out = root.path().join("out");
+    let short = ["--of", "energy.friction_J", "--to", "contacts.front.friction"];
+    assert_eq!(code(&sensitivity("three_ball_stage", &out, &short)), 0);
+    let read = |name: &str| std::fs::read(out.join(name)).unwrap();
+    let all = ["sensitivity.csv", "sensitivity.json", "sensitivity.png"];
+    let finished = all.map(read);
+    let mut command = stickslip();
+    command.arg("sensitivity").arg(scenario("three_ball_stage")).arg("--out").arg(&out);
+    command.args(["--tolerance", "1e-13", "--threads", "1", "--of", "contacts.front.peak_fx_N"]);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut said = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    said.read_line(&mut line).unwrap();
+    assert!(line.starts_with("three_ball_stage: derivatives, "), "{line}");
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    said.read_to_string(&mut line).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{line}");
+    assert_eq!(all.map(read), finished);
+    let partial: Value = serde_json::from_slice(&read("sensitivity-partial.json")).unwrap();
+    assert_eq!(partial["status"], "interrupted");
+    assert!(Table::read(&out.join("sensitivity-partial.csv")).column("note").contains(&"not run"));
+    assert!(out.join("sensitivity-partial.png").exists());
+    assert_eq!(code(&sensitivity("three_ball_stage", &out, &short)), 0);
+    assert_eq!(listing(&out), all);
+}

@@ -5,16 +5,17 @@ use crate::pictures::FigureError;
 use stickslip_plot::{BranchCourse, Stretch, branch_figure};
 use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_results::{Real, quantity};
+use stickslip_study::steady::Multiplier;
 use stickslip_study::steady::continuation::{Branch, Continuation, Mark, Point};
 
-/// Name of the picture.
-const NAME: &str = "branch";
+/// Name of the picture, and of that of a branch that was interrupted, beside which a finished one stays.
+const NAMES: [&str; 2] = ["branch", "branch-partial"];
 /// Multipliers that are drawn.
 const MOST: usize = 4;
 
-/// Names of all files that any look gives to it.
-pub fn all_files() -> Vec<String> {
-    Look::all_files_of(&[NAME])
+/// Names of all files that any look gives to it, and that go where it is written: a whole branch takes the place of both.
+pub fn all_files(is_cut: bool) -> Vec<String> {
+    Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
 
 /// Draws it: steps over what is varied, and |λ| of the largest multipliers.
@@ -36,10 +37,11 @@ pub fn draw(of: &Continuation, branch: &Branch, look: &Look) -> Result<Vec<Pictu
         stretches: stretches(branch),
         marks: marks(of, branch),
     };
-    let title = format!("{}: steady motions", of.job.title());
+    let cut = if branch.is_cut() { " (interrupted)" } else { "" };
+    let title = format!("{}: steady motions{cut}", of.job.title());
     let pen = Pen { look, provenance, kept: None };
-    pen.draw_as(NAME, branch_figure(&title, &course))
-        .map_err(|source| FigureError::Plot { plot: NAME, source })
+    let plot = NAMES[usize::from(branch.is_cut())];
+    pen.draw_as(plot, branch_figure(&title, &course)).map_err(|source| FigureError::Plot { plot, source })
 }
 
 /// Motions of one kind along the branch. Where the kind changes, one stretch ends and the next begins at the place that was closed in
@@ -74,12 +76,16 @@ struct Place {
 
 impl Place {
     fn of(point: &Point) -> Self {
-        let modulus =
-            |place: usize| point.multipliers.get(place).map_or(f64::NAN, |multiplier| multiplier.modulus());
+        // A pair is told once and is two: where two real ones become a pair no line ends or falls to the next.
+        let each = |multiplier: &Multiplier| {
+            let count = if multiplier.im == 0.0 { 1 } else { 2 };
+            std::iter::repeat_n(multiplier.modulus(), count)
+        };
+        let mut moduli = point.multipliers.iter().flat_map(each);
         Self {
             value: point.value,
             step: point.step.unwrap_or(f64::NAN),
-            moduli: std::array::from_fn(modulus),
+            moduli: std::array::from_fn(|_| moduli.next().unwrap_or(f64::NAN)),
         }
     }
 
@@ -131,7 +137,6 @@ fn marks(of: &Continuation, branch: &Branch) -> Vec<(String, Vec<[f64; 2]>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stickslip_study::steady::Multiplier;
     use stickslip_study::steady::continuation::{Bifurcation, End};
 
     /// A doubling at 2.5 between motions at 2 and 4: both stretches meet at it, and a quarter of the way on |λ| = 1.

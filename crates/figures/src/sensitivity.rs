@@ -6,17 +6,17 @@ use stickslip_plot::{Bar, Tornado, tornado_figure};
 use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_study::sensitivity::{Sensitivity, Taken};
 
-/// Name of the picture.
-const NAME: &str = "sensitivity";
+/// Name of the picture, and of that of derivatives that were interrupted, beside which a finished one stays.
+const NAMES: [&str; 2] = ["sensitivity", "sensitivity-partial"];
 /// Most bars of a figure, and most figures: the rest stands in the table.
 const BARS: usize = 12;
 const FIGURES: usize = 6;
 /// Errors that are worth a word beside a bar, as a share of the longest.
 const DOUBT: f64 = 0.01;
 
-/// Names of all files that any look gives to it.
-pub fn all_files() -> Vec<String> {
-    Look::all_files_of(&[NAME])
+/// Names of all files that any look gives to it, and that go where it is written: a whole one takes the place of both.
+pub fn all_files(is_cut: bool) -> Vec<String> {
+    Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
 
 /// Draws it: of each figure by how many per cent it changes with one per cent of each quantity.
@@ -46,8 +46,14 @@ pub fn draw((asked, taken): (&Sensitivity, &Taken), look: &Look) -> Result<Vec<P
             Tornado { name: &figure.name, axis, bars: bars.collect(), absence: "no elasticity is known" }
         })
         .collect();
-    let figure = tornado_figure(asked.job.title(), &tornados);
-    pen.draw_as(NAME, figure).map_err(|source| FigureError::Plot { plot: NAME, source })
+    let is_cut = taken.is_cut();
+    let mut title = asked.job.title().to_owned();
+    if is_cut {
+        let all = asked.figures.len() * asked.quantities.len();
+        title.push_str(&format!(" (interrupted: {} of {all} derivatives)", all - taken.faults()));
+    }
+    let (plot, figure) = (NAMES[usize::from(is_cut)], tornado_figure(&title, &tornados));
+    pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
 }
 
 /// The bars of a figure and their errors, the longest first.

@@ -31,10 +31,14 @@ pub const CURVE: &str = "curve.json";
 pub const PARTIAL_CURVE: &str = "curve-partial.json";
 /// By how much figures change with the numbers of a scenario.
 pub const SENSITIVITY: &str = "sensitivity.json";
+/// The same where that was interrupted: what was finished stays beside it.
+pub const PARTIAL_SENSITIVITY: &str = "sensitivity-partial.json";
 /// The steady motion of a drive, found without a run.
 pub const STEADY: &str = "steady.json";
 /// Steady motions one after another, as a number of a scenario changes.
 pub const BRANCH: &str = "branch.json";
+/// The same of a branch that was interrupted: a finished one stays beside it.
+pub const PARTIAL_BRANCH: &str = "branch-partial.json";
 
 /// Columns of [`SPRINGS`].
 pub(crate) const SPRING_HEAD: &[&str] =

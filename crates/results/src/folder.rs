@@ -11,16 +11,28 @@ pub use drafts::{draft, sweep, sweep_left};
 
 use crate::checkpoint;
 use crate::disk::{Disk, System};
-use crate::files::{BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY, STEADY, SUMMARY};
+use crate::files::{
+    BRANCH, CURVE, PARTIAL_BRANCH, PARTIAL_CURVE, PARTIAL_SENSITIVITY, SENSITIVITY, STEADY, SUMMARY,
+};
 use crate::theory::CONTACT;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, of a branch of them, of a curve of a
-/// machine, whole or not, and of derivatives.
-const SUMMARIES: [&str; 7] = [SUMMARY, CONTACT, STEADY, BRANCH, CURVE, PARTIAL_CURVE, SENSITIVITY];
+/// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, and of a branch of them, a curve of a
+/// machine and derivatives, whole or not.
+const SUMMARIES: [&str; 9] = [
+    SUMMARY,
+    CONTACT,
+    STEADY,
+    BRANCH,
+    PARTIAL_BRANCH,
+    CURVE,
+    PARTIAL_CURVE,
+    SENSITIVITY,
+    PARTIAL_SENSITIVITY,
+];
 
 /// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
 /// the end: after a crash there is the old file or the whole new one.

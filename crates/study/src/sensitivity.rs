@@ -22,7 +22,7 @@ pub use error::SensitivityError;
 pub use figure::Figure;
 pub use quantity::Quantity;
 pub use sample::Missing;
-pub use table::{TABLE, csv, json, write};
+pub use table::{all_files, csv, json, write};
 
 use crate::each::each;
 use derivative::Near;
@@ -268,6 +268,17 @@ impl Taken {
             .flatten()
             .filter(|derivative| matches!(derivative, Derivative::Unknown(_)))
             .count()
+    }
+
+    /// Whether it was interrupted: runs are missing that some of them hang on.
+    #[must_use]
+    pub fn is_cut(&self) -> bool {
+        let is_missing = |slope: &Result<Slope, Missing>| matches!(slope, Err(Missing::NotRun));
+        self.derivatives.iter().flatten().any(|derivative| match derivative {
+            Derivative::Known(_) => false,
+            Derivative::Split { below, above, .. } => is_missing(below) || is_missing(above),
+            Derivative::Unknown(missing) => *missing == Missing::NotRun,
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! The command line of the curves of a machine.
 
-use crate::arguments::{assignment, look::LookArguments};
+use crate::arguments::{assignment, course, look::LookArguments};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
@@ -56,7 +56,7 @@ pub(crate) struct CharacteriseArguments {
     #[arg(long, value_name = "NAME", value_parser = curves(), required_unless_present = "vary")]
     pub(crate) curve: Option<CurveName>,
     /// Step, or holding force, over a number of the scenario in a range, such as contacts.ball.friction=0.1..0.6; units at both ends or at none
-    #[arg(long, value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = assignment, conflicts_with = "range")]
+    #[arg(long, value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = course, conflicts_with = "range")]
     pub(crate) vary: Option<(String, String)>,
     /// In which range, such as "10 Hz..5 kHz", units at both ends or at none [default: about what the scenario has]
     #[arg(long, value_name = "FROM..TO", allow_hyphen_values = true)]

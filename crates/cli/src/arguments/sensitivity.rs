@@ -22,7 +22,8 @@ what only says how the run is run; others are named by --to.
 
 Writes sensitivity.csv, sensitivity.json and the picture sensitivity.png into results/NAME-sensitivity. The same bytes for any number \
 of threads. Exit codes: 0 done, 2 bad input, 3 the scenario's own run stops or has no steady motion, no derivative is known, or the \
-files cannot be written, 130 interrupted; the derivatives that were done are written.";
+files cannot be written, 130 interrupted; the derivatives that were done are then written to \
+sensitivity-partial.csv, .json and .png, and finished ones stay beside them.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:

@@ -1,7 +1,7 @@
 //! The command line of a steady motion.
 
-use super::assignment;
 use super::look::LookArguments;
+use super::{assignment, course};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -24,7 +24,8 @@ the picture branch.png, stable motions solid, others dashed. Where the branch en
 
 Exit codes: 0 found, stable or not; 2 bad input, or a scene that has no steady motion to be found: without a period, with \
 waveforms that have none in common or that a caller commands, with a body that nothing holds; 3 none was found, or \
-something cannot be written; 130 interrupted. Nothing is written unless it was found; of a branch what was found.";
+something cannot be written; 130 interrupted. Nothing is written unless it was found; of a branch what was found, to \
+branch-partial.csv, .json and .png, and a finished one stays beside them.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -49,7 +50,7 @@ pub(crate) struct SteadyArguments {
     #[arg(long, value_name = "N", default_value_t = 4000, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) periods: u32,
     /// Follow the steady motion through a range of a number of the scenario, such as contacts.ball.friction=0.1..0.6
-    #[arg(long = "continue", value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = assignment)]
+    #[arg(long = "continue", value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = course)]
     pub(crate) continued: Option<(String, String)>,
     /// How exactly places of a branch are told, as a share of the range: 1e-12 to 1e-3
     #[arg(long, value_name = "SHARE", default_value_t = 1e-9, value_parser = accuracy, requires = "continued")]

@@ -12,7 +12,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, sensitivity as picture};
 use stickslip_results::complaint::words;
-use stickslip_results::files::SENSITIVITY;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Real, quantity};
 use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, Taken};
@@ -107,9 +106,8 @@ fn write(
     let failed = |source| SensitivityFailure::Write { path: out.clone(), source };
     folder.release();
     // A command that was killed has left its drafts.
-    let stale = picture::all_files();
-    let own = [sensitivity::TABLE, SENSITIVITY].map(str::to_owned).into_iter();
-    sweep(&out, &own.chain(stale.iter().cloned()).collect::<Vec<_>>());
+    let stale = picture::all_files(taken.is_cut());
+    sweep(&out, &sensitivity::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
     sensitivity::write(folder, (asked, taken), &pictures, stale).map_err(failed)
 }
 

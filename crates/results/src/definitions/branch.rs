@@ -32,6 +32,7 @@ pub(super) const BRANCH: &[Definition] = &[
     key("scenario", "name of the scenario"),
     key("scenario_sha256", "SHA-256 of the resolved scenario, as it is where the branch starts"),
     key("program", "name and version of the program"),
+    key("status", "`done`, or `interrupted`: then the file is `branch-partial.json`"),
     key("varied", "key path of what is varied; it heads the first column of `branch.csv`, with its unit"),
     key("unit", "its SI unit; empty of a plain number"),
     key("present", "what it is in the scenario: where the branch starts"),

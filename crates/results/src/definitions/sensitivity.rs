@@ -46,6 +46,7 @@ pub(super) const SENSITIVITY: &[Definition] = &[
     key("scenario", "name of the scenario"),
     key("scenario_sha256", "SHA-256 of the resolved scenario"),
     key("program", "name and version of the program"),
+    key("status", "`done`, or `interrupted`: then the file is `sensitivity-partial.json`"),
     key("tolerance", "local error per step of the runs, in natural scales"),
     key("runs", "runs that were done beside that of the scenario as it stands"),
     key("figures.name", FIGURE),

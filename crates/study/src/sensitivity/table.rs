@@ -4,12 +4,18 @@ use super::{Derivative, Missing, Sensitivity, Slope, Source, Split, Taken};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::files::SENSITIVITY;
+use stickslip_results::files::{PARTIAL_SENSITIVITY, SENSITIVITY};
 use stickslip_results::folder::Folder;
 use stickslip_results::{Real, hash};
 
-/// Name of the table.
-pub const TABLE: &str = "sensitivity.csv";
+/// Names of the table and of what is told of all: of derivatives, and of those that were interrupted, beside which finished ones stay.
+const NAMES: [[&str; 2]; 2] =
+    [["sensitivity.csv", SENSITIVITY], ["sensitivity-partial.csv", PARTIAL_SENSITIVITY]];
+
+/// Names of all files that derivatives are written to, pictures apart.
+pub fn all_files() -> impl Iterator<Item = String> {
+    NAMES.into_iter().flatten().map(str::to_owned)
+}
 
 /// All numbers; written last.
 #[derive(Debug, Serialize)]
@@ -17,6 +23,7 @@ struct Report<'a> {
     scenario: &'a str,
     scenario_sha256: &'a str,
     program: &'a str,
+    status: &'static str,
     tolerance: Real,
     runs: usize,
     figures: Vec<FigureReport<'a>>,
@@ -169,8 +176,8 @@ pub fn json(asked: &Sensitivity, taken: &Taken) -> String {
     serde_json::to_string(&report(asked, taken)).unwrap_or_default()
 }
 
-/// Writes the table, `sensitivity.json` and pictures into a folder; files of these names that are not among them go. Returns the
-/// names.
+/// Writes the table, `sensitivity.json` and pictures into a folder; pictures of the names `stale` that are not among them go. What was
+/// interrupted is written to `sensitivity-partial.csv` and `sensitivity-partial.json`, and goes with the next whole one. Returns the names.
 ///
 /// # Errors
 /// What the system says; nothing that was there is gone then, unless it says so while names are given.
@@ -178,18 +185,22 @@ pub fn write(
     mut folder: Folder,
     (asked, taken): (&Sensitivity, &Taken),
     pictures: &[(String, Vec<u8>)],
-    stale: Vec<String>,
+    mut stale: Vec<String>,
 ) -> io::Result<Vec<String>> {
     let table = csv(asked, taken);
-    folder.write(TABLE, table.as_bytes())?;
+    let [name, summary] = NAMES[usize::from(taken.is_cut())];
+    folder.write(name, table.as_bytes())?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let mut files = folder.names();
-    files.push(SENSITIVITY.to_owned());
+    files.push(summary.to_owned());
+    if !taken.is_cut() {
+        stale.extend(NAMES[1].map(str::to_owned));
+    }
     folder.forget(stale);
     let report = Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(asked, taken) };
     let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
     json.push(b'\n');
-    folder.write(SENSITIVITY, &json)?;
+    folder.write(summary, &json)?;
     folder.publish()?;
     Ok(files)
 }
@@ -206,6 +217,7 @@ fn report<'a>(asked: &'a Sensitivity, taken: &Taken) -> Report<'a> {
         scenario: &asked.job.name,
         scenario_sha256: &asked.job.hash,
         program: &asked.job.program,
+        status: if taken.is_cut() { "interrupted" } else { "done" },
         tolerance: Real(asked.tolerance),
         runs: taken.runs,
         figures: figures.collect(),

@@ -25,7 +25,7 @@ pub use bifurcation::{Bifurcation, Mark};
 pub use error::ContinuationError;
 pub use happened::Change;
 pub use standing::Point;
-pub use table::{TABLE, csv, json, write};
+pub use table::{all_files, csv, json, write};
 
 use super::{Options, SteadyError, moment, named};
 use arm::{Arm, Walk};

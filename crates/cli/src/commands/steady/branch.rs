@@ -11,7 +11,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, branch as picture};
 use stickslip_results::complaint::words;
-use stickslip_results::files::BRANCH;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Job, Real, Refusal, Watcher, quantity};
 use stickslip_study::curve::Range;
@@ -105,9 +104,8 @@ fn write(
     let out = self::folder(arguments, of);
     folder.release();
     // A command that was killed has left its drafts.
-    let stale = picture::all_files();
-    let own = [continuation::TABLE, BRANCH].map(str::to_owned).into_iter();
-    sweep(&out, &own.chain(stale.iter().cloned()).collect::<Vec<_>>());
+    let stale = picture::all_files(branch.is_cut());
+    sweep(&out, &continuation::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
     continuation::write(folder, (of, branch), accuracy, (&pictures, stale))
         .map_err(|source| BranchFailure::Write { path: out, source })
 }

@@ -4,12 +4,17 @@ use super::{Bifurcation, Branch, Change, Continuation, End, Mark, Point};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::files::BRANCH;
+use stickslip_results::files::{BRANCH, PARTIAL_BRANCH};
 use stickslip_results::folder::Folder;
 use stickslip_results::{Real, hash};
 
-/// Name of the table.
-pub const TABLE: &str = "branch.csv";
+/// Names of the table and of what is told of all: of a branch, and of one that was interrupted, beside which a finished one stays.
+const NAMES: [[&str; 2]; 2] = [["branch.csv", BRANCH], ["branch-partial.csv", PARTIAL_BRANCH]];
+
+/// Names of all files that a branch is written to, pictures apart.
+pub fn all_files() -> impl Iterator<Item = String> {
+    NAMES.into_iter().flatten().map(str::to_owned)
+}
 
 /// All numbers of a branch; written last.
 #[derive(Debug, Serialize)]
@@ -17,6 +22,7 @@ struct Report<'a> {
     scenario: &'a str,
     scenario_sha256: &'a str,
     program: &'a str,
+    status: &'static str,
     varied: &'a str,
     unit: &'static str,
     present: Real,
@@ -195,7 +201,8 @@ pub fn json(of: &Continuation, branch: &Branch, accuracy: [f64; 2]) -> String {
     serde_json::to_string(&report(of, branch, accuracy)).unwrap_or_default()
 }
 
-/// Writes the table, `branch.json` and pictures into a folder; files of these names that are not among them go. `accuracy` is the
+/// Writes the table, `branch.json` and pictures into a folder; pictures of the names `stale` that are not among them go. What was
+/// interrupted is written to `branch-partial.csv` and `branch-partial.json`, and goes with the next whole branch. `accuracy` is the
 /// tolerance of the runs and that of places. Returns the names.
 ///
 /// # Errors
@@ -204,19 +211,23 @@ pub fn write(
     mut folder: Folder,
     (of, branch): (&Continuation, &Branch),
     accuracy: [f64; 2],
-    (pictures, stale): (&[(String, Vec<u8>)], Vec<String>),
+    (pictures, mut stale): (&[(String, Vec<u8>)], Vec<String>),
 ) -> io::Result<Vec<String>> {
     let table = csv(of, branch);
-    folder.write(TABLE, table.as_bytes())?;
+    let [name, summary] = NAMES[usize::from(branch.is_cut())];
+    folder.write(name, table.as_bytes())?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let mut files = folder.names();
-    files.push(BRANCH.to_owned());
+    files.push(summary.to_owned());
+    if !branch.is_cut() {
+        stale.extend(NAMES[1].map(str::to_owned));
+    }
     folder.forget(stale);
     let report =
         Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(of, branch, accuracy) };
     let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
     json.push(b'\n');
-    folder.write(BRANCH, &json)?;
+    folder.write(summary, &json)?;
     folder.publish()?;
     Ok(files)
 }
@@ -230,6 +241,7 @@ fn report<'a>(of: &'a Continuation, branch: &Branch, [tolerance, accuracy]: [f64
         scenario: &of.job.name,
         scenario_sha256: &of.job.hash,
         program: &of.job.program,
+        status: if branch.is_cut() { "interrupted" } else { "done" },
         varied: &of.path,
         unit: of.unit,
         present: Real(of.present),
