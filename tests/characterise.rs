@@ -183,7 +183,7 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("quickstart", &smooth, "nothing that could hold \"slider\" has friction");
     refused("quickstart", &["--curve", "holding-force", "--range", "2 N..1 N"], "a range that rises");
     refused("quickstart", &["--curve", "holding-force", "--range", "1 m..2 m"], "--range  ");
-    refused("quickstart", &["--vary", "contacts.ball.friction"], "PATH=VALUE");
+    refused("quickstart", &["--vary", "contacts.ball.friction"], "PATH=FROM..TO");
     refused("quickstart", &["--vary", "contacts.bal.friction=0..1"], "did you mean \"ball\"?");
     refused("quickstart", &["--vary", "contacts.ball.count=1..3"], "counts whole things");
     refused("bouncing_ball", &["--curve", "step-amplitude"], "nothing here repeats itself");

@@ -245,7 +245,7 @@ fn a_branch_that_cannot_be_followed_is_told_and_leaves_nothing() {
         assert!(stdout(&output).is_empty() && !out.exists(), "{options:?}");
     };
     let range = |range: &str| format!("{STROKE}={range}");
-    refused("p1", &["--continue", "1..2"], 2, "expected PATH=VALUE");
+    refused("p1", &["--continue", "1..2"], 2, "expected PATH=FROM..TO");
     refused("p1", &["--continue", &range("1 um")], 2, "expected FROM..TO, such as 0.1..0.6, got \"1 um\"");
     refused("p1", &["--continue", &range("1 um..2 N")], 2, "--continue  ");
     refused("p1", &["--continue", &range("1 um..0.1 um")], 2, "a range that rises");

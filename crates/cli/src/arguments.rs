@@ -262,6 +262,11 @@ pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
     }
 }
 
+/// Splits `path=from..to`.
+pub(crate) fn course(text: &str) -> Result<(String, String), String> {
+    assignment(text).map_err(|_| "expected PATH=FROM..TO, such as contacts.ball.friction=0.1..0.6".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -270,6 +275,8 @@ mod tests {
     fn the_first_equals_sign_parts_path_and_value() {
         assert_eq!(assignment("title=a=b"), Ok(("title".to_owned(), "a=b".to_owned())));
         assert!(assignment("run.duration").is_err());
+        assert_eq!(course("a.b=1..2"), Ok(("a.b".to_owned(), "1..2".to_owned())));
+        assert!(course("a.b").is_err_and(|words| words.contains("PATH=FROM..TO")));
     }
 
     #[test]

@@ -16,6 +16,7 @@ use commands::{
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    console::interrupt::outlive_file_limits();
     let verdict = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Resume(arguments) => resume::resume(&arguments),

@@ -55,7 +55,13 @@ pub fn friction_figures<'a>(title: &str, works: &[(&str, &FrictionWork<'a>)]) ->
         }
     }
     if panels.is_empty() {
-        return Figure::without_data(title, "no friction work: nothing has slipped");
+        let has_no_radii = !works.is_empty() && works.iter().all(|(_, work)| work.r.is_empty());
+        let words = if has_no_radii {
+            "no map of friction work: a list of springs or a normal law has no shape in three dimensions"
+        } else {
+            "no friction work: nothing has slipped"
+        };
+        return Figure::without_data(title, words);
     }
     Figure {
         title: Label::plain(title),
@@ -77,11 +83,8 @@ fn map<'a>(work: &FrictionWork<'a>, most: f64) -> Panel<'a> {
         0 => "no work".to_owned(),
         place => format!("≤ {}", quantity(most * place as f64 / (CLASSES - 1) as f64, "J/m²", 3)),
     };
-    let named = |place: usize| place.is_multiple_of(2);
-    let classes = RAMP.iter().enumerate().map(|(place, colour)| {
-        let label = if named(place) { Label::plain(&label(place)) } else { Label::default() };
-        (label, Ink::Colour(*colour))
-    });
+    let classes =
+        RAMP.iter().enumerate().map(|(place, colour)| (Label::plain(&label(place)), Ink::Colour(*colour)));
     let mark = |(at, _): &(f64, String)| Reference::Vertical { x: *at, label: Label::default() };
     Panel {
         x: Axis { tight: true, ..Axis::new(Label::plain(work.axis.0), work.axis.1) },

@@ -56,8 +56,9 @@ pub(crate) fn place(panel: &Placed<'_, '_>, sizes: Sizes) -> Result<Vec<PlacedNo
     if left_out > 0 {
         let corner = (panel.x.end(), panel.y.end());
         let words = Label::plain(&format!("and {left_out} more"));
-        placed
-            .extend(board.set(panel, &Note { lines: vec![words], about: [corner; 2], on: None, ink: None })?);
+        let note = Note { lines: vec![words], about: [corner; 2], on: None, ink: None };
+        // It names nothing that is there.
+        placed.extend(board.set(panel, &note)?.map(|note| PlacedNote { pointer: None, ..note }));
     }
     Ok(placed)
 }

@@ -83,6 +83,12 @@ fn look<'a>(tree: &'a Value, path: &[Step]) -> Result<Option<&'a Value>, Option<
             None if depth + 1 == path.len() && here.is_object() && matches!(step, Step::Key(_)) => {
                 return Ok(None);
             }
+            None if here.is_array() && matches!(step, Step::Key(_)) => {
+                let list = KeyPath(path[..depth].to_vec());
+                return Err(Some(format!(
+                    "entries of a list are told by their place: {list}[0] is the first"
+                )));
+            }
             None => return Err(slip(step, &keys(tree, &path[..depth]))),
         };
     }

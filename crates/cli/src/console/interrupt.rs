@@ -1,4 +1,4 @@
-//! Ctrl-C.
+//! Signals: Ctrl-C, and a limit on the size of files.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -26,6 +26,14 @@ impl Interrupt {
     pub(crate) fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
+}
+
+/// Takes the system's answer to a write beyond a limit on the size of files (`ulimit -f`) as one that a full disk gives: without this
+/// the program would end in the middle of its work, its drafts left behind.
+pub(crate) fn outlive_file_limits() {
+    #[cfg(unix)]
+    // Without it such a limit ends the program: worse, but no reason not to run.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
 /// Whoever may end work that no bar is shown of.

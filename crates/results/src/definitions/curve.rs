@@ -102,6 +102,10 @@ pub(super) const CURVE: &[Definition] = &[
     ),
     key("landmarks.value", "speed in m/s, power in W or step in m there; of best points only"),
     key("landmarks.runs", "points that were computed for it, beside those of the curve"),
+    key(
+        "landmarks.turns",
+        "true of S₀ where the drive steps back at smaller amplitudes, so that its step changes its sign there",
+    ),
     key("landmarks.fault", "why it is not known"),
     key("files", "names of all files that were written together"),
     key("table_sha256", "SHA-256 of the table"),

@@ -56,7 +56,10 @@ pub(super) const KEYS: &[Definition] = &[
     of("contacts.CONTACT.one.limit_force_N", "μF_N of one contact at t = 0"),
     of("contacts.CONTACT.all.normal_force_N", "F_N of all count contacts at t = 0"),
     of("contacts.CONTACT.all.limit_force_N", "μF_N of all of them at t = 0"),
-    of("contacts.CONTACT.peak_fx_N", "largest |F_x| of all count contacts during the run"),
+    of(
+        "contacts.CONTACT.peak_fx_N",
+        "largest |F_x| of all count contacts at rows, events and ends of periods; of a damped contact, or under a load that varies, its peak may lie between them",
+    ),
     of("contacts.CONTACT.peak_fn_N", "largest F_N of all of them during the run"),
     of("contacts.CONTACT.normal.fn_N", "smallest and largest F_N of a coupled contact"),
     of("contacts.CONTACT.normal.d_m", "smallest and largest d of it"),

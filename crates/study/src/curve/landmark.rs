@@ -1,7 +1,7 @@
 //! What is looked for on a curve: where it meets zero, and where it is best.
 
 use super::ahead::{self, Found};
-use super::{Bracket, Curve, CurveError, Kind, Motion, Motionless, Peak, Seen, Traced};
+use super::{Bracket, Curve, CurveError, Kind, Motion, Motionless, Peak, Point, Seen, Traced};
 use crate::each::each;
 use std::sync::{Mutex, PoisonError};
 use stickslip_results::Watcher;
@@ -22,6 +22,8 @@ pub struct Landmark {
     pub value: Option<f64>,
     /// Points that were computed for it.
     pub runs: u32,
+    /// Of S₀: whether the drive steps the other way at smaller amplitudes, so that its step changes its sign here.
+    pub turns: bool,
 }
 
 /// Why a landmark is not found.
@@ -129,7 +131,11 @@ impl Curve {
             return Landmark::unfound(name, Unfound::Outside(why), 0);
         };
         let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
-        self.close_in(search, (name, sense), &Around { lengths, nearest, still })
+        let beyond = |point: &&Point| if rises { point.value <= still } else { point.value >= still };
+        let is_back = |point: &Point| point.motion.as_ref().is_ok_and(|motion| motion.steps(-sense));
+        // A load drags a drive back that does not step: that is no step of its own.
+        let turns = rises && traced.points.iter().filter(beyond).any(is_back);
+        Landmark { turns, ..self.close_in(search, (name, sense), &Around { lengths, nearest, still }) }
     }
 
     /// An edge among what is known around it.
@@ -158,7 +164,7 @@ impl Curve {
                 let ends = all.filter(|(at, _)| [bracket.steps, bracket.still].contains(at));
                 let doubt = ends.filter_map(|(_, length)| length.error).fold(0.0, f64::max);
                 let half_width = bracket.half_width() + doubt / slope(nearest, *still);
-                Landmark { name, at: Ok(bracket.middle()), half_width, value: None, runs }
+                Landmark { name, at: Ok(bracket.middle()), half_width, value: None, runs, turns: false }
             }
             Ok(None) => Landmark::unfound(name, Unfound::Outside("the drive steps at none"), runs),
             Err(fault) => Landmark::unfound(name, fault.into(), runs),
@@ -204,7 +210,14 @@ impl Curve {
         match outcome {
             Ok(peak) => {
                 let half_width = 0.5 * (peak.within[1] - peak.within[0]);
-                Landmark { name, at: Ok(peak.best.at), half_width, value: Some(peak.best.value), runs }
+                Landmark {
+                    name,
+                    at: Ok(peak.best.at),
+                    half_width,
+                    value: Some(peak.best.value),
+                    runs,
+                    turns: false,
+                }
             }
             Err(fault) => Landmark::unfound(name, fault.into(), runs),
         }
@@ -274,6 +287,7 @@ impl Landmark {
     #[must_use]
     pub fn words(&self) -> &'static str {
         match self.name {
+            "zero_step" if self.turns => "S\u{2080}, amplitude beyond which it steps forth, and below back",
             "zero_step" => "S\u{2080}, largest amplitude without a step",
             "stall" => "stall",
             "best_speed" => "fastest",
@@ -283,7 +297,7 @@ impl Landmark {
     }
 
     fn unfound(name: &'static str, why: Unfound, runs: u32) -> Self {
-        Self { name, at: Err(why), half_width: 0.0, value: None, runs }
+        Self { name, at: Err(why), half_width: 0.0, value: None, runs, turns: false }
     }
 }
 

@@ -97,6 +97,8 @@ struct LandmarkReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<Real>,
     runs: u32,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    turns: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<String>,
 }
@@ -111,6 +113,7 @@ impl LandmarkReport {
             half_width: at.map(|_| Real(landmark.half_width)),
             value: landmark.value.map(Real),
             runs: landmark.runs,
+            turns: landmark.turns,
             fault: landmark.at.as_ref().err().map(ToString::to_string),
         }
     }
