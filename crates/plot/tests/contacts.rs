@@ -78,7 +78,9 @@ fn what_is_not_there_is_said() {
     assert!(texts(fields_figure("f", &[])).contains("no fields"));
     assert!(texts(substitute_figure("s", &[])).contains("nothing ever touches"));
     assert!(texts(anchors_figure("a", &[])).contains("nothing to remember"));
-    let work = FrictionWork { axis: ("time t", "s"), moments: &[], r: &[], work: &[], marks: &[] };
+    let springs = FrictionWork { axis: ("time t", "s"), moments: &[], r: &[], work: &[], marks: &[] };
+    assert!(texts(friction_figure("w", &springs)).contains("no map of friction work"));
+    let work = FrictionWork { moments: &[0.0], r: &[0.0, 1e-6], work: &[0.0, 0.0], ..springs };
     assert!(texts(friction_figure("w", &work)).contains("nothing has slipped"));
     let pair = ProfilePair { x: &[], f: None, g: &[], d: 0.0, a: 0.0 };
     assert!(texts(profile_figure("p", &pair)).contains("no data"));
