@@ -6,8 +6,8 @@
 //! In reading order: `number` (numbers of a scene that a batch sets) and `sketch` (those of its waveforms), `figure` (what is kept of
 //! a run), `line` (what is told of it), `batch` (the runs); [`steady`], the motion that repeats itself every period, and how it
 //! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
-//! figure changes with each number of the scenario. `each` does many things side by side, `grip` tells whether something holds a
-//! body, `interruptible` lets a run be given up.
+//! figure changes with each number of the scenario; `published`, the files of curves, branches and derivatives, whole or interrupted.
+//! `each` does many things side by side, `grip` tells whether something holds a body, `interruptible` lets a run be given up.
 
 mod batch;
 pub mod curve;
@@ -17,6 +17,7 @@ mod grip;
 mod interruptible;
 mod line;
 mod number;
+mod published;
 pub mod sensitivity;
 mod sketch;
 pub mod steady;

@@ -8,10 +8,10 @@ const CORRECTION: [f64; 4] =
 /// Half of the first place that is left off, and the places that stay, so that a square of them is exact.
 const PLACES: [u64; 2] = [1 << 26, !((1 << 27) - 1)];
 
-/// ∛x, within 0.7 units of the last place.
+/// ∛x, within ε of it.
 ///
 /// Exponent and mantissa over three, one correction by a cubic of t³/x, one step of Halley's, which leaves 1e-18. The same bits on
-/// every machine, and a third of the instructions of a root that is rounded correctly.
+/// every machine, at less cost than a root that is rounded correctly.
 #[inline]
 pub(super) fn cube_root(x: f64) -> f64 {
     if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&x) {

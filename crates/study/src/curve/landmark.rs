@@ -133,7 +133,6 @@ impl Curve {
         let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
         let beyond = |point: &&Point| if rises { point.value <= still } else { point.value >= still };
         let is_back = |point: &Point| point.motion.as_ref().is_ok_and(|motion| motion.steps(-sense));
-        // A load drags a drive back that does not step: that is no step of its own.
         let turns = rises && traced.points.iter().filter(beyond).any(is_back);
         Landmark { turns, ..self.close_in(search, (name, sense), &Around { lengths, nearest, still }) }
     }

@@ -1,18 +1,16 @@
 //! What is told of a curve: a table, and all of it in JSON.
 
 use super::{Curve, Landmark, Motion, Sense, Traced, Variation};
+use crate::published::{self, Names};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
 use stickslip_results::files::{CURVE, PARTIAL_CURVE};
 use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Real, hash};
+use stickslip_results::{Job, Real};
 
 /// Names of the table and of what is told of all: of a curve, and of one that was interrupted, beside which a finished one stays.
-const NAMES: [[&str; 2]; 2] = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];
-
-/// Status of a curve that was interrupted.
-const CUT: &str = "interrupted";
+const NAMES: Names = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];
 
 /// Names of all files that any curve is written to, its pictures apart.
 pub fn all_files() -> impl Iterator<Item = String> {
@@ -58,7 +56,7 @@ impl<'a, P: Serialize> Report<'a, P> {
             scenario: &job.name,
             scenario_sha256: &job.hash,
             program: &job.program,
-            status: if is_cut { CUT } else { "done" },
+            status: published::status(is_cut),
             curve,
             varied: &variation.name,
             unit: variation.unit,
@@ -240,28 +238,14 @@ pub fn write(
 
 /// Writes a table with what is told of all, and pictures.
 pub(super) fn publish<P: Serialize>(
-    mut folder: Folder,
+    folder: Folder,
     (table, report): (&str, Report<'_, P>),
     pictures: &[(String, Vec<u8>)],
-    mut stale: Vec<String>,
+    stale: Vec<String>,
 ) -> io::Result<Vec<String>> {
-    let is_cut = report.status == CUT;
-    let [name, summary] = NAMES[usize::from(is_cut)];
-    folder.release();
-    folder.write(name, table.as_bytes())?;
-    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
-    let mut files = folder.names();
-    files.push(summary.to_owned());
-    if !is_cut {
-        stale.extend(NAMES[1].map(str::to_owned));
-    }
-    folder.forget(stale);
-    let report = Report { files: files.clone(), table_sha256: Some(hash(table)), ..report };
-    let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
-    json.push(b'\n');
-    folder.write(summary, &json)?;
-    folder.publish()?;
-    Ok(files)
+    let is_cut = report.status == published::status(true);
+    let all = |files, table_sha256| Report { files, table_sha256: Some(table_sha256), ..report };
+    published::publish(folder, (&NAMES, is_cut), (table, all), (pictures, stale))
 }
 
 fn report<'a>(ways: &[Way<'a>]) -> Option<Report<'a, PointReport>> {

@@ -1,16 +1,16 @@
 //! What is told of derivatives: a table, and all of it in JSON.
 
 use super::{Derivative, Missing, Sensitivity, Slope, Source, Split, Taken};
+use crate::published::{self, Names};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
+use stickslip_results::Real;
 use stickslip_results::files::{PARTIAL_SENSITIVITY, SENSITIVITY};
 use stickslip_results::folder::Folder;
-use stickslip_results::{Real, hash};
 
 /// Names of the table and of what is told of all: of derivatives, and of those that were interrupted, beside which finished ones stay.
-const NAMES: [[&str; 2]; 2] =
-    [["sensitivity.csv", SENSITIVITY], ["sensitivity-partial.csv", PARTIAL_SENSITIVITY]];
+const NAMES: Names = [["sensitivity.csv", SENSITIVITY], ["sensitivity-partial.csv", PARTIAL_SENSITIVITY]];
 
 /// Names of all files that derivatives are written to, pictures apart.
 pub fn all_files() -> impl Iterator<Item = String> {
@@ -182,27 +182,15 @@ pub fn json(asked: &Sensitivity, taken: &Taken) -> String {
 /// # Errors
 /// What the system says; nothing that was there is gone then, unless it says so while names are given.
 pub fn write(
-    mut folder: Folder,
+    folder: Folder,
     (asked, taken): (&Sensitivity, &Taken),
     pictures: &[(String, Vec<u8>)],
-    mut stale: Vec<String>,
+    stale: Vec<String>,
 ) -> io::Result<Vec<String>> {
     let table = csv(asked, taken);
-    let [name, summary] = NAMES[usize::from(taken.is_cut())];
-    folder.write(name, table.as_bytes())?;
-    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
-    let mut files = folder.names();
-    files.push(summary.to_owned());
-    if !taken.is_cut() {
-        stale.extend(NAMES[1].map(str::to_owned));
-    }
-    folder.forget(stale);
-    let report = Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(asked, taken) };
-    let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
-    json.push(b'\n');
-    folder.write(summary, &json)?;
-    folder.publish()?;
-    Ok(files)
+    let report =
+        |files, table_sha256| Report { files, table_sha256: Some(table_sha256), ..report(asked, taken) };
+    published::publish(folder, (&NAMES, taken.is_cut()), (&table, report), (pictures, stale))
 }
 
 fn report<'a>(asked: &'a Sensitivity, taken: &Taken) -> Report<'a> {
@@ -217,7 +205,7 @@ fn report<'a>(asked: &'a Sensitivity, taken: &Taken) -> Report<'a> {
         scenario: &asked.job.name,
         scenario_sha256: &asked.job.hash,
         program: &asked.job.program,
-        status: if taken.is_cut() { "interrupted" } else { "done" },
+        status: published::status(taken.is_cut()),
         tolerance: Real(asked.tolerance),
         runs: taken.runs,
         figures: figures.collect(),

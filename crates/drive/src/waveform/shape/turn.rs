@@ -85,7 +85,7 @@ fn whole(x: f64) -> f64 {
 
 /// Sine and cosine of an angle, rad, within a unit of the last place of 1, and exactly 0 with the angle.
 ///
-/// The same bits on every machine, and a sixth of the instructions of the library's.
+/// The same bits on every machine, at a fraction of the instructions of the library's.
 #[inline(always)]
 fn sin_cos(angle: f64) -> [f64; 2] {
     if angle.abs() < FAR { near(angle) } else { far(angle) }

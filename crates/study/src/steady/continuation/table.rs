@@ -1,15 +1,16 @@
 //! What is told of a branch: a table, and all of it in JSON.
 
 use super::{Bifurcation, Branch, Change, Continuation, End, Mark, Point};
+use crate::published::{self, Names};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
+use stickslip_results::Real;
 use stickslip_results::files::{BRANCH, PARTIAL_BRANCH};
 use stickslip_results::folder::Folder;
-use stickslip_results::{Real, hash};
 
 /// Names of the table and of what is told of all: of a branch, and of one that was interrupted, beside which a finished one stays.
-const NAMES: [[&str; 2]; 2] = [["branch.csv", BRANCH], ["branch-partial.csv", PARTIAL_BRANCH]];
+const NAMES: Names = [["branch.csv", BRANCH], ["branch-partial.csv", PARTIAL_BRANCH]];
 
 /// Names of all files that a branch is written to, pictures apart.
 pub fn all_files() -> impl Iterator<Item = String> {
@@ -208,28 +209,18 @@ pub fn json(of: &Continuation, branch: &Branch, accuracy: [f64; 2]) -> String {
 /// # Errors
 /// What the system says; nothing that was there is gone then, unless it says so while names are given.
 pub fn write(
-    mut folder: Folder,
+    folder: Folder,
     (of, branch): (&Continuation, &Branch),
     accuracy: [f64; 2],
-    (pictures, mut stale): (&[(String, Vec<u8>)], Vec<String>),
+    (pictures, stale): (&[(String, Vec<u8>)], Vec<String>),
 ) -> io::Result<Vec<String>> {
     let table = csv(of, branch);
-    let [name, summary] = NAMES[usize::from(branch.is_cut())];
-    folder.write(name, table.as_bytes())?;
-    pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
-    let mut files = folder.names();
-    files.push(summary.to_owned());
-    if !branch.is_cut() {
-        stale.extend(NAMES[1].map(str::to_owned));
-    }
-    folder.forget(stale);
-    let report =
-        Report { files: files.clone(), table_sha256: Some(hash(&table)), ..report(of, branch, accuracy) };
-    let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
-    json.push(b'\n');
-    folder.write(summary, &json)?;
-    folder.publish()?;
-    Ok(files)
+    let report = |files, table_sha256| Report {
+        files,
+        table_sha256: Some(table_sha256),
+        ..report(of, branch, accuracy)
+    };
+    published::publish(folder, (&NAMES, branch.is_cut()), (&table, report), (pictures, stale))
 }
 
 fn report<'a>(of: &'a Continuation, branch: &Branch, [tolerance, accuracy]: [f64; 2]) -> Report<'a> {
@@ -241,7 +232,7 @@ fn report<'a>(of: &'a Continuation, branch: &Branch, [tolerance, accuracy]: [f64
         scenario: &of.job.name,
         scenario_sha256: &of.job.hash,
         program: &of.job.program,
-        status: if branch.is_cut() { "interrupted" } else { "done" },
+        status: published::status(branch.is_cut()),
         varied: &of.path,
         unit: of.unit,
         present: Real(of.present),
