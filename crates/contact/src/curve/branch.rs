@@ -167,7 +167,8 @@ impl Branch {
 
     /// Force, N, friction power, W, and m at the slip front, m, of a moving apex with M(d) at hand, as [`Branch::force`] and
     /// [`Branch::friction_power`] have them: what they need of the profile is asked for once. m is the length that sticks, none
-    /// in gross slip, all of it where the front lies above d.
+    /// in gross slip. Where the apex of a shrinking contact has crossed the old curve the front lies above d, and m goes on as
+    /// the force does: a step that oversteps an event meets no kink.
     #[inline(always)]
     pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 3] {
         let Motion { d, u, dd, du } = *at;
@@ -178,11 +179,10 @@ impl Branch {
         let (profile, front) = (law.profile(), self.front(d, u));
         let [inner, stuck] = profile.reduced_force_and_stiffness(front);
         let force = self.factor * (self.excess * inner + self.offset + self.slope * reduced_force);
-        if front >= 0.0 && front <= d {
+        if front >= 0.0 {
             return [force, drive * (reduced_force - inner - (d - front) * stuck), stuck];
         }
-        let stuck = profile.reduced_stiffness(front.clamp(0.0, d.max(0.0)));
-        [force, self.friction_power(law, front, at), stuck]
+        [force, self.friction_power(law, front, at), profile.reduced_stiffness(0.0)]
     }
 
     /// Friction power, W: G\*κL̇∫(d-h)dm over the springs at their limit, those higher than `front`,
@@ -190,7 +190,7 @@ impl Branch {
     pub fn friction_power(&self, law: &Interface, front: f64, at: &Motion) -> f64 {
         let Motion { d, dd, du, .. } = *at;
         let profile = law.profile();
-        let front = if self.is_gross() { 0.0 } else { front.clamp(0.0, d.max(0.0)) };
+        let front = if self.is_gross() { 0.0 } else { front.max(0.0) };
         let limit = profile.reduced_force(d)
             - profile.reduced_force(front)
             - (d - front) * profile.reduced_stiffness(front);
