@@ -133,16 +133,23 @@ fn every_figure_of_a_curve_is_defined() {
     assert!(all.len() == 3 && all[0]["points"][0]["fault"].is_string() && all[2]["files"][0] == "curve.csv");
     assert_eq!(lacking("curve.json", &all), Vec::<String>::new());
     let head = Table::read(&out.join("curve.csv")).head;
-    // What is varied has the name that it has in the scenario.
     assert_eq!(head[0], "load_N");
-    let unknown: Vec<_> = head[1..].iter().filter(|column| !defined("curve.csv", column)).collect();
+    let unknown: Vec<_> = head.iter().filter(|column| !defined("curve.csv", column)).collect();
     assert!(unknown.is_empty() && head.len() == 13, "{unknown:?}");
     let all = ask(&["--curve", "holding-force", "--vary", "contacts.ball.friction=-0.1..0.2"]);
     assert!(all[0]["points"][0]["along_x"]["fault"].is_string() && all[0]["on"] == "slider");
     assert_eq!(lacking("curve.json", &all), Vec::<String>::new());
     let head = Table::read(&out.join("curve.csv")).head;
+    // What is varied by its path has the name that it has in the scenario.
     let unknown: Vec<_> = head[1..].iter().filter(|column| !defined("curve.csv", column)).collect();
     assert!(unknown.is_empty() && head.len() == 9, "{unknown:?}");
+    for (curve, of) in
+        [("step-amplitude", "stroke_m"), ("speed-frequency", "frequency_Hz"), ("preload", "preload_N")]
+    {
+        ask(&["--curve", curve]);
+        let head = Table::read(&out.join("curve.csv")).head;
+        assert!(head[0] == of && defined("curve.csv", of), "{curve}: {}", head[0]);
+    }
 }
 
 #[test]

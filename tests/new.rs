@@ -113,6 +113,17 @@ fn the_name_is_drive_unless_another_is_given_and_may_have_a_folder_and_an_ending
     assert_eq!(listing(&folder.path().join("rig")), ["motor.json", "schema", "v1.2.json"]);
 }
 
+/// What comes next can be typed as it stands.
+#[test]
+fn a_name_of_several_words_is_quoted() {
+    let folder = tempdir().unwrap();
+    for (name, word) in [("one", "one.json"), ("two words", "\"two words.json\""), ("it's", "\"it's.json\"")]
+    {
+        let said = String::from_utf8(new(folder.path(), &[name]).stdout).unwrap();
+        assert!(said.ends_with(&format!("next: stickslip run {word}\n")), "{said}");
+    }
+}
+
 #[test]
 fn a_scenario_is_never_overwritten() {
     let folder = tempdir().unwrap();

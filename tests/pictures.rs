@@ -150,7 +150,12 @@ fn pictures_are_as_wide_as_asked_for_in_print() {
     let per_metre = u32::from_be_bytes(png[chunk..chunk + 4].try_into().unwrap());
     let across = u32::from_be_bytes(png[16..20].try_into().unwrap());
     assert_eq!((across, per_metre), (2008, 23624));
-    for (width, word) in [("85", "from 40mm to 300mm"), ("1 m", "from 40mm to 300mm"), ("2 s", "length")] {
+    for (width, word) in [
+        ("85", "from 60mm to 300mm"),
+        ("59mm", "from 60mm to 300mm"),
+        ("1 m", "from 60mm to 300mm"),
+        ("2 s", "length"),
+    ] {
         let refused = plot(&folder, &["--width", width]);
         assert!(code(&refused) == 2 && stderr(&refused).contains(word), "{width}: {}", stderr(&refused));
     }

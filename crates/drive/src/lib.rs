@@ -31,6 +31,7 @@ mod run;
 pub mod scene;
 mod schedule;
 pub mod section;
+mod sine;
 mod state;
 mod variation;
 mod waveform;

@@ -2,11 +2,12 @@
 //!
 //! Time of a swing and of a lift-off is a mean over [0, 1] of a smooth function. Rules of 4, 8, 16 and 32
 //! nodes are tried in turn from the first that may do; each tells its error from the last coefficients of the
-//! polynomial through its values, without a second rule. Nothing is allocated, and every rule is made once. Over whole arcs
+//! polynomial through its values, without a second rule. Nothing is allocated, and the compiler makes every rule. Over whole arcs
 //! from turn to turn the nodes are Chebyshev's, equally spaced in the angle: there the function goes on evenly beyond both ends.
 
+use crate::sine::sine;
 use std::array;
-use std::sync::LazyLock;
+use std::f64::consts::PI;
 
 /// Nodes of the finest rule.
 // 64 change no run. With 16 drives at a tolerance of 1e-13 take up to a third more evaluations.
@@ -53,21 +54,11 @@ struct Rule {
     count: usize,
 }
 
-/// The rules of 4 to 32 nodes, exact for polynomials up to degree 7 to 63, each made when it is asked for first.
-static RULES: [LazyLock<Rule>; 4] = [
-    LazyLock::new(|| Rule::new(4)),
-    LazyLock::new(|| Rule::new(8)),
-    LazyLock::new(|| Rule::new(16)),
-    LazyLock::new(|| Rule::new(MOST)),
-];
+/// The rules of 4 to 32 nodes, exact for polynomials up to degree 7 to 63.
+static RULES: [Rule; 4] = [Rule::new(4), Rule::new(8), Rule::new(16), Rule::new(MOST)];
 
 /// The same over an arc, of Gauss and Chebyshev.
-static ARCS: [LazyLock<Rule>; 4] = [
-    LazyLock::new(|| Rule::arc(4)),
-    LazyLock::new(|| Rule::arc(8)),
-    LazyLock::new(|| Rule::arc(16)),
-    LazyLock::new(|| Rule::arc(MOST)),
-];
+static ARCS: [Rule; 4] = [Rule::arc(4), Rule::arc(8), Rule::arc(16), Rule::arc(MOST)];
 
 /// Mean over the angle θ from 0 to π of a smooth function of sin²(θ/2), as [`mean`] finds it.
 #[inline]
@@ -87,11 +78,7 @@ pub(crate) fn mean(allowed: f64, part: f64, f: impl Fn(Lanes) -> Lanes) -> Mean 
 
 /// The mean by the first rule whose error is below `allowed`, beginning where that can be hoped for of what is `needed`.
 #[inline(always)]
-fn first_that_serves(
-    rules: &[LazyLock<Rule>; 4],
-    (allowed, needed): (f64, f64),
-    f: impl Fn(Lanes) -> Lanes,
-) -> Mean {
+fn first_that_serves(rules: &[Rule; 4], (allowed, needed): (f64, f64), f: impl Fn(Lanes) -> Lanes) -> Mean {
     let first = HOPELESS.iter().filter(|hopeless| needed < **hopeless).count();
     let mut mean = Mean { value: f64::NAN, error: f64::INFINITY, asked: 0 };
     for rule in &rules[first..] {
@@ -108,36 +95,49 @@ fn first_that_serves(
 
 impl Rule {
     /// The rule of n nodes, at most [`MOST`]: zeros of the Legendre polynomial by Newton's method.
-    fn new(n: usize) -> Self {
-        // What rounding leaves of the sum of all weights, 1.
-        let sum: f64 = (0..n).map(|i| node(n, i)[1]).sum();
-        let mut rule = Self { nodes: Default::default(), count: n };
-        for i in 0..n {
-            let (nodes, lane) = (&mut rule.nodes[i / LANES], i % LANES);
-            let [at, weight, second, first] = node(n, i);
+    const fn new(n: usize) -> Self {
+        let (mut made, mut sum, mut i) = ([[0.0; 4]; MOST], 0.0, 0);
+        while i < n {
+            made[i] = node(n, i);
+            sum += made[i][1];
+            i += 1;
+        }
+        let mut rule = Self::without_nodes(n);
+        while i > 0 {
+            i -= 1;
+            let [at, weight, second, first] = made[i];
+            // What rounding leaves of the sum of all weights, 1.
             let weight = weight / sum;
-            nodes.at[lane] = at;
-            for (shares, share) in nodes.shares.iter_mut().zip([1.0, second, first]) {
-                shares[lane] = share * weight;
-            }
+            rule.put(i, at, [weight, second * weight, first * weight]);
         }
         rule
     }
 
     /// The rule of n nodes, at most [`MOST`], in the middle of n equal parts of the angle: exact for cosines up to degree 2n - 1.
-    fn arc(n: usize) -> Self {
-        let mut rule = Self { nodes: Default::default(), count: n };
-        for i in 0..n {
-            let (nodes, lane) = (&mut rule.nodes[i / LANES], i % LANES);
-            let angle = std::f64::consts::PI * (i as f64 + 0.5) / n as f64;
-            nodes.at[lane] = (0.5 * angle).sin().powi(2);
-            let weight = (n as f64).recip();
-            let share = |degree: usize| 2.0 * weight * (degree as f64 * angle).cos();
-            for (shares, share) in nodes.shares.iter_mut().zip([weight, share(n - 2), share(n - 1)]) {
-                shares[lane] = share;
-            }
+    const fn arc(n: usize) -> Self {
+        let (mut rule, mut i) = (Self::without_nodes(n), 0);
+        let weight = 1.0 / n as f64;
+        while i < n {
+            // θ = π(2i+1)/(2n); node i lies at sin²(θ/2).
+            let half = sine(PI * (2 * i + 1) as f64 / (4 * n) as f64);
+            let second = 2.0 * weight * cosine((n - 2) * (2 * i + 1), n);
+            let first = 2.0 * weight * cosine((n - 1) * (2 * i + 1), n);
+            rule.put(i, half * half, [weight, second, first]);
+            i += 1;
         }
         rule
+    }
+
+    const fn without_nodes(count: usize) -> Self {
+        Self { nodes: [Nodes { at: [0.0; LANES], shares: [[0.0; LANES]; 3] }; MOST / LANES], count }
+    }
+
+    const fn put(&mut self, i: usize, at: f64, [mean, second, first]: [f64; 3]) {
+        let (nodes, lane) = (&mut self.nodes[i / LANES], i % LANES);
+        nodes.at[lane] = at;
+        nodes.shares[0][lane] = mean;
+        nodes.shares[1][lane] = second;
+        nodes.shares[2][lane] = first;
     }
 
     /// The mean by this rule. One of n nodes is exact up to degree 2n - 1: where the coefficients of the polynomial through
@@ -160,27 +160,43 @@ impl Rule {
 
 /// Node `i` of n: where it is, its weight before all are made to sum up, and by how much its shares in the two last
 /// Legendre coefficients are larger.
-fn node(n: usize, i: usize) -> [f64; 4] {
-    let count = n as f64;
-    let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (count + 0.5)).cos();
-    for _ in 0..NEWTON {
+const fn node(n: usize, i: usize) -> [f64; 4] {
+    let (count, mut steps) = (n as f64, 0);
+    // Tricomi's guess.
+    let mut x = -cosine(4 * i + 3, 2 * n + 1);
+    while steps < NEWTON {
         let [_, before, at] = legendre(n, x);
         x -= at * (x * x - 1.0) / (count * (x * at - before));
+        steps += 1;
     }
     let [second, first, at] = legendre(n, x);
     // 1/((1-x²) P'²) does not change with x to first order: what rounding leaves of a node leaves no trace in its weight.
-    let weight = (1.0 - x * x) / (count * (first - x * at)).powi(2);
-    [0.5 + 0.5 * x, weight, (2.0 * count - 1.0) * first, (2.0 * count - 3.0) * second]
+    let slope = count * (first - x * at);
+    [
+        0.5 + 0.5 * x,
+        (1.0 - x * x) / (slope * slope),
+        (2.0 * count - 3.0) * second,
+        (2.0 * count - 1.0) * first,
+    ]
 }
 
 /// Legendre polynomials of degrees n - 2, n - 1 and n at x, n ≥ 2.
-fn legendre(n: usize, x: f64) -> [f64; 3] {
-    let mut p = [0.0, 1.0, x];
-    for k in 2..=n {
-        let k = k as f64;
+const fn legendre(n: usize, x: f64) -> [f64; 3] {
+    let (mut p, mut degree) = ([0.0, 1.0, x], 2);
+    while degree <= n {
+        let k = degree as f64;
         p = [p[1], p[2], ((2.0 * k - 1.0) * x * p[2] - (k - 1.0) * p[1]) / k];
+        degree += 1;
     }
     p
+}
+
+/// cos(πj/(2n)): no angle is rounded that lies beyond a right one.
+const fn cosine(j: usize, n: usize) -> f64 {
+    let j = j % (4 * n);
+    let j = if j > 2 * n { 4 * n - j } else { j };
+    let right = PI / (2 * n) as f64;
+    if j > n { -sine(right * (j - n) as f64) } else { sine(right * (n - j) as f64) }
 }
 
 #[cfg(test)]

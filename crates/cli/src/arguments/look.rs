@@ -17,7 +17,7 @@ pub(crate) struct LookArguments {
     /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (NAME@2x.png)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
     scale: u32,
-    /// Width in print, such as 85mm, 40mm to 300mm: letters and lines keep their size in points, PNG have 600 pixels to the inch
+    /// Width in print, such as 85mm, 60mm to 300mm: letters and lines keep their size in points, PNG have 600 pixels to the inch
     /// (NAME-85mm.png)
     #[arg(long, value_name = "LENGTH", value_parser = width, conflicts_with = "scale")]
     width: Option<u32>,
@@ -26,10 +26,10 @@ pub(crate) struct LookArguments {
 /// Reads a width in print, in tenths of a millimetre.
 fn width(text: &str) -> Result<u32, String> {
     let tenths = (quantity(text, "m")? * 1e4).round();
-    if (400.0..=3000.0).contains(&tenths) {
+    if (600.0..=3000.0).contains(&tenths) {
         Ok(tenths as u32)
     } else {
-        Err("expected a width from 40mm to 300mm".to_owned())
+        Err("expected a width from 60mm to 300mm".to_owned())
     }
 }
 

@@ -7,6 +7,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stickslip_results::complaint::words;
 use stickslip_results::folder;
+use stickslip_results::markdown::word;
 use stickslip_scenario::{Scenario, schema};
 use thiserror::Error;
 
@@ -62,8 +63,8 @@ pub(crate) fn new(arguments: &NewArguments) -> Verdict {
     let text = TEMPLATES.iter().find(|(name, _)| *name == arguments.template).map_or("", |(_, text)| text);
     match write(&arguments.name, text, arguments.schema.as_deref()) {
         Ok(file) => {
-            let file = file.display();
-            say(format_args!("{file}: {}\n  next: stickslip run {file}", title(text)));
+            let (title, run) = (title(text), word(&file));
+            say(format_args!("{}: {title}\n  next: stickslip run {run}", file.display()));
             Verdict::Done
         }
         Err(error) => {

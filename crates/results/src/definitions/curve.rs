@@ -34,6 +34,14 @@ const BEYOND: &str =
 const UNHELD: &str = "why there is no such force: the drive does not even hold what acts without the load, or something else than friction holds any";
 
 pub(super) const CURVE: &[Definition] = &[
+    column("stroke_m", "of `step-amplitude`: stroke of the figures' waveform"),
+    column("amplitude_m", "the same of a sine or a sum of harmonics: its amplitude"),
+    column("frequency_Hz", "of `speed-frequency`: one over the period of the figures' waveform"),
+    column("load_N", "of `force-speed` and `step-load`: load on the figures' body, against its steps"),
+    column(
+        "preload_N",
+        "of `preload` and `holding-force`: normal force of the body's contacts, all together",
+    ),
     column("sense", SENSE),
     column("step_m", STEP),
     column("step_error_m", ERROR),

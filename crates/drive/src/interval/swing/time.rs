@@ -2,6 +2,7 @@
 
 use super::{Clock, Swing};
 use crate::quadrature::{self, Lanes};
+use crate::sine::sine;
 use std::array;
 use std::f64::consts::PI;
 
@@ -82,35 +83,5 @@ impl Swing<'_> {
     /// The angle at q, 0 to π.
     pub(super) fn angle(&self, q: f64) -> f64 {
         2.0 * (q - self.low).max(0.0).sqrt().atan2((self.high - q).max(0.0).sqrt())
-    }
-}
-
-/// Sine of 0 to π/2 by its series, to 3e-16: a call of the library's for each node would cost more than all else there.
-#[inline(always)]
-fn sine(x: f64) -> f64 {
-    const TERMS: [f64; 10] = {
-        let (mut terms, mut term, mut k) = ([0.0; 10], 1.0, 0);
-        while k < 10 {
-            terms[k] = term;
-            term /= -(((2 * k + 2) * (2 * k + 3)) as f64);
-            k += 1;
-        }
-        terms
-    };
-    let square = x * x;
-    // The small terms odd and even side by side: half as long a chain of sums that wait for each other.
-    let chain =
-        |k: usize| TERMS[k..].iter().step_by(2).rev().fold(0.0, |sum, term| sum * (square * square) + term);
-    x * (1.0 + square * (TERMS[1] + square * (chain(2) + square * chain(3))))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_series_is_the_sine() {
-        let worst = (0..=1000).map(|i| 0.5 * PI * f64::from(i) / 1000.0).map(|x| (sine(x) - x.sin()).abs());
-        assert!(worst.fold(0.0, f64::max) < 4e-16);
     }
 }
