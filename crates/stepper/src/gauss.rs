@@ -3,73 +3,18 @@
 //! The coefficients of a linear equation are asked for at five nodes of a step and never again: where they are dear, and known along a
 //! motion that another method has found, no method asks for less.
 
+mod elimination;
+mod rule;
+
+use elimination::{solve, wide_of};
+use rule::{PLACES, RULE, Reach, SHARES, dot};
 use std::array;
-use std::sync::LazyLock;
 
 /// Nodes of a step.
 pub const NODES: usize = 5;
 
 /// A number for each node.
 pub type Each = [f64; NODES];
-
-/// Gauss and Legendre's nodes and weights over [-1, 1], the latter halved.
-const PLACES: Each =
-    [-0.906_179_845_938_664, -0.538_469_310_105_683_1, 0.0, 0.538_469_310_105_683_1, 0.906_179_845_938_664];
-const SHARES: Each = [
-    0.118_463_442_528_094_54,
-    0.239_314_335_249_683_24,
-    0.284_444_444_444_444_44,
-    0.239_314_335_249_683_24,
-    0.118_463_442_528_094_54,
-];
-
-fn dot(a: &[f64], b: &Each) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The method over [0, 1].
-struct Rule {
-    /// Legendre's polynomials at the nodes.
-    values: [[f64; NODES + 1]; NODES],
-    /// a: what the slopes at all nodes add up to at each.
-    inner: [Each; NODES],
-    /// The last four Legendre coefficients, from the first, of what has these values at the nodes.
-    tail: [Each; NODES - 1],
-    /// All of it in a step of length 1.
-    even: Reach,
-}
-
-/// Legendre's polynomials at x.
-fn legendre(x: f64) -> [f64; NODES + 1] {
-    let mut values = [1.0, x, 0.0, 0.0, 0.0, 0.0];
-    for k in 1..NODES {
-        let n = k as f64;
-        values[k + 1] = ((2.0 * n + 1.0) * x * values[k] - n * values[k - 1]) / (n + 1.0);
-    }
-    values
-}
-
-impl Rule {
-    /// What slopes at the nodes add up to from -1 to x, over [0, 1]: a_j = b_j Σ (2k + 1) P_k(c_j) ∫P_k.
-    fn row(&self, x: f64) -> Each {
-        let ends = legendre(x);
-        let integral = |k: usize| if k == 0 { x + 1.0 } else { ends[k + 1] - ends[k - 1] };
-        let integrals: Each = array::from_fn(integral);
-        array::from_fn(|j| 0.5 * SHARES[j] * dot(&self.values[j], &integrals))
-    }
-}
-
-static RULE: LazyLock<Rule> = LazyLock::new(|| {
-    let values = PLACES.map(legendre);
-    let tail = array::from_fn(|k| {
-        let order = k + 1;
-        array::from_fn(|j| (2.0 * order as f64 + 1.0) * SHARES[j] * values[j][order])
-    });
-    let mut rule = Rule { values, inner: [[0.0; NODES]; NODES], tail, even: Reach::default() };
-    rule.inner = PLACES.map(|x| rule.row(x));
-    rule.even = Reach::by(&rule, [1.0; NODES]);
-    rule
-});
 
 /// What a linear equation is at a node: the slopes of `rates` components by all of them, row by row, and what they are of each column
 /// besides.
@@ -278,122 +223,6 @@ impl Tail {
     fn or(self, other: Self) -> Self {
         Self { last: self.last.max(other.last), rest: self.rest.max(other.rest) }
     }
-}
-
-/// What the slopes at the nodes add up to, once and twice integrated, at each node and at the end.
-#[derive(Debug, Clone, Default)]
-struct Reach {
-    paces: Each,
-    once: [Each; NODES],
-    twice: [Each; NODES],
-    /// Time to each node, and all of it, s.
-    time: Each,
-    length: f64,
-    end_once: Each,
-    end_twice: Each,
-    tail: [Each; NODES - 1],
-}
-
-impl Reach {
-    fn of(paces: Each) -> Self {
-        let (rule, [pace, ..]) = (&*RULE, paces);
-        if paces.iter().all(|other| *other == pace) {
-            return rule.even.times(pace);
-        }
-        Self::by(rule, paces)
-    }
-
-    /// Of an even step that is so many times as long.
-    fn times(&self, pace: f64) -> Self {
-        let once = |row: &Each| row.map(|a| pace * a);
-        let twice = |row: &Each| row.map(|a| pace * pace * a);
-        Self {
-            paces: once(&self.paces),
-            once: self.once.each_ref().map(once),
-            twice: self.twice.each_ref().map(twice),
-            time: once(&self.time),
-            length: pace * self.length,
-            end_once: once(&self.end_once),
-            end_twice: twice(&self.end_twice),
-            tail: self.tail.each_ref().map(once),
-        }
-    }
-
-    fn by(rule: &Rule, paces: Each) -> Self {
-        let once: [Each; NODES] = array::from_fn(|i| array::from_fn(|j| rule.inner[i][j] * paces[j]));
-        let end_once: Each = array::from_fn(|j| SHARES[j] * paces[j]);
-        let after =
-            |first: &Each| -> Each { array::from_fn(|j| (0..NODES).map(|k| first[k] * once[k][j]).sum()) };
-        Self {
-            twice: array::from_fn(|i| after(&once[i])),
-            end_twice: after(&end_once),
-            time: array::from_fn(|i| once[i].iter().sum()),
-            length: end_once.iter().sum(),
-            tail: rule.tail.map(|row| array::from_fn(|j| row[j] * paces[j])),
-            once,
-            end_once,
-            paces,
-        }
-    }
-}
-
-/// Numbers that are worked on at once.
-const LANES: usize = 4;
-
-/// Room of a row of a linear system with its right sides: whole lanes.
-fn wide_of(size: usize, count: usize) -> usize {
-    (size + count).next_multiple_of(LANES)
-}
-
-/// Solves a linear system for many right sides, which stand at the end of its rows; false where it has no solution.
-fn solve(system: &mut [f64], size: usize, count: usize, solution: &mut Vec<f64>) -> bool {
-    let wide = wide_of(size, count);
-    for k in 0..size {
-        let height = |i: usize| system[i * wide + k].abs();
-        let mut pivot = (k, height(k));
-        for i in k + 1..size {
-            // What is no number counts as the largest.
-            if height(i).total_cmp(&pivot.1).is_gt() {
-                pivot = (i, height(i));
-            }
-        }
-        if pivot.1 == 0.0 || !pivot.1.is_finite() {
-            return false;
-        }
-        let (above, below) = system.split_at_mut((k + 1) * wide);
-        let line = &mut above[k * wide + k..];
-        if let Some(row) = pivot.0.checked_sub(k + 1) {
-            line.swap_with_slice(&mut below[row * wide + k..(row + 1) * wide]);
-        }
-        let value = line[0];
-        // In whole lanes: what lies before the pivot is done with.
-        let (lines, _) = above[k * wide..].as_chunks::<LANES>();
-        let from = (k + 1) / LANES;
-        for row in below.chunks_exact_mut(wide) {
-            if row[k] != 0.0 {
-                let factor = row[k] / value;
-                let (row, _) = row.as_chunks_mut::<LANES>();
-                for (row, line) in row[from..].iter_mut().zip(&lines[from..]) {
-                    row.iter_mut().zip(line).for_each(|(x, a)| *x -= factor * a);
-                }
-            }
-        }
-    }
-    solution.clear();
-    solution.resize(size * count, 0.0);
-    for (k, line) in system.chunks_exact(wide).enumerate().rev() {
-        let (row, right) = line.split_at(size);
-        let right = &right[..count];
-        let (rest, below) = solution.split_at_mut((k + 1) * count);
-        let sides = &mut rest[k * count..];
-        sides.copy_from_slice(right);
-        for (a, solved) in row[k + 1..].iter().zip(below.chunks_exact(count)) {
-            sides.iter_mut().zip(solved).for_each(|(x, solved)| *x -= a * solved);
-        }
-        let share = row[k].recip();
-        sides.iter_mut().for_each(|x| *x *= share);
-    }
-    true
 }
 
 #[cfg(test)]

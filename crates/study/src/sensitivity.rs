@@ -4,9 +4,10 @@
 //! each figure with respect to each quantity, with how far it may be off. Where no number is true it tells why, and both sides.
 //!
 //! In reading order: `figure` and `quantity`, what is asked; `led`, slopes that variations of the scenario's own run tell; `sample`, what a
-//! variant comes to; `ladder`, which variants are run; `stencil`, slopes from their values; `derivative`, what these mean; `table`, what
+//! variant comes to; `ladder`, which variants are run; `bench`, where; `stencil`, slopes from their values; `derivative`, what these mean; `table`, what
 //! is told of them.
 
+mod bench;
 mod derivative;
 mod error;
 mod figure;
@@ -24,13 +25,13 @@ pub use quantity::Quantity;
 pub use sample::Missing;
 pub use table::{all_files, csv, json, write};
 
-use crate::each::each;
+use bench::{Bench, Silent};
 use derivative::Near;
 use figure::Reading;
 use ladder::Tried;
 use sample::{Happened, Ran, Sample};
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::AtomicUsize;
 use stickslip_results::{Job, Watcher};
 
 /// What derivatives are asked for.
@@ -76,8 +77,6 @@ pub struct Taken {
     pub runs: usize,
 }
 
-/// Most of the figure that it may change by where the scale of a quantity is looked for.
-const LITTLE: f64 = 0.1;
 /// Levels on a side that make finer ones needless.
 const ENOUGH: usize = 4;
 /// Noise where none could be measured, in tolerances.
@@ -85,16 +84,6 @@ const UNMEASURED: f64 = 100.0;
 /// Share of what the slopes on both sides differ by that their mean may be off by. A variation is as one of the sides has it: where there
 /// is a kink, the mean is off by half of it.
 const BEND: f64 = 1.0 / 64.0;
-
-/// A watcher who is asked and not told.
-struct Silent<'a>(&'a dyn Watcher);
-
-impl Watcher for Silent<'_> {
-    fn reached(&self, _: f64) {}
-    fn goes_on(&self) -> bool {
-        self.0.goes_on()
-    }
-}
 
 impl Sensitivity {
     /// The derivatives of a file; pairs in `set` are overrides. Runs it as it stands.
@@ -279,71 +268,6 @@ impl Taken {
             Derivative::Split { below, above, .. } => is_missing(below) || is_missing(above),
             Derivative::Unknown(missing) => *missing == Missing::NotRun,
         })
-    }
-}
-
-/// Where variants are run.
-struct Bench<'a> {
-    asked: &'a Sensitivity,
-    cores: usize,
-    watcher: &'a (dyn Watcher + Sync),
-    /// Whether figures may be made of rows: what variations tell of is made of moments and events.
-    has_rows: bool,
-    done: AtomicUsize,
-}
-
-impl Bench<'_> {
-    /// Runs variants of quantities, by their places; they come by quantity.
-    fn run(&self, scales: &[f64], variants: &[(usize, (f64, bool))]) -> Vec<Vec<Tried>> {
-        let asked = self.asked;
-        let tried = each(variants.len(), self.cores, |place| {
-            let (q, (share, is_level)) = variants[place];
-            let quantity = &asked.quantities[q];
-            let value = quantity.value + share * scales[q];
-            let goes_on = self.watcher.goes_on();
-            let variant = if goes_on {
-                sample::variant(&asked.job, &quantity.path, value, asked.tolerance)
-            } else {
-                Err(Missing::NotRun)
-            };
-            let variant = variant.map(|job| if self.has_rows { job } else { sample::without_rows(job) });
-            let silent = Silent(self.watcher);
-            let sample = variant.and_then(|job| Sample::of(&job, &asked.figures, asked.tolerance, &silent));
-            let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-            self.watcher.reached(done as f64);
-            Tried { share, offset: value - quantity.value, is_level, sample }
-        });
-        let mut by_quantity: Vec<Vec<Tried>> = vec![Vec::new(); asked.quantities.len()];
-        variants.iter().zip(tried).for_each(|((q, _), tried)| by_quantity[*q].push(tried));
-        by_quantity
-    }
-
-    /// The scale of each quantity: its magnitude, or of one that is 0 the largest distance at which all goes on nearly as it does.
-    fn scales(&self) -> Vec<f64> {
-        let quantities = &self.asked.quantities;
-        let large = |quantity: &Quantity| match quantity.value {
-            0.0 => ladder::large(&self.asked.job, quantity),
-            value => value.abs(),
-        };
-        let mut scales: Vec<f64> = quantities.iter().map(large).collect();
-        let zeros = quantities.iter().enumerate().filter(|(_, quantity)| quantity.value == 0.0);
-        let variants: Vec<_> =
-            zeros.flat_map(|(q, _)| ladder::probes().map(move |probe| (q, probe))).collect();
-        for (q, probes) in self.run(&scales, &variants).into_iter().enumerate() {
-            let little = probes.iter().find(|tried| self.is_little(tried));
-            scales[q] *= little.or(probes.last()).map_or(1.0, |tried| tried.share);
-        }
-        scales
-    }
-
-    /// Whether the same happens, and figures change by little.
-    fn is_little(&self, tried: &Tried) -> bool {
-        let Ok(sample) = &tried.sample else { return false };
-        let figures = self.asked.figures.iter().zip(&sample.figures);
-        sample.happened == self.asked.happened
-            && figures.into_iter().all(|(own, other)| {
-                other.is_some_and(|other| (other - own.value).abs() <= LITTLE * own.value.abs())
-            })
     }
 }
 

@@ -8,14 +8,15 @@
 //!
 //! What falls at the same moment, or is as good as down there, is one event: all of it fires before any law is chosen.
 
+mod reading;
 mod side;
 
 use super::watch::{Moving, Watch};
 use super::watched::Watched;
-use crate::contact::{Contact, Guard, Motion, NEARNESS, bands};
+use crate::contact::{Guard, Motion, NEARNESS};
 use crate::equations::Equations;
 use arrayvec::ArrayVec;
-use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, Span, root, root_near};
+use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, root, root_near};
 
 /// A guard that falls inside the step just attempted, and when, s.
 #[derive(Clone, Copy)]
@@ -262,132 +263,6 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
         let above = |point: Point| Point { y: point.y - level, ..point };
         root(|t| g(t) - level, Bracket { from: above(from), to: above(low) }, tolerance)
-    }
-
-    /// Value of a guard at the start of the step.
-    #[inline(always)]
-    fn at_begin(&self, watched: Watched<'_>) -> f64 {
-        self.value(watched, self.from, || (self.solver.span().time, self.solver.span().begin))
-    }
-
-    /// Its value at the end of the step.
-    #[inline(always)]
-    fn at_end(&self, watched: Watched<'_>) -> f64 {
-        self.value(watched, self.to, || (self.solver.span().end_time, self.solver.span().end))
-    }
-
-    /// Its value at one end of the step: the contacts there, and for blocks time and state.
-    #[inline(always)]
-    fn value<'y>(
-        &self,
-        watched: Watched<'_>,
-        contacts: &[Moving],
-        place: impl Fn() -> (f64, &'y [f64]),
-    ) -> f64 {
-        match watched {
-            Watched::Closed(steady, guard) => steady.guard(guard, &contacts[steady.index].motion),
-            Watched::Contact(index, contact, guard) => {
-                guard.value(contact, self.eq.law(index), &contacts[index].motion)
-            }
-            Watched::Block(k, guard) => {
-                let (t, y) = place();
-                self.eq.block_guard(k, guard, t, |i| y[i])
-            }
-        }
-    }
-
-    /// Its rates at both ends; of one that is sampled none are known.
-    #[inline(always)]
-    fn rates(&self, watched: Watched<'_>) -> [f64; 2] {
-        let rate = |ends: &[Moving]| match watched {
-            Watched::Closed(steady, guard) => {
-                let Moving { motion, second: (_, pull) } = &ends[steady.index];
-                steady.guard_rate(guard, motion, *pull)
-            }
-            Watched::Contact(index, contact, guard) => {
-                let Moving { motion, second } = &ends[index];
-                guard.rate(contact, &self.eq.modes[index], motion, *second)
-            }
-            Watched::Block(..) => 0.0,
-        };
-        [rate(self.from), rate(self.to)]
-    }
-
-    /// Its value at a time inside the step, on the dense output.
-    #[inline(always)]
-    fn inside(&self, watched: Watched<'_>, t: f64) -> f64 {
-        let part = self.solver.part(t);
-        let value = |i: usize| self.solver.value_at(i, part);
-        match watched {
-            Watched::Closed(steady, guard) => {
-                // Half of its motion is of use to each.
-                let at = match guard {
-                    Guard::Piece => Motion { u: steady.displacement(t, value), ..Motion::default() },
-                    _ => {
-                        let speed = steady.speed(t, |i| value(self.eq.layout.velocity(i)));
-                        Motion { du: speed, ..Motion::default() }
-                    }
-                };
-                steady.guard(guard, &at)
-            }
-            Watched::Contact(index, contact, guard) => {
-                let at = if guard.is_length() {
-                    self.eq.standing(contact, t, value)
-                } else {
-                    self.eq.motion(contact, t, value)
-                };
-                guard.value(contact, self.eq.law(index), &at)
-            }
-            Watched::Block(k, guard) => self.eq.block_guard(k, guard, t, value),
-        }
-    }
-
-    /// The motion of a contact at a part of the step, on the dense output; of one that many guards ask for, once.
-    fn motion_at(&mut self, index: usize, contact: &Contact, part: f64) -> (f64, Motion) {
-        let Span { time, end_time, .. } = self.solver.span();
-        let t = time + part * (end_time - time);
-        if self.seen.first().is_some_and(|seen| seen.contact != index) {
-            self.seen.clear();
-        }
-        if let Some(seen) = self.seen.iter().find(|seen| seen.part == part) {
-            return (t, seen.motion);
-        }
-        self.solver.complete(self.eq, Completion::Dense);
-        let at = self.solver.part(t);
-        let motion = self.eq.motion(contact, t, |i| self.solver.value_at(i, at));
-        // Where there is no room it is read again.
-        let _ = self.seen.try_push(Seen { contact: index, part, motion });
-        (t, motion)
-    }
-
-    /// Its deadband and how near to zero it is as good as there.
-    fn bands(&self, watched: Watched<'_>) -> (f64, f64) {
-        let (dead, near) = self.own_bands(watched);
-        let (contact, guard) = match watched {
-            Watched::Closed(steady, guard) => (steady.contact, guard),
-            Watched::Contact(_, contact, guard) => (contact, guard),
-            Watched::Block(..) => return (dead, near),
-        };
-        // A contact that rides on moving bodies has a small u of large places; what these round moves it to and fro. Never more
-        // than counts as there anyway: at tolerances near to rounding every turn is looked at.
-        let begin = self.solver.span().begin;
-        (dead.max(guard.noise(contact, contact.u.travel(|i| begin[i])).min(near)), near)
-    }
-
-    /// The same without what places far from their origins make of it.
-    #[inline(always)]
-    fn own_bands(&self, watched: Watched<'_>) -> (f64, f64) {
-        match watched {
-            Watched::Closed(steady, guard) => {
-                guard.bands(steady.contact, self.tolerance, self.from[steady.index].motion.u)
-            }
-            Watched::Contact(index, contact, guard) => {
-                guard.bands(contact, self.tolerance, self.from[index].motion.u)
-            }
-            Watched::Block(k, guard) => {
-                bands(self.eq.model.blocks[k].block().guard_scale(guard), self.tolerance)
-            }
-        }
     }
 
     /// Whether any other guard than that which ends the step has come as near to zero there as to be as good as down.
