@@ -115,8 +115,12 @@ impl Settling {
         }
         let half = count / 2..count;
         let (middle, spread) = (mean_of(values, half.clone()), half_range(values, half.clone()));
-        if count >= FEWEST && values.part(half).all(|value| value.abs() <= least) {
-            return Self::settled(values, (middle, spread), bounds.error, scale(last));
+        if count >= FEWEST && values.part(half.clone()).all(|value| value.abs() <= least) {
+            // What is on its way goes on: how far, so slowly, nobody knows.
+            let quarter = half.start + half.len() / 2;
+            let way = (mean_of(values, half.start..quarter) - mean_of(values, quarter..count)).abs();
+            let to_come = if way > 0.5 * spread { least } else { 0.0 };
+            return Self::settled(values, (middle, spread), bounds.error + to_come, scale(last));
         }
         let is_shown = spread > FAINT * scale(middle);
         let fit = Recurrence::best(values).filter(|fit| fit.rest <= PATTERN && is_shown);
@@ -298,6 +302,21 @@ mod tests {
             let values = values(64, |k| 1.0 + f64::from((k as u32 + start) / 4 % 2));
             let found = Settling::of(&values, BOUNDS);
             assert!(!matches!(found, Settling::Settled(_)), "{start}: {found:?}");
+        }
+    }
+
+    /// Values below what counts that fade by a thousandth from one to the next: their mean is none of those to come.
+    #[test]
+    fn what_fades_below_what_counts_may_come_to_nothing() {
+        let bounds = Bounds { least: 3e-9, ..BOUNDS };
+        for count in [20, 40, 160] {
+            let fades = values(count, |k| 1.45e-9 * 0.9988_f64.powf(k));
+            let Settling::Settled(found) = Settling::of(&fades, bounds) else { panic!("{count}") };
+            assert!(found.value.abs() <= found.error, "{count}: {found:?}");
+            // The same values in no order stay where they are.
+            let stays = values(count, |k| fades[(k * 7.0) as usize % count]);
+            let Settling::Settled(found) = Settling::of(&stays, bounds) else { panic!("{count}") };
+            assert!(found.error < 0.3 * found.value, "{count}: {found:?}");
         }
     }
 

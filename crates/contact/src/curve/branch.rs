@@ -41,6 +41,9 @@ pub struct Branch {
 }
 
 impl Branch {
+    /// The lowest height of a slip front, m: m is there what a profile has of flat.
+    pub const CENTRE: f64 = f64::MIN_POSITIVE;
+
     /// Whether every spring slips.
     pub fn is_gross(&self) -> bool {
         self.level == f64::INFINITY
@@ -167,8 +170,8 @@ impl Branch {
 
     /// Force, N, friction power, W, and m at the slip front, m, of a moving apex with M(d) at hand, as [`Branch::force`] and
     /// [`Branch::friction_power`] have them: what they need of the profile is asked for once. m is the length that sticks, none
-    /// in gross slip. Where the apex of a shrinking contact has crossed the old curve the front lies above d, and m goes on as
-    /// the force does: a step that oversteps an event meets no kink.
+    /// in gross slip. A step that oversteps an event meets no kink: where the apex of a shrinking contact has crossed the old curve
+    /// the front lies above d, and where the last of the springs have begun to slip below the centre, and m goes on as the force does.
     #[inline(always)]
     pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 3] {
         let Motion { d, u, dd, du } = *at;
@@ -177,12 +180,14 @@ impl Branch {
             return [self.factor * (self.slope * reduced_force), drive * reduced_force, 0.0];
         }
         let (profile, front) = (law.profile(), self.front(d, u));
-        let [inner, stuck] = profile.reduced_force_and_stiffness(front);
+        let [inner, stuck] = if front > 0.0 {
+            profile.reduced_force_and_stiffness(front)
+        } else {
+            let flat = profile.reduced_stiffness(Self::CENTRE);
+            [flat * front, flat]
+        };
         let force = self.factor * (self.excess * inner + self.offset + self.slope * reduced_force);
-        if front >= 0.0 {
-            return [force, drive * (reduced_force - inner - (d - front) * stuck), stuck];
-        }
-        [force, self.friction_power(law, front, at), profile.reduced_stiffness(0.0)]
+        [force, drive * (reduced_force - inner - (d - front) * stuck), stuck]
     }
 
     /// Friction power, W: G\*κL̇∫(d-h)dm over the springs at their limit, those higher than `front`,

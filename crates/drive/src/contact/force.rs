@@ -162,8 +162,11 @@ impl Contact {
             Mode::Grow => self.interface.stick_stiffness(motion.d),
             // All springs slip: none is left to resist.
             Mode::Slip(branch) if branch.is_gross() => 0.0,
-            // Above d, too, where a shrinking apex has crossed the old curve: a step that oversteps an event meets no kink.
-            Mode::Slip(branch) => self.interface.stick_stiffness(self.front(memory, branch, motion).max(0.0)),
+            // Above d, too, where a shrinking apex has crossed the old curve, and below the centre: a step that oversteps an event
+            // meets no kink. That of a flat punch would be a jump.
+            Mode::Slip(branch) => {
+                self.interface.stick_stiffness(self.front(memory, branch, motion).max(Branch::CENTRE))
+            }
             Mode::Lull { lull, .. } => lull.stiffness(&self.interface),
             // The whole law knows only from a trial which springs stick, and a trial that goes nowhere slips nowhere: at the
             // start of a step a sliding contact would resist with all its springs.

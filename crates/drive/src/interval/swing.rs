@@ -26,7 +26,7 @@ mod turning;
 
 use super::Interval;
 use crate::Model;
-use crate::contact::Press;
+use crate::contact::{NEARNESS, Press};
 use crate::model::Free;
 use slip::PartialSlip;
 use std::f64::consts::PI;
@@ -84,6 +84,8 @@ pub(crate) struct Swing<'a> {
     last: f64,
     /// Last step to a moment, as a part of the whole way, that leaves no more.
     near: f64,
+    /// How far beyond the end of a piece an arc may turn and count as turning there, in parts of its width.
+    grazing: f64,
     /// Relative error allowed of times.
     allowed: f64,
     pub(crate) evaluations: u64,
@@ -118,6 +120,7 @@ impl<'a> Swing<'a> {
         let Self { mut laws, mut slips, .. } = self;
         let last = (0.1 * tolerance.cbrt()).clamp(EXACT, ROUGH);
         let near = (0.1 * tolerance.sqrt()).clamp(1e-7, 1e-2);
+        let grazing = (NEARNESS * tolerance).sqrt();
         laws.clear();
         laws.extend(model.contacts.iter().map(|contact| match contact.press {
             Press::Constant { d, .. } => contact.interface.profile().root_series(d),
@@ -125,7 +128,7 @@ impl<'a> Swing<'a> {
         }));
         slips.clear();
         slips.reserve(model.contacts.len());
-        Self { tolerance, last, near, laws, slips, ..Self::default() }
+        Self { tolerance, last, near, grazing, laws, slips, ..Self::default() }
     }
 
     /// The room that it takes: it knows no interval.
@@ -255,7 +258,9 @@ impl<'a> Swing<'a> {
         (self.low, self.high) = (low, high);
         self.slips.iter_mut().for_each(|slip| slip.swing_between(low, high));
         // In the angle both ends of the arc are smooth, where 1/ν is infinite.
-        (self.clock, self.turns) = (Clock::Angle, high <= self.reach);
+        // Where a loop closes as good as where it turns, as every turn of a motion does that repeats itself, it turns: the laws of
+        // both pieces differ there by the square of what is left, and the moment at which so short a way is over by its root.
+        (self.clock, self.turns) = (Clock::Angle, high <= self.reach + self.grazing * (high - low));
         // From rest it begins at the turning point itself, at the angle 0 to the last bit.
         self.from = if low < 0.0 { self.angle(0.0) } else { 0.0 };
         self.to = if self.turns { PI } else { self.angle(self.reach) };

@@ -64,13 +64,17 @@ impl Swing<'_> {
         if guess > self.from && guess < self.to { guess } else { self.from + whole * share }
     }
 
-    /// The slider's velocity at q, m/s: what it has gained, not what the followers' speed leaves of ν, which may be thousands
-    /// of times as fast.
+    /// The slider's velocity at q, m/s. Where the slide is about as fast as at the start by what it has gained, not by what the
+    /// followers' speed leaves of ν, which may be thousands of times as fast.
     pub(super) fn velocity(&self, way: f64) -> f64 {
-        let [[mean], ..] = self.force([way]);
-        let [speed] = self.speed_at([way]);
-        let sum = self.speed() + speed;
-        let gain = if sum > 0.0 { 2.0 * way * mean / sum } else { 0.0 };
+        let (first, [last]) = (self.speed(), self.speed_at([way]));
+        let gain = if last > 0.5 * first && last < 2.0 * first {
+            let [[mean], ..] = self.force([way]);
+            2.0 * way * mean / (first + last)
+        } else {
+            // Next to a turning point that quotient has no digits.
+            last - first
+        };
         self.start.v + self.sense * gain
     }
 
