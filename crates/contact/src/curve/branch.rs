@@ -195,7 +195,7 @@ impl Branch {
     pub fn friction_power(&self, law: &Interface, front: f64, at: &Motion) -> f64 {
         let Motion { d, dd, du, .. } = *at;
         let profile = law.profile();
-        let front = if self.is_gross() { 0.0 } else { front.max(0.0) };
+        let front = if self.is_gross() { 0.0 } else { front.max(Self::CENTRE) };
         let limit = profile.reduced_force(d)
             - profile.reduced_force(front)
             - (d - front) * profile.reduced_stiffness(front);
