@@ -118,7 +118,7 @@ for prescribed straight lines F_x(F_N), elsewhere to the digits of the table and
 out is u. The memory curve, which knows no rate equation, is moved along these u and the d of Hertz: its force must be the straight \
 line.";
 const LIMITS: &str = "Both are paths on which the slip ring grows or stays. Histories in which it is cut, by unloading and reloading \
-with both loads, are held by [tests](../../crates/contact/tests/histories.rs) against histories that were solved independently, not \
+with both loads, are held by [tests](../../crates/contact/tests/contacts/histories.rs) against histories that were solved independently, not \
 here. The theory is the same on both sides, as are Hertz' numbers: this page says that the memory curve integrates it, not that steel \
 obeys it.\n\nThe end u of the others is, while the load \
 falls, 1.5e-14 m from the one integrated here, which is worth 2e-7 N: so far their integration goes.";
