@@ -3,8 +3,6 @@
 //! What is wrong comes from the bad scenarios: each is a good one with an edit. Edits at places apart are put together, and
 //! what is told must be what is told of each by itself. The gate takes a part; `STICKSLIP_CASES=100000` takes that many.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;

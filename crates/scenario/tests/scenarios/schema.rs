@@ -1,8 +1,7 @@
 //! The schema: generated from the form's types, equal to the copy in `schema/`, and true of good scenarios.
 //!
-//! After a change of the form: run with `STICKSLIP_WRITE=1`, and read the difference.
-
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
+//! After a change of the form: run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios schema`, and read the
+//! difference.
 
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

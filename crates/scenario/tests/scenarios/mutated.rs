@@ -1,9 +1,7 @@
 //! Files mutated from the examples: whatever is done to a file, the answer comes at once, and is a scenario or an error
 //! with a place in it.
 //!
-//! The gate runs a part; `STICKSLIP_CASES=100000 cargo test -p stickslip-scenario --test mutated` runs them all.
-
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
+//! The gate runs a part; `STICKSLIP_CASES=100000 cargo test -p stickslip-scenario --test scenarios mutated` runs them all.
 
 use proptest::prelude::*;
 use proptest::sample::Index;

@@ -1,8 +1,7 @@
 //! Bad scenarios: `tests/bad/NAME.json` gives the message of `tests/bad/NAME.txt`, word for word.
 //!
-//! A new case: write the JSON, run with `STICKSLIP_WRITE=1`, and read what it wrote.
-
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
+//! A new case: write the JSON, run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios bad::`, and
+//! read what it wrote.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,5 @@
 //! What a scenario asks to be written of the insides of its contacts, and what it means without saying more.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 use stickslip_drive::Moments;
 use stickslip_scenario::Scenario;
 

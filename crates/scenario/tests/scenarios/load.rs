@@ -1,7 +1,5 @@
 //! Good scenarios: what they mean, what they resolve to, what overrides do to them.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 use proptest::prelude::*;
 use std::fs;
 use std::path::Path;
@@ -18,10 +16,10 @@ use stickslip_scenario::{PlotName, Scenario};
 const QUICKSTART: &str = "../../scenarios/quickstart.json";
 
 /// A scenario that uses every part of the form.
-const FULL: &str = include_str!("good/full.json");
+const FULL: &str = include_str!("../good/full.json");
 
 /// A scenario that uses every part of the form that bodies in the plane have beyond those on a line.
-const PLANAR: &str = include_str!("good/planar.json");
+const PLANAR: &str = include_str!("../good/planar.json");
 
 fn full() -> Scenario {
     Scenario::from_str(FULL, "full.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
@@ -32,7 +30,7 @@ fn planar() -> Scenario {
 }
 
 fn waveforms() -> Scenario {
-    let text = include_str!("good/waveforms.json");
+    let text = include_str!("../good/waveforms.json");
     Scenario::from_str(text, "waveforms.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
 }
 

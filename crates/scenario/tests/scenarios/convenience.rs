@@ -1,7 +1,5 @@
 //! What a file or a command line may say in more than one way.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 use serde_json::Value;
 use std::fs;
 use stickslip_scenario::{MATERIALS, Scenario, ScenarioError, explained};

@@ -1,7 +1,5 @@
 //! Profiles of the form, written out and in files: what comes out is the profile that the contact crate makes of the same numbers.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 use std::fs;
 use std::path::Path;
 use stickslip_contact::{Profile, SelfAffine};

@@ -2,8 +2,6 @@
 //!
 //! Rows, springs and curves of a run, its steps, events and wall time are the program's to watch.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 use std::fmt::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
