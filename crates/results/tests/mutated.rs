@@ -2,7 +2,7 @@
 //! error, and takes no more memory than the results do.
 //!
 //! The gate runs a part; `STICKSLIP_MUTATIONS=100000 cargo test -p stickslip-results --test mutated -- --nocapture` runs
-//! them all.
+//! them all. A binary of its own: the memory that is asked for is the largest of the whole process.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
 use serde_json::{Value, json};

@@ -9,16 +9,7 @@
 //! whose whole run is 55 away from the exact one. From a whole run that is 11.8 away from it, as that of the impact at 1e-10, one
 //! in frames may well be 14.1 away, and 2.3 from the exact one.)
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and prints what it measured"
-)]
-
-#[allow(dead_code, reason = "shared with other tests")]
-mod shared;
-
-use shared::{Stage, verlet};
+use crate::shared::{Stage, verlet};
 use stickslip_drive::{Accuracy, EventKind, Plan, Run, Stepper, Trace};
 
 /// Lengths of frames, s.

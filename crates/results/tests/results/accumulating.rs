@@ -11,12 +11,6 @@
 //! * `walk_damped_heights`: nothing is free, and a flyback of a nanosecond; steps fell to last places of t where damped springs slip.
 //! * `walk_overloaded`: a load that outgrows friction, at a tolerance near rounding: a step too small was told.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
-
 use std::path::Path;
 use stickslip_drive::{RunError, State};
 use stickslip_results::{Job, Outcome};

@@ -4,16 +4,7 @@
 //! All examples, and variants of them drawn at random with a fixed seed: profiles, engines, steppers, tolerances, friction,
 //! damping, waveforms, loads, links.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it saw"
-)]
-
-#[allow(dead_code, reason = "shared with other tests")]
-mod shared;
-
-use shared::{Lottery, drawn, scenarios};
+use crate::shared::{Lottery, drawn, scenarios};
 use std::path::PathBuf;
 use stickslip_drive::{Limits, Method, Model, Plan, Stepper, Treatment, run};
 use stickslip_scenario::Scenario;

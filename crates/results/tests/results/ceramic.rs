@@ -1,7 +1,5 @@
 //! Hysteresis and creep of stacks in scenarios: what is asked for is measured in the rows, and compensation leaves nothing.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};

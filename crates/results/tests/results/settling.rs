@@ -1,11 +1,5 @@
 //! What the steps of drives do, named, and how long it holds.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
-
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use stickslip_analysis::{Bounds, Settling};

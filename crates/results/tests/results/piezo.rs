@@ -1,12 +1,6 @@
 //! Stacks by their data sheets and drivers, in scenarios: against closed forms, against tables worked out by hand, and what `info`
 //! says of them.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
-
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 use std::fs;

@@ -1,12 +1,6 @@
 //! The benchmark drive with other profiles, by swings from event to event, and on a sine, by slides of one leap, against steps of
 //! a Runge–Kutta–Nyström pair.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it saw"
-)]
-
 use std::path::PathBuf;
 use stickslip_drive::{Method, Model, State, run};
 use stickslip_scenario::Scenario;

@@ -7,12 +7,6 @@
 //!   1 400 where its foot jumps.
 //! * `law_damped`, `tip_pressed`: the stiffness bends where a damped contact slips, or goes deeper. Places were 40 to 510 tolerances off.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
-
 use serde_json::Value;
 use std::path::Path;
 use stickslip_drive::scene::Axis;

@@ -8,12 +8,6 @@
 //!
 //! The reference is velocity Verlet on the same row, which knows no event, at a step and half of it (Richardson).
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
-
 use serde_json::Value;
 use std::path::Path;
 use stickslip_drive::State;

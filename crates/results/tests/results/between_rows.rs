@@ -1,9 +1,4 @@
 //! Loops between rows: what is drawn of a run is what a hundred times more rows would show.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
 
 use std::path::Path;
 use stickslip_results::{Job, Periods, Trail, contact_path};

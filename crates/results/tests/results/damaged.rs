@@ -4,17 +4,7 @@
 //! shuffled. With the checksum they had, all are refused. With one made right again only the words can tell: what is still
 //! taken for a state is run on, within limits, and watched. `STICKSLIP_DAMAGES` says how many of each.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a test fails by panicking, and prints what it measured"
-)]
-
-#[allow(dead_code, reason = "shared with other tests")]
-mod shared;
-
-use shared::{Lottery, Stage, rk4, scenarios, verlet};
+use crate::shared::{Lottery, Stage, rk4, scenarios, verlet};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex};

@@ -1,8 +1,6 @@
 //! Rows of springs under moving normals that travel far: their changes used to accumulate where rounding of time or of the
 //! way left 3e-19 m to go, in detours without end (`vertical_climber`) or a stop after 73 periods (`impact_drive`).
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::path::Path;
 use stickslip_drive::{Counts, Run};
 use stickslip_results::Job;

@@ -1,8 +1,7 @@
 //! Odd scenes: `tests/odd/NAME.json` is run all the same and warned of with the words of `tests/odd/NAME.txt`.
 //!
-//! A new case: write the JSON, run with `STICKSLIP_WRITE=1`, and read what it wrote.
-
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
+//! A new case: write the JSON, run `STICKSLIP_WRITE=1 cargo test -p stickslip-results --test results odd`, and read
+//! what it wrote.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,16 +1,7 @@
 //! The stepper of frames beside the event stepper: what frames of 1 us to 1 ms lose, that smaller steps lose less, that a jump is
 //! taken, and that a frame's work is bounded whatever comes from outside.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and prints what it measured"
-)]
-
-#[allow(dead_code, reason = "shared with other tests")]
-mod shared;
-
-use shared::{Lottery, Stage, frames};
+use crate::shared::{Lottery, Stage, example, frames};
 use stickslip_drive::{Plan, Run, Stepper, Trace};
 
 /// Frames, s.
@@ -104,7 +95,7 @@ fn a_jump_inside_a_frame_is_taken_where_it_is() {
         ("plots", "[]"),
     ];
     let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
-    let stage = Stage::of(&shared::example("p1.json"), &set).unwrap();
+    let stage = Stage::of(&example("p1.json"), &set).unwrap();
     let exact = rows(&stage, Stepper::Event { tolerance: 1e-11 }, 10e-3);
     let off = [20e-6, 10e-6, 5e-6, 2.5e-6]
         .map(|length| apart(&stage, &exact, &rows(&stage, frames(length), 10e-3)));
@@ -131,7 +122,7 @@ fn work_is_bounded_whatever_comes() {
         ("run.duration", "1 s"),
     ];
     let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
-    let stage = Stage::of(&shared::example("quickstart.json"), &set).unwrap();
+    let stage = Stage::of(&example("quickstart.json"), &set).unwrap();
     let model = &stage.job.model;
     let (length, mut lottery) = (50e-6, Lottery(0x5eed));
     let plan = Plan { every: None, ..stage.plan(frames(length), 1e9) };

@@ -5,17 +5,8 @@
 //! a drawn number of steps; against the run that was never put down. The other process is this program, started anew: it
 //! reads scenario and bytes from files and shares nothing else. `STICKSLIP_PAIRS` says how many.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and prints what it measured"
-)]
-
-#[allow(dead_code, reason = "shared with other tests")]
-mod shared;
-
+use crate::shared::{Lottery, Stage, drawn, example, frames, rk4, scenarios, verlet};
 use serde::{Deserialize, Serialize};
-use shared::{Lottery, Stage, drawn, example, frames, rk4, scenarios, verlet};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
@@ -198,7 +189,9 @@ fn another_process_comes_to_the_same_bits() {
     }
     let here = began.elapsed().as_secs_f64();
     let mut command = Command::new(std::env::current_exe().unwrap());
-    let command = command.args(["--exact", "the_other_process", "--nocapture"]).env(FOLDER, folder.path());
+    let command = command
+        .args(["--exact", "another_process::the_other_process", "--nocapture"])
+        .env(FOLDER, folder.path());
     let other = command.output().unwrap();
     assert!(other.status.success(), "{}", String::from_utf8_lossy(&other.stderr));
     for (k, comes_to) in comes_to.iter().enumerate() {

@@ -7,12 +7,6 @@
 //!
 //! Each of the scenes shows one of the three. The foot's own motion, 50 kHz and at rest, bounds steps to 5/ω: that is the floor.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
-
 use serde_json::Value;
 use stickslip_drive::scene::Axis;
 use stickslip_results::{Job, Outcome, Summary};

@@ -4,16 +4,7 @@
 //! The exception told of in [`Run`]: a memory that grows deeper than it ever was makes itself room. It starts with room for
 //! 256 knots, copied or restored as well; of these drives the stage alone needs more, and doubles it a few times.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and prints what it measured"
-)]
-
-#[allow(dead_code, reason = "shared with other tests")]
-mod shared;
-
-use shared::{Stage, frames, rk4, verlet};
+use crate::shared::{Stage, frames, rk4, verlet};
 use stickslip_contact::Memory;
 use stickslip_drive::{Event, Plan, Record, Run, State, Stepper, UntilSteady};
 

@@ -1,7 +1,5 @@
 //! Fields and friction maps of runs: what a run writes of the insides of its contacts adds up to its own forces and friction.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;

@@ -4,16 +4,7 @@
 //! The quick start with its sawtooth, and with a triangle: their waveforms know all their pieces, the input is told of one, or
 //! two, at a time.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and prints what it measured"
-)]
-
-#[allow(dead_code, reason = "shared with other tests")]
-mod shared;
-
-use shared::{Stage, example, frames, rk4, verlet};
+use crate::shared::{Stage, example, frames, rk4, verlet};
 use stickslip_drive::{Event, EventKind, Plan, Run, Stepper, Trace};
 
 const STROKE: f64 = 200e-9;

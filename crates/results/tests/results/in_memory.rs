@@ -1,5 +1,4 @@
 //! Runs without a file, a progress bar or a terminal.
-#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
 use std::cell::{Cell, RefCell};
 use stickslip_drive::RunError;
@@ -7,7 +6,7 @@ use stickslip_results::folder::Folder;
 use stickslip_results::{Job, Real, Recorder, Summary, Watcher};
 use stickslip_scenario::Scenario;
 
-const QUICKSTART: &str = include_str!("../../../scenarios/quickstart.json");
+const QUICKSTART: &str = include_str!("../../../../scenarios/quickstart.json");
 
 fn quickstart(overrides: &[(&str, &str)]) -> Job {
     let scenario = Scenario::from_str_with(QUICKSTART, "quickstart", "", overrides).unwrap();

@@ -1,7 +1,5 @@
 //! The account of the last period of a drive against rows a hundred to a thousand times as dense as its events.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use serde_json::Value;
 use std::path::Path;
 use stickslip_drive::{Trace, Waveform};

@@ -1,8 +1,6 @@
 //! A run taken up in the middle of an impact: the memory moves with every step there, and what the solver knows of its start is
 //! older than that.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::path::Path;
 use stickslip_drive::{Plan, Run, State};
 use stickslip_results::Job;

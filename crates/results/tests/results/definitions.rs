@@ -1,7 +1,5 @@
 //! Whatever is written has its definition, and the page of definitions is the table's.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;

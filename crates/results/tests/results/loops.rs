@@ -1,7 +1,5 @@
 //! Figures of fretting loops against closed forms, and against other rows.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::path::Path;
 use stickslip_analysis::Cycle;
 use stickslip_results::cycles::CycleFigures;

@@ -1,5 +1,4 @@
 //! What stays in memory of a run does not grow with it, and a limit holds.
-#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
 use std::path::Path;
 use stickslip_results::folder::Folder;
