@@ -1,8 +1,6 @@
 //! Slopes that variations tell, against five-point differences of runs of their own.
 
-mod five_points;
-
-use five_points::{Drawn, STEADY, chosen, example, moved, slopes};
+use crate::five_points::{Drawn, STEADY, chosen, example, moved, slopes};
 use std::error::Error;
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! One mass on a spring and a Jenkins element, an elastic spring that slips at a limit, under a sine: the flat punch is one, of
 //! stiffness 2 G* a and limit μF_N.
 //!
-//! Against harmonic balance of pyharm-os 1.2.2 (`data/jenkins.py`), and against one written here: alternately in frequency and time (Cameron and Griffin, J. Appl. Mech. 56 (1989) 149),
+//! Against harmonic balance of pyharm-os 1.2.2 (`tests/data/jenkins.py`), and against one written here: alternately in frequency and time (Cameron and Griffin, J. Appl. Mech. 56 (1989) 149),
 //! the element marched through two periods from rest, its force of the second taken apart into harmonics.
 
 use nalgebra::{DMatrix, DVector};
@@ -156,7 +156,7 @@ fn harmonic_balance_converges_to_the_steady_motion() -> Result<(), Box<dyn Error
 
 #[test]
 fn a_third_party_converges_to_the_steady_motion() -> Result<(), Box<dyn Error>> {
-    let reference: serde_json::Value = serde_json::from_str(include_str!("data/jenkins.json"))?;
+    let reference: serde_json::Value = serde_json::from_str(include_str!("../data/jenkins.json"))?;
     let motion = Motion::new()?;
     let mut errors = Vec::new();
     for harmonics in [3, 9, 27, 51] {

@@ -1,9 +1,7 @@
 //! Derivatives at drawn points of ten scenes against five-point differences of runs of their own, with other steps and at another
 //! tolerance. Steppers that locate no events are no help: by Dopri5 at 1e-11 the slope of P1's step over the mass was 12 % off.
 
-mod five_points;
-
-use five_points::{Drawn, chosen, example, moved, slopes};
+use crate::five_points::{Drawn, chosen, example, moved, slopes};
 use std::error::Error;
 use stickslip_study::sensitivity::{Asked, Derivative, Sensitivity};
 

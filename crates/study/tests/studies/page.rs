@@ -46,11 +46,11 @@ fn table() -> Result<String, Box<dyn Error>> {
 fn the_page_has_the_table() -> Result<(), Box<dyn Error>> {
     let path = root().join("docs/steady.md");
     let page = fs::read_to_string(&path)?;
-    let (before, rest) = page.split_once("--test page -->\n").ok_or("a mark before the table")?;
+    let (before, rest) = page.split_once("--test studies page -->\n").ok_or("a mark before the table")?;
     let (shown, after) = rest.split_once("<!-- end -->").ok_or("a mark behind it")?;
     let table = table()?;
     if std::env::var_os("STICKSLIP_WRITE").is_some() {
-        fs::write(&path, format!("{before}--test page -->\n{table}<!-- end -->{after}"))?;
+        fs::write(&path, format!("{before}--test studies page -->\n{table}<!-- end -->{after}"))?;
         return Ok(());
     }
     assert_eq!(shown, table);

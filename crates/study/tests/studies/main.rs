@@ -1,0 +1,22 @@
+//! Studies of many runs: batches, curves, steady motions, branches and derivatives, against closed forms and plain runs.
+//!
+//! One binary, linked once. `five_points` takes differences of runs; every other module is a subject. Allocations are counted by
+//! thread.
+
+mod five_points;
+
+mod batch;
+mod branch_ends;
+mod continuation;
+mod curve;
+mod differences;
+mod drawn_scenes;
+mod harmonic_balance;
+mod holding;
+mod landmarks;
+mod outlook;
+mod page;
+mod sensitivity;
+mod steady;
+mod variations;
+mod vibrating_table;
