@@ -1,6 +1,6 @@
 //! The longest stable steps that a drive tells, against steppers on systems written here: bounded below, growing above.
 
-use crate::parts::{FARADS, ideal, low, named, plan, ran, scene, table};
+use super::parts::{FARADS, ideal, low, named, plan, ran, scene, table};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use std::sync::Arc;

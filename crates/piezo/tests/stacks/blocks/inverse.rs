@@ -1,6 +1,6 @@
 //! Inverse compensation in a run: what goes through the inverses and then through the laws comes out as it went in.
 
-use crate::parts::{PERIOD, SPAN, column, event, every, reading, scene, shared, table, trace};
+use super::parts::{PERIOD, SPAN, column, event, every, reading, scene, shared, table, trace};
 use stickslip_drive::component::SharedBlock;
 use stickslip_drive::scene::Named;
 use stickslip_drive::{Harmonic, Shape, Waveform};

@@ -1,6 +1,6 @@
 //! The driver's own books, what it counts, and runs that stop where it is saturated.
 
-use crate::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
+use super::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
 use stickslip_drive::scene::Scene;
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, Shape, State, Stepper};
 use stickslip_piezo::driver::Spec;
@@ -56,7 +56,7 @@ fn a_run_taken_up_in_saturation_goes_on_to_the_same_bits() {
     let mut falling = 0;
     for stepper in [Stepper::Event { tolerance: 1e-9 }, Stepper::Rk4 { step: 1e-6 }, frames] {
         let scene = saw(slow());
-        let whole = crate::parts::plan(stepper, 3e-3);
+        let whole = super::parts::plan(stepper, 3e-3);
         let model = Model::new(&scene).unwrap();
         let start = model.start(&whole).unwrap();
         let mut run = Run::new(&model, &whole, start.clone()).unwrap();
@@ -89,7 +89,7 @@ fn a_jump_that_is_passed_on_is_in_the_books() {
     let step = table(&[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (3.0, 100.0), (3.0, 20.0), (99.0, 20.0)]);
     let spec = Spec { window: Some((0.0, 80.0)), ..ideal() };
     for stepper in [Stepper::Event { tolerance: 1e-9 }, Stepper::Frames { length: 20e-6, accuracy: 1e-3 }] {
-        let ran = ran(&scene(step.clone(), spec), &crate::parts::plan(stepper, 4e-3), 0.5e-3);
+        let ran = ran(&scene(step.clone(), spec), &super::parts::plan(stepper, 4e-3), 0.5e-3);
         let source = ran.column("stack.source_J");
         for ((t, volts), source) in ran.volts().into_iter().zip(source) {
             // A row at the jump itself may stand on either side.

@@ -1,11 +1,5 @@
 //! The least code that simulates the benchmark drive against the event stepper at 1e-12.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it saw"
-)]
-
 use stickslip_bench::floor::{Floor, Rule};
 use stickslip_drive::{Model, run};
 use stickslip_scenario::Scenario;

@@ -1,6 +1,6 @@
 //! Resistance and bandwidth: step and ramp responses.
 
-use crate::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
+use super::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
 use std::f64::consts::{SQRT_2, TAU};
 use stickslip_drive::{Method, Shape};
 use stickslip_piezo::driver::Spec;

@@ -1,11 +1,5 @@
 //! A sample of the soak: scenes drawn from seeds run to their end, and are right. The rest is `stickslip soak`.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and shows what it measured"
-)]
-
 use std::collections::BTreeSet;
 use stickslip_bench::soak::{Kind, Seeds, Verdict, hostile, scenario, soak};
 use stickslip_scenario::Scenario;

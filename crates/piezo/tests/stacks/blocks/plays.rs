@@ -1,6 +1,6 @@
 //! The Prandtl–Ishlinskii block against plays that are dragged along a finely walked input.
 
-use crate::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
+use super::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
 use stickslip_drive::{BytesError, Harmonic, Model, Plan, Run, Shape, State, Stepper, Waveform};
 use stickslip_piezo::hysteresis::{PlayBlock, Plays};
 

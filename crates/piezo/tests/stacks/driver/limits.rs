@@ -1,6 +1,6 @@
 //! Window and current limit: what they make of a command, and when they begin and end.
 
-use crate::parts::{FARADS, GAIN, Ran, event, every, ideal, plan, ran, scene, table};
+use super::parts::{FARADS, GAIN, Ran, event, every, ideal, plan, ran, scene, table};
 use std::f64::consts::{PI, TAU};
 use stickslip_drive::{Shape, Stepper};
 use stickslip_piezo::driver::Spec;

@@ -1,6 +1,6 @@
 //! The charge of strain, Q = CV + kα(e - αV): what it makes of time constants, limits, resonances and books.
 
-use crate::parts::{FARADS, GAIN, Ran, event, every, named, plan, ran, table};
+use super::parts::{FARADS, GAIN, Ran, event, every, named, plan, ran, table};
 use std::f64::consts::TAU;
 use stickslip_drive::component::Input;
 use stickslip_drive::scene::{Actuator, Body, Coordinate, Direction, Freedom, Point, Scene, Side, Varying};
@@ -37,7 +37,7 @@ fn stack(command: Waveform, spec: Spec, foot: Coordinate) -> Scene {
 }
 
 fn spec(resistance: Option<f64>, current: Option<f64>) -> Spec {
-    Spec { resistance, current: current.map(|current| (current, current)), ..crate::parts::ideal() }
+    Spec { resistance, current: current.map(|current| (current, current)), ..super::parts::ideal() }
 }
 
 const HELD: Coordinate = Coordinate { position: 0.0, velocity: 0.0, freedom: Freedom::Fixed };
@@ -62,7 +62,7 @@ fn a_held_stack_rises_faster_at_a_limited_current() {
     assert!(worst < 1e-9 * 100.0, "{worst}");
     let ends = ran.events();
     assert!((ends[1].0 - 1e-4 - 100.0 / slew).abs() < 1e-12, "{ends:?}");
-    let fixed = crate::parts::ran(
+    let fixed = super::parts::ran(
         &stack(table(&[(0.0, 0.0), (0.01, 100.0), (9.0, 100.0)]), spec(None, Some(0.2)), HELD),
         &plan(Stepper::Rk4 { step: 0.5e-6 }, 0.2e-3),
         37e-6,

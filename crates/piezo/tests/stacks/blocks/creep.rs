@@ -1,6 +1,6 @@
 //! Creep in a run, against the convolution of its input with the step response.
 
-use crate::parts::{SPAN, column, plan, reading, scene, shared, table, trace};
+use super::parts::{SPAN, column, plan, reading, scene, shared, table, trace};
 use stickslip_drive::Stepper;
 use stickslip_piezo::creep::{Creep, CreepBlock};
 

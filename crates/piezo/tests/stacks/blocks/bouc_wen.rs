@@ -1,6 +1,6 @@
 //! The Bouc–Wen block against closed forms for n = 1, and against an integration of its own for n = 2.
 
-use crate::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
+use super::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
 use stickslip_drive::{Plan, Shape, Stepper, Timing, Waveform};
 use stickslip_piezo::hysteresis::{BoucWen, BoucWenBlock, BoucWenError};
 

@@ -1,8 +1,6 @@
 //! The driver against closed forms: what its voltage does after steps and ramps, when it enters and leaves its limits, and whether its
 //! books close.
 
-#![allow(clippy::unwrap_used, reason = "a helper of a test fails like the test")]
-
 mod books;
 mod limits;
 mod parts;
