@@ -170,10 +170,23 @@ impl Contact {
 
     /// Whether an even step to its end is as good as a graded one, which it is for a power of d of 2 and more; of damping, for one
     /// more. Stages beyond the end feel no force: of a graded step they weigh nothing, of an even one as much as the law would
-    /// have there.
+    /// have there. And whether it is better: damping goes with the power of d that is one less, and where that is no root a graded step
+    /// is not smooth either, and its estimate tells a thousandth of what it misses. That of an even one is honest.
     pub(crate) fn fades_evenly(&self) -> bool {
-        let damped = if self.interface.damping() > 0.0 { 1.0 } else { 0.0 };
-        self.interface.profile().first_power() - damped >= 2.0
+        let power = self.interface.profile().first_power();
+        if self.is_damped() { power >= 3.0 || (2.0 * power).fract() != 0.0 } else { power >= 2.0 }
+    }
+
+    /// How many times its estimate a graded step to its end may miss.
+    // Of steps of 0.05 to 0.8 rad to the end of a paraboloid's slip the error is hardly ever more than the estimate without damping, up to
+    // 4 times as much with βω = 0.02, most often 17 with 0.2 (70 at worst), up to 40 with 1.
+    pub(crate) fn doubt(&self) -> f64 {
+        (100.0 * self.interface.damping() * self.natural.frequency).clamp(1.0, 30.0)
+    }
+
+    /// Whether its springs that stick are damped.
+    pub(crate) fn is_damped(&self) -> bool {
+        self.interface.damping() > 0.0
     }
 
     /// Whether nothing will ever press it.

@@ -122,9 +122,9 @@ pub(crate) enum Ahead {
 /// What holds the bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Grip {
-    /// No contact does.
+    /// Nothing does: all contacts slip, nothing presses them by its motion, and there are no links.
     Slips,
-    /// A contact is in partial slip or sticks, or there is none.
+    /// Something does, or there is no contact.
     Sticks,
     /// The same, and all that is free is at rest.
     Rests,

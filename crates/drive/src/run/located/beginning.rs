@@ -5,7 +5,7 @@
 
 use super::Located;
 use super::watch::Fallen;
-use crate::contact::Mode;
+use crate::contact::{Contact, Mode};
 use crate::equations::Equations;
 use crate::state::{Grip, State};
 use stickslip_stepper::Attempt;
@@ -36,8 +36,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn count_interval(&mut self, state: &mut State) {
         self.takeoff = None;
         self.interval.count(&mut state.tally);
-        // Without contacts links alone hold, and their steps must damp all the same.
-        let holds = state.modes.is_empty() || state.modes.iter().any(Mode::holds);
+        let (model, modes) = (self.setting.model, &state.modes);
+        let presses =
+            |(mode, contact): (&Mode, &Contact)| *mode != Mode::Open && contact.coupling().is_some();
+        // Links, and bodies on what they press, swing on while all contacts slip: their steps must damp all the same.
+        let swings = !model.links.is_empty() || modes.iter().zip(&model.contacts).any(presses);
+        let holds = swings || modes.is_empty() || modes.iter().any(Mode::holds);
         self.motion.pace.gait.grip = if holds { Grip::Sticks } else { Grip::Slips };
     }
 }

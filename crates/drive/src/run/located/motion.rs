@@ -99,6 +99,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         let mut error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
         let Some((c, guard)) = aim.closes else { return error };
         let contact = &eq.model.contacts[c];
+        let doubt = if aim.grade == Grade::End { contact.doubt() } else { 1.0 };
+        error *= doubt;
         for _ in 0..CORRECTIONS {
             let (end, h) = (self.solver.span().end, aim.target - t);
             let motion = eq.motion(contact, aim.target, |i| end[i]);
@@ -114,7 +116,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
             }
             aim.target = to;
             let target = Target { end: to, grade: aim.grade };
-            error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
+            error = doubt * self.solver.attempt(eq, target, &self.allowance.allowed.scale);
         }
         error
     }
@@ -148,7 +150,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
     /// nursed up to it, and one of the size of rounding must not be fed by more of it.
     ///
     /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. Sticking, a step is at most
-    /// the limit of stability over it; at rest, [`REST_REACH`] over it; in gross slip nothing binds but the
+    /// the limit of stability over it; at rest, [`REST_REACH`] over it; where nothing swings nothing binds but the
     /// waveforms.
     pub(super) fn longest_now(&self, t: f64, fastest: f64) -> f64 {
         // Undamped, a long step feeds a swing below the tolerance up to it; what is at rest stays so only

@@ -213,6 +213,10 @@ impl Watch {
             return lull_end(contact, eq.law(c), &motion, second);
         }
         let Mode::Slip(branch) = mode else { return f64::INFINITY };
+        // Gross slip has no end, and does not hide those of others.
+        if branch.is_gross() {
+            return f64::INFINITY;
+        }
         let left = branch.margin(motion.d, motion.u);
         // Where a load comes back to its crest the last bits of u stand still long before it: no step should wait for them.
         let rests = contact.balanced && left < Guard::Piece.bands(contact, self.tolerance, motion.u).1;
@@ -220,6 +224,10 @@ impl Watch {
             return f64::INFINITY;
         }
         let speed = Guard::Drag.value(contact, eq.law(c), &motion);
+        // An edge that has only just turned drags at nothing but rounding: where the damping of a contact gives way no step may leap
+        // over that moment, and no estimate tells that it did.
+        let turns = contact.is_damped() && branch.ends_in_the_centre();
+        let speed = if turns { speed.max(f64::MIN_POSITIVE) } else { speed };
         let pull = Guard::Drag.rate(contact, mode, &motion, second);
         reached(left, speed, pull)
     }
