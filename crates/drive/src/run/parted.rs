@@ -65,9 +65,9 @@ pub(super) struct Parted<'m> {
     written: f64,
     /// Work with which the record was asked last whether to go on.
     asked: f64,
-    /// Cores, and whether the last stretch was enough work to share among them.
-    threads: usize,
+    /// Whether the last stretch was enough work to share among cores, and among how many: all there are, if nobody said.
     is_busy: bool,
+    threads: Option<usize>,
 }
 
 impl<'m> Parted<'m> {
@@ -89,8 +89,8 @@ impl<'m> Parted<'m> {
             // Where nothing swings and no waveform is quick time itself tells.
             span: (FIRST[0].min(FIRST[1] / (model.parts.len() as f64).powi(2)) * natural).min(plan.duration),
             written: 0.0,
-            threads: available_parallelism().map_or(1, NonZero::get),
             is_busy: false,
+            threads: None,
             asked: 0.0,
         }
     }
@@ -98,6 +98,12 @@ impl<'m> Parted<'m> {
     /// How many turning points a contact remembers.
     pub(super) fn remembers(&self) -> usize {
         Memory::DEFAULT_CAPACITY
+    }
+
+    /// Threads that the next stretch is worth. The machine is asked only then: that takes as long as four events do.
+    fn threads(&self) -> usize {
+        let all = || available_parallelism().map_or(1, NonZero::get);
+        if self.is_busy { self.threads.unwrap_or_else(all) } else { 1 }
     }
 
     /// Takes up a state: begins a run there, or goes on with one.
@@ -261,7 +267,7 @@ impl<'m> Parted<'m> {
 
     /// Lets scouts find out when the events of a stretch are.
     fn look_ahead(&mut self, whole: &State, until: f64, record: &mut dyn Record) -> Result<(), RunError> {
-        let threads = if self.is_busy { self.threads } else { 1 };
+        let threads = self.threads();
         while !self.calendar.pass(threads, until) {
             halted(self.begun, self.limits, whole.t, record)?;
         }
@@ -276,7 +282,7 @@ impl<'m> Parted<'m> {
         t: f64,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        let threads = if self.is_busy { self.threads } else { 1 };
+        let threads = self.threads();
         self.lanes.iter_mut().for_each(|lane| lane.arrived = false);
         loop {
             side_by_side(threads, &mut self.lanes, |lane| {

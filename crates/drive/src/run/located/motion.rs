@@ -8,7 +8,7 @@ use super::Setting;
 use super::aim::{Aim, SHRINK, reach, start};
 use super::allowance::Allowance;
 use crate::Waveform;
-use crate::contact::Contact;
+use crate::contact::{Contact, Guard};
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::{Free, Model};
@@ -99,8 +99,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         let mut error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
         let Some((c, guard)) = aim.closes else { return error };
         let contact = &eq.model.contacts[c];
-        let doubt = if aim.grade == Grade::End { contact.doubt() } else { 1.0 };
-        error *= doubt;
+        let left = self.left(eq, (c, guard), t);
+        let judged = |told: f64, grade| if grade == Grade::End { contact.missed(told, left) } else { told };
+        error = judged(error, aim.grade);
         for _ in 0..CORRECTIONS {
             let (end, h) = (self.solver.span().end, aim.target - t);
             let motion = eq.motion(contact, aim.target, |i| end[i]);
@@ -116,9 +117,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
             }
             aim.target = to;
             let target = Target { end: to, grade: aim.grade };
-            error = doubt * self.solver.attempt(eq, target, &self.allowance.allowed.scale);
+            error = judged(self.solver.attempt(eq, target, &self.allowance.allowed.scale), aim.grade);
         }
         error
+    }
+
+    /// What is left, in natural lengths, of the law that a guard ends, where the step begins; with what is allowed of a velocity, in natural
+    /// speeds.
+    fn left(&self, eq: &Equations<'_>, (c, guard): (usize, Guard), t: f64) -> (f64, f64) {
+        let contact = &eq.model.contacts[c];
+        let begin = self.solver.span().begin;
+        let motion = eq.motion(contact, t, |i| begin[i]);
+        let unit = if guard == Guard::Contact { contact.natural.depth } else { contact.natural.displacement };
+        (guard.value(contact, eq.law(c), &motion) / unit, self.allowance.strict)
     }
 
     /// The error of the last attempt where it would be accepted: the larger of the solver's own and of what the books of the step miss.

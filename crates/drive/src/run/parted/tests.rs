@@ -51,7 +51,7 @@ fn on(threads: usize, model: &Model) -> Option<(State, Trace, bool)> {
     let plan = PLAN;
     let (mut state, mut trace) = (model.start(&plan).ok()?, Trace::new(model));
     let mut run = Parted::new(model, &plan);
-    run.threads = threads;
+    run.threads = Some(threads);
     run.set_out(&mut state, Opening::Row, &mut trace);
     let mut was_busy = false;
     for k in 1..=10 {
