@@ -185,15 +185,19 @@ impl Contact {
     // Steps of 0.05 to 0.8 rad: without damping the error is hardly ever more than the estimate, of a paraboloid up to 4 times as much with
     // βω = 0.02, most often 17 with 0.2 (70 at worst), up to 40 with 1. For r^{1.2}, r^{1.5}, r³ and r⁴ it is 9e-6, 1.6e-5, 8e-5 and 1.9e-4
     // of βω·leftᵖ as long as that is more.
-    pub(crate) fn missed(&self, told: f64, (left, allowed): (f64, f64)) -> f64 {
-        let (power, fading) =
-            (self.interface.profile().first_power(), self.interface.damping() * self.natural.frequency);
+    pub(crate) fn missed(&self, told: f64, left: impl FnOnce() -> (f64, f64)) -> f64 {
+        let (power, fading) = (self.interface.profile().first_power(), self.fading());
         let crowded = told * (100.0 * fading).clamp(1.0, 30.0);
-        if (2.0 * power).fract() == 0.0 {
-            crowded
-        } else {
-            crowded.max(2e-4 * fading * left.powf(power) / allowed)
+        if fading == 0.0 || (2.0 * power).fract() == 0.0 {
+            return crowded;
         }
+        let (left, allowed) = left();
+        crowded.max(2e-4 * fading * left.powf(power) / allowed)
+    }
+
+    /// βω: what damping makes of a natural speed, in parts of the natural force. 0 without damping.
+    pub(crate) fn fading(&self) -> f64 {
+        self.interface.damping() * self.natural.frequency
     }
 
     /// Whether its springs that stick are damped.

@@ -5,6 +5,7 @@
 //! c/a = (1-u/u_c)^0 = 1 until everything slips at once. In Ũ = u/u_c and φ = F_x/(μF_N) the profiles differ
 //! by p alone. No reference value comes from the code under test, M and N included.
 
+use crate::lottery::Lottery;
 use stickslip_contact::{
     Apex, ContactState, Curve, Interface, Material, Move, Pair, Profile, Segment, SpringState,
 };
@@ -125,16 +126,6 @@ fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
             return high;
         }
         if f(middle) < 0.0 { low = middle } else { high = middle }
-    }
-}
-
-/// A small generator of numbers in [0, 1), the same everywhere.
-struct Lottery(u64);
-
-impl Lottery {
-    fn draw(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 }
 

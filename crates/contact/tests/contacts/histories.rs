@@ -1,6 +1,7 @@
 //! The memory curve against the reference contact histories: 24 random histories of d and u, solved independently
 //! (exact to 1e-11 of the largest friction force; friction work to 1e-6 of the largest).
 
+use crate::lottery::Lottery;
 use serde_json::Value;
 use stickslip_contact::{
     Apex, Curve, Dragged, Interface, Move, Outcome, Pair, Profile, Row, Segment, Springs,
@@ -40,16 +41,6 @@ fn history(h: &Value) -> History {
 
 fn largest(rows: &[[f64; 6]], column: usize) -> f64 {
     rows.iter().map(|r| r[column].abs()).fold(0.0, f64::max)
-}
-
-/// A small generator of numbers in [0, 1): splits need no quality.
-struct Lottery(u64);
-
-impl Lottery {
-    fn draw(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod fields;
 mod first_loading;
 mod histories;
 mod ideal_drive;
+mod lottery;
 mod profiles;
 mod profiles_bordered;
 mod profiles_rough;

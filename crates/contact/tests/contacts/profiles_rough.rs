@@ -1,24 +1,10 @@
 //! Rough lines: a curve over 10⁵ heights against a row of as many springs, and lines made by numbers.
 
+use crate::lottery::Lottery;
 use std::f64::consts::TAU;
 use stickslip_contact::{
     Apex, Curve, Interface, Pair, Profile, ProfileError, RoughnessError, Row, Segment, SelfAffine, Springs,
 };
-
-/// A small generator of numbers in [0, 1).
-struct Lottery(u64);
-
-impl Lottery {
-    fn draw(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// About normal, rms 1.
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.draw()).sum::<f64>() - 6.0
-    }
-}
 
 fn line(count: usize) -> Vec<f64> {
     let mut lottery = Lottery(3);

@@ -6,3 +6,4 @@
 
 mod blocks;
 mod driver;
+mod parts;

@@ -39,9 +39,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let (model, modes) = (self.setting.model, &state.modes);
         let presses =
             |(mode, contact): (&Mode, &Contact)| *mode != Mode::Open && contact.coupling().is_some();
-        // Links, and bodies on what they press, swing on while all contacts slip: their steps must damp all the same.
-        let swings = !model.links.is_empty() || modes.iter().zip(&model.contacts).any(presses);
-        let holds = swings || modes.is_empty() || modes.iter().any(Mode::holds);
+        // Without contacts, and while all of them slip, links and bodies on what they press swing on: their steps must damp all the same.
+        let holds = modes.iter().any(Mode::holds)
+            || modes.is_empty()
+            || !model.links.is_empty()
+            || modes.iter().zip(&model.contacts).any(presses);
         self.motion.pace.gait.grip = if holds { Grip::Sticks } else { Grip::Slips };
     }
 }

@@ -99,9 +99,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         let mut error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
         let Some((c, guard)) = aim.closes else { return error };
         let contact = &eq.model.contacts[c];
-        let left = self.left(eq, (c, guard), t);
-        let judged = |told: f64, grade| if grade == Grade::End { contact.missed(told, left) } else { told };
-        error = judged(error, aim.grade);
+        error = self.judged_at_end(eq, (c, guard), (t, aim.grade), error);
         for _ in 0..CORRECTIONS {
             let (end, h) = (self.solver.span().end, aim.target - t);
             let motion = eq.motion(contact, aim.target, |i| end[i]);
@@ -117,19 +115,31 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
             }
             aim.target = to;
             let target = Target { end: to, grade: aim.grade };
-            error = judged(self.solver.attempt(eq, target, &self.allowance.allowed.scale), aim.grade);
+            error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
+            error = self.judged_at_end(eq, (c, guard), (t, aim.grade), error);
         }
         error
     }
 
-    /// What is left, in natural lengths, of the law that a guard ends, where the step begins; with what is allowed of a velocity, in natural
-    /// speeds.
-    fn left(&self, eq: &Equations<'_>, (c, guard): (usize, Guard), t: f64) -> (f64, f64) {
+    /// The error of the last attempt, from time t to where a guard falls, of which it tells so much.
+    fn judged_at_end(
+        &self,
+        eq: &Equations<'_>,
+        (c, guard): (usize, Guard),
+        (t, grade): (f64, Grade),
+        told: f64,
+    ) -> f64 {
+        if grade != Grade::End {
+            return told;
+        }
         let contact = &eq.model.contacts[c];
-        let begin = self.solver.span().begin;
-        let motion = eq.motion(contact, t, |i| begin[i]);
-        let unit = if guard == Guard::Contact { contact.natural.depth } else { contact.natural.displacement };
-        (guard.value(contact, eq.law(c), &motion) / unit, self.allowance.strict)
+        contact.missed(told, || {
+            let begin = self.solver.span().begin;
+            let motion = eq.motion(contact, t, |i| begin[i]);
+            let unit =
+                if guard == Guard::Contact { contact.natural.depth } else { contact.natural.displacement };
+            (guard.value(contact, eq.law(c), &motion) / unit, self.allowance.strict)
+        })
     }
 
     /// The error of the last attempt where it would be accepted: the larger of the solver's own and of what the books of the step miss.
