@@ -15,6 +15,7 @@ use super::watch::{Moving, Watch};
 use super::watched::Watched;
 use crate::contact::{Guard, Motion, NEARNESS};
 use crate::equations::Equations;
+use crate::interval::Closed;
 use arrayvec::ArrayVec;
 use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, root, root_near};
 
@@ -48,6 +49,8 @@ struct Seen {
 /// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
 // Seven looks or one see the same but for a few events of contacts that grow under a sine of load.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
+/// A guard that is up at both ends is looked at inside the step where the cubic comes below this part of the lower one.
+const DIPS_TO: f64 = 0.1;
 /// How often a step is halved in search of a moment at which a guard that rested at its start is armed.
 const HALVINGS: u32 = 40;
 /// How often an earlier fall is looked for from an end that was found. Two guards of whose values only rounding is left lead each other
@@ -58,13 +61,15 @@ impl Watch {
     /// The earliest fall in the step just attempted, on its dense output.
     #[inline(always)]
     pub(super) fn first_fall<'e, A: for<'q> Attempt<Equations<'q>>>(
-        &self,
+        &mut self,
         solver: &mut A,
         eq: &Equations<'e>,
     ) -> Option<Fall<'e>> {
-        let Self { from, to, tolerance, .. } = self;
-        Search { from, to, tolerance: *tolerance, solver, eq, is_cut: false, seen: ArrayVec::new() }
-            .first_fall()
+        let Self { from, to, near, tolerance, .. } = self;
+        let mut search =
+            Search { from, to, tolerance: *tolerance, solver, eq, is_cut: false, seen: ArrayVec::new() };
+        search.gather(near);
+        search.first_fall(near)
     }
 
     /// Ends the step where a guard falls, or where one does that is up at both ends of the step but down there, such as that of a
@@ -82,23 +87,23 @@ impl Watch {
                 solver.cut(fall.t);
                 self.arrive_at_cut(eq, solver);
             }
-            let Self { from, to, tolerance, fired } = self;
+            let Self { from, to, near, tolerance, fired } = self;
             let search =
                 Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true, seen: ArrayVec::new() };
             fired.clear();
             fired.push(fall.watched.fallen());
             // Of many contacts hardly ever another one is: then this one look at them is all.
-            if !search.has_company(fall) {
+            if !search.has_company(fall, near) {
                 return;
             }
             if is_cut
                 && round < EARLIER
-                && let Some(earlier) = search.before(fall)
+                && let Some(earlier) = search.before(fall, near)
             {
                 fall = earlier;
                 continue;
             }
-            return Watched::each(eq, |watched| {
+            return Watched::each(eq, near, |watched| {
                 let known = || fired.iter().any(|fallen| fallen.is_of(&watched.fallen()));
                 if search.falls_too(watched) && !known() {
                     fired.push(watched.fallen());
@@ -109,11 +114,40 @@ impl Watch {
 }
 
 impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
+    /// Puts down which contacts of closed form have to be looked at: see [`is_far`](Self::is_far).
+    #[inline(always)]
+    fn gather(&self, near: &mut Vec<usize>) {
+        near.clear();
+        let Some(interval) = self.eq.interval else { return };
+        let third = (self.solver.span().end_time - self.solver.span().time) / 3.0;
+        for (place, steady) in interval.closed.iter().enumerate() {
+            if !steady.guards.is_empty() && !self.is_far(steady, third) {
+                near.push(place);
+            }
+        }
+    }
+
+    /// Whether all guards of a contact of closed form stay up through the step, farther from zero than counts as there: its edge goes on
+    /// dragging, as the control points of the speed's cubic show, and its piece of memory outlasts the step. `third` of the step, s.
+    // Of many contacts nearly all are, at nearly every step; guard by guard they are asked three times as much.
+    #[inline(always)]
+    fn is_far(&self, steady: &Closed<'_>, third: f64) -> bool {
+        let (from, to) = (&self.from[steady.index], &self.to[steady.index]);
+        let sense = steady.sense();
+        let speeds = [sense * from.motion.du, sense * to.motion.du];
+        let turns = third * sense;
+        let between = [speeds[0] + turns * from.second.1, speeds[1] - turns * to.second.1];
+        let slowest = speeds.into_iter().chain(between).fold(f64::INFINITY, f64::min);
+        let (_, close) = Guard::Piece.bands(steady.contact, self.tolerance, from.motion.u);
+        slowest > (DIPS_TO * speeds[0].min(speeds[1])).max(close * steady.contact.natural.frequency)
+            && steady.margin(to.motion.u) > close
+    }
+
     /// The earliest fall in the step just attempted, on its dense output.
     #[inline(always)]
-    fn first_fall(&mut self) -> Option<Fall<'e>> {
+    fn first_fall(&mut self, near: &[usize]) -> Option<Fall<'e>> {
         let mut first: Option<Fall<'e>> = None;
-        Watched::each(self.eq, |watched| {
+        Watched::each(self.eq, near, |watched| {
             let g1 = self.at_end(watched);
             let low = if g1 < 0.0 && self.has_fallen(watched, g1) {
                 Some((self.solver.span().end_time, g1))
@@ -145,9 +179,9 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     }
 
     /// The earliest fall of any other guard before that which ends the step.
-    fn before(&self, last: Fall<'e>) -> Option<Fall<'e>> {
+    fn before(&self, last: Fall<'e>, near: &[usize]) -> Option<Fall<'e>> {
         let mut first: Option<Fall<'e>> = None;
-        Watched::each(self.eq, |watched| {
+        Watched::each(self.eq, near, |watched| {
             let g = self.at_end(watched);
             if g < 0.0 && watched.fallen() != last.watched.fallen() && self.has_fallen(watched, g) {
                 let t = self.fall(watched, (last.t, g));
@@ -179,7 +213,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
         let (g0, rates) = (self.at_begin(watched), self.rates(watched));
         let (cubic, level) =
-            (Cubic { y0: g0, dy0: rates[0], y1: g1, dy1: rates[1], h }, 0.1 * g0.min(g1).max(0.0));
+            (Cubic { y0: g0, dy0: rates[0], y1: g1, dy1: rates[1], h }, DIPS_TO * g0.min(g1).max(0.0));
         if cubic.stays_above(level) {
             return None;
         }
@@ -266,9 +300,9 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     }
 
     /// Whether any other guard than that which ends the step has come as near to zero there as to be as good as down.
-    fn has_company(&self, last: Fall<'e>) -> bool {
+    fn has_company(&self, last: Fall<'e>, near: &[usize]) -> bool {
         let mut found = false;
-        Watched::each(self.eq, |watched| {
+        Watched::each(self.eq, near, |watched| {
             found |= self.comes_near(watched) && watched.fallen() != last.watched.fallen();
         });
         found

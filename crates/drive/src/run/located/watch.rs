@@ -57,6 +57,8 @@ pub(super) struct Watch {
     pub(super) from: Vec<Moving>,
     /// At its end.
     pub(super) to: Vec<Moving>,
+    /// Places of those contacts of closed form any guard of which may fall in the step, or come near to that.
+    pub(super) near: Vec<usize>,
     /// Guards that fell at the end of the step.
     pub(super) fired: Vec<Fallen>,
     /// Of the plan; guards count as fallen or near in units of it.
@@ -70,6 +72,8 @@ impl Watch {
             ends.clear();
             ends.resize(count, Moving::default());
         }
+        self.near.clear();
+        self.near.reserve(count);
         self.fired.clear();
         self.fired.reserve(count + model.blocks.len());
         Self { tolerance, ..self }
@@ -87,11 +91,13 @@ impl Watch {
         follow(eq, &mut self.to, (span.end_time, span.end), |i| solver.slope(i, End::End));
     }
 
-    /// The same where the step was cut: slopes are not known there, and no guard's rate is asked for.
+    /// The same where the step was cut: slopes are not known there, and no guard's rate is asked for. Of contacts of closed form that are
+    /// far from any event nothing is asked at all.
     pub(super) fn arrive_at_cut(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let (Some(interval), Span { end_time: t, end: y, .. }) = (eq.interval, solver.span()) else { return };
         let n = eq.layout.free;
-        for steady in &interval.closed {
+        for &place in &self.near {
+            let steady = &interval.closed[place];
             self.to[steady.index].motion = steady.motion(t, |i| y[i], |i| y[n + i]);
         }
         for c in interval.open_form() {

@@ -15,11 +15,12 @@ pub(super) enum Watched<'e> {
 }
 
 impl<'e> Watched<'e> {
-    /// Does something with the guards of all components that can end the interval.
+    /// Does something with the guards of all components that can end the step: of contacts of closed form those at the places `near`.
     #[inline(always)]
-    pub(super) fn each(eq: &Equations<'e>, mut act: impl FnMut(Self)) {
+    pub(super) fn each(eq: &Equations<'e>, near: &[usize], mut act: impl FnMut(Self)) {
         let Some(interval) = eq.interval else { return };
-        for steady in &interval.closed {
+        for &place in near {
+            let steady = &interval.closed[place];
             steady.guards.iter().for_each(|guard| act(Self::Closed(steady, *guard)));
         }
         for index in interval.open_form() {
