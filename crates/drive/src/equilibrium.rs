@@ -19,7 +19,7 @@ use crate::record;
 use crate::scene::Axis;
 use crate::state::State;
 use crate::{Accuracy, Field, Part as Place, Plan, SceneError, SceneFault, Stepper, Waveform};
-use balance::{Balance, Search};
+use balance::{Balance, NEWTON, Search};
 use nalgebra::DVector;
 use statics::Answer;
 use std::cell::RefCell;
@@ -32,6 +32,8 @@ use stickslip_contact::{Apex, Memory, Segment};
 const PARTS: u32 = 64;
 /// Most free coordinates whose equilibrium is sought: the work grows with the cube of their number, seconds for these.
 const MOST: usize = 200;
+/// The pseudo-time with which a search begins whose place may lie anywhere.
+const TAU: f64 = 1.0;
 /// Share of the loads that sets the bodies down: what the contacts remember of the way through the air is as small.
 // With ten times or a tenth as much a climber ends less than 1e-6 u_c elsewhere.
 const LANDING: f64 = 1e-6;
@@ -190,12 +192,14 @@ impl<'m> Settling<'m> {
         let alone = n == 1 && self.model.contacts.iter().all(|c| c.coupling().is_none());
         let parts = if alone { 1 } else { PARTS };
         let landing = (!alone).then_some(LANDING);
-        let mut reached = false;
+        let (mut reached, mut tau) = (false, TAU);
         for share in landing.into_iter().chain((1..=parts).map(|k| f64::from(k) / f64::from(parts))) {
             // In proportion: the forces still missing are a share of the imbalance at the start, friction and
             // springs included.
             let missing = &initial * (1.0 - share);
-            let balance = self.balance(state, &missing, &state.y, &vec![false; n]);
+            let balance = Search::new(self, state, (&missing, &vec![false; n])).from(&state.y, &mut tau);
+            // Much longer, and a body that the next part sets free is gone at once.
+            tau = if balance.holds { tau.min(NEWTON) } else { TAU };
             if balance.holds {
                 self.stand(state, &balance)?;
             // Under the whole load nothing more will come: now it is found coordinate by coordinate, or there
@@ -214,7 +218,7 @@ impl<'m> Settling<'m> {
 
     /// The balance nearest to y with some forces still missing and some coordinates held.
     fn balance(&self, state: &State, missing: &DVector<f64>, y: &[f64], held: &[bool]) -> Rc<Balance> {
-        Search::new(self, state, (missing, held)).from(y)
+        Search::new(self, state, (missing, held)).from(y, &mut { TAU })
     }
 
     /// Takes over a balance: the contacts go there on straight paths.

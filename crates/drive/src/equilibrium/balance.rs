@@ -10,9 +10,11 @@ use std::rc::Rc;
 /// Most iterations.
 // Bounds the search where there is no equilibrium: no start differs with 40.
 const ITERATIONS: u32 = 400;
-/// Iterations without progress after which the rest is rounding.
+/// Most iterations without progress: the rest is rounding.
 // Half of it moves one example by rounding; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
 const PATIENCE: u32 = 8;
+/// Pseudo-time from which on an iteration is Newton's but for the rounding of its step.
+pub(super) const NEWTON: f64 = 1e4;
 /// Most halvings of a step that goes too far.
 const HALVINGS: u32 = 40;
 /// Largest imbalance of an equilibrium, in units of what acts on a coordinate.
@@ -52,6 +54,8 @@ pub(super) struct Search<'a> {
     held: &'a [bool],
     /// Places looked at last, the next one to be forgotten first.
     seen: VecDeque<Rc<Balance>>,
+    /// How many places have been looked at.
+    looked: u32,
 }
 
 impl Balance {
@@ -69,30 +73,36 @@ impl<'a> Search<'a> {
         state: &'a State,
         (missing, held): (&'a DVector<f64>, &'a [bool]),
     ) -> Self {
-        Self { settling, state, missing, held, seen: VecDeque::with_capacity(REMEMBERED) }
+        Self { settling, state, missing, held, seen: VecDeque::with_capacity(REMEMBERED), looked: 0 }
     }
 
     /// Looks for forces = missing from y on, by Newton's method with a pseudo-time: (K + D/τ)·Δq = forces - missing,
     /// where D is the natural stiffness of each coordinate. A body that nothing holds falls along its load, faster and
     /// faster, until something does, and the method becomes Newton's.
     ///
-    /// Where it ends is the best place if all balances there, or else the last.
-    pub(super) fn from(mut self, y: &[f64]) -> Rc<Balance> {
+    /// Where it ends is the best place if all balances there, or else the last. A search from a balance under nearly the same loads may
+    /// begin with the pseudo-time τ of that one's end.
+    pub(super) fn from(mut self, y: &[f64], tau: &mut f64) -> Rc<Balance> {
         let mut now = self.at(y.to_vec());
-        let (mut best, mut tau, mut idle) = (Rc::clone(&now), 1.0, 0);
+        let (mut best, mut idle) = (Rc::clone(&now), 0);
         for _ in 0..ITERATIONS {
             // A balance that holds is still bettered until only rounding is left: it is where a run starts
             // from.
             if best.size == 0.0 || best.holds && idle > PATIENCE {
                 break;
             }
-            let Some(step) = self.step(&now, tau).filter(|step| step.amax() < LOST) else { break };
+            let Some(step) = self.step(&now, *tau).filter(|step| step.amax() < LOST) else { break };
             idle += 1;
+            let looked = self.looked;
             let (whole, push) = (self.along(&now, &step, 1.0), now.residual.dot(&step));
+            // Where Newton's method comes back to where it has been it goes round among the same few places.
+            if best.holds && *tau > NEWTON && looked == self.looked {
+                break;
+            }
             // Less imbalance, or still pushed on along the step: a body that falls towards what will hold it
             // is no nearer to balance yet.
             let good = whole.size < now.size || push > 0.0 && !overshoots(&now, &whole, &step);
-            tau = (tau * if good { 3.0 } else { 0.3 }).clamp(1e-6, 1e18);
+            *tau = (*tau * if good { 3.0 } else { 0.3 }).clamp(1e-6, 1e18);
             if good {
                 now = whole;
             } else if push > 0.0 {
@@ -165,6 +175,7 @@ impl<'a> Search<'a> {
             return Rc::clone(seen);
         }
         let balance = Rc::new(self.left(y));
+        self.looked += 1;
         if self.seen.len() == REMEMBERED {
             self.seen.pop_front();
         }
