@@ -191,8 +191,8 @@ impl Curve {
         let Some(place) = best.filter(|place| known[*place].value > known[*place].error) else {
             return Landmark::unfound(name, Unfound::Outside("the drive steps at none"), 0);
         };
-        if place == 0 || place + 1 == known.len() {
-            return Landmark::unfound(name, Unfound::Outside("it is at an end, or beyond"), 0);
+        if let Some(why) = at_an_end(traced, &known, place) {
+            return Landmark::unfound(name, Unfound::Outside(why), 0);
         }
         let within = [known[place - 1].at, known[place + 1].at];
         let Found { outcome, asked } = ahead::search(
@@ -220,6 +220,17 @@ impl Curve {
             }
             Err(fault) => Landmark::unfound(name, fault.into(), runs),
         }
+    }
+}
+
+/// Why the best of the points that have a motion, that at `place`, has none beside it on one side; none where both are there.
+fn at_an_end(traced: &Traced, known: &[Seen], place: usize) -> Option<&'static str> {
+    let is = |end: Option<&Point>| end.is_some_and(|point| point.value == known[place].at);
+    match (place == 0, place + 1 == known.len()) {
+        (false, false) => None,
+        (true, _) if is(traced.points.first()) => Some("the first point of the range is the best"),
+        (_, true) if is(traced.points.last()) => Some("the last point of the range is the best"),
+        _ => Some("the points on one side of the best one have no motion"),
     }
 }
 

@@ -149,7 +149,8 @@ fn settling(steps: &DriveSummary) -> String {
         }
         (SettlingSummary::NotSettled { change_m: Some(change), limit_m, limit_error_m }, _) => {
             let limit = limit_m.zip(*limit_error_m);
-            let limit = limit.map(|(l, e)| format!(", on its way to {} ± {}", length(l), length(e)));
+            let limit =
+                limit.map(|(l, e)| format!(", heading for {} ± {} if it goes on so", length(l), length(e)));
             let limit = limit.unwrap_or_default();
             format!("not settled: the step of {last} changes by {} per period{limit}", length(*change))
         }
