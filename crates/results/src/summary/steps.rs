@@ -77,7 +77,7 @@ pub enum SettlingSummary {
         /// Where it leads, if it goes on to fall as it does; none where that is farther than the steps have gone.
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_m: Option<Real>,
-        /// How far off that may be: by what two fits are apart, and a tenth of the way.
+        /// How far off that may be: by what two fits are apart, and three tenths of the way.
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_error_m: Option<Real>,
     },

@@ -37,10 +37,9 @@ pub(super) fn numbers<const N: usize>(
         let Ok(record) = record else { continue };
         let start = start_of(text, &record);
         if record.len() != width {
-            let line = text[start..].lines().next().unwrap_or("").len();
             let fields = if width == 1 { "1 field" } else { &format!("{width} fields") };
             return Err(Slip {
-                range: start..start + line,
+                range: line_at(text, start),
                 message: format!("expected {fields} like the first line, got {}", record.len()),
                 help: Some("fields stand between commas; decimals stand after a point".to_owned()),
             });
@@ -77,7 +76,17 @@ pub(super) fn numbers<const N: usize>(
         }
         rows.push(row);
     }
+    if rows.is_empty() {
+        let range = line_at(text, start_of(text, &csv::StringRecord::new()));
+        let message = "expected rows of numbers below the names of the columns, got none".to_owned();
+        return Err(Slip { range, message, help: None });
+    }
     Ok(rows)
+}
+
+/// The line that begins at a place.
+fn line_at(text: &str, start: usize) -> Range<usize> {
+    start..start + text[start..].lines().next().unwrap_or("").len()
 }
 
 /// The place of the head of a column.
