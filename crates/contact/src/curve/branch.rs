@@ -226,6 +226,8 @@ impl Curve {
         // The pieces of one path of growth are one: the branch ends where the path began. Its knots were put there by steps and
         // are no events: an impact would locate one for each step of its approach.
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
+        // Of one along the edge, but for rounding of its last piece, that piece is all that is crossed.
+        let foot = if cut::runs_along(slope, sense, &self.knots[foot + 1]) { top } else { foot };
         let (base, end) = (&self.knots[foot], &self.knots[foot + 1]);
         let gain = sense * end.gain;
         Branch {

@@ -257,6 +257,28 @@ fn a_grown_segment_without_a_finite_force_or_energy_is_refused() {
     }
 }
 
+/// A path of growth along the edge itself whose last piece is a little less steep: the edge crosses that piece alone. Taken for the whole
+/// path its front moved by the inverse of nothing, and the force was no number.
+#[test]
+fn the_edge_crosses_no_path_that_runs_along_it() {
+    let law = paraboloid();
+    let slope = law.stick_slope();
+    let mut curve = Curve::new(&law, Apex::default());
+    let mut grow = |d: f64, u: f64, joins: bool| {
+        curve.commit(&law, Segment::Grown { to: Apex { d, u }, force: 1.0, energy: 1e-9, joins }).unwrap();
+    };
+    grow(1e-7, slope * 1e-7, false);
+    grow(1.5e-7, slope * (1e-7 + (1.0 - 1e-6) * 0.5e-7), true);
+    let apex = curve.apex();
+    let branch = curve.branch(&law, 1.0, 0.0);
+    for ahead in [0.0, 1e-15, 5e-15] {
+        let u = apex.u + ahead;
+        let force = branch.force(&law, apex.d, u, law.reduced_force(apex.d));
+        let asked = curve.dragged(&law, 1.0, Apex { d: apex.d, u }).force;
+        assert!((force - asked).abs() < 1e-9 * asked.abs(), "{ahead:e}: {force:e} {asked:e}");
+    }
+}
+
 // ---- Stacks that overflow
 
 /// Turns of a decay that loses one part in `length` of its first amplitude, or of its last, each time.

@@ -141,6 +141,11 @@ impl Guard {
         }
     }
 
+    /// Whether it asks how fast an edge moves that drags, or might.
+    pub(crate) fn is_edge(self) -> bool {
+        matches!(self, Self::Drag | Self::Lower | Self::Upper)
+    }
+
     /// Whether it asks only where the contact stands, and not how fast it moves.
     pub(crate) fn is_length(self) -> bool {
         !matches!(self, Self::Drag | Self::Lower | Self::Upper | Self::Edge)

@@ -228,6 +228,27 @@ fn where_a_damped_flat_punch_gives_way_no_step_is_refused() {
     assert!(least > 1.0 && most - least < 300.0 * tolerance, "{:e}", most - least);
 }
 
+/// A contact that is damped so strongly that long before a corner only its last bits turn to and fro. Where it turned at the very moment of
+/// the corner it went on as it would have without it, against the way the corner sends it, and what looks for the end of its slip found
+/// none: one step in a hundred was 2.5 % too short, at any tolerance.
+#[test]
+fn a_contact_that_turns_at_a_corner_goes_where_the_corner_sends_it() {
+    let period = 2.978_508_455_376_926e-3;
+    let shape = Shape::Trapezoid { stroke: 2.56e-6, rise: 1.787e-3, hold: 0.19e-3, fall: 6.5e-6 };
+    let profile = Profile::truncated_paraboloid(5.4e-6, 2.147e-3).unwrap();
+    let ball = damped(&contact(FOOT_SLIDER, profile, 0.1737, 1.404e-3), 4e-6);
+    let ball = Contact { count: 3, ..ball };
+    let scene = foot_and_slider(wave("drive", shape, period), 4.94e-5, ball);
+    for tolerance in [1e-6, 1e-8, 1e-9, 1e-10] {
+        let (model, state, rows) = trace(&scene, &event(tolerance, 150.0 * period), period);
+        let place = column(&model, &rows, "slider.x_m");
+        let steps: Vec<f64> = place.windows(2).skip(2).map(|w| w[1] - w[0]).collect();
+        let (least, most) = steps.iter().fold((f64::INFINITY, 0.0), |(a, b), &s| (s.min(a), s.max(b)));
+        println!("{tolerance:e}: steps of {least} m, {:e} apart, {:?}", most - least, state.counts());
+        assert!(least > 2.5e-6 && most - least < 1e-14, "{tolerance:e}: {:e}", most - least);
+    }
+}
+
 /// A slider on a sine, held down by a damped spring on three damped balls: two of them (∝ h^{1/2}) are in gross slip while the last springs
 /// of the third, a power 3/2 whose damping fades with h^{2/3}, still stick. Gross slip has no end; as none is expected of it the
 /// end of the third one must be all the same, or steps go across it as they come: single ones were 3e-5 u_c off at a tolerance of

@@ -189,7 +189,11 @@ impl Curve {
         let known: Vec<Seen> = points.collect();
         let best = (0..known.len()).max_by(|a, b| known[*a].value.total_cmp(&known[*b].value));
         let Some(place) = best.filter(|place| known[*place].value > known[*place].error) else {
-            return Landmark::unfound(name, Unfound::Outside("the drive steps at none"), 0);
+            let why = match yields {
+                Yield::Power => "no point with a step does work against its load",
+                Yield::Step | Yield::Speed => "the drive steps at none",
+            };
+            return Landmark::unfound(name, Unfound::Outside(why), 0);
         };
         if let Some(why) = at_an_end(traced, &known, place) {
             return Landmark::unfound(name, Unfound::Outside(why), 0);

@@ -2,8 +2,8 @@
 //!
 //! Laws change here and, for a jump, in [`turning`](super::turning); nowhere else. Of a guard that fell the
 //! law after it follows from the guard and the motion; after a corner, where velocities jump, every contact
-//! that the corner moves is decided afresh from velocities and, where these vanish, accelerations. A contact
-//! whose guard fell at the very moment of a corner is decided once, by its guard. Without contact damping
+//! that the corner moves is decided afresh from velocities and, where these vanish, accelerations, also where its
+//! guard fell at that very moment. Without contact damping
 //! forces are continuous at every change of law: accelerations do not depend on it, and each contact is
 //! decided for itself.
 
@@ -36,6 +36,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let mut turns = corner;
         for i in 0..self.watch.fired.len() {
             match self.watch.fired[i] {
+                Fallen::Contact(c, guard) if corner && self.is_up_to_corner(c, guard) => {}
                 Fallen::Contact(c, guard) => {
                     if let Err(reason) = self.handle_contact(state, (c, guard), record) {
                         // A detour that follows looks at contacts afresh, and at no event of a block that has been.
@@ -62,14 +63,22 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         if turns {
             for c in 0..self.setting.model.contacts.len() {
-                // Those that fell have their law already, with the slack of their guard; a second choice
-                // would lose it.
-                if !self.watch.fired.iter().any(|fallen| fallen.is_of_contact(c)) {
+                // The law of a row that fell has the slack of its guard, which a second choice would lose. A branch that goes on in its
+                // sense keeps it.
+                let is_kept = |fallen: &Fallen| matches!(fallen, Fallen::Contact(own, guard) if *own == c && !guard.is_edge());
+                if matches!(state.modes[c], Mode::Slip(_)) || !self.watch.fired.iter().any(is_kept) {
                     self.turn(state, c, record)?;
                 }
             }
         }
         Ok(())
+    }
+
+    /// Whether what follows a guard that fell at the moment of a corner hangs on the velocities after it: an edge that turned just then
+    /// goes where the corner sends it.
+    fn is_up_to_corner(&self, c: usize, guard: Guard) -> bool {
+        let contact = &self.setting.model.contacts[c];
+        guard.is_edge() && !contact.is_never_pressed() && moved_by_waveform(contact)
     }
 
     /// The law of a contact after one of its guards fell.
@@ -114,9 +123,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// which rounding has let them fall.
     fn after(&mut self, state: &State, (c, guard): (usize, Guard), motion: &Motion) -> (EventKind, Course) {
         let (contact, old) = (&self.setting.model.contacts[c], &state.modes[c]);
-        let edges = matches!(guard, Guard::Drag | Guard::Lower | Guard::Upper);
         let fired = guard.fired(contact, old, motion);
-        if !edges || contact.is_constant() || !matches!(old, Mode::Slip(_) | Mode::Grow) {
+        if !guard.is_edge() || contact.is_constant() || !matches!(old, Mode::Slip(_) | Mode::Grow) {
             return fired;
         }
         if !self.stands(contact, motion) {

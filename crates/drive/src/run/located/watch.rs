@@ -43,11 +43,6 @@ impl Fallen {
             _ => false,
         }
     }
-
-    /// Whether it is of the contact at a place.
-    pub(super) fn is_of_contact(&self, c: usize) -> bool {
-        matches!(self, Self::Contact(own, _) if *own == c)
-    }
 }
 
 /// The contacts at both ends of a step, and the guards that fell at its end.
