@@ -168,11 +168,16 @@ impl Steady {
     }
 
     /// Whether a run that is disturbed a little comes back; none where a disturbance neither fades nor grows, or where that is not
-    /// known.
+    /// known: a shakedown is one of a family, and a run that is disturbed may end in another of it.
     #[must_use]
     pub fn comes_back(&self) -> Option<bool> {
         let stays = self.multipliers.iter().any(|multiplier| multiplier.kind() == Kind::Stays);
-        if self.is_stable() && stays || !self.holding().is_empty() { None } else { Some(self.is_stable()) }
+        let is_one_of_many = stays || !self.shaken_down.is_empty();
+        if self.is_stable() && is_one_of_many || !self.holding().is_empty() {
+            None
+        } else {
+            Some(self.is_stable())
+        }
     }
 }
 

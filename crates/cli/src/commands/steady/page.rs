@@ -51,6 +51,11 @@ fn stable(found: &Steady) -> String {
             format!("no: a run leaves this motion, largest |λ| {radius}; there may be others like it")
         }
         (None, Some(doubt)) => format!("not known: {doubt}"),
+        (None, None) if !found.shaken_down.is_empty() => {
+            format!(
+                "neither: one of a family, in another of which a disturbed run may end, largest |λ| {radius}"
+            )
+        }
         (None, None) => format!("neither: a disturbance stays as it is, largest |λ| {radius}"),
         (Some(true), _) if found.radius() == 0.0 => "yes".to_owned(),
         (Some(true), _) => format!("yes, largest |λ| {radius}"),
