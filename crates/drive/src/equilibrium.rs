@@ -197,9 +197,8 @@ impl<'m> Settling<'m> {
             // In proportion: the forces still missing are a share of the imbalance at the start, friction and
             // springs included.
             let missing = &initial * (1.0 - share);
-            let balance = Search::new(self, state, (&missing, &vec![false; n])).from(&state.y, &mut tau);
-            // Much longer, and a body that the next part sets free is gone at once.
-            tau = if balance.holds { tau.min(NEWTON) } else { TAU };
+            let balance = Search::new(self, state, (&missing, &vec![false; n])).from(&state.y, tau);
+            tau = if balance.holds { NEWTON } else { TAU };
             if balance.holds {
                 self.stand(state, &balance)?;
             // Under the whole load nothing more will come: now it is found coordinate by coordinate, or there
@@ -218,7 +217,7 @@ impl<'m> Settling<'m> {
 
     /// The balance nearest to y with some forces still missing and some coordinates held.
     fn balance(&self, state: &State, missing: &DVector<f64>, y: &[f64], held: &[bool]) -> Rc<Balance> {
-        Search::new(self, state, (missing, held)).from(y, &mut { TAU })
+        Search::new(self, state, (missing, held)).from(y, TAU)
     }
 
     /// Takes over a balance: the contacts go there on straight paths.

@@ -13,7 +13,8 @@ const ITERATIONS: u32 = 400;
 /// Most iterations without progress: the rest is rounding.
 // Half of it moves one example by rounding; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
 const PATIENCE: u32 = 8;
-/// Pseudo-time from which on an iteration is Newton's but for the rounding of its step.
+/// Pseudo-time from which on an iteration is Newton's but for the rounding of its step, and with which a search begins beside a balance.
+// Begun with much more, a body that the next part of the loads sets free is gone at once.
 pub(super) const NEWTON: f64 = 1e4;
 /// Most halvings of a step that goes too far.
 const HALVINGS: u32 = 40;
@@ -81,8 +82,8 @@ impl<'a> Search<'a> {
     /// faster, until something does, and the method becomes Newton's.
     ///
     /// Where it ends is the best place if all balances there, or else the last. A search from a balance under nearly the same loads may
-    /// begin with the pseudo-time τ of that one's end.
-    pub(super) fn from(mut self, y: &[f64], tau: &mut f64) -> Rc<Balance> {
+    /// begin as [`NEWTON`] says.
+    pub(super) fn from(mut self, y: &[f64], mut tau: f64) -> Rc<Balance> {
         let mut now = self.at(y.to_vec());
         let (mut best, mut idle) = (Rc::clone(&now), 0);
         for _ in 0..ITERATIONS {
@@ -91,18 +92,18 @@ impl<'a> Search<'a> {
             if best.size == 0.0 || best.holds && idle > PATIENCE {
                 break;
             }
-            let Some(step) = self.step(&now, *tau).filter(|step| step.amax() < LOST) else { break };
+            let Some(step) = self.step(&now, tau).filter(|step| step.amax() < LOST) else { break };
             idle += 1;
             let looked = self.looked;
             let (whole, push) = (self.along(&now, &step, 1.0), now.residual.dot(&step));
             // Where Newton's method comes back to where it has been it goes round among the same few places.
-            if best.holds && *tau > NEWTON && looked == self.looked {
+            if best.holds && tau > NEWTON && looked == self.looked {
                 break;
             }
             // Less imbalance, or still pushed on along the step: a body that falls towards what will hold it
             // is no nearer to balance yet.
             let good = whole.size < now.size || push > 0.0 && !overshoots(&now, &whole, &step);
-            *tau = (*tau * if good { 3.0 } else { 0.3 }).clamp(1e-6, 1e18);
+            tau = (tau * if good { 3.0 } else { 0.3 }).clamp(1e-6, 1e18);
             if good {
                 now = whole;
             } else if push > 0.0 {
