@@ -169,8 +169,21 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("quickstart", &["--curve", "force-speed", "--range", "1 N..2 nm"], "--range  ");
     let both = "--vary  expected a unit at both ends or at none, which is kg, got \"1 g..2\"";
     refused("quickstart", &["--vary", "bodies.slider.mass=1 g..2"], both);
-    refused("quickstart", &["--curve", "force-speed", "--range", "2 mN..1 mN"], "a range that rises");
-    refused("quickstart", &["--curve", "force-speed", "--range", "0..1 N", "--log"], "above 0");
+    refused(
+        "quickstart",
+        &["--curve", "force-speed", "--range", "2 mN..1 mN"],
+        "--range  expected a range that rises from one finite value to another, got 2.000 mN to 1.000 mN",
+    );
+    refused(
+        "quickstart",
+        &["--curve", "force-speed", "--range", "0..1 N", "--log"],
+        "--log  expected a range above 0",
+    );
+    refused(
+        "quickstart",
+        &["--curve", "force-speed", "--points", "1"],
+        "--points  expected 2 to 10000 points, got 1",
+    );
     refused("quickstart", &["--curve", "preload", "--points", "1"], "expected 2 to 10000 points, got 1");
     let path = "contacts.ball.friction=0.1..0.2";
     refused("quickstart", &["--curve", "force-speed", "--vary", path], "only holding-force takes both");

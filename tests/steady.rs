@@ -117,7 +117,7 @@ fn what_cannot_be_found_is_said_and_leaves_nothing() {
         ("commanded", &[], 2, "commanded: the waveform \"drive\" follows what a caller commands"),
         ("fretting_sphere", &[], 2, "fretting_sphere: nothing is free in this scene"),
         ("impact_drive", &["--periods", "12"], 3, "impact_drive: no steady motion found in "),
-        ("p1", &["--set", STUCK, "--periods", "60"], 3, "help: ball never slip grossly"),
+        ("p1", &["--set", STUCK, "--periods", "60"], 3, "help: ball never slips grossly"),
     ];
     for (name, options, expected, words) in cases {
         let output = steady(name, &out, options);
@@ -261,7 +261,7 @@ fn a_branch_that_cannot_be_followed_is_told_and_leaves_nothing() {
         "no waveform of the scene has a period",
     );
     let stuck = ["--set", STUCK, "--periods", "60", "--continue", "contacts.ball.friction=0.1..0.2"];
-    refused("p1", &stuck, 3, "help: ball never slip grossly");
+    refused("p1", &stuck, 3, "help: ball never slips grossly");
     fs::write(&out, "a file").unwrap();
     let output = steady("p1", &out, &["--continue", &range("30 nm..1 um")]);
     assert_eq!((code(&output), stdout(&output)), (3, String::new()), "{}", stderr(&output));

@@ -88,7 +88,7 @@ fn courses(ways: &[Way<'_>]) -> Vec<MachineCourse<'static>> {
         course("power", "W", |way| {
             let against = way.1.direction;
             let spread = |motion: &Motion, load: f64| load.abs() * motion.spread / motion.period;
-            line(way, &|motion, load| against * load * motion.speed(), &spread)
+            line(way, &|motion, load| motion.power(against * load), &spread)
         })
     };
     match (curve.kind.is_of_speed(), curve.kind.is_of_load()) {

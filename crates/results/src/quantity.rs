@@ -13,6 +13,10 @@ pub fn quantity(value: Real, unit: &str) -> String {
         x if x >= 9.9995 => 2,
         _ => 3,
     };
+    // Smaller than any prefix makes readable.
+    if shown != 0.0 && shown.abs() < 0.9995 {
+        return format!("{:.3e} {unit}", value.0);
+    }
     if shown == 0.0 { format!("0 {unit}") } else { format!("{shown:.digits$} {}{unit}", prefix.symbol) }
 }
 
@@ -29,5 +33,6 @@ mod tests {
         assert_eq!(quantity(Real(0.0999999999), "s"), "100.0 ms");
         assert_eq!(quantity(Real(9.999e-6), "s"), "9.999 µs");
         assert_eq!(quantity(Real(2.0), "s"), "2.000 s");
+        assert_eq!(quantity(Real(-1.2345e-30), "kg"), "-1.234e-30 kg");
     }
 }

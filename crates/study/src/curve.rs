@@ -42,6 +42,8 @@ use stickslip_scenario::{Scenario, ScenarioError};
 /// How exactly the stall is known that a range ends beyond, and how far beyond.
 const ROUGHLY: f64 = 0.05;
 const BEYOND: f64 = 1.1;
+/// Halvings on the way to the last place of a range that makes a scenario.
+const HALVINGS: u32 = 8;
 
 /// Which way round the waveforms run, where a drive is asked for both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,7 +114,7 @@ impl Curve {
     pub fn range(&self, watcher: &dyn Watcher) -> Option<[f64; 2]> {
         let [from, to] = self.variation.range?;
         let unloaded = if self.kind.is_of_load() { Motion::of(&self.job, watcher).ok() } else { None };
-        let Some(unloaded) = unloaded else { return Some([from, to]) };
+        let Some(unloaded) = unloaded else { return Some([from, to].map(|end| self.allowed(end, 1.0))) };
         let sense = unloaded.sense();
         // What is dragged away is stalled as well.
         let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
@@ -121,7 +123,20 @@ impl Curve {
         };
         let known = unloaded.steps(sense).then_some((from, sense * unloaded.step));
         let stall = Bracket::narrow(known.into_iter().collect(), to, ROUGHLY, try_at);
-        Some([from, stall.ok().flatten().map_or(to, |stall| BEYOND * stall.still)])
+        let to = stall.ok().flatten().map_or(to, |stall| BEYOND * stall.still);
+        Some([from, self.allowed(to, sense)])
+    }
+
+    /// An end of a range, or the place nearest to it that makes a scenario: a frequency may leave a waveform's rise no room, and a load
+    /// a start no equilibrium. The end where there is none.
+    fn allowed(&self, end: f64, direction: f64) -> f64 {
+        let makes = |at: f64| self.variant(&self.overrides(at, direction)).is_ok();
+        let Some(present) = self.variation.present.filter(|_| !makes(end)) else { return end };
+        let nearest = (0..HALVINGS).fold([present, end], |[good, bad], _| {
+            let middle = 0.5 * (good + bad);
+            if makes(middle) { [middle, bad] } else { [good, middle] }
+        })[0];
+        if nearest == present { end } else { nearest }
     }
 
     /// Why there is no range by default.

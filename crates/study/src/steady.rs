@@ -147,13 +147,8 @@ impl Steady {
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let holding = self.named(&self.holding());
-        match &holding[..] {
-            [] => None,
-            [name] => Some(format!("{name} never slips grossly, and its memory is led along")),
-            names => {
-                Some(format!("{} never slip grossly, and their memories are led along", names.join(", ")))
-            }
-        }
+        let led = if holding.len() == 1 { "its memory is" } else { "their memories are" };
+        (!holding.is_empty()).then(|| format!("{}, and {led} led along", never_slip(&holding)))
     }
 
     /// How many periods of a waveform, s, there are in one of the motion, the common one of all waveforms.
@@ -167,17 +162,22 @@ impl Steady {
         self.multipliers.iter().all(|multiplier| multiplier.kind() != Kind::Grows)
     }
 
+    /// Whether there are motions beside it that repeat themselves as well, so that its step is that of one of many: a multiplier is 1.
+    #[must_use]
+    pub fn is_one_of_many(&self) -> bool {
+        let is_one = |multiplier: &Multiplier| {
+            multiplier.kind() == Kind::Stays && multiplier.beat().is_none() && !multiplier.alternates()
+        };
+        self.multipliers.iter().any(is_one)
+    }
+
     /// Whether a run that is disturbed a little comes back; none where a disturbance neither fades nor grows, or where that is not
     /// known: a shakedown is one of a family, and a run that is disturbed may end in another of it.
     #[must_use]
     pub fn comes_back(&self) -> Option<bool> {
         let stays = self.multipliers.iter().any(|multiplier| multiplier.kind() == Kind::Stays);
-        let is_one_of_many = stays || !self.shaken_down.is_empty();
-        if self.is_stable() && is_one_of_many || !self.holding().is_empty() {
-            None
-        } else {
-            Some(self.is_stable())
-        }
+        let may_stay = stays || !self.shaken_down.is_empty();
+        if self.is_stable() && may_stay || !self.holding().is_empty() { None } else { Some(self.is_stable()) }
     }
 }
 
@@ -212,7 +212,7 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
     let multipliers = match holds(section) {
         true => Vec::new(),
-        false => multiplier::of(&bound.gradient.numbers, bound.gradient.error(options.tolerance)),
+        false => multiplier::of(&bound.gradient, (options.tolerance, fixed.defect.amax())),
     };
     // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
     // along, has still to come.
@@ -236,6 +236,12 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         state: fixed.state,
     };
     Ok(found)
+}
+
+/// That contacts never slip grossly, in words.
+fn never_slip(names: &[String]) -> String {
+    let verb = if names.len() == 1 { "slips" } else { "slip" };
+    format!("{} never {verb} grossly", names.join(", "))
 }
 
 /// Names of contacts by their places.

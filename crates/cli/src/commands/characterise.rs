@@ -151,8 +151,35 @@ fn range(arguments: &CharacteriseArguments, curve: &Curve) -> Result<Option<Rang
     let asked = ends(arguments, curve.variation.unit)?;
     let known = || curve.variation.range.ok_or_else(|| curve.no_range());
     let range = of(arguments, asked.map_or_else(known, Ok)?);
-    range.values()?;
+    range.values().map_err(|error| said(arguments, curve.variation.unit, error))?;
     Ok(asked.map(|_| range))
+}
+
+/// What is wrong with a range, by the argument that it comes from and in its unit.
+fn said(arguments: &CharacteriseArguments, unit: &str, error: CurveError) -> CurveFailure {
+    let own = if arguments.vary.is_some() { "--vary" } else { "--range" };
+    let shown = |end: f64| if end.is_finite() { shown(end, unit) } else { end.to_string() };
+    let (option, message) = match error {
+        CurveError::Range { from, to } => (
+            own,
+            format!(
+                "expected a range that rises from one finite value to another, got {} to {}",
+                shown(from),
+                shown(to)
+            ),
+        ),
+        CurveError::Decades { from, to } => (
+            "--log",
+            format!(
+                "expected a range above 0 for points that are as many per decade, got {} to {}",
+                shown(from),
+                shown(to)
+            ),
+        ),
+        CurveError::Points { .. } => ("--points", error.to_string()),
+        other => return other.into(),
+    };
+    CurveFailure::Range { option, message }
 }
 
 /// The ends of the range asked for, SI.
@@ -245,13 +272,13 @@ fn row(curve: &Curve, traced: &Traced, (place, point): (usize, &Point)) -> Vec<S
     let length = |length| shown(length, "m");
     let ([step, error, spread, speed], word) = match &point.motion {
         Ok(motion) if motion.course == Course::Steady && motion.is_still() => {
-            ([length(0.0), String::new(), String::new(), shown(0.0, "m/s")], "no step")
+            ([length(0.0), String::new(), String::new(), shown(0.0, "m/s")], motion.word())
         }
         Ok(motion) => {
             let error = Some(motion.error).filter(|error| *error > SHOWN * motion.step.abs());
             let spread = Some(motion.spread).filter(|spread| *spread > 0.0);
             let [error, spread] = [error, spread].map(|some| some.map(length).unwrap_or_default());
-            ([length(motion.step), error, spread, shown(motion.speed(), "m/s")], motion.course.word())
+            ([length(motion.step), error, spread, shown(motion.speed(), "m/s")], motion.word())
         }
         Err(fault) => (nothing(), fault.kind()),
     };

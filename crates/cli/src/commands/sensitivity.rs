@@ -124,10 +124,14 @@ fn tell(asked: &Sensitivity, taken: &Taken) {
                 let name = side.map_or_else(|| path.clone(), |side| format!("{path}, {side}"));
                 let Ok(slope) = slope else { continue };
                 let elasticity = |value: f64| Taken::elasticity(asked, (f, q), value);
-                let share = elasticity(slope.value).map_or(String::new(), |share| format!("{share:+.4}"));
-                let doubt =
-                    elasticity(slope.error).map_or(String::new(), |share| format!("{:.0e}", share.abs()));
-                let (value, error) = (format!("{:.5e}", slope.value), format!("{:.0e}", slope.error));
+                let shares = elasticity(slope.value).zip(elasticity(slope.error));
+                let [share, doubt] = shares.map_or([const { String::new() }; 2], |(share, doubt)| {
+                    known((share, doubt.abs()), |places| format!("{share:+.*}", places.clamp(0, 4) as usize))
+                });
+                let size = slope.value.abs().log10().floor() as i32;
+                let [value, error] = known((slope.value, slope.error), |places| {
+                    format!("{:.*e}", places.saturating_add(size).clamp(0, 5) as usize, slope.value)
+                });
                 table.add_row([name, share, doubt, value, error, asked.unit((f, q))]);
             }
             notes.extend(derivative.words().map(|words| format!("  {path}: {words}")));
@@ -136,6 +140,15 @@ fn tell(asked: &Sensitivity, taken: &Taken) {
         say(format_args!("{table}"));
         notes.iter().for_each(|note| say(format_args!("{note}")));
         say(format_args!(""));
+    }
+}
+
+/// A value by as many places after the point as its error leaves, and the error; of one that drowns in its error how large it may be.
+fn known((value, error): (f64, f64), digits: impl Fn(i32) -> String) -> [String; 2] {
+    match error {
+        0.0 => [digits(i32::MAX), format!("{error:.0e}")],
+        _ if error >= value.abs() => [format!("< {:.0e}", value.abs() + error), String::new()],
+        _ => [digits(-error.log10().floor() as i32), format!("{error:.0e}")],
     }
 }
 

@@ -15,9 +15,9 @@ const ERROR: &str = "how far the step may be off, an estimate: of what was left 
      swing how far the mean of endlessly many may lie from it, by 95 %";
 const SPREAD: &str = "by how much steps swing about their mean from period to period; 0 of steady ones";
 const SPEED: &str = "mean speed along x: step over period";
-const POWER: &str = "load times mean speed, above 0 where the drive moves against the load; of loads only";
+const POWER: &str = "load times mean speed, above 0 where the drive moves against the load, 0 where there is no step; of loads only";
 const PERIOD: &str = "period of the figures' waveform";
-const MOTION: &str = "`steady`, `beats` (steps swing about a mean) or `irregular`";
+const MOTION: &str = "`steady`, `no step` (steady, and the step is no longer than it may be off, or than a hundred-thousandth of u_c), `beats` (steps swing about a mean) or `irregular`";
 const MULTIPLIER: &str = "|λ|, modulus of the largest Floquet multiplier: by how much a disturbance is smaller after a period; none of \
      motions that were waited for";
 const BEAT: &str = "periods in which that disturbance turns once; none where it does not";

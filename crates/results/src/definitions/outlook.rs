@@ -11,7 +11,7 @@ const KEYS: [(&str, &str); 12] = [
     ("steady_motion.speed_m_s", "step over period"),
     (
         "steady_motion.stable",
-        "whether a run that is disturbed a little comes back to it; left out where a disturbance neither fades nor grows, or where that is not known",
+        "whether a run that is disturbed a little comes back to it; left out where a disturbance neither fades nor grows, of a shakedown unless it grows, and where that is not known",
     ),
     (
         "steady_motion.periods",

@@ -17,7 +17,7 @@ pub(super) const STEADY: &[Definition] = &[
     key("speed_m_s", "step over period"),
     key(
         "stable",
-        "whether a run that is disturbed a little comes back; left out where a disturbance neither fades nor grows, and where a contact never slips grossly whose memory is `carried`: of that no multipliers are told",
+        "whether a run that is disturbed a little comes back; left out where a disturbance neither fades nor grows, of a shakedown unless it grows, as a run may end in another of its family, and where the memory of a contact that never slips grossly is `carried`: of that no multipliers are told",
     ),
     key(
         "radius",

@@ -2,7 +2,7 @@
 
 use super::{ASKED, Implausible, told};
 use std::f64::consts::TAU;
-use stickslip_drive::facts::zero_step_stroke;
+use stickslip_drive::facts::{ExpectedEvents, fixed_steps, zero_step_stroke};
 use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 use stickslip_drive::{Accuracy, Shape, Stepper, Waveform};
 
@@ -21,6 +21,13 @@ const MOMENTS: u32 = 4096;
 const COORDINATES: usize = 8;
 /// Displacement of a contact, as a share of the largest in its mode, from which on the mode is the contact's.
 const MOVED: f64 = 0.05;
+
+/// Events, or steps, of a run of some days.
+const MANY: f64 = 1e12;
+/// Bodies up to which they are estimated, which takes all modes.
+const BODIES: usize = 32;
+/// How many a second there are at best, 1/s.
+const RATE: f64 = 1e6;
 
 impl Implausible<'_> {
     /// Waveforms that lengths follow, with the bodies that feel them.
@@ -149,6 +156,24 @@ impl Implausible<'_> {
                 let path = format!("run.stepper.{}.tolerance", stepper.name());
                 return self.find("tolerance", &path, message, "take a smaller one");
             }
+        }
+    }
+
+    /// Runs that nobody will see the end of.
+    pub(super) fn endless(&mut self) {
+        let (job, plan) = (self.job, &self.job.scenario.plan);
+        if job.scenario.scene.bodies.len() > BODIES {
+            return;
+        }
+        let (what, count) = match fixed_steps(&job.model, plan) {
+            Some(steps) => ("steps", steps),
+            None => ("events", ExpectedEvents::of(job.setup(), plan).total()),
+        };
+        if count > MANY {
+            let days = count / (RATE * 86_400.0);
+            let message = format!("about {count:.0e} {what}, which is {days:.0e} days at a million a second");
+            let help = "is a unit missing at a mass, a length or a time? else let it run for less";
+            self.find("endless", "run", message, help);
         }
     }
 

@@ -42,6 +42,7 @@ fn odd_scenes_are_warned_of_word_for_word() {
     kinds.dedup();
     let all = [
         "damping",
+        "endless",
         "friction",
         "geometry",
         "load",

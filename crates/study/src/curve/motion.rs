@@ -103,6 +103,8 @@ pub enum Motionless {
     },
 }
 
+/// A steady motion whose step is shorter than it may be off.
+const NO_STEP: &str = "no step";
 /// Changes below this share of a step are none.
 const EVEN: f64 = 1e-6;
 /// A step below this share of the natural length is none.
@@ -171,10 +173,27 @@ impl Motion {
         self.step / self.period
     }
 
+    /// Power against a load that acts along -x, W; 0 where there is no step.
+    #[must_use]
+    pub fn power(&self, load: f64) -> f64 {
+        if self.word() == NO_STEP { 0.0 } else { load * self.speed() }
+    }
+
     /// Sense of its steps along x, 1 or -1; 1 of those that are none.
     #[must_use]
     pub fn sense(&self) -> f64 {
         if self.steps(-1.0) { -1.0 } else { 1.0 }
+    }
+
+    /// What it does, in a word or two: a steady motion may make no step.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self.course {
+            Course::Steady if self.is_still() => NO_STEP,
+            Course::Steady => "steady",
+            Course::Beats => "beats",
+            Course::Irregular => "irregular",
+        }
     }
 
     /// Whether it makes no step either way.
@@ -215,18 +234,6 @@ impl Motionless {
             Self::SlidesAway { .. } => "slides away",
             Self::Flies { .. } => "in the air",
             Self::Unsettled { .. } => "not settled",
-        }
-    }
-}
-
-impl Course {
-    /// Its word.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Steady => "steady",
-            Self::Beats => "beats",
-            Self::Irregular => "irregular",
         }
     }
 }

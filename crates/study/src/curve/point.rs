@@ -19,7 +19,7 @@ impl Traced {
     pub fn power(&self, curve: &Curve, place: usize) -> Option<f64> {
         let point = self.points.get(place).filter(|_| curve.kind.is_of_load())?;
         let motion = point.motion.as_ref().ok()?;
-        Some(self.direction * point.value * motion.speed())
+        Some(motion.power(self.direction * point.value))
     }
 
     /// How many points have no motion.

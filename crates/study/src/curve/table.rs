@@ -145,9 +145,9 @@ impl Figures {
             error: Real(motion.error),
             spread: Real(motion.spread),
             speed: Real(motion.speed()),
-            power: load.map(|load| Real(load * motion.speed())),
+            power: load.map(|load| Real(motion.power(load))),
             period: Real(motion.period),
-            motion: motion.course.word(),
+            motion: motion.word(),
             multiplier: motion.multiplier.map(|multiplier| Real(multiplier.modulus())),
             beat_periods: motion.multiplier.and_then(|multiplier| multiplier.beat()).map(Real),
             work_periods: motion.work,
@@ -186,7 +186,7 @@ fn row(table: &mut String, (curve, traced): Way<'_>, place: usize) {
             let cells = [motion.step, motion.error, motion.spread, motion.speed()].map(Some);
             let power = curve.kind.is_of_load().then_some(power);
             cells.into_iter().chain(power).chain([Some(motion.period)]).for_each(|n| number(table, n));
-            let _ = write!(table, ",{}", motion.course.word());
+            let _ = write!(table, ",{}", motion.word());
             [multiplier, beat].into_iter().for_each(|n| number(table, n));
             let _ = write!(table, ",{},", motion.work);
         }

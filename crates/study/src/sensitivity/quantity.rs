@@ -2,6 +2,7 @@
 
 use super::SensitivityError;
 use serde_json::Value;
+use std::collections::HashSet;
 use stickslip_results::Job;
 use stickslip_scenario::Parameter;
 
@@ -18,6 +19,8 @@ pub struct Quantity {
 
 /// Longer lists are data, such as the points of a waveform.
 const LIST: usize = 4;
+/// Parts that do something only where another one names them.
+const LISTS: [&str; 2] = ["materials", "waveforms"];
 /// How long something goes on, and no more.
 const LENGTHS: [&str; 1] = ["cycles"];
 
@@ -34,13 +37,31 @@ impl Quantity {
         }
     }
 
-    /// All numbers of the scenario that say what there is and what drives it, but those that are 0.
+    /// All numbers of the scenario that say what there is and what drives it, but those that are 0 and those of materials and waveforms
+    /// that nothing names.
     pub(super) fn all(job: &Job) -> Vec<Self> {
-        let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
+        let mut tree: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
+        let mut named = HashSet::new();
+        strings(&tree, &mut named);
+        for list in LISTS {
+            if let Some(entries) = tree.get_mut(list).and_then(Value::as_object_mut) {
+                entries.retain(|name, _| named.contains(name));
+            }
+        }
         let mut paths = Vec::new();
         leaves(String::new(), &tree, &mut paths);
         let known = paths.iter().filter_map(|path| Self::of(job, path).ok());
         known.filter(|quantity| quantity.value != 0.0).collect()
+    }
+}
+
+/// All texts, but keys.
+fn strings(here: &Value, found: &mut HashSet<String>) {
+    match here {
+        Value::Object(entries) => entries.values().for_each(|inner| strings(inner, found)),
+        Value::Array(entries) => entries.iter().for_each(|inner| strings(inner, found)),
+        Value::String(text) => found.extend([text.clone()]),
+        _ => {}
     }
 }
 

@@ -1,5 +1,6 @@
 //! Why no steady motion is found.
 
+use super::never_slip;
 use stickslip_drive::{RunError, SceneError};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
@@ -104,8 +105,8 @@ pub enum SteadyError {
     },
     /// The same where a contact never slips grossly.
     #[error(
-        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: {} never slip grossly: what they hold near their centres they hold for ever, steady motions are a whole family (a shakedown), and a run comes near one of them slowly: look at a plain run, drive it further, so that all slip, or damp it",
-        .contacts.join(", ")
+        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: {}: what is held near a centre is held for ever, steady motions are a whole family (a shakedown), and a run comes near one of them slowly: look at a plain run, drive it further, so that all slip, or damp it",
+        never_slip(contacts)
     )]
     Shakedown {
         /// Names of the contacts.

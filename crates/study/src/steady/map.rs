@@ -2,7 +2,6 @@
 //!
 //! Numbers are counted in natural scales: u_c of a coordinate's contacts, u_c ω of its speed.
 
-use super::multiplier::NEUTRAL;
 use super::newton::Fixed;
 use super::tally::Tally;
 use super::{Options, SteadyError};
@@ -58,13 +57,15 @@ pub(super) struct Gradient {
     pub(super) way: DMatrix<f64>,
     /// Whether it is exact, but for the tolerance of the run.
     pub(super) is_exact: bool,
+    /// Second differences to first ones, where it is one of differences to both sides: how much the map bends between them.
+    pub(super) bend: f64,
 }
 
 impl Gradient {
-    /// How far its multipliers may be off where runs are led by a tolerance: differences of images magnify that by their distance.
+    /// How far entries may be off by runs that are led by a tolerance: differences of images magnify that by their distance.
     // Of bouncing bodies that nothing damps along z, |λ| = 1 by differences was up to 1.8e-4 off at 1e-9, and 7e-3 at 1e-6.
-    pub(super) fn error(&self, tolerance: f64) -> f64 {
-        if self.is_exact { NEUTRAL } else { NEUTRAL.max(3.0 * tolerance / FINE) }
+    pub(super) fn noise(&self, tolerance: f64) -> f64 {
+        if self.is_exact { 0.0 } else { 3.0 * tolerance / FINE }
     }
 }
 
@@ -246,6 +247,7 @@ impl<'m> Map<'m> {
                 numbers: matrix(gradient.numbers),
                 way: matrix(gradient.way),
                 is_exact: true,
+                bend: 0.0,
             });
         }
         Ok(image)
@@ -352,14 +354,21 @@ impl<'m> Map<'m> {
             numbers: DMatrix::zeros(count, count),
             way: DMatrix::zeros(image.way.len(), count),
             is_exact: false,
+            bend: 0.0,
         };
+        let (mut bends, mut changes) = (0.0, 0.0);
         for j in 0..count {
             let Some((ahead, behind, apart)) = pair(self, j)? else { continue };
             let Some(difference) = self.difference(&ahead.state, &behind.state) else { continue };
+            if let Some(half) = self.difference(&ahead.state, &image.state) {
+                bends += (&half * 2.0 - &difference).norm_squared();
+                changes += difference.norm_squared();
+            }
             gradient.numbers.set_column(j, &(difference / apart));
             let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
             gradient.way.set_column(j, &DVector::from_vec(way.collect()));
         }
+        gradient.bend = if changes > 0.0 { f64::sqrt(bends / changes) } else { 0.0 };
         Ok(gradient)
     }
 

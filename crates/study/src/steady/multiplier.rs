@@ -2,14 +2,22 @@
 //!
 //! A disturbance along an eigenvector of the gradient of a period's map comes back λ times as large. |λ| says how it fades or
 //! grows, the angle of λ how it turns: a beat of 2π/|arg λ| periods, or a change of sides every period where λ < 0.
+//!
+//! A gradient that is off by δA moves an eigenvalue by κ δA, 1/κ = |y* x| of its left and right eigenvectors of length 1 (G. W. Stewart and
+//! J. Sun, Matrix Perturbation Theory, 1990, sec. IV.2.2). Where two are one with one eigenvector, as of a body that bounces by itself as long as a period lasts,
+//! they part by the root of δA, and κ is as large as its inverse.
 
-use nalgebra::{Complex, DMatrix, Schur};
+use super::map::Gradient;
+use nalgebra::{Complex, DMatrix, SVD, Schur};
 use std::f64::consts::TAU;
 
 /// Sweeps of the eigenvalue iteration per row.
 const SWEEPS: usize = 100;
 /// A modulus this near to 1 neither fades nor grows: what a gradient is exact to that variations tell.
-pub(super) const NEUTRAL: f64 = 1e-6;
+const NEUTRAL: f64 = 1e-6;
+/// How far entries of a gradient may be off, as a share of the size of all, in tolerances of the runs or in defects.
+// Of six bodies that bounce by themselves twins parted at tolerances of 1e-13 to 1e-8 as if by up to 12.
+const ENTRIES: f64 = 20.0;
 /// A multiplier below is forgotten within the period.
 const FORGOTTEN: f64 = 1e-3;
 /// An angle this small, or this near to π, is none but for rounding.
@@ -61,7 +69,8 @@ impl Multiplier {
     #[must_use]
     pub fn beat(&self) -> Option<f64> {
         let angle = self.im.atan2(self.re).abs();
-        (angle > ANGLE && angle < 0.5 * TAU - ANGLE).then(|| TAU / angle)
+        let least = ANGLE.max(self.error / self.modulus());
+        (angle > least && angle < 0.5 * TAU - least).then(|| TAU / angle)
     }
 
     /// Whether a disturbance changes sides every period.
@@ -113,16 +122,36 @@ fn digits(x: f64) -> String {
     format!("{x:.*}", usize::try_from(places).unwrap_or(0))
 }
 
-/// The multipliers of a gradient that may be so far off, the largest first; of a pair one stands for both. None where its numbers are not
-/// finite.
-pub(super) fn of(gradient: &DMatrix<f64>, error: f64) -> Vec<Multiplier> {
-    let mut all: Vec<Multiplier> = eigenvalues(gradient)
+/// The multipliers of a gradient that was led along by runs of a tolerance near a fixed point, where so large a defect is left, the
+/// largest first; of a pair one stands for both. None where its numbers are not finite.
+pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Multiplier> {
+    let size = gradient.numbers.norm();
+    // Differences to both sides miss a bend in second order.
+    let shares = ENTRIES * tolerance.max(defect) + gradient.bend * gradient.bend;
+    let entries = shares * size + gradient.noise(tolerance);
+    let error = |value| NEUTRAL.max(moved(&gradient.numbers, value, entries));
+    let mut all: Vec<Multiplier> = eigenvalues(&gradient.numbers)
         .into_iter()
         .filter(|value| value.im >= 0.0)
-        .map(|value| Multiplier { re: value.re, im: value.im, error })
+        .map(|value| Multiplier { re: value.re, im: value.im, error: error(value) })
         .collect();
     all.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
     all
+}
+
+/// How far an eigenvalue may be off where entries may be by so much: κ times that, and no more than a double one.
+fn moved(matrix: &DMatrix<f64>, value: Complex<f64>, entries: f64) -> f64 {
+    let count = matrix.nrows();
+    let shifted =
+        matrix.map(|entry| Complex::new(entry, 0.0)) - DMatrix::from_diagonal_element(count, count, value);
+    let svd = SVD::try_new(shifted, true, true, f64::EPSILON, count * SWEEPS);
+    let double = (entries * matrix.norm()).sqrt();
+    svd.and_then(|svd| svd.u.zip(svd.v_t)).map_or(double, |(left, right)| {
+        // Those of the least singular value, which is 0 but for rounding.
+        let (y, x) = (left.column(count - 1), right.row(count - 1));
+        let product: Complex<f64> = y.iter().zip(x.iter()).map(|(y, x)| y * x).sum();
+        (entries / product.norm()).min(double)
+    })
 }
 
 fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
@@ -137,11 +166,16 @@ fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
 mod tests {
     use super::*;
 
+    fn led(numbers: DMatrix<f64>) -> Gradient {
+        let way = DMatrix::zeros(0, numbers.ncols());
+        Gradient { numbers, way, is_exact: true, bend: 0.0 }
+    }
+
     #[test]
     fn a_turn_that_shrinks_beats_and_fades() {
         let (modulus, angle) = (0.9967_f64, TAU / 12.3);
         let turn = DMatrix::from_row_slice(2, 2, &[angle.cos(), -angle.sin(), angle.sin(), angle.cos()]);
-        let multipliers = of(&(turn * modulus), NEUTRAL);
+        let multipliers = of(&led(turn * modulus), (1e-12, 0.0));
         assert_eq!(multipliers.len(), 1);
         let words = multipliers[0].words();
         assert_eq!(words, "beats every 12.3 periods and fades by 0.330 % a period (1/e after 303 periods)");
@@ -162,5 +196,21 @@ mod tests {
         // Differences that may be off by 1e-3 say nothing of a ten-thousandth.
         let coarse = |re: f64| Multiplier { re, im: 0.0, error: 1e-3 }.kind();
         assert_eq!((coarse(1.0001), coarse(0.9999), coarse(1.01)), (Kind::Stays, Kind::Stays, Kind::Grows));
+    }
+
+    /// A body that bounces by itself: what it is late by stays, and grows with what its bounce is too long by. Rounding parts its two
+    /// multipliers by the root of that. Those of a turn that grows by as much stand alone, and are told.
+    #[test]
+    fn two_that_are_one_part_by_a_root() {
+        let late = |off: f64| led(DMatrix::from_row_slice(2, 2, &[1.0, 3.0, off, 1.0]));
+        for (tolerance, off) in [(1e-12, 3e-12), (1e-9, 3e-9)] {
+            let kinds = of(&late(off), (tolerance, 0.0)).iter().map(Multiplier::kind).collect::<Vec<_>>();
+            assert_eq!(kinds, [Kind::Stays; 2], "{tolerance}");
+            let kinds = of(&late(-off), (tolerance, 0.0)).iter().map(Multiplier::kind).collect::<Vec<_>>();
+            assert_eq!(kinds, [Kind::Stays], "{tolerance}");
+        }
+        let (modulus, angle) = (1.000_003_f64, 0.4_f64);
+        let turn = DMatrix::from_row_slice(2, 2, &[angle.cos(), -angle.sin(), angle.sin(), angle.cos()]);
+        assert_eq!(of(&led(turn * modulus), (1e-12, 0.0))[0].kind(), Kind::Grows);
     }
 }

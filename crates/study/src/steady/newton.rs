@@ -100,6 +100,8 @@ struct Search {
     same: Option<(DVector<f64>, u32)>,
     /// Whether the last Newton step has brought nothing.
     stalled: bool,
+    /// What a period makes of what its steps miss, in natural scales: no defect gets smaller for sure.
+    magnified: f64,
 }
 
 impl Search {
@@ -117,6 +119,7 @@ impl Search {
             defects: Vec::new(),
             same: None,
             stalled: false,
+            magnified: 0.0,
         };
         search.note(Way::Plain);
         Ok(search)
@@ -140,7 +143,12 @@ impl Search {
 
     fn is_done(&self) -> bool {
         let size = self.size();
-        size <= self.goal || self.stalled && size <= ROUNDING
+        size <= self.goal || self.stalled && size <= self.least_sure()
+    }
+
+    /// A defect that is one of rounding, or of what the runs miss, where it gets no smaller.
+    fn least_sure(&self) -> f64 {
+        ROUNDING.max(self.magnified)
     }
 
     fn end(self) -> Fixed {
@@ -201,7 +209,8 @@ impl Search {
             share *= 0.5;
         }
         self.stalled = true;
-        Ok(self.size() <= ROUNDING)
+        self.magnified = self.goal * gradient.numbers.norm();
+        Ok(self.size() <= self.least_sure())
     }
 
     /// How many more periods it takes where each leaves so much of a defect; a gradient made anew takes one for each number.

@@ -1,6 +1,6 @@
 //! What a drive would settle on, as far as a glance tells.
 
-use super::{Options, Steady, SteadyError, find};
+use super::{Kind, Options, Steady, SteadyError, find};
 use stickslip_drive::scene::{Coordinate, EngineChoice, Freedom, Scene};
 use stickslip_results::outlook::{Outlook, Repetition};
 use stickslip_results::{Job, Real};
@@ -39,15 +39,25 @@ impl Steady {
             beat: largest.and_then(super::Multiplier::beat).map(Real),
             fold: largest.and_then(super::Multiplier::periods).map(Real),
             words: match self.doubt() {
-                None => {
-                    largest.map_or_else(|| "is gone after a period".to_owned(), super::Multiplier::words)
-                        + &led
-                }
+                None => self.becomes() + &led,
                 Some(doubt) => format!("fades or stays, which is not known: {doubt}"),
             },
             carried,
             shaken_down: self.named(&self.shaken_down),
         })
+    }
+
+    /// What becomes of a disturbance, in words: of what stays, and of what fades slowest beside it.
+    fn becomes(&self) -> String {
+        let Some(largest) = self.multipliers.first() else { return "is gone after a period".to_owned() };
+        if largest.kind() != Kind::Stays {
+            return largest.words();
+        }
+        let family = if self.is_one_of_many() { ": this is one motion of a family" } else { "" };
+        let slowest = self.multipliers.iter().find(|multiplier| multiplier.kind() == Kind::Fades);
+        let rest =
+            slowest.map_or_else(String::new, |slowest| format!("; what does not stay {}", slowest.words()));
+        largest.words() + family + &rest
     }
 }
 

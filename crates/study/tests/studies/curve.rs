@@ -242,3 +242,36 @@ fn scenes_without_such_a_curve_are_refused() {
     let found = refused("ruby_drive.json", &table, Kind::StepAmplitude);
     says(found, "no one stroke or amplitude");
 }
+
+/// Rise, hold and fall of 1.2 ms leave room up to 833 Hz.
+#[test]
+fn ranges_by_default_end_where_scenarios_are_refused() -> Checked {
+    let drive = r#"{"trapezoid": {"stroke": "0.2 um", "frequency": "500 Hz", "rise": "0.5 ms", "hold": "0.5 ms", "fall": "0.2 ms"}}"#;
+    let set = [("waveforms.drive", drive)];
+    let curve = curve("ruby_drive.json", &set, Kind::SpeedFrequency)?;
+    let [from, to] = curve.range(&()).ok_or("a range")?;
+    assert!((from - 50.0).abs() < 1e-9 && (825.0..=1.0 / 1.2e-3).contains(&to), "{from} to {to}");
+    assert!(curve.trace(&[from, to], 1, &()).points.iter().all(|point| point.motion.is_ok()));
+    // A sawtooth has room: ten times slower and twice as fast.
+    let plain = self::curve("ruby_drive.json", &[], Kind::SpeedFrequency)?;
+    assert_eq!(plain.range(&()), Some([10.0, 200.0]));
+    Ok(())
+}
+
+/// A foot that hardly moves: what is told of the step is told of its motion and its power, in all places.
+#[test]
+fn a_steady_motion_without_a_step_is_called_so() -> Checked {
+    let curve = curve("ruby_drive.json", &[("waveforms.drive.sawtooth.stroke", "2 nm")], Kind::ForceSpeed)?;
+    let traced = curve.trace(&[0.0, 0.01], 1, &());
+    let table = csv(&[(&curve, &traced)]);
+    let column = |row: usize, head: &str| -> Option<String> {
+        let place = table.lines().next()?.split(',').position(|other| other == head)?;
+        Some(table.lines().nth(row)?.split(',').nth(place)?.to_owned())
+    };
+    for row in [1, 2] {
+        assert_eq!(column(row, "motion").as_deref(), Some("no step"), "{table}");
+        assert_eq!(column(row, "power_W").as_deref(), Some("0e0"), "{table}");
+    }
+    assert_eq!(json(&[(&curve, &traced)]).matches(r#""motion":"no step""#).count(), 2);
+    Ok(())
+}

@@ -385,3 +385,19 @@ fn what_cannot_be_answered_is_refused_with_its_reason() -> Checked {
     refused("bouncing_ball.json", &[], of(&["steady.step_m"], &[]), "nothing to be steady with")?;
     Ok(())
 }
+
+#[test]
+fn materials_that_nothing_names_are_no_quantities_by_themselves() -> Checked {
+    let glass = r#"{"youngs_modulus": "70 GPa", "poisson_ratio": 0.2}"#;
+    let set = [("materials.glass", glass)];
+    let asked = ask(&example("ruby_drive.json"), &set, &of(&["steps.last_m"], &[]))?;
+    let paths: Vec<&str> = asked.quantities.iter().map(|quantity| quantity.path.as_str()).collect();
+    assert!(
+        paths.contains(&"materials.ruby.youngs_modulus") && paths.contains(&"materials.steel.poisson_ratio")
+    );
+    assert!(!paths.iter().any(|path| path.starts_with("materials.glass")), "{paths:?}");
+    // Named, they are taken.
+    let named = of(&["steps.last_m"], &["materials.glass.poisson_ratio"]);
+    assert_eq!(ask(&example("ruby_drive.json"), &set, &named)?.quantities.len(), 1);
+    Ok(())
+}

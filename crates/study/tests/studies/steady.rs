@@ -328,6 +328,37 @@ fn a_shakedown_is_named() -> Checked {
     Ok(())
 }
 
+/// What bounces by itself on what nothing damps takes back in z what it brings: its two multipliers have the product 1 (Liouville), and
+/// where a whole number of bounces lasts a period both are 1, but for the root of what gradients are off. Some runs tell a gradient, some
+/// differences.
+#[test]
+fn a_body_that_bounces_by_itself_is_neither_stable_nor_not() -> Checked {
+    let cone = r#"{"cone": {"slope": 0.01}}"#;
+    let ball = r#"{"paraboloid": {"radius": "0.5 mm"}}"#;
+    for (profile, start) in [(ball, "20 nm"), (ball, "-100 nm"), (cone, "-10 nm")] {
+        let start = format!(r#"{{"z": "{start}"}}"#);
+        let set = [
+            ("bodies.slider.z", "free"),
+            ("bodies.slider.start", &start),
+            ("contacts.ball.normal", "coupled"),
+            ("contacts.ball.profile", profile),
+            ("loads", r#"[{"on": "slider", "z": "-0.3 N"}]"#),
+        ];
+        let job = job("ruby_drive.json", &set)?;
+        for tolerance in [1e-12, 1e-10, 1e-9] {
+            let found = steady::find(&job, &Options { tolerance, ..Options::default() })?;
+            let told = format!("{profile}, {start}, {tolerance}: {:?}", found.multipliers);
+            assert!(found.multipliers.iter().all(|one| one.kind() != Kind::Grows), "{told}");
+            assert_eq!(found.comes_back(), None, "{told}");
+            let [first, second] = [found.multipliers[0], found.multipliers[1]];
+            let other = if first.im > 0.0 { first } else { second };
+            let product = first.modulus() * other.modulus();
+            assert!((product - 1.0).abs() <= 2.0 * first.error, "{told}");
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn too_few_periods_are_told_with_the_best_defect() -> Checked {
     let options = Options { periods: 1, ..Options::default() };

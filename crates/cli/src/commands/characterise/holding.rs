@@ -1,6 +1,6 @@
 //! `stickslip characterise --curve holding-force`: what the drive holds at rest.
 
-use super::{CurveFailure, cores, ends, of, place, shown};
+use super::{CurveFailure, cores, ends, of, place, said, shown};
 use crate::arguments::CharacteriseArguments;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
@@ -23,7 +23,8 @@ pub(super) fn trace(arguments: &CharacteriseArguments) -> Result<Verdict, CurveF
         Some(ends) => ends,
         None => holding.range()?,
     };
-    let values = of(arguments, ends).values()?;
+    let values =
+        of(arguments, ends).values().map_err(|error| said(arguments, holding.variation.unit, error))?;
     let (out, folder) = place(arguments, &holding.job, NAME)?;
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     let name = &holding.job.name;

@@ -31,7 +31,7 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
         ("found in", Some(format!("{} periods of work", found.work))),
         (
             "shaken down",
-            told(&found.shaken_down, "never slips grossly; one motion of a whole family, the nearest"),
+            told(&found.shaken_down, "no gross slip ever; one motion of a whole family, the nearest"),
         ),
         ("led along", told(&found.carried, "memory is no unknown; multipliers do not know of it")),
     ];
@@ -54,6 +54,11 @@ fn stable(found: &Steady) -> String {
         (None, None) if !found.shaken_down.is_empty() => {
             format!(
                 "neither: one of a family, in another of which a disturbed run may end, largest |λ| {radius}"
+            )
+        }
+        (None, None) if found.is_one_of_many() => {
+            format!(
+                "neither: one of a family, and so is its step; a disturbance stays as it is, largest |λ| {radius}"
             )
         }
         (None, None) => format!("neither: a disturbance stays as it is, largest |λ| {radius}"),

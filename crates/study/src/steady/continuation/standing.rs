@@ -105,8 +105,8 @@ impl Standing {
             bound: found.step,
             period: place.variant.drive.period,
             multipliers: multiplier::of(
-                &slopes.gradient.numbers,
-                slopes.gradient.error(bench.options.tolerance),
+                &slopes.gradient,
+                (bench.options.tolerance, place.fixed.defect.amax()),
             ),
             unknowns: count,
             piece: 0,
