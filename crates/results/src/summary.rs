@@ -242,8 +242,11 @@ impl Summary {
         }
     }
 
-    /// Says what the drive would settle on.
+    /// Says what the drive would settle on. Steps that have settled on it are at least as far off as they are from it.
     pub fn set_outlook(&mut self, outlook: Option<Outlook>) {
+        if let (Some(steps), Some(Outlook::Found(motion))) = (&mut self.steps, &outlook) {
+            steps.compare(motion);
+        }
         self.steady_motion = outlook;
     }
 

@@ -150,7 +150,10 @@ pub(super) const KEYS: &[Definition] = &[
     ),
     of("steps.steady.periods", "number of the last steps that the steady step is the mean of"),
     of("steps.steady.step_m", "the steady step: their mean"),
-    of("steps.steady.error_m", "how far the mean of all later steps may lie from it"),
+    of(
+        "steps.steady.error_m",
+        "how far the mean of all later steps may lie from it; at least as far as it is from the steady motion found directly, where that is stable and within a thousandth",
+    ),
     of("steps.steady.repeatability_m", "standard deviation of those steps"),
     of("steps.steady.back_step", "share of the forward stroke that is lost in the flyback and after"),
     of("steps.mean_speed_m_s", "way in the whole periods over their time"),

@@ -4,10 +4,12 @@ use super::period::LastPeriod;
 use super::{DriverSummary, period, why};
 use crate::job::Job;
 use crate::outcome::Outcome;
+use crate::outlook::Repetition;
 use crate::parts::Parts;
 use crate::periods::Periods;
 use crate::real::Real;
 use serde::Serialize;
+use stickslip_analysis::settling::BAND;
 use stickslip_analysis::{Bounds, Settling, Steps, Strides};
 use stickslip_drive::scene::{Freedom, Side, Varying};
 
@@ -60,6 +62,16 @@ impl DriveSummary {
     /// Length of the last step, m.
     pub fn last(&self) -> Real {
         self.last
+    }
+
+    /// Compares a settled step with that of the motion that was found directly: what fades slowly hides behind what fades fast, and
+    /// steps do not tell of it. One that is farther away than settled steps are from their limit is of another motion.
+    pub(super) fn compare(&mut self, motion: &Repetition) {
+        let Some(steady) = &mut self.steady else { return };
+        let apart = (steady.step.0 - motion.step.0 / motion.periods as f64).abs();
+        if motion.stable == Some(true) && apart <= BAND * steady.step.0.abs() {
+            steady.error = Real(steady.error.0.max(apart));
+        }
     }
 }
 

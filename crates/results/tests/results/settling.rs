@@ -3,7 +3,8 @@
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use stickslip_analysis::{Bounds, Settling};
-use stickslip_results::{Job, Summary};
+use stickslip_results::outlook::{Outlook, Repetition};
+use stickslip_results::{Job, Real, Summary};
 
 fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name).with_extension("json")
@@ -127,4 +128,41 @@ fn chaos_is_said_to_have_no_pattern() {
     let patterns = parts.iter().filter(|part| !matches!(part, Settling::Irregular { .. })).count();
     println!("{patterns} patterns in {} parts of forty periods", parts.len());
     assert!(patterns <= parts.len() / 30, "{patterns} patterns in {} parts", parts.len());
+}
+
+/// What fades slowly hides behind what fades fast: steps that have settled are as far off as they are from the motion found directly, if that
+/// is the one they settle on.
+#[test]
+fn a_settled_step_is_as_far_off_as_it_is_from_the_steady_motion() {
+    let set = [("plots", "[]")].map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let job = Job::prepare(&example("ruby_drive"), &set, Path::new("")).unwrap();
+    let outcome = job.run(&());
+    let told = |beside: Option<(f64, bool)>| {
+        let mut summary = Summary::new(&job, &outcome);
+        let steady = summary.steps.as_ref().unwrap().steady.as_ref().unwrap().step.0;
+        summary.set_outlook(beside.map(|(share, stable)| {
+            Outlook::Found(Repetition {
+                step: Real((1.0 + share) * steady),
+                error: Real(0.0),
+                speed: Real(0.0),
+                stable: Some(stable),
+                periods: 1,
+                radius: Real(0.5),
+                beat: None,
+                fold: None,
+                words: String::new(),
+                carried: Vec::new(),
+                shaken_down: Vec::new(),
+            })
+        }));
+        let steady = summary.steps.unwrap().steady.unwrap();
+        steady.error.0 / steady.step.0.abs()
+    };
+    let own = told(None);
+    assert!(own < 1e-6, "{own:e}");
+    assert!((told(Some((1e-5, true))) / 1e-5 - 1.0).abs() < 1e-6);
+    // Another motion, or one that runs leave, says nothing of it.
+    for beside in [(1e-2, true), (1e-5, false), (0.0, true)] {
+        assert!((told(Some(beside)) / own - 1.0).abs() < 1e-9, "{beside:?}");
+    }
 }
