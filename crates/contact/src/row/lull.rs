@@ -66,18 +66,19 @@ pub struct Lull {
 }
 
 impl Row {
-    /// The law of the row from where it stands, moving as `at` does, after a change. A row pressed by a force has one
-    /// spring at least that `holds` it, however small that is.
+    /// The law of the row from where it stands, moving as `at` does, after a change. A row pressed by a `force` has one
+    /// spring at least that holds it, however small that is; of such a row the length is told that touches by the law by which `at`
+    /// sinks, m, 0 where none is known: it sinks slower the more springs touch.
     pub fn lull(
         &self,
         springs: &Springs,
         law: &Interface,
         (at, change): (&Motion, Change),
         slack: Slack,
-        holds: bool,
+        force: Option<f64>,
     ) -> Lull {
         // The lowest springs have all one height: under a force they part together or not at all.
-        let lowest = if holds { springs.up_to(springs.heights()[0]) } else { 0 };
+        let lowest = if force.is_some() { springs.up_to(springs.heights()[0]) } else { 0 };
         let touching = self.touching_after(springs, (at, change), slack.d).max(lowest);
         let still = self.still(springs, law, (lowest, touching));
         if still.slope == 0.0 || touching == 0 {
@@ -86,7 +87,8 @@ impl Row {
         let left = |rank: usize, sense: f64| self.left(springs, still.slope, (rank, sense));
         let top = touching - 1;
         let near = |sense: f64| left(top, sense) <= slack.u;
-        let reached = |sense: f64| sense * at.du > still.slope * at.dd && near(sense);
+        let slower = force.filter(|touched| *touched > 0.0).map_or(1.0, |touched| touched / still.touch);
+        let reached = |sense: f64| sense * at.du > still.slope * slower * at.dd && near(sense);
         let sense = match change {
             Change::Sticks => 0.0,
             // A spring without stretch comes to its limits where it parts: that says nothing about the one below it.
@@ -155,6 +157,12 @@ impl Row {
 }
 
 impl Lull {
+    /// Length that touches, m.
+    #[inline]
+    pub fn touch(&self) -> f64 {
+        self.touch
+    }
+
     /// Sense in which springs slip, +1 or -1; 0 where none does.
     #[inline]
     pub fn sense(&self) -> f64 {

@@ -534,7 +534,7 @@ fn a_lull_is_the_row_until_its_end() {
         let (dd, du) = (next(), next());
         let from = row.apex();
         let at = Motion { d: from.d, u: from.u, dd, du };
-        let lull = row.lull(&springs, &law, (&at, Change::Any), slack, false);
+        let lull = row.lull(&springs, &law, (&at, Change::Any), slack, None);
         // Along a straight way until just before its first end.
         let inside = |t: f64| {
             let to = Apex { d: from.d + t * dd, u: from.u + t * du };
@@ -576,7 +576,7 @@ fn a_spring_that_parts_unstretched_moves_no_other() {
         let from = row.apex();
         let at = Motion { d: from.d, u: from.u, dd: -1.0, du: 0.0 };
         for change in [Change::Parts, Change::Slips(1.0), Change::Slips(-1.0), Change::Any] {
-            let lull = row.lull(&springs, &law, (&at, change), slack, false);
+            let lull = row.lull(&springs, &law, (&at, change), slack, None);
             let to = Apex { d: height - 1e-4, u: from.u };
             for to in [from, to] {
                 let (one, all) = (lull.force(&law, to), row.force(&springs, &law, to));

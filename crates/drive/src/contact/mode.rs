@@ -86,7 +86,9 @@ impl Mode {
             // Whatever is remembered: apart, springs are unstretched.
             (_, Course::Open) => Self::Open,
             // A row of springs has no branches, but lulls.
-            (None, course) => Self::lull(contact, memory, (at, Change::Any, 0.0), course.sense(), tolerance),
+            (None, course) => {
+                Self::Whole { sense: course.sense() }.lull(contact, memory, (at, Change::Any, 0.0), tolerance)
+            }
             // Without friction there is nothing to remember, but the bodies still press on each other.
             _ if contact.inert => Self::Whole { sense: 0.0 },
             (Some(_), Course::Grow) => Self::Grow,
@@ -96,16 +98,17 @@ impl Mode {
         }
     }
 
-    /// The mode of a row that moves as `at` after a change of its springs, sliding in a sense. Where rounding, of time or of a
+    /// The mode of a row that moves as `at` by this mode, after a change of its springs. Where rounding, of time or of a
     /// displacement that has travelled far, has stopped short of the change, what is `left` (m) counts as gone.
     // Without `left` a foot on two rows that slides at 20 mm/s finds 3e-19 m left, in less than the last place of t, for ever.
     pub(crate) fn lull(
+        &self,
         contact: &Contact,
         memory: &Memory,
         (at, change, left): (&Motion, Change, f64),
-        sense: f64,
         tolerance: f64,
     ) -> Self {
+        let sense = self.sense();
         let Memory::Row(SpringRow { row, springs }) = memory else { return Self::Whole { sense } };
         if !contact.has_lulls() {
             return Self::Whole { sense };
@@ -117,8 +120,9 @@ impl Mode {
             Change::Slips(_) => slack.u += left,
             Change::Sticks | Change::Any => {}
         }
-        let holds = matches!(contact.press, Press::Force(_));
-        let lull = row.lull(springs, &contact.interface, (at, change), slack, holds);
+        let touched = if let Self::Lull { lull, .. } = self { lull.touch() } else { 0.0 };
+        let force = matches!(contact.press, Press::Force(_)).then_some(touched);
+        let lull = row.lull(springs, &contact.interface, (at, change), slack, force);
         Self::Lull { lull, sense }
     }
 }

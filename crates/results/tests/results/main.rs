@@ -34,5 +34,6 @@ mod real_time;
 mod riding;
 mod rows;
 mod settling;
+mod springs;
 mod swings;
 mod taken_up;

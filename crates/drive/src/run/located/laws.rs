@@ -97,9 +97,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // as reached.
         let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
         if let Some(change) = guard.change() {
-            let sense = state.modes[c].sense();
             let at = (&motion, change, left(state));
-            state.modes[c] = Mode::lull(contact, &state.memories[c], at, sense, self.setting.tolerance);
+            state.modes[c] = state.modes[c].lull(contact, &state.memories[c], at, self.setting.tolerance);
             return Ok(());
         }
         let (mut kind, course) = self.after(state, (c, guard), &motion);
