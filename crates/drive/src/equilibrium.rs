@@ -37,6 +37,9 @@ const TAU: f64 = 1.0;
 /// Share of the loads that sets the bodies down: what the contacts remember of the way through the air is as small.
 // With ten times or a tenth as much a climber ends less than 1e-6 u_c elsewhere.
 const LANDING: f64 = 1e-6;
+/// A slide that is worth a second look, in u_c, and what part of the way another balance has to be near to be taken instead.
+const FAR: f64 = 100.0;
+const NEARER: f64 = 0.5;
 
 impl Model {
     /// The state at t = 0 of a plan's run.
@@ -186,6 +189,7 @@ impl<'m> Settling<'m> {
         for i in 0..n {
             state.y[self.model.layout().velocity(i)] = 0.0;
         }
+        let given = state.clone();
         let initial = self.statics(state, &state.y).net;
         // One coordinate and no contact pressed by it: the way under a growing load is one chord, whatever
         // its parts.
@@ -211,6 +215,29 @@ impl<'m> Settling<'m> {
                 self.released(state)?;
                 reached = true;
             }
+        }
+        self.come_back(given, state)
+    }
+
+    /// What has slid far is looked for once more where it began. While loads grow in proportion friction may hold less of them than in the
+    /// end, and a body that slides for want of it stays wherever it is when there is enough: metres away, and in balance.
+    fn come_back(&self, given: State, state: &mut State) -> Result<(), SceneError> {
+        let [from, to] = [&given, &*state].map(|state| self.apexes(state, &state.y).collect::<Vec<_>>());
+        let mut ways = self.model.contacts.iter().zip(from.iter().zip(&to));
+        let has_slid = |(contact, (from, to)): (&Contact, (&Apex, &Apex))| {
+            (to.u - from.u).abs() > FAR * contact.natural.displacement && contact.friction_limit() > 0.0
+        };
+        if !ways.any(has_slid) {
+            return Ok(());
+        }
+        let Ok(balance) = self.released(&given) else { return Ok(()) };
+        let way = |y: &[f64]| {
+            let places = self.model.free.iter().zip(y.iter().zip(&given.y));
+            places.map(|(free, (y, from))| (y - from).abs() / free.scale.0).fold(0.0, f64::max)
+        };
+        if way(&balance.y) < NEARER * way(&state.y) {
+            *state = given;
+            self.stand(state, &balance)?;
         }
         Ok(())
     }

@@ -133,6 +133,8 @@ impl Power {
             Root::Second => x.sqrt(),
             Root::Third => x.cbrt(),
             Root::Fourth => x.sqrt().sqrt(),
+            // Of a height next to none nothing is left, and its logarithm is none.
+            Root::Any { .. } if x == 0.0 => 0.0,
             Root::Any { q, delta } => x.powf(q) * (1.0 + delta * x.ln()),
         }
     }

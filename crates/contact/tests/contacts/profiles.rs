@@ -284,6 +284,25 @@ fn nothing_touches_at_or_below_zero() {
     }
 }
 
+/// The least height there is, which a steep power's scale makes none: its root and the logarithm of that made no number, and a run whose
+/// last springs began to slip stopped.
+#[test]
+fn steep_powers_have_lengths_at_the_least_heights() {
+    for exponent in [2.5, 4.91, 5.0, 6.0, 8.0] {
+        for coefficient in [1e5, 2e22, 1e60] {
+            let profile = Profile::power(coefficient, exponent).unwrap();
+            for h in [f64::MIN_POSITIVE, 1e-320, 1e-200] {
+                let [m, force] = [profile.reduced_stiffness(h), profile.reduced_force(h)];
+                let bound = 2.0 * (h / coefficient).powf(1.0 / exponent);
+                assert!(
+                    (0.0..=bound).contains(&m) && force >= 0.0,
+                    "{coefficient} r^{exponent} at {h}: {m}, {force}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn a_flat_punch_touches_at_once_and_a_sphere_has_an_end() {
     let flat = Profile::flat(2e-3).unwrap();

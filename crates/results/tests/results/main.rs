@@ -35,5 +35,6 @@ mod riding;
 mod rows;
 mod settling;
 mod springs;
+mod starts;
 mod swings;
 mod taken_up;
