@@ -49,7 +49,7 @@ pub(crate) fn steady(arguments: &SteadyArguments) -> Verdict {
         return branch::follow(arguments, (path, range));
     }
     match answer(arguments) {
-        Ok(()) => Verdict::Done,
+        Ok(verdict) => verdict,
         Err(failure) => {
             complain(format_args!("{failure}"));
             failure.verdict()
@@ -57,7 +57,7 @@ pub(crate) fn steady(arguments: &SteadyArguments) -> Verdict {
     }
 }
 
-fn answer(arguments: &SteadyArguments) -> Result<(), SteadyFailure> {
+fn answer(arguments: &SteadyArguments) -> Result<Verdict, SteadyFailure> {
     let interrupt = Interrupt::install();
     let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
     if !arguments.quiet {
@@ -84,7 +84,7 @@ fn answer(arguments: &SteadyArguments) -> Result<(), SteadyFailure> {
         ));
         report.notes.iter().for_each(|note| say(format_args!("  {note}")));
     }
-    Ok(())
+    Ok(if interrupt.is_raised() { Verdict::Interrupted } else { Verdict::Done })
 }
 
 /// The search itself and, where a run leaves the motion, what it ends on, with their progress.
@@ -105,7 +105,11 @@ fn search(
     };
     let found = find(job, &options)?;
     progress.tell(format_args!("{}: found in {} periods", job.name, found.work));
-    let aftermath = found.aftermath(job, &options)?;
+    let aftermath = match found.aftermath(job, &options) {
+        // The motion is found, whatever a run that leaves it would end on.
+        Err(SteadyError::Interrupted(_)) => None,
+        other => other?,
+    };
     Ok((found, aftermath))
 }
 

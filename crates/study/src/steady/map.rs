@@ -57,8 +57,9 @@ pub(super) struct Gradient {
     pub(super) way: DMatrix<f64>,
     /// Whether it is exact, but for the tolerance of the run.
     pub(super) is_exact: bool,
-    /// Second differences to first ones, where it is one of differences to both sides: how much the map bends between them.
-    pub(super) bend: f64,
+    /// What differences miss where the map bends between them, as a share of the size of all entries: of those to both sides in second
+    /// order, of one to one side alone in first.
+    pub(super) missed: f64,
 }
 
 impl Gradient {
@@ -247,7 +248,7 @@ impl<'m> Map<'m> {
                 numbers: matrix(gradient.numbers),
                 way: matrix(gradient.way),
                 is_exact: true,
-                bend: 0.0,
+                missed: 0.0,
             });
         }
         Ok(image)
@@ -354,13 +355,16 @@ impl<'m> Map<'m> {
             numbers: DMatrix::zeros(count, count),
             way: DMatrix::zeros(image.way.len(), count),
             is_exact: false,
-            bend: 0.0,
+            missed: 0.0,
         };
-        let (mut bends, mut changes) = (0.0, 0.0);
+        let (mut bends, mut changes, mut order) = (0.0, 0.0, 2);
         for j in 0..count {
             let Some((ahead, behind, apart)) = pair(self, j)? else { continue };
             let Some(difference) = self.difference(&ahead.state, &behind.state) else { continue };
-            if let Some(half) = self.difference(&ahead.state, &image.state) {
+            // One to one side alone tells nothing of a bend.
+            if apart <= FINE {
+                order = 1;
+            } else if let Some(half) = self.difference(&ahead.state, &image.state) {
                 bends += (&half * 2.0 - &difference).norm_squared();
                 changes += difference.norm_squared();
             }
@@ -368,7 +372,8 @@ impl<'m> Map<'m> {
             let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
             gradient.way.set_column(j, &DVector::from_vec(way.collect()));
         }
-        gradient.bend = if changes > 0.0 { f64::sqrt(bends / changes) } else { 0.0 };
+        // Second differences to first ones.
+        gradient.missed = if changes > 0.0 { f64::sqrt(bends / changes).powi(order) } else { 0.0 };
         Ok(gradient)
     }
 

@@ -126,8 +126,7 @@ fn digits(x: f64) -> String {
 /// largest first; of a pair one stands for both. None where its numbers are not finite.
 pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Multiplier> {
     let size = gradient.numbers.norm();
-    // Differences to both sides miss a bend in second order.
-    let shares = ENTRIES * tolerance.max(defect) + gradient.bend * gradient.bend;
+    let shares = ENTRIES * tolerance.max(defect) + gradient.missed;
     let entries = shares * size + gradient.noise(tolerance);
     let error = |value| NEUTRAL.max(moved(&gradient.numbers, value, entries));
     let mut all: Vec<Multiplier> = eigenvalues(&gradient.numbers)
@@ -168,7 +167,7 @@ mod tests {
 
     fn led(numbers: DMatrix<f64>) -> Gradient {
         let way = DMatrix::zeros(0, numbers.ncols());
-        Gradient { numbers, way, is_exact: true, bend: 0.0 }
+        Gradient { numbers, way, is_exact: true, missed: 0.0 }
     }
 
     #[test]

@@ -47,17 +47,16 @@ impl Steady {
         })
     }
 
-    /// What becomes of a disturbance, in words: of what stays, and of what fades slowest beside it.
+    /// What becomes of a disturbance, in words: of what stays, and of what fades slowest beside it; and whether others like it do as well.
     fn becomes(&self) -> String {
         let Some(largest) = self.multipliers.first() else { return "is gone after a period".to_owned() };
-        if largest.kind() != Kind::Stays {
-            return largest.words();
-        }
-        let family = if self.is_one_of_many() { ": this is one motion of a family" } else { "" };
-        let slowest = self.multipliers.iter().find(|multiplier| multiplier.kind() == Kind::Fades);
+        let stays = largest.kind() == Kind::Stays;
+        let slowest = self.multipliers.iter().find(|multiplier| stays && multiplier.kind() == Kind::Fades);
         let rest =
             slowest.map_or_else(String::new, |slowest| format!("; what does not stay {}", slowest.words()));
-        largest.words() + family + &rest
+        let is_of_family = stays && self.is_one_of_many() || !self.shaken_down.is_empty();
+        let family = if is_of_family { "; this is one motion of a family" } else { "" };
+        largest.words() + &rest + family
     }
 }
 

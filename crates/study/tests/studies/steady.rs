@@ -359,6 +359,20 @@ fn a_body_that_bounces_by_itself_is_neither_stable_nor_not() -> Checked {
     Ok(())
 }
 
+/// Some of its differences are to one side alone, which tells of no bend: a multiplier of five is not called neutral for want of the other
+/// side, as it was.
+#[test]
+fn a_slider_that_is_thrown_up_leaves_its_motion() -> Checked {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/thrown_slider.json");
+    let job = Job::prepare(&file, &[], Path::new(""))?;
+    for tolerance in [1e-12, 1e-9] {
+        let found = steady::find(&job, &Options { tolerance, ..Options::default() })?;
+        let kinds: Vec<Kind> = found.multipliers.iter().map(|one| one.kind()).collect();
+        assert_eq!(kinds, [Kind::Grows, Kind::Fades, Kind::Fades], "{tolerance}: {:?}", found.multipliers);
+    }
+    Ok(())
+}
+
 #[test]
 fn too_few_periods_are_told_with_the_best_defect() -> Checked {
     let options = Options { periods: 1, ..Options::default() };
