@@ -15,6 +15,8 @@ use stickslip_drive::scene::{Freedom, Side, Varying};
 
 /// A step below this share of the natural displacement counts as nothing.
 const NOTHING: f64 = 1e-2;
+/// Moments of a period at which a waveform is looked at for its way.
+const MOMENTS: u32 = 1000;
 /// Global over local error of a run, as comparisons allow it; that of fixed steps, which promise none.
 const GLOBAL: f64 = 100.0;
 const FIXED: f64 = 1e-9;
@@ -208,8 +210,8 @@ pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
 
 /// What is known of a step before any is made.
 ///
-/// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke
-/// without being carried away; each may be off by the error that the stepper promises.
+/// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke, or than all strokes of a burst
+/// to and fro, without being carried away; each may be off by the error that the stepper promises.
 #[must_use]
 pub fn step_bounds(job: &Job) -> Bounds {
     let natural = (0..job.scenario.scene.contacts.len()).filter_map(|c| job.model.contact_natural(c));
@@ -218,7 +220,7 @@ pub fn step_bounds(job: &Job) -> Bounds {
         (_, "tolerance", tolerance) => GLOBAL * tolerance,
         _ => FIXED,
     };
-    let most = stroke(job).map_or(f64::INFINITY, |stroke| 2.0 * stroke);
+    let most = stroke(job).map_or(f64::INFINITY, |stroke| way(job).unwrap_or(0.0).max(2.0 * stroke));
     Bounds { least: NOTHING * natural, most, error: promised * natural }
 }
 
@@ -231,6 +233,17 @@ fn stroke(job: &Job) -> Option<f64> {
     let drives = scene.actuators.iter().any(|it| matches!(it.part.stroke, Varying::Follows(w) if is_here(w)));
     let (low, high) = scene.waveforms.get(waveform)?.part.range();
     (followed || drives).then_some(high - low)
+}
+
+/// All the way to and fro of the waveform of the figures in a period, m, as it looks at some moments: a burst goes several times.
+fn way(job: &Job) -> Option<f64> {
+    let waveform = &job.scenario.scene.waveforms.get(job.scenario.figures.waveform?)?.part;
+    let (period, delay) = (waveform.period()?, waveform.timing().delay);
+    let value = |k: u32| {
+        let t = delay + period * f64::from(k) / f64::from(MOMENTS);
+        waveform.sample(&waveform.piece_at(t), t).value
+    };
+    Some((0..MOMENTS).map(|k| (value(k + 1) - value(k)).abs()).sum())
 }
 
 fn summary(

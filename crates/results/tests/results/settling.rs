@@ -166,3 +166,12 @@ fn a_settled_step_is_as_far_off_as_it_is_from_the_steady_motion() {
         assert!((told(Some(beside)) / own - 1.0).abs() < 1e-9, "{beside:?}");
     }
 }
+
+/// Six strokes of a burst take a slider farther in a period than twice the stroke, as far in each: that is no drift.
+#[test]
+fn a_burst_steps_farther_than_its_stroke() {
+    let burst = r#"{"cycles": 6, "dwell": "1 ms"}"#;
+    let steps = steps(&example("ruby_drive"), 20, &[("waveforms.drive.sawtooth.burst", burst)]);
+    assert_eq!(state(&steps), "settled", "{steps}");
+    assert!(number(&steps, "/steady/step_m") > 2.0 * 100e-9);
+}
