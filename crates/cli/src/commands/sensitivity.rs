@@ -76,9 +76,6 @@ fn answer(arguments: &SensitivityArguments) -> Result<Verdict, SensitivityFailur
     drop(bar);
     let all = asked.figures.len() * asked.quantities.len();
     progress.tell(format_args!("{name}: {} of {all} derivatives are known", all - taken.faults()));
-    if taken.is_cut() && taken.faults() == all {
-        return Ok(Verdict::Interrupted);
-    }
     let names = write(arguments, (&asked, &taken), folder)?;
     if arguments.json {
         say_json(&sensitivity::json(&asked, &taken));
@@ -105,7 +102,11 @@ fn write(
     mut folder: Folder,
 ) -> Result<Vec<String>, SensitivityFailure> {
     let out = self::folder(arguments, asked);
-    let pictures = picture::draw((asked, taken), &arguments.look.look())?;
+    let pictures = match picture::draw((asked, taken), &arguments.look.look()) {
+        // Of what was interrupted before anything was known nothing may have room for its reasons.
+        Err(_) if taken.is_cut() => Vec::new(),
+        drawn => drawn?,
+    };
     let failed = |source| SensitivityFailure::Write { path: out.clone(), source };
     folder.release();
     // A command that was killed has left its drafts.
