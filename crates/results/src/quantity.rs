@@ -33,6 +33,6 @@ mod tests {
         assert_eq!(quantity(Real(0.0999999999), "s"), "100.0 ms");
         assert_eq!(quantity(Real(9.999e-6), "s"), "9.999 µs");
         assert_eq!(quantity(Real(2.0), "s"), "2.000 s");
-        assert_eq!(quantity(Real(-1.2345e-30), "kg"), "-1.234e-30 kg");
+        assert_eq!(quantity(Real(-1.2347e-30), "kg"), "-1.235e-30 kg");
     }
 }
