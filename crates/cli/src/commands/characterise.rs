@@ -17,7 +17,7 @@ use stickslip_figures::{FigureError, curve as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Job, Real, quantity};
-use stickslip_study::curve::{self, Course, Curve, CurveError, Kind, Point, Range, Traced, Way};
+use stickslip_study::curve::{self, Curve, CurveError, Kind, Point, Range, Traced, Way};
 use thiserror::Error;
 
 /// An error below this share of the step does not show in its digits.
@@ -271,7 +271,7 @@ fn row(curve: &Curve, traced: &Traced, (place, point): (usize, &Point)) -> Vec<S
     let nothing = || [const { String::new() }; 4];
     let length = |length| shown(length, "m");
     let ([step, error, spread, speed], word) = match &point.motion {
-        Ok(motion) if motion.course == Course::Steady && motion.is_still() => {
+        Ok(motion) if motion.stands() => {
             ([length(0.0), String::new(), String::new(), shown(0.0, "m/s")], motion.word())
         }
         Ok(motion) => {

@@ -103,8 +103,6 @@ pub enum Motionless {
     },
 }
 
-/// A steady motion whose step is shorter than it may be off.
-const NO_STEP: &str = "no step";
 /// Changes below this share of a step are none.
 const EVEN: f64 = 1e-6;
 /// A step below this share of the natural length is none.
@@ -176,7 +174,7 @@ impl Motion {
     /// Power against a load that acts along -x, W; 0 where there is no step.
     #[must_use]
     pub fn power(&self, load: f64) -> f64 {
-        if self.word() == NO_STEP { 0.0 } else { load * self.speed() }
+        if self.stands() { 0.0 } else { load * self.speed() }
     }
 
     /// Sense of its steps along x, 1 or -1; 1 of those that are none.
@@ -189,11 +187,17 @@ impl Motion {
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self.course {
-            Course::Steady if self.is_still() => NO_STEP,
+            Course::Steady if self.stands() => "no step",
             Course::Steady => "steady",
             Course::Beats => "beats",
             Course::Irregular => "irregular",
         }
+    }
+
+    /// Whether it is steady without a step: what is told of one would be what it may be off.
+    #[must_use]
+    pub fn stands(&self) -> bool {
+        self.course == Course::Steady && self.is_still()
     }
 
     /// Whether it makes no step either way.
