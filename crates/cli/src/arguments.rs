@@ -262,6 +262,13 @@ pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
     }
 }
 
+/// Reads the tolerance of runs for steady motion and derivatives.
+pub(crate) fn shooting(text: &str) -> Result<f64, String> {
+    let tolerance: f64 = text.parse().map_err(|_| "expected a number such as 1e-12".to_owned())?;
+    let range = 1e-13..=1e-6;
+    if range.contains(&tolerance) { Ok(tolerance) } else { Err("expected 1e-13 to 1e-6".to_owned()) }
+}
+
 /// Splits `path=from..to`.
 pub(crate) fn course(text: &str) -> Result<(String, String), String> {
     assignment(text).map_err(|_| "expected PATH=FROM..TO, such as contacts.ball.friction=0.1..0.6".to_owned())
@@ -270,6 +277,12 @@ pub(crate) fn course(text: &str) -> Result<(String, String), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_tolerance_is_one_that_the_stepper_has() {
+        assert_eq!((shooting("1e-9"), shooting("1e-13")), (Ok(1e-9), Ok(1e-13)));
+        assert!(["1e-14", "1e-3", "NaN", "-1e-9", "fine"].iter().all(|text| shooting(text).is_err()));
+    }
 
     #[test]
     fn the_first_equals_sign_parts_path_and_value() {

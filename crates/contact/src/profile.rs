@@ -31,7 +31,7 @@ pub use root_series::RootSeries;
 pub use self_affine::{RoughnessError, SelfAffine};
 
 use crate::ContactError;
-use crate::quadrature::GAUSS;
+use crate::quadrature::{GAUSS, gauss};
 use chart::Chart;
 use flat::Flat;
 use kind::Kind;
@@ -301,6 +301,14 @@ impl Profile {
             Shape::Rough(rough) => return rough.moment([from, to], straight),
             Shape::Chart(chart) => return chart.moment([from, to], straight),
             _ => {}
+        }
+        // Beyond a border m begins with a root: as a function of the root it is smooth.
+        if let Some(border) = self.borders().iter().map(|b| self.depth(*b)).find(|b| *b > 0.0 && *b < to) {
+            let beyond = from.max(border);
+            let density = |h: f64| (low + straight[1] * (h - from)) * self.reduced_stiffness(h);
+            let by_root = |root: f64| 2.0 * root * density(border + root * root);
+            return gauss([from.min(border), border], density)
+                + gauss([(beyond - border).sqrt(), (to - border).sqrt()], by_root);
         }
         let (middle, mean, half) = (0.5 * (from + to), 0.5 * (low + high), 0.5 * (high - low));
         let node = |(x, weight): &(f64, f64)| {

@@ -39,8 +39,8 @@ const SUMMARIES: [&str; 9] = [
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// Whether it was not there before.
-    is_new: bool,
+    /// Those that were not there before, itself the first and what it lies in after it.
+    made: Vec<PathBuf>,
     staged: Vec<(String, NamedTempFile)>,
     /// Files of an earlier run that must not be taken for this one's.
     stale: Vec<String>,
@@ -72,18 +72,11 @@ impl Folder {
     }
 
     fn on(path: &Path, disk: Box<dyn Disk>) -> io::Result<Self> {
-        let is_new = !path.exists();
+        let is_there = |folder: &&Path| folder.as_os_str().is_empty() || folder.exists();
+        let made = path.ancestors().take_while(|folder| !is_there(folder)).map(Path::to_owned).collect();
         fs::create_dir_all(path)?;
         let (staged, stale) = (Vec::new(), Vec::new());
-        Ok(Self {
-            path: path.to_owned(),
-            is_new,
-            staged,
-            stale,
-            stale_checkpoint: false,
-            reserve: None,
-            disk,
-        })
+        Ok(Self { path: path.to_owned(), made, staged, stale, stale_checkpoint: false, reserve: None, disk })
     }
 
     /// Keeps so many bytes of the disk for the files that come last. The file that holds them has no name: nothing is left
@@ -199,10 +192,10 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        if self.is_new {
+        if !self.made.is_empty() {
             self.staged.clear();
-            // Of one that holds something the system leaves all.
-            let _ = fs::remove_dir(&self.path);
+            // One that holds something the system leaves, and so those that it lies in.
+            let _ = self.made.iter().try_for_each(fs::remove_dir);
         }
     }
 }

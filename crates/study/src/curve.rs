@@ -112,19 +112,40 @@ impl Curve {
     /// drive. None where nobody knows.
     #[must_use]
     pub fn range(&self, watcher: &dyn Watcher) -> Option<[f64; 2]> {
-        let [from, to] = self.variation.range?;
+        let [from, most] = self.variation.range?;
         let unloaded = if self.kind.is_of_load() { Motion::of(&self.job, watcher).ok() } else { None };
-        let Some(unloaded) = unloaded else { return Some([from, to].map(|end| self.allowed(end, 1.0))) };
+        let Some(unloaded) = unloaded else { return Some([from, most].map(|end| self.allowed(end, 1.0))) };
+        let sense = unloaded.sense();
+        let to = match unloaded.steps(sense) {
+            true => self.stall(&unloaded, [from, most], watcher).map(|stall| BEYOND * stall.still),
+            false => self.held(most, sense, watcher),
+        };
+        Some([from, self.allowed(to.unwrap_or(most), sense)])
+    }
+
+    /// About where a drive stalls that makes a step without load.
+    fn stall(&self, unloaded: &Motion, [from, to]: [f64; 2], watcher: &dyn Watcher) -> Option<Bracket> {
         let sense = unloaded.sense();
         // What is dragged away is stalled as well.
         let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
             let motion = self.motion_at(load, sense, watcher).ok().filter(|motion| motion.steps(sense));
             Ok(motion.map(|motion| sense * motion.step))
         };
-        let known = unloaded.steps(sense).then_some((from, sense * unloaded.step));
-        let stall = Bracket::narrow(known.into_iter().collect(), to, ROUGHLY, try_at);
-        let to = stall.ok().flatten().map_or(to, |stall| BEYOND * stall.still);
-        Some([from, self.allowed(to, sense)])
+        Bracket::narrow(vec![(from, sense * unloaded.step)], to, ROUGHLY, try_at).ok().flatten()
+    }
+
+    /// A little more than what a drive holds that makes no step by itself, where it has a motion there still; nothing above `most`.
+    fn held(&self, most: f64, sense: f64, watcher: &dyn Watcher) -> Option<f64> {
+        let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
+            let motion = self.motion_at(load, sense, watcher).ok();
+            Ok(motion.and_then(|motion| (!motion.steps(-sense)).then_some(1.0)))
+        };
+        if try_at(most, 0.0).ok().flatten().is_some() {
+            return Some(most);
+        }
+        let held = Bracket::narrow(vec![(0.0, 1.0)], most, ROUGHLY, try_at).ok().flatten()?;
+        let beyond = most.min(BEYOND * held.still);
+        Some(if self.motion_at(beyond, sense, watcher).is_ok() { beyond } else { held.steps })
     }
 
     /// An end of a range, or the place nearest to it that makes a scenario: a frequency may leave a waveform's rise no room, and a load

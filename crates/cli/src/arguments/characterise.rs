@@ -1,8 +1,8 @@
 //! The command line of the curves of a machine.
 
 use crate::arguments::{assignment, course, look::LookArguments};
-use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 use stickslip_study::curve::{Kind, holding};
 
@@ -48,12 +48,13 @@ Examples:
   stickslip characterise drive.json --vary bodies.slider.mass=\"1 g..100 g\" --log --json";
 
 #[derive(Debug, Args)]
+#[command(group(ArgGroup::new("traced").args(["curve", "vary"]).required(true).multiple(true)))]
 pub(crate) struct CharacteriseArguments {
     /// Scenario file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
     /// Which curve
-    #[arg(long, value_name = "NAME", value_parser = curves(), required_unless_present = "vary")]
+    #[arg(long, value_name = "NAME", value_parser = curves())]
     pub(crate) curve: Option<CurveName>,
     /// Step, or holding force, over a number of the scenario in a range, such as contacts.ball.friction=0.1..0.6; units at both ends or at none
     #[arg(long, value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = course, conflicts_with = "range")]

@@ -1,7 +1,7 @@
 //! The command line of derivatives.
 
-use super::assignment;
 use super::look::LookArguments;
+use super::{assignment, shooting};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -51,7 +51,7 @@ pub(crate) struct SensitivityArguments {
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     /// Local error per step of the runs, in natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6
-    #[arg(long, value_name = "SHARE", default_value_t = 1e-12)]
+    #[arg(long, value_name = "SHARE", default_value = "1e-12", value_parser = shooting)]
     pub(crate) tolerance: f64,
     /// Runs at a time; as many as there are cores by default
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]

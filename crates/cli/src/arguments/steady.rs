@@ -1,7 +1,7 @@
 //! The command line of a steady motion.
 
 use super::look::LookArguments;
-use super::{assignment, course};
+use super::{assignment, course, shooting};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -44,7 +44,7 @@ pub(crate) struct SteadyArguments {
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     /// Local error per step of the runs, in natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6
-    #[arg(long, value_name = "SHARE", default_value_t = 1e-12, value_parser = tolerance)]
+    #[arg(long, value_name = "SHARE", default_value = "1e-12", value_parser = shooting)]
     pub(crate) tolerance: f64,
     /// Most periods to be computed
     #[arg(long, value_name = "N", default_value_t = 4000, value_parser = clap::value_parser!(u32).range(1..))]
@@ -53,7 +53,7 @@ pub(crate) struct SteadyArguments {
     #[arg(long = "continue", value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = course)]
     pub(crate) continued: Option<(String, String)>,
     /// How exactly places of a branch are told, as a share of the range: 1e-12 to 1e-3
-    #[arg(long, value_name = "SHARE", default_value_t = 1e-9, value_parser = accuracy, requires = "continued")]
+    #[arg(long, value_name = "SHARE", default_value = "1e-9", value_parser = accuracy, requires = "continued")]
     pub(crate) accuracy: f64,
     /// Most motions of a branch on either side of its start
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = motions, requires = "continued")]
@@ -71,13 +71,6 @@ pub(crate) struct SteadyArguments {
     pub(crate) look: LookArguments,
 }
 
-/// Reads a tolerance.
-fn tolerance(text: &str) -> Result<f64, String> {
-    let tolerance: f64 = text.parse().map_err(|_| "expected a number such as 1e-12".to_owned())?;
-    let range = 1e-13..=1e-6;
-    if range.contains(&tolerance) { Ok(tolerance) } else { Err("expected 1e-13 to 1e-6".to_owned()) }
-}
-
 /// Reads how exactly places are told.
 fn accuracy(text: &str) -> Result<f64, String> {
     let accuracy: f64 = text.parse().map_err(|_| "expected a number such as 1e-9".to_owned())?;
@@ -89,15 +82,4 @@ fn accuracy(text: &str) -> Result<f64, String> {
 fn motions(text: &str) -> Result<usize, String> {
     let most = text.parse().ok().filter(|most| (1..=100_000).contains(most));
     most.ok_or_else(|| "expected 1 to 100000".to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tolerance_is_one_that_the_stepper_has() {
-        assert_eq!((tolerance("1e-9"), tolerance("1e-13")), (Ok(1e-9), Ok(1e-13)));
-        assert!(["1e-14", "1e-3", "NaN", "-1e-9", "fine"].iter().all(|text| tolerance(text).is_err()));
-    }
 }

@@ -406,6 +406,27 @@ fn curve_and_row_agree_through_histories() {
     }
 }
 
+/// At one depth a chord slips as far as its parts do one after the other, and loses as much: also where one of them ends the slip
+/// front's way across a border, thin strips that no difference of M or N resolves.
+#[test]
+fn chords_across_a_border_lose_what_one_does() {
+    for Specimen { name, profile, border, .. } in specimens() {
+        let deepest = border.map_or(1e-7, |border| profile.depth(1.5 * border));
+        let law = Interface::new(Pair::from_moduli(1e11, 0.8e11).unwrap(), profile, 0.3).unwrap();
+        let (start, end) = (Apex { d: deepest, u: 0.0 }, 0.99 * law.gross_slip_displacement(deepest));
+        let work = |chords: u32| -> f64 {
+            let mut curve = Curve::new(&law, start);
+            let at = |k| Apex { u: end * f64::from(k) / f64::from(chords), ..start };
+            (1..=chords).map(|k| curve.commit(&law, Segment::Straight(at(k))).unwrap()).sum()
+        };
+        let whole = work(1);
+        for chords in [30, 100, 1000] {
+            let off = (work(chords) / whole - 1.0).abs();
+            assert!(off < 1e-12, "{name}, {chords} chords: {off:e}");
+        }
+    }
+}
+
 #[test]
 fn what_is_out_of_range_is_refused() {
     for bad in [0.0, -1.0, f64::INFINITY] {

@@ -258,6 +258,22 @@ fn ranges_by_default_end_where_scenarios_are_refused() -> Checked {
     Ok(())
 }
 
+/// A foot that hardly moves makes no step: the loads end a little beyond those it holds.
+#[test]
+fn loads_by_default_end_beyond_those_that_are_held() -> Checked {
+    let curve = curve("ruby_drive.json", &[("waveforms.drive.sawtooth.stroke", "20 nm")], Kind::StepLoad)?;
+    let [from, to] = curve.range(&()).ok_or("a range")?;
+    let most = curve.variation.range.ok_or("a limit")?[1];
+    assert!(from == 0.0 && to > 0.0 && to < 0.9 * most, "{to} of {most}");
+    let traced = curve.trace(&[from, 0.85 * to, to], 2, &());
+    let goes_back = |point: &Point| Some(point.motion.as_ref().ok()?.steps(-traced.direction));
+    assert_eq!(
+        traced.points.iter().map(goes_back).collect::<Vec<_>>(),
+        [Some(false), Some(false), Some(true)]
+    );
+    Ok(())
+}
+
 /// A foot that hardly moves: what is told of the step is told of its motion and its power, in all places.
 #[test]
 fn a_steady_motion_without_a_step_is_called_so() -> Checked {
