@@ -41,6 +41,7 @@ use cut::Drag;
 use front::Front;
 use knot::Knot;
 use stack::{KNOTS_PER_MOVE, SlopeRange};
+use sweep::Told;
 
 /// State of a contact that remembers exactly.
 #[derive(Debug, Clone, PartialEq)]
@@ -232,10 +233,28 @@ impl Curve {
         }
     }
 
+    /// Friction work of a chord, J, besides what the front's way alone tells, which [`Branch::friction_power`] adds up: a path of growth
+    /// is kept as chords.
+    pub fn beside_growth(&self, law: &Interface, to: Apex) -> f64 {
+        if self.knots.is_empty() { 0.0 } else { sweep::beside(law, &self.knots, self.apex, to) }
+    }
+
     /// Accepts a segment: the only thing that moves the memory. Returns the friction work, J.
     ///
     /// Fails, leaving everything as it was, for a motion that is not finite or leaves the points that the profile is given by.
     pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        self.accept(law, segment, Told::All)
+    }
+
+    /// The same, of friction work only what is beside the power of branches, J ([`Self::beside_growth`]): for whoever adds that up.
+    ///
+    /// # Errors
+    /// As those of [`Self::commit`].
+    pub fn commit_beside_power(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        self.accept(law, segment, Told::BesidePower)
+    }
+
+    fn accept(&mut self, law: &Interface, segment: Segment, told: Told) -> Result<f64, ContactError> {
         let to = segment.end();
         if !(to.d.is_finite() && to.u.is_finite()) {
             return Err(ContactError::NotFinite { d: to.d, u: to.u });
@@ -271,8 +290,11 @@ impl Curve {
         let friction = match Drag::of(law, &self.knots, to) {
             Drag::Open => {
                 let from = self.apex;
-                let friction =
-                    if self.knots.is_empty() { 0.0 } else { sweep::work(law, &self.knots, from, to) };
+                let friction = match told {
+                    _ if self.knots.is_empty() => 0.0,
+                    Told::All => sweep::work(law, &self.knots, from, to),
+                    Told::BesidePower => sweep::beside(law, &self.knots, from, to),
+                };
                 self.knots.clear();
                 self.front = Front::STICK;
                 friction
@@ -283,7 +305,7 @@ impl Curve {
                 self.push_grown(law, to);
                 0.0
             }
-            Drag::Slip(edge) => self.push_cut(law, edge, to),
+            Drag::Slip(edge) => self.push_cut(law, (edge, to), told),
         };
         self.apex = to;
         Ok(friction)

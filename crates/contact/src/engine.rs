@@ -64,6 +64,8 @@ pub trait Tangential {
     fn preview(&self, law: &Interface, to: Apex) -> Outcome;
     /// Accepts a segment and returns its friction work, J. Fails without a trace.
     fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
+    /// The same, of friction work only what no power of a branch tells.
+    fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
     /// The smooth branches of an engine that has them. None where the law has kinks of its own between any two moves:
     /// then the whole law is integrated, and only reversals of sliding are events.
     fn branching(&self) -> Option<&dyn Branching> {
@@ -82,6 +84,8 @@ pub trait Branching {
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch;
     /// What a chord gives, dragged by the edge of a sense.
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged;
+    /// Friction work of a chord, J, besides what the power of a branch adds up to, where the chord gives up a path of growth.
+    fn beside_growth(&self, law: &Interface, to: Apex) -> f64;
     /// How far an apex lies above the curve at its own height, m, and the slope of the curve there; none while open and beyond
     /// its end.
     fn beside(&self, at: Apex) -> Option<[f64; 2]>;
@@ -154,6 +158,9 @@ impl Tangential for Curve {
     fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
         Self::commit(self, law, segment.path)
     }
+    fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
+        Self::commit_beside_power(self, law, segment.path)
+    }
     fn branching(&self) -> Option<&dyn Branching> {
         Some(self)
     }
@@ -168,6 +175,9 @@ impl Branching for Curve {
     }
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged {
         Self::dragged(self, law, sense, to)
+    }
+    fn beside_growth(&self, law: &Interface, to: Apex) -> f64 {
+        Self::beside_growth(self, law, to)
     }
     fn beside(&self, at: Apex) -> Option<[f64; 2]> {
         Self::beside(self, at)
@@ -193,6 +203,9 @@ impl Tangential for SpringRow {
     }
     fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
         self.row.commit(&self.springs, law, segment.path)
+    }
+    fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
+        Self::commit(self, law, segment).map(|_| 0.0)
     }
 }
 
@@ -306,6 +319,19 @@ impl Memory {
     ) -> Result<f64, ContactError> {
         let segment = segment.into();
         either!(self, engine => Tangential::commit(engine, law, segment))
+    }
+
+    /// The same, of friction work only what is beside the power of branches, for whoever adds that up.
+    ///
+    /// # Errors
+    /// As those of [`Self::commit`].
+    pub fn commit_beside_power(
+        &mut self,
+        law: &Interface,
+        segment: impl Into<Timed<Segment>>,
+    ) -> Result<f64, ContactError> {
+        let segment = segment.into();
+        either!(self, engine => Tangential::commit_beside_power(engine, law, segment))
     }
 
     /// Contact radius at an indentation d (m), m: a(d), of a row of springs half the length of those that touch.

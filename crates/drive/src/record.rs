@@ -330,8 +330,11 @@ fn contact_columns(
     if let Some(slot) = slot {
         // By the whole law and on a straight path nothing is integrated: the chord from the apex has its own.
         let chord = straight || matches!(state.modes[c], Mode::Whole { .. });
-        let chord = if chord { outcome.friction } else { 0.0 };
-        outcome.friction = y(layout.friction(slot)) + chord;
+        let rest = match chord {
+            true => outcome.friction,
+            false => contact.beside_growth(&equations.memories[c], motion.apex()),
+        };
+        outcome.friction = y(layout.friction(slot)) + rest;
     }
     let count = contact.count;
     let friction = state.friction[c] + count * outcome.friction;

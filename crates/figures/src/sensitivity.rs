@@ -13,6 +13,8 @@ const BARS: usize = 12;
 const FIGURES: usize = 6;
 /// Errors that are worth a word beside a bar, as a share of the longest.
 const DOUBT: f64 = 0.01;
+/// Shorter bars are told by powers of ten.
+const PLACES: f64 = 0.1;
 
 /// Names of all files that any look gives to it, and that go where it is written: a whole one takes the place of both.
 pub fn all_files(is_cut: bool) -> Vec<String> {
@@ -75,5 +77,11 @@ fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
 
 fn noted(bar: Bar, error: f64, longest: f64) -> Bar {
     let doubt = if error > DOUBT * longest { format!(" ± {error:.1e}") } else { String::new() };
-    Bar { note: format!("{:+.3}{doubt}", bar.length).replace('-', "\u{2212}"), ..bar }
+    // Three places after the point would leave nothing of a small one.
+    let length = if bar.length.abs() < PLACES {
+        format!("{:+.2e}", bar.length)
+    } else {
+        format!("{:+.3}", bar.length)
+    };
+    Bar { note: format!("{length}{doubt}").replace('-', "\u{2212}"), ..bar }
 }

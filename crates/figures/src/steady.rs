@@ -12,6 +12,8 @@ use stickslip_study::steady::Steady;
 pub const NAME: &str = "steady";
 /// Rows of the period that is drawn.
 pub const ROWS: u32 = 1024;
+/// Forces below this share of what presses the contact are of rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Names of all files that any look gives to it.
 pub fn all_files() -> Vec<String> {
@@ -37,7 +39,9 @@ pub fn draw(job: &Job, found: &Steady, series: &Series, look: &Look) -> Result<V
     let (_, speeds) = tracks_of(job, series, (Axis::X, "vx_m_s"));
     let [feet, sliders] = [feet, sliders].map(|tracks| returning(&time, &tracks));
     let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
-    let forces: Vec<Vec<&[f64]>> = contacts.iter().map(|name| vec![series.column(name, "fx_N")]).collect();
+    let forces: Vec<Vec<f64>> =
+        contacts.iter().enumerate().map(|(c, name)| force(job, series, (c, name))).collect();
+    let forces: Vec<Vec<&[f64]>> = forces.iter().map(|force| vec![force.as_slice()]).collect();
     let groups = alike::groups(&forces);
     let named = |group: &Vec<usize>| alike::name(&group.iter().map(|&c| contacts[c]).collect::<Vec<_>>());
     let names: Vec<String> = groups.iter().map(named).collect();
@@ -57,6 +61,14 @@ pub fn draw(job: &Job, found: &Steady, series: &Series, look: &Look) -> Result<V
     let title = format!("{}: a period of its steady motion", job.title());
     pen.draw_as(NAME, orbit_figure(&title, &course))
         .map_err(|source| FigureError::Plot { plot: NAME, source })
+}
+
+/// Force of a contact; none where it is of rounding alone.
+fn force(job: &Job, series: &Series, (c, name): (usize, &str)) -> Vec<f64> {
+    let force = series.column(name, "fx_N");
+    let least = ROUNDING * job.contact_scale(c).1;
+    let is_some = force.iter().any(|force| force.abs() > least);
+    if is_some { force.to_vec() } else { vec![0.0; force.len()] }
 }
 
 /// Positions from where they began, without the way that is left over at the end of the period.

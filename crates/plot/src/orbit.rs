@@ -83,7 +83,9 @@ fn circle(multipliers: &[(f64, f64)]) -> Panel<'static> {
     }
     let reach = multipliers.iter().fold(REACH, |most, (re, im)| most.max(1.05 * re.abs().max(im.abs())));
     let axis = |label: &str| Axis { covers: Some((-reach, reach)), ..Axis::new(Label::plain(label), "") };
+    let heading = if multipliers.is_empty() { "no multipliers" } else { "" };
     Panel {
+        heading: Label::plain(heading),
         x: axis("Re λ (Floquet multipliers)"),
         y: axis("Im λ"),
         series,

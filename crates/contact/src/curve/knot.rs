@@ -46,6 +46,11 @@ impl Knot {
         }
     }
 
+    /// Whether the piece that ends here is the chord of a bent path of growth.
+    pub(super) fn is_uneven(&self) -> bool {
+        self.gain != self.slope
+    }
+
     /// σp - κh in the frame of a sense σ, m: what the edge of that sense compares.
     #[inline]
     pub(super) fn level(&self, sense: f64, slope: f64) -> f64 {
@@ -132,7 +137,7 @@ impl Knot {
         let [reduced_force, reduced_energy] = law.profile().reduced_sums(h);
         let p = self.p + end.slope * (h - self.h);
         let mut point = self.extend(h, p, end.slope, end.gain, reduced_force, reduced_energy);
-        if end.gain != end.slope {
+        if end.is_uneven() {
             let straight =
                 self.extend(end.h, end.p, end.slope, end.gain, end.reduced_force, end.reduced_energy);
             point.square += (end.square - straight.square) * (h - self.h) / (end.h - self.h);

@@ -3,9 +3,10 @@
 //! A growing contact pushes knots, a dragging edge gives up those it passes and puts itself in their place, and where the
 //! stack is full the knots that matter least go ([`super::thinning`]).
 
+use super::Curve;
 use super::cut::Edge;
 use super::front::Front;
-use super::{Curve, sweep};
+use super::sweep::{self, Told};
 use crate::{Apex, Interface};
 
 /// Slopes of the top piece that keep every knot merged into it within round-off of where it was: without this
@@ -81,10 +82,10 @@ impl Curve {
     }
 
     /// Replaces what was cut by the straight edge of the wedge; gives the friction work, J.
-    pub(super) fn push_cut(&mut self, law: &Interface, edge: Edge, to: Apex) -> f64 {
+    pub(super) fn push_cut(&mut self, law: &Interface, (edge, to): (Edge, Apex), told: Told) -> f64 {
         let foot = edge.foot(law, &self.knots, to);
         let end = edge.end(law, &foot, self.knots.last(), to);
-        let friction = sweep::slipped(law, &self.knots, [self.apex, to], (&edge, &foot));
+        let friction = sweep::slipped(law, &self.knots, [self.apex, to], (&edge, &foot), told);
         self.knots.truncate(edge.kept);
         if edge.splits || edge.is_gross() {
             self.knots.push(foot);

@@ -138,8 +138,8 @@ impl Knot {
     }
 
     /// What a piece of growth that starts here has beside what its slope gives: in shear, and in square beside its gain.
-    fn beside(&self, end: &Self) -> [f64; 2] {
-        if end.gain == end.slope {
+    pub(super) fn beside(&self, end: &Self) -> [f64; 2] {
+        if !end.is_uneven() {
             return [0.0; 2];
         }
         let plain = self.extend(end.h, end.p, end.slope, end.gain, end.reduced_force, end.reduced_energy);

@@ -13,6 +13,7 @@ mod closed_forms;
 mod damping;
 mod fields;
 mod first_loading;
+mod growth;
 mod histories;
 mod ideal_drive;
 mod lottery;

@@ -6,22 +6,22 @@ const G: f64 = 0.95e11;
 /// Radius of the paraboloid, m.
 const RADIUS: f64 = 1e-3;
 /// Deepest indentation, m.
-const DEPTH: f64 = 1e-6;
+pub(super) const DEPTH: f64 = 1e-6;
 
-fn paraboloid() -> Interface {
+pub(super) fn paraboloid() -> Interface {
     let profile = Profile::paraboloid(RADIUS).unwrap();
     Interface::new(Pair::from_moduli(1.15e11, G).unwrap(), profile, 0.3).unwrap()
 }
 
 /// Growth along u = βd₁(x + εx²/2), x = d/d₁: with ν = d₁^{3/2}, m = 2√(Rd),
 /// F_x = G\*∫u'm dd = 2G\*β√R ν (2x^{3/2}/3 + 2εx^{5/2}/5), E = ∫F_x u' dd by the same powers.
-struct Path {
-    beta: f64,
-    bend: f64,
+pub(super) struct Path {
+    pub(super) beta: f64,
+    pub(super) bend: f64,
 }
 
 impl Path {
-    fn u(&self, x: f64) -> f64 {
+    pub(super) fn u(&self, x: f64) -> f64 {
         self.beta * DEPTH * (x + 0.5 * self.bend * x * x)
     }
 
@@ -46,7 +46,7 @@ impl Path {
 }
 
 /// Laid down in equal pieces; how often the memory gave up knots on the way.
-fn grown(law: &Interface, path: &Path, pieces: u32, capacity: usize) -> (Curve, u32) {
+pub(super) fn grown(law: &Interface, path: &Path, pieces: u32, capacity: usize) -> (Curve, u32) {
     let mut curve = Curve::with_capacity(law, Apex::default(), capacity);
     let mut looks = 0;
     for k in 1..=pieces {

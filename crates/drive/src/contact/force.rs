@@ -179,6 +179,11 @@ impl Contact {
         self.interface.viscosity(stuck)
     }
 
+    /// Friction work of a chord, J, besides what [`Self::growth_rates`] add up to, where it gives up a path of growth.
+    pub(crate) fn beside_growth(&self, memory: &Memory, to: Apex) -> f64 {
+        memory.branching().map_or(0.0, |branching| branching.beside_growth(&self.interface, to))
+    }
+
     /// Slopes of what a growing contact carries beside its motion.
     ///
     /// In full stick G\*m(d)u̇ and F_x u̇, without friction; along a branch only the friction power, by the

@@ -138,16 +138,16 @@ impl Ledger {
             let (c, segment) = self.segments[k];
             let contact = &model.contacts[c];
             let knots = state.memories[c].knot_count();
-            let friction = state.memories[c]
-                .commit(&contact.interface, segment)
-                .map_err(|source| model.refused(c, t, source))?;
-            // Where the friction of a growing contact is an integral it is no work of its commits. Waveforms are still on the
-            // pieces on which the path went.
+            let is_integral = contact.slot.is_some() && layout.growing > 0;
             let whole = matches!(state.modes[c], Mode::Whole { .. });
-            if contact.slot.is_none() || layout.growing == 0 || whole || contact.goes_straight(&state.pieces)
-            {
-                state.friction[c] += contact.count * friction;
-            }
+            let by_commits = !is_integral || whole || contact.goes_straight(&state.pieces);
+            // Of an integral the rest alone, which no power tells. Waveforms are still on the pieces on which the path went.
+            let memory = &mut state.memories[c];
+            let friction = match by_commits {
+                true => memory.commit(&contact.interface, segment),
+                false => memory.commit_beside_power(&contact.interface, segment),
+            };
+            state.friction[c] += contact.count * friction.map_err(|source| model.refused(c, t, source))?;
             // A path may make two, and of those that were there as many go; a row of springs has none.
             let made = if matches!(state.memories[c], Memory::Curve(_)) { 2 } else { 0 };
             self.touched += (knots + made).saturating_sub(state.memories[c].knot_count()) as u64;

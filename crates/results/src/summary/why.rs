@@ -112,14 +112,23 @@ fn short(job: &Job, last: &LastPeriod) -> Option<String> {
     })
 }
 
+/// What is less than this share of the work shows in no per cent.
+const UNSEEN: f64 = 5e-4;
+
 /// Where the work went.
 fn work(work: &PeriodWork) -> Option<String> {
     let (drive, load) = (work.drive.filter(|drive| drive.0 > 0.0)?, work.load?);
-    let share = |part: Real| percent(part.0 / drive.0);
+    // A load that drags the body along puts work in as well.
+    let gave = Real((-load.0).max(0.0));
+    let share = |part: Real| percent(part.0 / (drive.0 + gave.0));
     let load = if load.0 > 0.0 { format!(", the load {}", share(load)) } else { String::new() };
+    let gave = match gave.0 > UNSEEN * drive.0 {
+        true => format!(" and {} that the load gave", quantity(gave, "J")),
+        false => String::new(),
+    };
     let friction = share(work.friction);
     Some(format!(
-        "of {} that the drive put in friction took {friction}, dampers {}{load}",
+        "of {} that the drive put in{gave} friction took {friction}, dampers {}{load}",
         quantity(drive, "J"),
         share(work.damping)
     ))

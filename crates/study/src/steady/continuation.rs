@@ -136,6 +136,7 @@ impl Continuation {
     ) -> Result<(Standing, Measure), ContinuationError> {
         let (path, present, unit) = (self.path.clone(), self.present, self.unit);
         let none = |trouble: Trouble| match trouble {
+            Trouble::Steady(SteadyError::Interrupted(periods)) => ContinuationError::Interrupted(periods),
             Trouble::Steady(error) => {
                 ContinuationError::NoStart { path: path.clone(), present, unit, source: Box::new(error) }
             }

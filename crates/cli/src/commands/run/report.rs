@@ -16,6 +16,8 @@ use stickslip_results::summary::{DriveSummary, Fretting, SettlingSummary, Status
 const SHOWN: f64 = 1e-4;
 /// Steps that change by less than this share are even.
 const EVEN: f64 = 1e-3;
+/// Smaller shares show in no per cent.
+const UNSEEN: f64 = 5e-5;
 
 /// What is to be printed of one scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -164,7 +166,7 @@ fn settling(steps: &DriveSummary) -> String {
             format!("drifts: the step of {last} changes by {} per period", length(*change_m))
         }
         (SettlingSummary::Beats { periods, growth, about_m, amplitude_m }, _) => {
-            let growth = growth.map(|growth| {
+            let growth = growth.filter(|growth| growth.0.abs() >= UNSEEN).map(|growth| {
                 let how = if growth.0 < 0.0 { "fading" } else { "growing" };
                 format!(", {how} by {:.2} % per period", 100.0 * growth.0.abs())
             });

@@ -155,6 +155,7 @@ impl BranchFailure {
     fn verdict(&self) -> Verdict {
         match self {
             Self::Refused(_) | Self::Range(_) => Verdict::BadInput,
+            Self::Branch(ContinuationError::Interrupted(_)) => Verdict::Interrupted,
             Self::Branch(ContinuationError::NoStart { source, .. }) => super::verdict(source),
             Self::Branch(ContinuationError::Shakedown { .. } | ContinuationError::NoBranch { .. }) => {
                 Verdict::Stopped

@@ -41,6 +41,9 @@ pub enum ContinuationError {
         /// Where it ends, SI.
         to: f64,
     },
+    /// The caller had enough before there was a motion to start with.
+    #[error("interrupted after {0} periods, before the motion was found that the branch starts from")]
+    Interrupted(u32),
     /// No steady motion to start with.
     #[error("the branch starts at {path} = {present} {unit}, where there is no steady motion: {source}")]
     NoStart {
