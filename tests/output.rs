@@ -230,3 +230,17 @@ fn open_books_are_warned_of_whatever_the_window() {
     assert!(warned("whole", &[]));
     assert!(warned("window", &[r#"output.window={"to": "40 us"}"#, "output.events=off"]));
 }
+
+/// Of a row of springs gross slip is told that no event located: results say how many events there are, and are equal to themselves.
+#[test]
+fn events_of_rows_are_counted_as_written() {
+    let out = tempdir().unwrap();
+    let set = [r#"contacts.ball.engine={"springs": {"count": 64}}"#, "output.events=\"all\"", "plots=[]"];
+    let folder = run_example("quickstart", out.path(), &set);
+    let found = summary(&folder);
+    let rows = Table::read(&folder.join("events.csv")).rows.len() as f64;
+    assert_eq!(number(&found, "/counts/events_written"), rows);
+    assert!(rows > number(&found, "/counts/events"));
+    let output = stickslip().arg("compare").args([&folder, &folder]).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+}

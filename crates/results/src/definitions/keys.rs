@@ -25,7 +25,7 @@ pub(super) const KEYS: &[Definition] = &[
     of("counts.events", "located events"),
     of(
         "counts.events_written",
-        "events in events.csv, where output.events, a window or thinning left some out",
+        "events in events.csv, where output.events, a window or thinning left some out, or rows of springs told of gross slip that no event located",
     ),
     of(
         "counts.events_whole_until_s",

@@ -3,6 +3,7 @@
 
 use super::{CurveError, Kind};
 use serde_json::Value;
+use std::f64::consts::TAU;
 use stickslip_drive::Waveform;
 use stickslip_drive::facts::Pressed;
 use stickslip_drive::scene::{Axis, Freedom, Named, Normal, Scene, Side, Varying};
@@ -78,7 +79,7 @@ impl Variation {
         super::head(&self.name, self.unit)
     }
 
-    /// What reverses all waveforms of the steps' period in time, so that the drive steps the other way.
+    /// What reverses all waveforms of the steps' period in time together, so that the drive steps the other way.
     pub(super) fn reversal(job: &Job, kind: &Kind) -> Result<Overrides, CurveError> {
         let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
         let scene = &job.scenario.scene;
@@ -95,9 +96,16 @@ impl Variation {
                 return Err(not_here(job, kind.name(), why, help));
             };
             let back = r#"[{"cycles": 1, "reversed": true}]"#;
-            Ok((format!("{}.sequence", place.path), back.to_owned()))
+            let pattern = (format!("{}.sequence", place.path), back.to_owned());
+            let number = |key: &str| place.form.get(key).and_then(Value::as_f64).unwrap_or(0.0);
+            let phase = number("phase");
+            let advance = mirrored(phase, number("delay") / scene.waveforms[w].part.timing().period);
+            let turned = (format!("{}.phase", place.path), format!("{advance:e}"));
+            Ok(if advance == phase { vec![pattern] } else { vec![pattern, turned] })
         };
-        companions(scene, waveform(job)?).into_iter().map(reversed).collect()
+        let all: Result<Vec<Overrides>, _> =
+            companions(scene, waveform(job)?).into_iter().map(reversed).collect();
+        Ok(all?.concat())
     }
 
     /// What sets it to a value; a load acts against the direction, 1 or -1, of the steps.
@@ -245,6 +253,12 @@ pub(super) fn body(job: &Job, lacking: &'static str) -> Result<usize, CurveError
     };
     let none = CurveError::NoBody { file: job.name.clone(), lacking, help };
     job.scenario.figures.body.filter(is_free).ok_or(none)
+}
+
+/// Phase of a cycle that is reversed, rad, by which it goes through the values of the time before the origin, from its phase and its delay
+/// in periods. A reversed cycle begins after its own delay as well, and lies to others as it did.
+fn mirrored(phase: f64, delay: f64) -> f64 {
+    (TAU * (2.0 * delay).fract() - phase).rem_euclid(TAU)
 }
 
 /// All waveforms of the same period as one of them, with it.

@@ -131,6 +131,33 @@ fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
     Ok(())
 }
 
+/// Waveforms that lie beside each other by phases or delays are reversed together. A walking drive of two sines, sin(ωt + φ), backward is
+/// that of sin(-ωt + φ) = sin(ωt + π - φ) written out; with a part of the phases as delays it is the same.
+#[test]
+fn waveforms_are_reversed_together() -> Checked {
+    let stroke = |job: &[(&str, &str)]| -> Result<f64, Box<dyn Error>> {
+        let curve = Curve::new(&file("walking_drive.json"), job, Kind::StepAmplitude)?;
+        Ok(motion(&curve.trace(&[300e-9], 1, &()).points[0])?.step)
+    };
+    let by_hand = stroke(&[
+        ("waveforms.stride_a.sine.phase", "90 deg"),
+        ("waveforms.stride_b.sine.phase", "270 deg"),
+        ("waveforms.lift_a.sine.phase", "0 deg"),
+        ("waveforms.lift_b.sine.phase", "180 deg"),
+    ])?;
+    // 270° forward are 90° back, of a period of 2 ms a delay of 0.5 ms.
+    let delayed = [("waveforms.stride_b.sine.phase", "0 deg"), ("waveforms.stride_b.sine.delay", "0.5 ms")];
+    for set in [&[][..], &delayed] {
+        let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+        let [forward, backward] = Curve::both(&file("walking_drive.json"), &set, &Kind::StepAmplitude)?;
+        let [there, back] = [forward, backward].map(|curve| curve.trace(&[300e-9], 1, &()));
+        let [there, back] = [motion(&there.points[0])?.step, motion(&back.points[0])?.step];
+        assert!(there > 1e-6 && (back - by_hand).abs() <= 1e-9 * there, "{there} {back} {by_hand}");
+        assert!((there + back).abs() <= 1e-3 * there, "{there} {back}");
+    }
+    Ok(())
+}
+
 /// F_N of all contacts is what the preload says, shared as it was.
 #[test]
 fn a_preload_is_the_sum_of_all_contacts() -> Checked {
