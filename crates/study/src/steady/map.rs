@@ -62,6 +62,15 @@ pub(super) struct Gradient {
     pub(super) missed: f64,
 }
 
+/// What an image changes by with one number, by differences.
+struct Slope {
+    numbers: DVector<f64>,
+    /// Of the way.
+    way: Vec<f64>,
+    /// Squares of a second difference and of the first one; none where there is one difference alone.
+    bend: Option<[f64; 2]>,
+}
+
 impl Gradient {
     /// How far entries may be off by runs that are led by a tolerance: differences of images magnify that by their distance.
     // Of bouncing bodies that nothing damps along z, |λ| = 1 by differences was up to 1.8e-4 off at 1e-9, and 7e-3 at 1e-6.
@@ -320,12 +329,13 @@ impl<'m> Map<'m> {
             return Ok(gradient);
         }
         self.gradient(image, |map, j| {
-            Ok(map.beside(state, (j, NEAR))?.map(|beside| (beside, image.clone(), NEAR)))
+            let beside = map.beside(state, (j, NEAR))?;
+            Ok(beside.and_then(|beside| map.slope(([&beside, image], NEAR), None)))
         })
     }
 
-    /// The gradient, else by differences to both sides, or to one where the other is of another kind: its memories have other knots,
-    /// or something else happens on the way.
+    /// The gradient, else by differences to both sides, or to one, twice as far as well, where the other is of another kind: its memories
+    /// have other knots, or something else happens on the way.
     pub(super) fn fine_gradient(&mut self, state: &State, image: &Image) -> Result<Gradient, SteadyError> {
         if let Some(gradient) = self.exact_gradient(state, image)? {
             return Ok(gradient);
@@ -335,20 +345,52 @@ impl<'m> Map<'m> {
             let sides = image.sides([ahead.as_ref(), behind.as_ref()]);
             let [ahead, behind] =
                 [(ahead, sides[0]), (behind, sides[1])].map(|(side, counts)| side.filter(|_| counts));
-            Ok(match (ahead, behind) {
-                (Some(ahead), Some(behind)) => Some((ahead, behind, 2.0 * FINE)),
-                (Some(ahead), None) => Some((ahead, image.clone(), FINE)),
-                (None, Some(behind)) => Some((image.clone(), behind, FINE)),
-                (None, None) => None,
+            let (one, by) = match (ahead, behind) {
+                (Some(ahead), Some(behind)) => {
+                    return Ok(map.slope(([&ahead, &behind], 2.0 * FINE), Some([&ahead, image])));
+                }
+                (Some(one), None) => (one, FINE),
+                (None, Some(one)) => (one, -FINE),
+                (None, None) => return Ok(None),
+            };
+            let far = map.beside(state, (j, 2.0 * by))?.filter(|far| image.sides([Some(far), None])[0]);
+            Ok(match far {
+                Some(far) => map.aside(image, [&one, &far], by),
+                None => map.slope(([&one, image], by), None),
             })
         })
     }
 
-    /// A gradient from pairs of images and how far apart their states were. A number that cannot be moved leaves nothing behind.
+    /// What a number changes by a difference of two images, ahead and behind, that lie so far apart; of one to both sides by how much its
+    /// halves differ tells the difference of one of them.
+    fn slope(
+        &self,
+        ([ahead, behind], apart): ([&Image; 2], f64),
+        half: Option<[&Image; 2]>,
+    ) -> Option<Slope> {
+        let difference = self.difference(&ahead.state, &behind.state)?;
+        let bend = half.and_then(|[ahead, image]| self.difference(&ahead.state, &image.state));
+        let bend = bend.map(|half| [(&half * 2.0 - &difference).norm_squared(), difference.norm_squared()]);
+        let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
+        Some(Slope { numbers: difference / apart, way: way.collect(), bend })
+    }
+
+    /// The same to one side alone, by an image so far off and one twice as far: (4f₁ - f₂ - 3f₀)/2h, which a bend does not move.
+    fn aside(&self, image: &Image, [one, far]: [&Image; 2], by: f64) -> Option<Slope> {
+        let near = self.slope(([one, image], by), None)?;
+        let twice = self.slope(([far, image], by), None)?;
+        let bent = &twice.numbers - &near.numbers * 2.0;
+        let numbers = &near.numbers * 2.0 - &twice.numbers * 0.5;
+        let way = near.way.iter().zip(&twice.way).map(|(near, twice)| 2.0 * near - 0.5 * twice);
+        let bend = Some([bent.norm_squared(), (&numbers * 2.0).norm_squared()]);
+        Some(Slope { numbers, way: way.collect(), bend })
+    }
+
+    /// A gradient from what each number changes. One that cannot be moved leaves nothing behind.
     fn gradient(
         &mut self,
         image: &Image,
-        mut pair: impl FnMut(&mut Self, usize) -> Result<Option<(Image, Image, f64)>, SteadyError>,
+        mut slope: impl FnMut(&mut Self, usize) -> Result<Option<Slope>, SteadyError>,
     ) -> Result<Gradient, SteadyError> {
         let count = self.scales.len();
         let mut gradient = Gradient {
@@ -359,18 +401,14 @@ impl<'m> Map<'m> {
         };
         let (mut bends, mut changes, mut order) = (0.0, 0.0, 2);
         for j in 0..count {
-            let Some((ahead, behind, apart)) = pair(self, j)? else { continue };
-            let Some(difference) = self.difference(&ahead.state, &behind.state) else { continue };
-            // One to one side alone tells nothing of a bend.
-            if apart <= FINE {
-                order = 1;
-            } else if let Some(half) = self.difference(&ahead.state, &image.state) {
-                bends += (&half * 2.0 - &difference).norm_squared();
-                changes += difference.norm_squared();
+            let Some(Slope { numbers, way, bend }) = slope(self, j)? else { continue };
+            match bend {
+                Some([bend, change]) => (bends, changes) = (bends + bend, changes + change),
+                // One difference to one side alone tells nothing of a bend.
+                None => order = 1,
             }
-            gradient.numbers.set_column(j, &(difference / apart));
-            let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
-            gradient.way.set_column(j, &DVector::from_vec(way.collect()));
+            gradient.numbers.set_column(j, &numbers);
+            gradient.way.set_column(j, &DVector::from_vec(way));
         }
         // Second differences to first ones.
         gradient.missed = if changes > 0.0 { f64::sqrt(bends / changes).powi(order) } else { 0.0 };

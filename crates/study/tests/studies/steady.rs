@@ -359,6 +359,27 @@ fn a_body_that_bounces_by_itself_is_neither_stable_nor_not() -> Checked {
     Ok(())
 }
 
+/// A contact is damped along x, and nothing along z, where two balls of Hertz bear a constant load: λ = exp(±iωT) with mω² = 2 · 2E*√(Rd).
+/// Its differences are to one side alone, since a body that is let go above its place grows into the contact first; without a second one
+/// |λ| was 1.8e-6 above 1 at any tolerance, and the motion called unstable.
+#[test]
+fn what_nothing_damps_stays_by_differences_to_one_side() -> Checked {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/damped_along_x.json");
+    let job = Job::prepare(&file, &[], Path::new(""))?;
+    let (modulus, radius) = (210e9 / (2.0 * (1.0 - 0.3 * 0.3)), 0.5e-3_f64);
+    let (load, mass, period) = (1.2483566605584056 / 2.0, 0.09976172515042198, 0.00016197108713516606);
+    let depth = (0.75 * load / (modulus * radius.sqrt())).powf(2.0 / 3.0);
+    let turn = (4.0 * modulus * (radius * depth).sqrt() / mass).sqrt() * period;
+    for tolerance in [1e-13, 1e-12, 1e-9] {
+        let found = steady::find(&job, &Options { tolerance, ..Options::default() })?;
+        let first = found.multipliers[0];
+        let told = format!("{tolerance}: {:?}, {}", found.multipliers, turn.cos());
+        assert!((first.modulus() - 1.0).abs() < 1e-8 && first.kind() == Kind::Stays, "{told}");
+        assert!((first.re - turn.cos()).abs() < 1e-6, "{told}");
+    }
+    Ok(())
+}
+
 /// Some of its differences are to one side alone, which tells of no bend: a multiplier of five is not called neutral for want of the other
 /// side, as it was.
 #[test]
