@@ -77,6 +77,8 @@ pub struct Variation<'m> {
     moving: Vec<Moving>,
     /// Whether the run has told a step of it.
     strode: bool,
+    /// Detours of the run before it was followed.
+    detours: Option<u64>,
     method: Gauss,
     nodes: Vec<Coefficients>,
     /// Natural scales of velocities and forces.
@@ -110,6 +112,7 @@ impl<'m> Variation<'m> {
             moving: Vec::new(),
             links: tangent::links(model),
             strode: false,
+            detours: None,
             method: Gauss::default(),
             nodes: vec![Coefficients::default(); NODES],
             scale: natural(model, layout).split_off(layout.free),
@@ -152,6 +155,9 @@ impl<'m> Variation<'m> {
             self.outcome = Err(VariationError::Unlocated);
         }
         self.leaves(state);
+        if self.outcome.is_ok() && self.detours.is_some_and(|detours| state.counts.detours != detours) {
+            self.outcome = Err(VariationError::Accumulates { t: state.t });
+        }
         if self.outcome.is_ok() {
             self.outcome = self.check_rest(state);
         }
@@ -189,7 +195,7 @@ impl<'m> Variation<'m> {
     fn pass(&mut self, from: &State, to: &State) -> Result<(), VariationError> {
         let whole = |(mode, contact): (&Mode, &Contact)| matches!(mode, Mode::Whole { .. }) && !contact.inert;
         let anywhere_whole = |state: &State| state.modes.iter().zip(&self.model.contacts).any(whole);
-        if to.counts.detours != from.counts.detours || anywhere_whole(from) || anywhere_whole(to) {
+        if anywhere_whole(from) || anywhere_whole(to) {
             return Err(VariationError::Accumulates { t: to.t });
         }
         if to.memories.iter().any(|memory| memory.merged().knots > 0) {
@@ -286,6 +292,11 @@ impl Record for Variation<'_> {
 
     fn enters(&mut self, state: &State) {
         let left = self.left.take();
+        // A detour is told by nobody: it begins between an interval and the next one.
+        let detours = *self.detours.get_or_insert(state.counts.detours);
+        if self.outcome.is_ok() && state.counts.detours != detours {
+            self.outcome = Err(VariationError::Accumulates { t: state.t });
+        }
         if self.outcome.is_ok()
             && let Some(left) = &left
         {

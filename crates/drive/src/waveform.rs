@@ -225,6 +225,17 @@ impl Waveform {
         commanded.filter(|period| period.is_finite()).or(self.period())
     }
 
+    /// Period of the fastest of its sines, s; none where it has none.
+    #[must_use]
+    pub(crate) fn fastest_sine(&self) -> Option<f64> {
+        let order = match &self.shape {
+            Shape::Sine { .. } => 1.0,
+            Shape::Harmonics { terms } => terms.iter().map(|term| term.order).fold(1.0, f64::max),
+            _ => return None,
+        };
+        Some(self.timing.period / order)
+    }
+
     /// From when to when it moves, s; the second is infinite where that has no end.
     #[must_use]
     pub fn window(&self) -> (f64, f64) {

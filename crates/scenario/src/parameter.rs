@@ -61,11 +61,14 @@ impl Scenario {
             let message = "it counts whole things: a number that can change by any amount is needed here";
             return refused(message, None);
         }
-        let (kind, is_number) = dimension(schema, DEEPEST);
-        if !is_number {
-            return refused("expected the path of a number", None);
-        }
-        let unit = kind.or_else(|| followed(&tree, &steps)).map_or("", Kind::si);
+        let (kind, takes) = dimension(schema, DEEPEST);
+        let kind = match takes {
+            Takes::Nothing => return refused("expected the path of a number", None),
+            // That of what follows the waveform. A factor of it has none.
+            Takes::Values => kind.or_else(|| followed(&tree, &steps)),
+            Takes::Numbers => kind,
+        };
+        let unit = kind.map_or("", Kind::si);
         Ok(Parameter { path: path.to_owned(), value, unit })
     }
 }
@@ -126,13 +129,27 @@ fn is_whole(schema: &Value) -> bool {
     })
 }
 
-/// The dimension that a schema names, and whether it takes a number at all.
-fn dimension(schema: &Value, deepest: usize) -> (Option<Kind>, bool) {
+/// What a place takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Takes {
+    /// No number.
+    Nothing,
+    /// Plain numbers, or those of a dimension.
+    Numbers,
+    /// Quantities of a dimension that is told elsewhere.
+    Values,
+}
+
+/// The dimension that a schema names, and what it takes.
+fn dimension(schema: &Value, deepest: usize) -> (Option<Kind>, Takes) {
     let named = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
     if let Some(name) = named {
         let kind = Kind::named(name.strip_prefix("Moving").unwrap_or(name));
-        if kind.is_some() || name == "Quantity" {
-            return (kind, true);
+        if kind.is_some() {
+            return (kind, Takes::Numbers);
+        }
+        if name == "Quantity" {
+            return (None, Takes::Values);
         }
     }
     let kind = schema.get("type");
@@ -141,11 +158,11 @@ fn dimension(schema: &Value, deepest: usize) -> (Option<Kind>, bool) {
         is(kind) || kind.as_array().is_some_and(|kinds| kinds.iter().any(is))
     });
     if is_number || deepest == 0 {
-        return (None, is_number);
+        return (None, if is_number { Takes::Numbers } else { Takes::Nothing });
     }
     let parts = ["anyOf", "oneOf"].into_iter().filter_map(|key| schema.get(key)?.as_array()).flatten();
     let parts = parts.map(|part| dimension(part, deepest - 1));
-    parts.fold((None, false), |(kind, number), (other, is)| (kind.or(other), number || is))
+    parts.fold((None, Takes::Nothing), |(kind, takes), (other, also)| (kind.or(other), takes.max(also)))
 }
 
 /// The dimension of a waveform's values: that of the first place that follows it, by its name or in place.

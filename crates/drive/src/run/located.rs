@@ -300,6 +300,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     ) -> Result<(), RunError> {
         record.leaves(state);
         if is_corner {
+            self.bounds.corner();
             self.output.turns.near_corner(&self.setting.plain(state), state.t, &state.y);
             self.turn_corners(state, record)?;
             self.turned(state);

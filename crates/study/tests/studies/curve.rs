@@ -136,7 +136,7 @@ fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
 #[test]
 fn waveforms_are_reversed_together() -> Checked {
     let stroke = |job: &[(&str, &str)]| -> Result<f64, Box<dyn Error>> {
-        let curve = Curve::new(&file("walking_drive.json"), job, Kind::StepAmplitude)?;
+        let curve = curve("walking_drive.json", job, Kind::StepAmplitude)?;
         Ok(motion(&curve.trace(&[300e-9], 1, &()).points[0])?.step)
     };
     let by_hand = stroke(&[

@@ -14,6 +14,7 @@ mod drawn_scenes;
 mod harmonic_balance;
 mod holding;
 mod landmarks;
+mod noisy_table;
 mod outlook;
 mod page;
 mod sensitivity;
