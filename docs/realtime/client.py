@@ -114,6 +114,8 @@ def cycles(speed):
 
 
 def main():
+    if len(sys.argv) != {"udp": 5, "shm": 3}.get(sys.argv[1] if len(sys.argv) > 1 else ""):
+        sys.exit("usage: client.py udp HOST PORT-OF-THE-LOOP OWN-PORT, or client.py shm NAME")
     link = Udp(*sys.argv[2:5]) if sys.argv[1] == "udp" else Memory(sys.argv[2])
     proportional, integral, near = 300.0, 50000.0, 2e-9  # 1/s; 1/s²; m
     total, last, answers, squares = 0.0, 0.0, 0, 0.0

@@ -68,7 +68,7 @@ pub enum FirstLoadingError {
     #[error("expected a finite displacement, got {0} m")]
     Displacement(f64),
     /// The stick zone must lie inside the contact, m.
-    #[error("expected a stick radius between 0 and the contact radius {a:e} m, got {c:e} m")]
+    #[error("expected a stick radius between 0 and the contact radius {a:.4e} m, got {c:e} m")]
     StickRadius {
         /// Stick radius asked for, m.
         c: f64,
@@ -76,7 +76,7 @@ pub enum FirstLoadingError {
         a: f64,
     },
     /// Friction cannot carry the force, N.
-    #[error("expected a tangential force within the limit of friction ±{limit:e} N, got {force:e} N")]
+    #[error("expected a tangential force within the limit of friction ±{limit:.4e} N, got {force:e} N")]
     TangentialForce {
         /// Force asked for, N.
         force: f64,

@@ -14,7 +14,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
     /// Step control asks for steps below the resolution of time, or below any that helps.
-    #[error("at t = {t:e} s even a step of {step:e} s misses the tolerance")]
+    #[error("at t = {t:.6e} s even a step of {step:.3e} s misses the tolerance")]
     StepTooSmall {
         /// Time, s.
         t: f64,
@@ -22,7 +22,7 @@ pub enum RunError {
         step: f64,
     },
     /// A fixed step too long for the fastest motion of the scene, or for a state of a block.
-    #[error("the step of {step:e} s is unstable here: the fastest motion allows less than {limit:e} s")]
+    #[error("the step of {step:e} s is unstable here: the fastest motion allows less than {limit:.4e} s")]
     Unstable {
         /// Step, s.
         step: f64,
@@ -30,7 +30,7 @@ pub enum RunError {
         limit: f64,
     },
     /// A coordinate is no longer a number.
-    #[error("at t = {t:e} s the motion of `{body}`, or the work on it, is no longer finite")]
+    #[error("at t = {t:.6e} s the motion of `{body}`, or the work on it, is no longer finite")]
     NotFinite {
         /// Time, s.
         t: f64,
@@ -38,7 +38,7 @@ pub enum RunError {
         body: String,
     },
     /// Too many steps.
-    #[error("the limit of {limit} steps was reached at t = {t:e} s")]
+    #[error("the limit of {limit} steps was reached at t = {t:.6e} s")]
     TooManySteps {
         /// Time, s.
         t: f64,
@@ -46,7 +46,7 @@ pub enum RunError {
         limit: u64,
     },
     /// Too many events.
-    #[error("the limit of {limit} events was reached at t = {t:e} s")]
+    #[error("the limit of {limit} events was reached at t = {t:.6e} s")]
     TooManyEvents {
         /// Time, s.
         t: f64,
@@ -54,7 +54,7 @@ pub enum RunError {
         limit: u64,
     },
     /// Events accumulate at one moment.
-    #[error("events of contact `{contact}` accumulate at t = {t:e} s: {count} within {window:e} s")]
+    #[error("events of contact `{contact}` accumulate at t = {t:.6e} s: {count} within {window:.3e} s")]
     Zeno {
         /// Time, s.
         t: f64,
@@ -66,7 +66,7 @@ pub enum RunError {
         window: f64,
     },
     /// Events of a block accumulate at one moment.
-    #[error("events of block `{block}` accumulate at t = {t:e} s: {count} within {window:e} s")]
+    #[error("events of block `{block}` accumulate at t = {t:.6e} s: {count} within {window:.3e} s")]
     Chatter {
         /// Time, s.
         t: f64,
@@ -78,7 +78,7 @@ pub enum RunError {
         window: f64,
     },
     /// Steps that do not move on.
-    #[error("at t = {t:e} s {attempts} steps have moved the run on by {advance:e} s")]
+    #[error("at t = {t:.6e} s {attempts} steps have moved the run on by {advance:.3e} s")]
     Crawl {
         /// Time, s.
         t: f64,
@@ -88,7 +88,7 @@ pub enum RunError {
         advance: f64,
     },
     /// A contact cannot follow the motion.
-    #[error("contact `{contact}` at t = {t:e} s: {source}")]
+    #[error("contact `{contact}` at t = {t:.6e} s: {source}")]
     Contact {
         /// Time, s.
         t: f64,
@@ -115,7 +115,7 @@ pub enum RunError {
         limit: f64,
     },
     /// A block cannot follow its inputs.
-    #[error("block `{block}` at t = {t:e} s: {why}")]
+    #[error("block `{block}` at t = {t:.6e} s: {why}")]
     Block {
         /// Time, s.
         t: f64,
@@ -125,7 +125,7 @@ pub enum RunError {
         why: String,
     },
     /// The wall-clock limit.
-    #[error("the limit of {limit} s of wall time was reached at t = {t:e} s")]
+    #[error("the limit of {limit} s of wall time was reached at t = {t:.6e} s")]
     OutOfTime {
         /// Time, s.
         t: f64,
@@ -133,7 +133,7 @@ pub enum RunError {
         limit: f64,
     },
     /// A run was to be advanced to a time before the one it has reached.
-    #[error("cannot go from t = {t:e} s to t = {until:e} s: time runs forward")]
+    #[error("cannot go from t = {t:.6e} s to t = {until:.6e} s: time runs forward")]
     Backwards {
         /// Time, s.
         t: f64,
@@ -147,7 +147,7 @@ pub enum RunError {
         stepper: &'static str,
     },
     /// An input has no value for the time ahead.
-    #[error("input {input} has no value after t = {known:e} s, and the run is to go to t = {until:e} s")]
+    #[error("input {input} has no value after t = {known:.6e} s, and the run is to go to t = {until:.6e} s")]
     InputMissing {
         /// Place of the waveform in the scene.
         input: usize,
@@ -157,7 +157,7 @@ pub enum RunError {
         until: f64,
     },
     /// Whoever watches the run asked it to stop.
-    #[error("interrupted at t = {t:e} s")]
+    #[error("interrupted at t = {t:.6e} s")]
     Interrupted {
         /// Time, s.
         t: f64,

@@ -23,6 +23,9 @@ pub const NAMES: [&str; 7] = ["substitute", "fields", "loop", "profile", "memory
 const ANIMATED: (u32, u32) = (800, 700);
 const DELAY: u16 = 120;
 
+/// Corners that are numbered in the loop, and that have a line in the picture of friction: with more of them neither is to be read.
+const NUMBERED: usize = 24;
+const LINED: usize = 12;
 /// Points of the profile.
 const POINTS: usize = 301;
 
@@ -84,6 +87,12 @@ fn cycle(law: &Interface, walk: &Walk, title: &str) -> Vec<Figure<'static>> {
     figures
 }
 
+/// So many places among others, the first and the last with them, evenly; all where there are no more.
+fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let shown = count.min(most);
+    (0..shown).map(move |k| if count <= most { k } else { k * (count - 1) / (shown - 1) })
+}
+
 /// Force over displacement, with the corners marked.
 fn hysteresis<T>(
     law: &Interface,
@@ -94,11 +103,9 @@ fn hysteresis<T>(
     let force: Vec<f64> = walk.stops.iter().map(|stop| stop.force).collect();
     let first = walk.stops.first().map(|stop| stop.apex.d);
     let depth = first.filter(|d| walk.stops.iter().all(|stop| stop.apex.d == *d));
-    let marks: Vec<(f64, f64, String)> = walk
-        .moments
-        .iter()
-        .map(|moment| (moment.stop.apex.u, moment.stop.force, moment.stop.corner.to_string()))
-        .collect();
+    let stops = spread(walk.moments.len(), NUMBERED).map(|place| &walk.moments[place].stop);
+    let marks: Vec<(f64, f64, String)> =
+        stops.map(|stop| (stop.apex.u, stop.force, stop.corner.to_string())).collect();
     let course = HysteresisLoop {
         name: "corners marked by their numbers",
         u: &u,
@@ -143,11 +150,8 @@ fn friction<T>(walk: &Walk, drawn: impl FnOnce(&FrictionWork<'_>) -> T) -> T {
         work.extend_from_slice(&step.work);
     }
     let corner = |stop: &Stop| (stop.corner as f64, format!("corner {}", stop.corner));
-    let marks: Vec<(f64, String)> = walk
-        .moments
-        .iter()
-        .filter(|moment| moment.stop.corner > 0)
-        .map(|moment| corner(&moment.stop))
-        .collect();
+    let stops: Vec<&Stop> =
+        walk.moments.iter().map(|moment| &moment.stop).filter(|stop| stop.corner > 0).collect();
+    let marks: Vec<(f64, String)> = spread(stops.len(), LINED).map(|place| corner(stops[place])).collect();
     drawn(&FrictionWork { axis: ("corner", ""), moments: &moments, r: radii, work: &work, marks: &marks })
 }

@@ -40,6 +40,9 @@ const WIDEST: f64 = 0.3;
 const BROKEN: usize = 3;
 /// More notes than this are only counted: each is tried all over the frame.
 const MOST: usize = 200;
+/// Places from which a note would have to point that are tried, the nearest first: one that finds none there is only counted. Where
+/// everything near is crowded the whole frame took seconds for each note, and what points from afar is read by nobody.
+const TRIED: usize = 10_000;
 
 /// Gives the notes of a panel their places.
 pub(crate) fn place(panel: &Placed<'_, '_>, sizes: Sizes) -> Result<Vec<PlacedNote>, PlotError> {
@@ -163,10 +166,12 @@ impl Board {
             .collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(f64, (usize, usize))> = None;
+        let mut tried = 0;
         for (cost, at) in places {
-            if best.is_some_and(|(least, _)| cost >= least) {
+            if best.is_some_and(|(least, _)| cost >= least) || tried == TRIED {
                 break;
             }
+            tried += 1;
             let pointer = self.pointer(self.area(text, at), text.about);
             let Some(crossed) = pointer.map_or(Some(0), |pointer| self.crossed(pointer)) else { continue };
             let cost = cost + CROSSING * crossed as f64;

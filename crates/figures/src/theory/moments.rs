@@ -1,5 +1,6 @@
 //! Corners of a history as the series that their pictures are drawn from.
 
+use super::spread;
 use stickslip_contact::{Interface, SpringState, Zone, ZoneKind};
 use stickslip_plot::{AnchorMoment, FieldsMoment, FieldsZone, SpringCondition, SubstituteMoment};
 use stickslip_results::theory::{Moment, Walk};
@@ -36,12 +37,12 @@ struct Columns<'a> {
 }
 
 impl<'a> Shown<'a> {
-    /// The last corners, and the start where there are few.
+    /// Some of the corners, the first and the last with them, and the start where there is no other.
     pub(super) fn of(law: &'a Interface, walk: &'a Walk) -> Self {
-        let first = walk.moments.len().saturating_sub(MOST);
         // An unstretched start shows nothing that the others do not.
-        let first = if walk.moments.len() > 1 { first.max(1) } else { first };
-        let moments: Vec<Columns<'a>> = walk.moments[first..].iter().map(Columns::of).collect();
+        let first = usize::from(walk.moments.len() > 1);
+        let shown = &walk.moments[first..];
+        let moments = spread(shown.len(), MOST).map(|place| Columns::of(&shown[place])).collect();
         Self { law, moments, scale: scale(law, walk) }
     }
 

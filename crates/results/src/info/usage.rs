@@ -189,7 +189,9 @@ impl Usage {
             let (along, normal) = scene.gravity.components();
             let lifts = |body: &Named<Body>| body.part.z.freedom == Freedom::Free && normal != 0.0;
             if scene.bodies.iter().any(lifts) {
-                self.uses("gravity", "", format!("{:.4} m/s² down", scene.gravity.acceleration));
+                let slope =
+                    if along == 0.0 { String::new() } else { format!(", {along:.4} m/s² down the slide") };
+                self.uses("gravity", "", format!("{normal:.4} m/s² down{slope}"));
             } else if along == 0.0 || !scene.bodies.iter().any(|body| body.part.is_free()) {
                 self.skips("gravity", "", "nothing moves freely along it");
             } else {

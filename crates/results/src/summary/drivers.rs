@@ -37,12 +37,14 @@ impl DriverSummary {
     pub(super) fn line(&self, name: &str) -> Option<String> {
         let Shares { current_up, current_down, window_low, window_high } = &self.at_limit;
         let [current, window] = [current_up.0 + current_down.0, window_low.0 + window_high.0];
-        let told = |share: f64, what: &str| (share > 0.0).then(|| format!("{:.1} % {what}", 100.0 * share));
+        let told = |share: f64, what: &str| {
+            (share > 0.0).then(|| format!("{:.1} % of the time {what}", 100.0 * share))
+        };
         let limits = [told(current, "at its current limit"), told(window, "at an end of its window")];
         let limits: Vec<String> = limits.into_iter().flatten().collect();
         (!limits.is_empty()).then(|| {
             format!(
-                "the driver of {name} was {} of the time: it made less of the command than this says",
+                "the driver of {name} was {}: it made less of the command than this says",
                 limits.join(" and ")
             )
         })

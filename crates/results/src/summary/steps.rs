@@ -20,6 +20,8 @@ const MOMENTS: u32 = 1000;
 /// Global over local error of a run, as comparisons allow it; that of fixed steps, which promise none.
 const GLOBAL: f64 = 100.0;
 const FIXED: f64 = 1e-9;
+/// A step below this share of how far the body goes in a period is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Steps of the body named in `figures`, over the whole periods of the waveform named there.
 #[derive(Debug, Serialize)]
@@ -188,6 +190,9 @@ pub(super) fn of(
         Some(_) => Bounds { most: 0.0, ..step_bounds(job) },
         None => step_bounds(job),
     };
+    // Without contacts nothing tells what a step is but how far the body goes in a period.
+    let reach = strides.part(0..strides.count()).map(|stride| stride.most - stride.least).fold(0.0, f64::max);
+    let bounds = Bounds { least: bounds.least.max(ROUNDING * reach), ..bounds };
     let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds);
     let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
     let mut summary = summary(&steps, ends, (&body.name, &waveform.name, period));

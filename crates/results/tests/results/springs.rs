@@ -5,7 +5,11 @@ use stickslip_results::Job;
 
 /// x of the slider at the end, m.
 fn ends_at(stepper: &str) -> f64 {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/springs_under_force.json");
+    x_at_the_end("springs_under_force.json", stepper)
+}
+
+fn x_at_the_end(name: &str, stepper: &str) -> f64 {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name);
     let set = [("run.stepper".to_owned(), stepper.to_owned())];
     let job = Job::prepare(&file, &set, Path::new("")).unwrap();
     let outcome = job.run(&());
@@ -26,4 +30,13 @@ fn springs_slip_by_how_a_row_sinks_after_a_spring_has_touched() {
         let found = located(tolerance);
         assert!((found - finest).abs() < 1e-15, "{tolerance}: {found:e} instead of {finest:e}");
     }
+}
+
+/// Steps that ask the whole law which springs stick ask a little ahead, and what has begun to slip until there is taken off again: with
+/// damping of 5 µs they were 9.4e-16 m off, however short. The reference is the event stepper's closed law of the branch.
+#[test]
+fn damping_by_the_whole_law_is_that_of_the_moment() {
+    let located = x_at_the_end("damped_sine.json", r#"{"event": {"tolerance": 1e-12}}"#);
+    let stepped = x_at_the_end("damped_sine.json", r#"{"rk4": {"step": "10 ns"}}"#);
+    assert!((stepped - located).abs() < 2e-18, "{stepped:e} instead of {located:e}");
 }

@@ -124,14 +124,16 @@ impl Variation {
     fn amplitude(job: &Job, tree: &Value, waveform: usize) -> Result<Self, CurveError> {
         let scene = &job.scenario.scene;
         let Some((path, key, value)) = size(tree, scene, waveform) else {
-            let word = place(tree, &scene.waveforms[waveform].name).map_or(String::new(), |place| place.word);
+            let place = place(tree, &scene.waveforms[waveform].name);
+            let word = place.as_ref().map_or("", |place| place.word.as_str());
             let why = format!("a waveform of the kind \"{word}\" has no one stroke or amplitude");
-            return Err(not_here(
-                job,
-                Kind::StepAmplitude.name(),
-                why,
-                "vary one of its numbers by its path",
-            ));
+            let help = match &place {
+                Some(Place { path, word, .. }) if word == "table" => {
+                    format!("vary {path}.gain, by which all its values go")
+                }
+                _ => "vary one of its numbers by its path".to_owned(),
+            };
+            return Err(not_here(job, Kind::StepAmplitude.name(), why, &help));
         };
         // Other feet of the same gait: of the same period and size, followed along the same axes.
         let alike = |w: usize| {
@@ -156,12 +158,7 @@ impl Variation {
         let paths = companions(scene, waveform).into_iter().map(path).collect::<Option<Vec<_>>>();
         let Some(paths) = paths else {
             let why = "a waveform of the steps' period has no frequency, as tables have none".to_owned();
-            return Err(not_here(
-                job,
-                Kind::SpeedFrequency.name(),
-                why,
-                "vary one of its numbers by its path",
-            ));
+            return Err(not_here(job, Kind::SpeedFrequency.name(), why, "change the times of its points"));
         };
         let present = scene.waveforms[waveform].part.period().map(f64::recip);
         let range = present.map(|frequency| [frequency / 10.0, 2.0 * frequency]);

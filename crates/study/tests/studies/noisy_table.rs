@@ -27,7 +27,7 @@ fn table() -> Vec<[f64; 2]> {
     let point = |k: u32| {
         let part = f64::from(k) / f64::from(POINTS);
         let way = if part < 0.8 { part / 0.8 } else { (1.0 - part) / 0.2 };
-        [part * PERIOD, 0.5e-6 * way + if k % POINTS == 0 { 0.0 } else { noise() }]
+        [part * PERIOD, 0.5e-6 * way + if k.is_multiple_of(POINTS) { 0.0 } else { noise() }]
     };
     (0..=POINTS).map(point).collect()
 }
