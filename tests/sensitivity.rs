@@ -93,7 +93,7 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("p1", &["--to", "contacts.bal.friction"], (2, "did you mean \"ball\"?"));
     refused("p1", &["--to", "run.cycles"], (2, "changes no motion"));
     refused("p1", &["--set", "contacts.ball.friction=-1"], (2, "expected a number between"));
-    refused("p1", &["--tolerance", "1"], (2, "expected a tolerance from 1e-13 to 1e-6"));
+    refused("p1", &["--tolerance", "1"], (2, "'--tolerance <SHARE>': expected 1e-13 to 1e-6"));
     refused("p1", &["--set", "run.limits.steps=100"], (3, "its own run stopped"));
     refused("bouncing_ball", &["--steady"], (2, "nothing to be steady with"));
 }

@@ -177,7 +177,7 @@ pub enum SpringState {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ContactError {
     /// The indentation outgrew the span of a row of springs.
-    #[error("the indentation {d:.4e} m outgrew the row of springs, which reaches {reach:.4e} m")]
+    #[error("the indentation {d:.4e} m outgrew the row of springs, which reaches {reach:e} m")]
     Outgrown {
         /// Indentation, m.
         d: f64,
@@ -185,9 +185,7 @@ pub enum ContactError {
         reach: f64,
     },
     /// The indentation went beyond the points that the profile is given by.
-    #[error(
-        "the indentation {d:.4e} m went beyond the last point of the profile, which reaches {reach:.4e} m"
-    )]
+    #[error("the indentation {d:.4e} m went beyond the last point of the profile, which reaches {reach:e} m")]
     Beyond {
         /// Indentation, m.
         d: f64,

@@ -13,8 +13,8 @@ const SAMPLE: u64 = 160;
 /// 24 came and 98 went as guards learned what rounding is in them, of 400 seeds 25 had such books before it and after; 14, 24 and 90
 /// went with short steps, 87 with rows whose springs part without stretch. 45 went with steps to gross slip that are aimed nearer, and
 /// came back, as did 90, with other last digits of sines and cube roots; 73, which is hardly damped, went with paths as fine as strong
-/// damping asks for, and came back as they became as fine as its own does.
-const KNOWN: [u64; 5] = [45, 73, 90, 120, 149];
+/// damping asks for, and came back as they became as fine as its own does. Both went as friction came to know what chords of growth lack.
+const KNOWN: [u64; 3] = [90, 120, 149];
 
 #[test]
 fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
