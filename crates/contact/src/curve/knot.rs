@@ -47,6 +47,7 @@ impl Knot {
     }
 
     /// Whether the piece that ends here is the chord of a bent path of growth.
+    #[inline]
     pub(super) fn is_uneven(&self) -> bool {
         self.gain != self.slope
     }
