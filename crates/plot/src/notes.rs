@@ -166,12 +166,10 @@ impl Board {
             .collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(f64, (usize, usize))> = None;
-        let mut tried = 0;
-        for (cost, at) in places {
-            if best.is_some_and(|(least, _)| cost >= least) || tried == TRIED {
+        for (cost, at) in places.into_iter().take(TRIED) {
+            if best.is_some_and(|(least, _)| cost >= least) {
                 break;
             }
-            tried += 1;
             let pointer = self.pointer(self.area(text, at), text.about);
             let Some(crossed) = pointer.map_or(Some(0), |pointer| self.crossed(pointer)) else { continue };
             let cost = cost + CROSSING * crossed as f64;
