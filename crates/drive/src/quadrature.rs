@@ -31,11 +31,11 @@ pub(crate) type Lanes = [f64; LANES];
 
 /// Four nodes of a rule.
 #[derive(Debug, Clone, Copy, Default)]
-struct Nodes {
+pub(crate) struct Nodes {
     /// Where in the interval, 0 to 1.
-    at: Lanes,
+    pub(crate) at: Lanes,
     /// Their shares in the mean, and in the two last Legendre coefficients of the polynomial through all values.
-    shares: [Lanes; 3],
+    pub(crate) shares: [Lanes; 3],
 }
 
 /// A mean, and what is known about its error.
@@ -49,16 +49,16 @@ pub(crate) struct Mean {
 }
 
 /// The nodes of one rule; those beyond its number are of no meaning.
-struct Rule {
+pub(crate) struct Rule {
     nodes: [Nodes; MOST / LANES],
     count: usize,
 }
 
 /// The rules of 4 to 32 nodes, exact for polynomials up to degree 7 to 63.
-static RULES: [Rule; 4] = [Rule::new(4), Rule::new(8), Rule::new(16), Rule::new(MOST)];
+pub(crate) static RULES: [Rule; 4] = [Rule::new(4), Rule::new(8), Rule::new(16), Rule::new(MOST)];
 
 /// The same over an arc, of Gauss and Chebyshev.
-static ARCS: [Rule; 4] = [Rule::arc(4), Rule::arc(8), Rule::arc(16), Rule::arc(MOST)];
+pub(crate) static ARCS: [Rule; 4] = [Rule::arc(4), Rule::arc(8), Rule::arc(16), Rule::arc(MOST)];
 
 /// Mean over the angle θ from 0 to π of a smooth function of sin²(θ/2), as [`mean`] finds it.
 #[inline]
@@ -76,12 +76,18 @@ pub(crate) fn mean(allowed: f64, part: f64, f: impl Fn(Lanes) -> Lanes) -> Mean 
     first_that_serves(&RULES, (allowed, needed), f)
 }
 
+/// The rules of which so small an error can be hoped for, the coarsest first.
+#[inline(always)]
+pub(crate) fn worth_trying(rules: &[Rule; 4], needed: f64) -> std::slice::Iter<'_, Rule> {
+    let first = HOPELESS.iter().filter(|hopeless| needed < **hopeless).count();
+    rules[first..].iter()
+}
+
 /// The mean by the first rule whose error is below `allowed`, beginning where that can be hoped for of what is `needed`.
 #[inline(always)]
 fn first_that_serves(rules: &[Rule; 4], (allowed, needed): (f64, f64), f: impl Fn(Lanes) -> Lanes) -> Mean {
-    let first = HOPELESS.iter().filter(|hopeless| needed < **hopeless).count();
     let mut mean = Mean { value: f64::NAN, error: f64::INFINITY, asked: 0 };
-    for rule in &rules[first..] {
+    for rule in worth_trying(rules, needed) {
         let asked = mean.asked + rule.count as u64;
         // Nodes of Gauss are not nested: nothing of the coarser rule can be used again, but its values are
         // counted.
@@ -128,6 +134,11 @@ impl Rule {
         rule
     }
 
+    /// Its nodes, four by four.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = &Nodes> {
+        self.nodes[..self.count / LANES].iter()
+    }
+
     const fn without_nodes(count: usize) -> Self {
         Self { nodes: [Nodes { at: [0.0; LANES], shares: [[0.0; LANES]; 3] }; MOST / LANES], count }
     }
@@ -145,7 +156,7 @@ impl Rule {
     #[inline(always)]
     fn mean(&self, f: impl Fn(Lanes) -> Lanes) -> Mean {
         let mut sums = [[0.0; LANES]; 3];
-        for nodes in &self.nodes[..self.count / LANES] {
+        for nodes in self.nodes() {
             // Four at once: roots and quotients of one node do not wait for those of another.
             let y = f(nodes.at);
             sums = array::from_fn(|k| array::from_fn(|i| sums[k][i] + nodes.shares[k][i] * y[i]));

@@ -9,6 +9,7 @@ use crate::component::Component;
 use crate::contact::{Contact, Mode};
 use crate::equations::{Components, Equations};
 use crate::event::{Event, Source};
+use crate::interval::Stretch;
 use crate::model::{Binding, Body, Link};
 use crate::scene::Axis;
 use crate::state::State;
@@ -119,6 +120,11 @@ pub trait Stride {
     /// The time at a part of it, s, and how fast time goes there, s per part. Places and velocities of the free coordinates go to the
     /// beginning of `y`.
     fn at(&mut self, part: f64, y: &mut [f64]) -> [f64; 2];
+
+    /// The arc of a swing that it is, if it is one.
+    fn arc(&self) -> Option<&Stretch<'_>> {
+        None
+    }
 
     /// Parts of it at which the path of a growing contact, by its place in the scene, has a knot, in order for each of them.
     fn knots(&self) -> &[(usize, f64)];

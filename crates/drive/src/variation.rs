@@ -13,6 +13,7 @@
 //! has moved as the edge had. Proof and exceptions: `docs/numerics.md`, "Variations".
 
 mod anchors;
+mod arcs;
 mod corners;
 mod energies;
 mod error;
@@ -36,6 +37,7 @@ use crate::scene::Axis;
 use crate::state::{Layout, State};
 pub(crate) use anchors::Anchors;
 use anchors::Held;
+use arcs::Arc;
 use corners::Corner;
 use parameter::{Moment, Moving};
 use steps::Passed;
@@ -81,6 +83,8 @@ pub struct Variation<'m> {
     detours: Option<u64>,
     method: Gauss,
     nodes: Vec<Coefficients>,
+    /// Of arcs of swings.
+    arc: Arc,
     /// Natural scales of velocities and forces.
     scale: Vec<f64>,
     /// The motion at a node.
@@ -114,6 +118,7 @@ impl<'m> Variation<'m> {
             strode: false,
             detours: None,
             method: Gauss::default(),
+            arc: Arc::default(),
             nodes: vec![Coefficients::default(); NODES],
             scale: natural(model, layout).split_off(layout.free),
             y: vec![0.0; layout.total()],

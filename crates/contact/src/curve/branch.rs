@@ -54,6 +54,11 @@ impl Branch {
         self.height == 0.0 && !self.is_gross()
     }
 
+    /// Height of the knot below the piece that it cuts, m.
+    pub fn foot(&self) -> f64 {
+        self.height
+    }
+
     /// Whether this branch holds at (d, u): not yet, where the edge still cuts later pieces of the path of
     /// growth at whose foot the branch lies. Those are for [`Curve::dragged`] to find.
     #[inline]

@@ -235,10 +235,20 @@ impl Held {
         self.at(profile, height).map_or(0.0, |at| self.sum(&at, j))
     }
 
+    /// Place of the piece at a height, m; none where nothing is held.
+    pub(super) fn piece(&self, height: f64) -> Option<usize> {
+        let below = || self.feet.partition_point(|[foot, ..]| *foot < height).checked_sub(1);
+        (self.still < self.lines.len()).then(below).flatten()
+    }
+
+    /// δp = a + bh on a piece, by number `j`.
+    pub(super) fn line(&self, piece: usize, j: usize) -> [f64; 2] {
+        self.lines[piece * self.count + j]
+    }
+
     /// Where a height lies, asked once for all numbers; none where nothing is held.
     pub(super) fn at(&self, profile: &Profile, height: f64) -> Option<Cut> {
-        let below = || self.feet.partition_point(|[foot, ..]| *foot < height).checked_sub(1);
-        let piece = (self.still < self.lines.len()).then(below).flatten()?;
+        let piece = self.piece(height)?;
         let end = [height, profile.reduced_stiffness(height), profile.reduced_force(height)];
         Some(Cut { piece, part: Part::between(self.feet[piece], end) })
     }

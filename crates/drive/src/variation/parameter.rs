@@ -11,7 +11,7 @@ use super::{Anchors, Variation, VariationError};
 use crate::model::{Measure, Stroke, Terms};
 use crate::{Model, Piece, Plan, Sample, State};
 use contact::ContactRates;
-pub(super) use contact::edge;
+pub(super) use contact::{Shift, edge};
 use stickslip_contact::Memory;
 
 /// A number of the scene, told by models on both sides of its value.

@@ -86,10 +86,13 @@ impl Variation<'_> {
 
     /// Leads the derivatives along a step of the run, in as many steps as it takes.
     pub(super) fn follow(&mut self, from: &State, stride: &mut dyn Stride) -> Result<(), VariationError> {
+        if !self.acts() || self.leap(from, stride) {
+            return Ok(());
+        }
         let (grade, begin) = self.grade(from, stride);
         self.time = begin;
         let (mut at, mut length) = (0.0, 1.0);
-        while self.acts() && at < 1.0 {
+        while at < 1.0 {
             // No stub is left for the last step.
             let to = if at + 1.01 * length >= 1.0 { 1.0 } else { at + length };
             let missed = self.attempt(from, stride, (at, to), grade) / (ALLOWED * self.tolerance);
@@ -127,7 +130,7 @@ impl Variation<'_> {
     }
 
     /// The linear equations of an interval.
-    fn laws<'a>(&'a self, from: &'a State) -> Laws<'a> {
+    pub(super) fn laws<'a>(&'a self, from: &'a State) -> Laws<'a> {
         Laws {
             eq: Equations::on(self.model, from, self.layout, false),
             held: &self.held,

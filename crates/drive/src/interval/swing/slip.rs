@@ -19,6 +19,8 @@ const DEGREES: usize = 8;
 /// A contact in partial slip, its heights counted by their roots.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartialSlip {
+    /// Its place among the contacts.
+    pub(super) contact: usize,
     law: RootSeries,
     /// αc: b falls by gain·N' as the height does.
     gain: f64,
@@ -60,15 +62,35 @@ macro_rules! rooted {
 
 impl PartialSlip {
     /// `pull` is what M adds to b, 1/(m s²).
-    pub(super) fn new(law: RootSeries, pull: f64, lean: f64, height: f64) -> Self {
+    pub(super) fn new((contact, law): (usize, RootSeries), pull: f64, lean: f64, height: f64) -> Self {
         let root = rooted!(law, N => root::<N>(height));
         let gain = pull * law.factor;
-        Self { law, gain, lean, height, root, ends: [root; 2], beyond: 0.0, numerator: [0.0; DEGREES] }
+        Self {
+            contact,
+            law,
+            gain,
+            lean,
+            height,
+            root,
+            ends: [root; 2],
+            beyond: 0.0,
+            numerator: [0.0; DEGREES],
+        }
     }
 
     /// Whether its force goes on smoothly to the centre.
     pub(super) fn ends_smoothly(&self) -> bool {
         self.law.root == 1
+    }
+
+    /// αN and its first two derivatives at a height, by what b falls as it does: m³/s², m²/s² and m/s² over m, m², m³ of the height.
+    pub(super) fn sums(&self, height: f64) -> [f64; 3] {
+        let height = above(height);
+        let ([force, stiffness, _], root) =
+            rooted!(self.law, N => (self.derivatives::<N>(height), root::<N>(height)));
+        let [value, ..] = self.law.divided([height; 3]);
+        let power = self.gain * root;
+        [power * height * height * value, power * height * force, power * stiffness]
     }
 
     /// Takes up the turning points.
@@ -283,7 +305,7 @@ mod tests {
         for law in laws() {
             // Turning points inside, at and beyond the centre, h = 0.8 - 0.5 q.
             for (low, high) in [(-0.2, 1.2), (0.0, 1.6), (-0.1, 3.0)] {
-                let mut slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
+                let mut slip = PartialSlip::new((0, law), 3.0, 0.5, 0.8);
                 slip.swing_between(low, high);
                 let height = |q: f64| 0.8 - 0.5 * q;
                 for q in [-0.05, 0.1, 0.6, 1.1] {
@@ -301,7 +323,7 @@ mod tests {
     #[test]
     fn no_swing_is_too_small_for_its_digits() {
         for law in laws() {
-            let mut slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
+            let mut slip = PartialSlip::new((0, law), 3.0, 0.5, 0.8);
             let [_, bend, _] = slip.start();
             slip.swing_between(-1e-12, 1e-12);
             let [stiffness] = slip.stiffness([3e-13]);
@@ -312,7 +334,7 @@ mod tests {
     #[test]
     fn pull_is_mean_value_and_slope_of_the_force() {
         for law in laws() {
-            let slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
+            let slip = PartialSlip::new((0, law), 3.0, 0.5, 0.8);
             for q in [-0.2, 0.3, 1.5, 2.5] {
                 let (h, step) = (0.8 - 0.5 * q, 1e-4);
                 // Central differences of N: its derivatives to the square of the step.

@@ -5,11 +5,35 @@ use crate::record::Stride;
 
 /// From one moment of a swing to another. Its parts go with the clock, or with the root of what is left on it where slip reaches a
 /// centre at the end: no moment is searched for.
-pub(crate) struct Stretch<'s> {
-    swing: &'s Swing<'s>,
+#[derive(Debug)]
+pub struct Stretch<'s> {
+    pub(super) swing: &'s Swing<'s>,
     /// Where the clock stands at both ends, and when, s.
-    clock: [f64; 2],
+    pub(super) clock: [f64; 2],
     time: [f64; 2],
+}
+
+impl Stretch<'_> {
+    /// Whether no contact holds back.
+    pub(crate) fn is_free(&self) -> bool {
+        self.swing.is_free()
+    }
+
+    /// How long it takes, s.
+    pub(crate) fn duration(&self) -> f64 {
+        let [from, to] = self.time;
+        to - from
+    }
+
+    /// Direction of the slide along the coordinate, ±1.
+    pub(crate) fn sense(&self) -> f64 {
+        self.swing.sense
+    }
+
+    /// Places, among all contacts, of those in partial slip, in the order of [`Rates`](super::Rates).
+    pub(crate) fn slipping(&self) -> impl Iterator<Item = usize> + '_ {
+        self.swing.slips.iter().map(|slip| slip.contact)
+    }
 }
 
 impl Swing<'_> {
@@ -57,6 +81,10 @@ impl Stride for Stretch<'_> {
             (*x, *v) = (place.x, place.v);
         }
         [t, pace]
+    }
+
+    fn arc(&self) -> Option<&Stretch<'_>> {
+        Some(self)
     }
 
     fn knots(&self) -> &[(usize, f64)] {

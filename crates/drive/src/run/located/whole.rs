@@ -130,7 +130,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.detour = Some(detour);
         outcome?;
         if state.t >= detour.end {
-            self.arrive(state, &detour);
+            self.arrive(state, &detour, record);
         }
         self.bounds.step(state, record).map(|()| Progress::Made)
     }
@@ -149,7 +149,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.watch.fired.clear();
         self.turn_in_detour(state, record)?;
         if to >= detour.end {
-            self.arrive(state, detour);
+            self.arrive(state, detour, record);
         }
         self.bounds.step(state, record).map(|()| Progress::Made)
     }

@@ -26,7 +26,7 @@ pub(super) struct ContactRates {
 }
 
 /// How far a contact is moved at a moment where its bodies stand as they do.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(in crate::variation) struct Shift {
     pub(in crate::variation) u: f64,
     pub(in crate::variation) d: f64,
@@ -161,6 +161,11 @@ impl Parameter {
     /// G\*, as a share of it.
     pub(in crate::variation) fn tangential(&self, c: usize) -> f64 {
         self.contacts[c].tangential
+    }
+
+    /// Whether the profile moves.
+    pub(in crate::variation) fn shapes(&self, c: usize) -> bool {
+        self.contacts[c].profile
     }
 
     /// m(h), M(h) and N(h) of the profile; none where it stays as it is.

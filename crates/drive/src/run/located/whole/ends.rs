@@ -1,11 +1,12 @@
 //! When a detour begins, how long it is, and back from it.
 
-use crate::RunError;
 use crate::contact::Contact;
 use crate::equations::Equations;
+use crate::record::Record;
 use crate::run::horizon::Progress;
 use crate::run::located::Located;
 use crate::state::{Books, Detour, State};
+use crate::{EventKind, RunError, Source};
 use std::f64::consts::TAU;
 use stickslip_stepper::Attempt;
 
@@ -79,11 +80,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Back to located events: every contact is decided afresh.
-    pub(super) fn arrive(&mut self, state: &mut State, detour: &Detour) {
+    ///
+    /// Where a contact has come to slip as a whole nobody knows since when: that is told here, again where it was told before.
+    pub(super) fn arrive(&mut self, state: &mut State, detour: &Detour, record: &mut dyn Record) {
         self.detour = None;
         self.bounds.forget();
         state.step = self.control.after_event(detour.step);
         (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
         self.restart(state);
+        for c in (0..self.setting.model.contacts.len()).filter(|c| !self.setting.model.contacts[*c].inert) {
+            if state.modes[c].is_gross() {
+                self.note(state, Source::Contact(c), EventKind::GrossSlip, record);
+            }
+        }
     }
 }

@@ -1,0 +1,202 @@
+//! How the end of an arc moves with what the arc is made of.
+//!
+//! From a moment on, Δ being the way since, ν² = ν₀² + 2W with W = b₀Δ - Σ α[N'(h₀)Δ - (N(h₀) - N(h))/λ] and h = h₀ - λΔ. Each quantity
+//! p out of ν₀, b₀ and, of every contact, ln α, ln λ and h₀ changes ν²/2 at a given way by w = ∂(ν²/2)/∂p in closed form. A turning
+//! point moves by δq = -w/b. At a given angle q moves with both of them, so that with r = w + b δq the time T = ∫g dθ changes by
+//!
+//! ∂T = -∫g (r/ν² - δ(q₂-q₁)/(q₂-q₁)) dθ,
+//!
+//! one smooth quadrature for all of them; what is left follows from T = const. No equation is integrated.
+
+use super::stretch::Stretch;
+use super::{Clock, Swing};
+use crate::quadrature::{self, ARCS, LANES, Lanes, Nodes, RULES};
+use std::array;
+use std::f64::consts::PI;
+
+/// Quantities that are those of no contact: the speed ν₀ and the acceleration b₀ along the slide.
+pub(crate) const SPEED: usize = 0;
+pub(crate) const PUSH: usize = 1;
+/// Where those of a contact begin, by its place among the contacts in partial slip: ln α, ln λ and h₀.
+pub(crate) const EACH: usize = 3;
+const FIRST: usize = 2;
+
+/// How much more than c² an integral may be off whose last coefficients are c, in parts of the mean size of what is summed up.
+const CAUTION: f64 = 10.0;
+/// So near to a turning point, as a part of the arc, without being there, its speed has lost its digits.
+const LOST: f64 = 1e-9;
+
+/// By quantity: changes of the way (m) and of the speed (m/s) at the end, at the time at which it is reached. Scratch.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rates {
+    pub(crate) ends: Vec<[f64; 2]>,
+    /// Both turning points' changes, w at a place, and the sums of ∂T: its value, two coefficients, its size.
+    low: Vec<f64>,
+    high: Vec<f64>,
+    works: Vec<f64>,
+    sums: Vec<[f64; 4]>,
+}
+
+/// Where the quantity of a contact stands.
+pub(crate) fn place(slip: usize, quantity: usize) -> usize {
+    FIRST + EACH * slip + quantity
+}
+
+/// An arc as it is at the moment from which changes are counted.
+struct Origin<'s> {
+    swing: &'s Swing<'s>,
+    way: f64,
+    speed: f64,
+    push: f64,
+}
+
+impl Origin<'_> {
+    /// w of all quantities at a way q of the swing, m, and b there.
+    fn works(&self, q: f64, works: &mut Vec<f64>) -> f64 {
+        let way = q - self.way;
+        works.clear();
+        works.extend([self.speed, way]);
+        let mut push = self.push;
+        for slip in &self.swing.slips {
+            let first = slip.height - slip.lean * self.way;
+            let [[n0, p0, s0], [n, p, _]] = [first, first - slip.lean * way].map(|h| slip.sums(h));
+            let mean = (n0 - n) / slip.lean;
+            push -= p0 - p;
+            works.extend([mean - p0 * way, p * way - mean, (p0 - p) / slip.lean - s0 * way]);
+        }
+        push
+    }
+}
+
+impl Rates {
+    /// Those of an arc; false where the quadrature of no rule serves, or its end has no digits.
+    pub(crate) fn find(&mut self, arc: &Stretch<'_>, allowed: f64) -> bool {
+        let (swing, [from, to]) = (arc.swing, arc.clock);
+        let [begin, end] = [from, to].map(|at| swing.way(at));
+        let [first, last] = swing.speed_at([begin, end]);
+        let [_, [push], _] = swing.force([begin]);
+        let origin = Origin { swing, way: begin, speed: first, push };
+        let count = FIRST + EACH * swing.slips.len();
+        let Some(range) = self.turn(&origin, count) else { return false };
+        let turns = swing.clock == Clock::Angle && to == PI;
+        if !turns && swing.clock == Clock::Angle && swing.high - end < LOST * range {
+            return false;
+        }
+        if !self.times(arc, &origin, range, allowed) {
+            return false;
+        }
+        let start = self.share(swing, begin, range);
+        let bend = origin.works(end, &mut self.works);
+        let finish = self.share(swing, end, range);
+        self.ends.clear();
+        for k in 0..count {
+            let (low, high) = (self.low[k], self.high[k]);
+            let moved = |[a, b]: [f64; 2]| a * low + b * high;
+            // By how much the clock is late where it begins, s: from rest, where no turning point moves, by the speed alone.
+            let late = match swing.clock {
+                Clock::Way => 0.0,
+                Clock::Angle if first > 0.0 => -moved(start) / first,
+                Clock::Angle if k == SPEED => push.recip(),
+                Clock::Angle => 0.0,
+            };
+            let late = late - self.sums[k][0];
+            // Where it turns it is at rest to the last bit, and goes along its turning point.
+            let (way, speed) = if turns {
+                (high, 0.0)
+            } else {
+                (moved(finish) + last * late, (self.works[k] + bend * moved(finish)) / last)
+            };
+            self.ends.push([way, speed + bend * late]);
+        }
+        self.ends.iter().flatten().all(|rate| rate.is_finite())
+    }
+
+    /// How both turning points move; the way between them.
+    fn turn(&mut self, origin: &Origin<'_>, count: usize) -> Option<f64> {
+        let swing = origin.swing;
+        [&mut self.low, &mut self.high].into_iter().for_each(|moved| {
+            moved.clear();
+            moved.resize(count, 0.0);
+        });
+        if swing.clock == Clock::Way {
+            return Some(1.0);
+        }
+        for (at, moved) in [(swing.low, &mut self.low), (swing.high, &mut self.high)] {
+            let bend = origin.works(at, &mut self.works);
+            if bend == 0.0 {
+                return None;
+            }
+            moved.iter_mut().zip(&self.works).for_each(|(moved, work)| *moved = -work / bend);
+        }
+        Some(swing.high - swing.low)
+    }
+
+    /// Shares of both turning points in the way at an angle.
+    fn share(&self, swing: &Swing<'_>, q: f64, range: f64) -> [f64; 2] {
+        if swing.clock == Clock::Way {
+            return [0.0; 2];
+        }
+        [(swing.high - q) / range, (q - swing.low) / range]
+    }
+
+    /// ∂T by the coarsest rule that serves, s; false where none does.
+    fn times(&mut self, arc: &Stretch<'_>, origin: &Origin<'_>, range: f64, allowed: f64) -> bool {
+        let rules = if arc.is_whole() { &ARCS } else { &RULES };
+        quadrature::worth_trying(rules, allowed).any(|rule| {
+            self.sums.clear();
+            self.sums.resize(self.low.len(), [0.0; 4]);
+            rule.nodes().for_each(|nodes| self.add(arc, origin, range, nodes));
+            self.sums.iter().all(|[value, second, first, size]| {
+                let tail = (second.abs() + first.abs()) / size;
+                value.is_finite() && (*size == 0.0 || CAUTION * tail * tail <= allowed)
+            })
+        })
+    }
+
+    /// Adds what four nodes make of the sums.
+    fn add(&mut self, arc: &Stretch<'_>, origin: &Origin<'_>, range: f64, nodes: &Nodes) {
+        let (ways, paces, squares) = arc.nodes(nodes.at);
+        for i in 0..LANES {
+            let bend = origin.works(ways[i], &mut self.works);
+            let [a, b] = self.share(arc.swing, ways[i], range).map(|share| share * bend);
+            let (slower, wider) = (-paces[i] / squares[i], paces[i] / range);
+            let shares = nodes.shares.map(|shares| shares[i]);
+            let moved = self.low.iter().zip(&self.high).zip(&self.works);
+            for (sums, ((low, high), work)) in self.sums.iter_mut().zip(moved) {
+                let rate = wider * (high - low) + slower * (work + a * low + b * high);
+                (0..3).for_each(|n| sums[n] += shares[n] * rate);
+                sums[3] += shares[0] * rate.abs();
+            }
+        }
+    }
+}
+
+impl Stretch<'_> {
+    /// Whether it goes from turn to turn: then the places of nodes on the way are known.
+    fn is_whole(&self) -> bool {
+        self.swing.clock == Clock::Angle && !self.swing.nears && self.clock == [0.0, PI]
+    }
+
+    /// Ways at parts of the stretch, m, how fast time goes there per part, s, and ν².
+    fn nodes(&self, parts: Lanes) -> (Lanes, Lanes, Lanes) {
+        let (swing, [begin, end]) = (self.swing, self.clock);
+        let (ways, paces) = if self.is_whole() {
+            (parts.map(|part| swing.low + (swing.high - swing.low) * part), [PI; LANES])
+        } else if swing.nears {
+            let [first, last] = [begin, end].map(|at| (swing.to - at).max(0.0).sqrt());
+            let left = parts.map(|part| first + part * (last - first));
+            (left.map(|left| swing.way(swing.to - left * left)), left.map(|left| 2.0 * left * (first - last)))
+        } else {
+            (parts.map(|part| swing.way(begin + part * (end - begin))), [end - begin; LANES])
+        };
+        let speeds = swing.speed_at(ways);
+        let slow = |i: usize| match swing.clock {
+            Clock::Way => paces[i] / speeds[i],
+            // dq/dθ is the root of both distances.
+            Clock::Angle => {
+                paces[i] * ((ways[i] - swing.low) * (swing.high - ways[i])).max(0.0).sqrt() / speeds[i]
+            }
+        };
+        (ways, array::from_fn(slow), speeds.map(|speed| speed * speed))
+    }
+}
