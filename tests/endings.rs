@@ -65,7 +65,10 @@ fn an_interrupted_run_leaves_what_it_computed() {
         assert!(begun.elapsed() < Duration::from_secs(20), "the run does not start");
         std::thread::sleep(Duration::from_millis(5));
     }
-    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let told = |signal: &str| Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    let killed = told("-INT");
+    // As a timer that tells the process and its group: the same wish once more.
+    told("-TERM");
     assert!(killed.success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(code(&output), 130, "{}", stderr(&output));

@@ -38,7 +38,7 @@ Exit codes:
   2    bad input: a scenario, an override, an argument; nothing was written for it
   3    a run stopped itself (its results so far are written), or something could not be written; with
        --strict also a run whose results are warned of
-  130  interrupted; what was computed is written
+  130  interrupted; what was computed is written (another signal, a second later or more, ends at once)
 Of several files the largest counts.
 
 Start here:

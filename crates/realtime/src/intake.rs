@@ -166,6 +166,11 @@ impl Intake {
         *(if length { &mut self.received.wrong_length } else { &mut self.received.foreign }) += 1;
     }
 
+    /// Notes that so many came with values that are none of an input's.
+    pub(crate) fn note_out_of_range(&mut self, count: u64) {
+        self.received.out_of_range += count;
+    }
+
     /// Notes a frame in which somebody was always writing.
     pub(crate) fn note_torn(&mut self) {
         self.received.torn_frames += 1;

@@ -32,6 +32,7 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
     odd.strokes();
     odd.resonances();
     odd.tolerance();
+    odd.steps();
     odd.endless();
     let stepper = job.model.effective(job.scenario.plan.stepper);
     odd.frames(stepper);

@@ -18,7 +18,7 @@ const OF_A_RUN: [&str; 3] = ["output", "plots", "run"];
 pub struct Parameter {
     /// Its key path, such as `contacts.ball.friction`.
     pub path: String,
-    /// What it is, in `unit`; none where the scenario leaves it out and the key may still be given.
+    /// What it is, in `unit`, or by default; none where the scenario leaves it out, no default is known and the key may still be given.
     pub value: Option<f64>,
     /// Its SI unit; empty for a plain number.
     pub unit: &'static str,
@@ -50,7 +50,7 @@ impl Scenario {
             (Ok(found), _) => found,
         };
         let value = match found {
-            None => None,
+            None => schema.and_then(|schema| schema.get("default")).and_then(Value::as_f64),
             Some(Value::Number(number)) => number.as_f64(),
             Some(other) => {
                 return refused(&format!("expected a number, here stands {}", kind_of(other)), None);

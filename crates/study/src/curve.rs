@@ -163,7 +163,7 @@ impl Curve {
     /// Why there is no range by default.
     #[must_use]
     pub fn no_range(&self) -> CurveError {
-        CurveError::NoRange { file: self.job.name.clone(), varied: self.variation.name.clone() }
+        self.variation.no_range(&self.job)
     }
 
     /// The points at some values, on so many cores; the same for any number. The watcher is told how many are done; where it wants

@@ -26,7 +26,7 @@ the preload, or over what --vary says
 S₀ and stall are brackets: the drive steps at one end and not at the other. Best points are peaks between two points of the curve.
 
 --both traces the curve in both senses: forward, as the scenario is, and backward, its waveforms reversed in time. A load acts against the \
-steps of each. A waveform that jumps, or is a pattern already, cannot be reversed.
+steps of each. A waveform that jumps, is a table or is a pattern already cannot be reversed.
 
 --vary PATH=FROM..TO traces the step over any number of the scenario. Waveforms of the same period, and of the same stroke along \
 the same axis, go together. A driver keeps its limits at every point. How long the scenario itself runs, and what it writes, does not count.

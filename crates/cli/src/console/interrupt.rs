@@ -1,21 +1,29 @@
 //! Signals: Ctrl-C, and a limit on the size of files.
 
+use crate::console::answer::complain;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 use stickslip_results::Watcher;
+
+/// What comes so soon after a signal is the same wish: a shell, a terminal or a timer may send it to the process and to its group.
+const ONE_WISH: Duration = Duration::from_secs(1);
 
 /// Tells whether somebody asked the program to stop.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Listens from now on. The first signal asks for a tidy end with the results so far; the second ends at once.
+    /// Listens from now on. The first signal asks for a tidy end with the results so far; another one, a second later or more, ends at once.
     pub(crate) fn install() -> Self {
         let interrupt = Self::default();
         let flag = Arc::clone(&interrupt.0);
         // Without a handler a signal ends the program at once: worse, but no reason not to run.
+        let mut first: Option<Instant> = None;
         let _ = ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::Relaxed) {
+            flag.store(true, Ordering::Relaxed);
+            if first.get_or_insert_with(Instant::now).elapsed() > ONE_WISH {
+                complain(format_args!("ended at once, by a second signal: what was not written is lost"));
                 std::process::exit(i32::from(crate::console::verdict::Verdict::Interrupted.code()));
             }
         });

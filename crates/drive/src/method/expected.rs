@@ -110,8 +110,7 @@ impl Model {
             Accuracy::Step(_) | Accuracy::Frame { .. } => 0.0,
         };
         let (method, _) = stepping(&scene);
-        if let Some(brief) = method.brief()
-            && tolerance >= method.tightest_brief()
+        if let Some(brief) = method.brief(self, tolerance)
             && expected.takes(method)
         {
             expected.add((brief, Why::NearEvent));

@@ -22,6 +22,7 @@ mod endurance;
 mod energy_books;
 mod far_travel;
 mod fed;
+mod few_stages;
 mod generated;
 mod held;
 mod impact;

@@ -11,7 +11,7 @@ use stickslip_drive::{EventKind, Shape};
 fn thousands_of_loops_close_one_by_one() {
     let loops = 6000;
     let reach = |k: usize| 2e-7 * (1.0 - k as f64 / (loops + 1) as f64);
-    let turn = |k: usize| if k % 2 == 0 { reach(k) } else { -reach(k) };
+    let turn = |k: usize| if k.is_multiple_of(2) { reach(k) } else { -reach(k) };
     let dt = 1e-3;
     let mut ways: Vec<f64> = (0..2 * loops).map(turn).collect();
     ways.extend([2e-6, -2e-6, 2e-6]);

@@ -1,6 +1,7 @@
 //! Lines of text, one value for each input, read by a thread of their own.
 
 use crate::intake::{Client, Intake};
+use crate::plant::{Input, Takes};
 use crate::seqlock::{self, Found};
 use crate::wire::{self, Stamp};
 use std::io::{self, BufRead, Read};
@@ -17,20 +18,26 @@ pub struct Lines {
     seen: u64,
     record: Vec<u64>,
     odd: u64,
+    refused: u64,
 }
 
 struct Mailbox {
     words: Vec<AtomicU64>,
     /// Lines that are no values.
     odd: AtomicU64,
+    /// Lines with a value that its input does not take. They come into no mailbox: a good one may lie there that nobody has seen.
+    refused: AtomicU64,
 }
 
 impl Lines {
     /// Reads lines until there are no more. The thread is left alone at the end of the loop: it waits for a line.
-    pub fn read(mut from: impl BufRead + Send + 'static, scenario: u64, values: usize) -> Self {
+    pub fn read(mut from: impl BufRead + Send + 'static, scenario: u64, inputs: &[Input]) -> Self {
+        let (values, takes): (usize, Vec<Takes>) =
+            (inputs.len(), inputs.iter().map(|input| input.takes).collect());
         let length = wire::length(values) / size_of::<u64>();
         let words = (0..=length).map(|_| AtomicU64::new(0)).collect();
-        let mailbox = Arc::new(Mailbox { words, odd: AtomicU64::new(0) });
+        let [odd, refused] = [(); 2].map(|()| AtomicU64::new(0));
+        let mailbox = Arc::new(Mailbox { words, odd, refused });
         let filled = Arc::clone(&mailbox);
         thread::spawn(move || {
             let (mut line, mut sequence) = (Vec::new(), 0);
@@ -40,19 +47,26 @@ impl Lines {
                     filled.odd.fetch_add(1, Ordering::Relaxed);
                     continue;
                 };
+                if !found.iter().zip(&takes).all(|(value, takes)| takes.has(*value)) {
+                    filled.refused.fetch_add(1, Ordering::Relaxed);
+                    continue;
+                }
                 sequence += 1;
                 let stamp = Stamp { sequence, time: 0.0 };
                 // This thread alone writes.
                 let _ = seqlock::write(&filled.words, wire::words(scenario, stamp, &found));
             }
         });
-        Self { mailbox, seen: 0, record: vec![0; length], odd: 0 }
+        Self { mailbox, seen: 0, record: vec![0; length], odd: 0, refused: 0 }
     }
 
     pub(super) fn poll(&mut self, intake: &mut Intake) {
         let odd = self.mailbox.odd.load(Ordering::Relaxed);
         (self.odd..odd).for_each(|_| intake.note_foreign(true));
         self.odd = odd;
+        let refused = self.mailbox.refused.load(Ordering::Relaxed);
+        intake.note_out_of_range(refused - self.refused);
+        self.refused = refused;
         match seqlock::read(&self.mailbox.words, self.seen, &mut self.record) {
             Found::Same => {}
             Found::Torn(_) => intake.note_torn(),
@@ -86,13 +100,29 @@ fn numbers(line: &str, values: usize) -> Option<Vec<f64>> {
 mod tests {
     use super::*;
     use crate::intake::{Patience, Silence};
-    use crate::plant::Input;
+
+    /// Nobody looks before all lines have come.
+    #[test]
+    fn a_value_that_is_refused_takes_no_good_one_away() {
+        let input = Input { takes: Takes::Range(0.0, 0.1), ..Input::note("a") };
+        let mut lines = Lines::read(io::Cursor::new("0.01\n0.2\nnan\n"), 3, std::slice::from_ref(&input));
+        while lines.mailbox.refused.load(Ordering::Relaxed) < 2 {
+            thread::sleep(std::time::Duration::from_millis(1));
+        }
+        let patience = Patience { silence: Silence::Hold, silent_after: 10, owner: 10 };
+        let mut intake = Intake::new(3, &[input], patience);
+        lines.poll(&mut intake);
+        assert_eq!(
+            (intake.values(), intake.received().good, intake.received().out_of_range),
+            (&[0.01][..], 1, 2)
+        );
+    }
 
     #[test]
     fn a_line_that_is_no_text_or_too_long_is_one_odd_line_and_the_next_counts() {
         let long = [vec![b'x'; LONGEST as usize], b" 7".to_vec()].concat();
         let lines: [&[u8]; 5] = [b"1", b"\xff", &long, b"\xc3", b"2"];
-        let mut lines = Lines::read(io::Cursor::new(lines.join(&b'\n')), 3, 1);
+        let mut lines = Lines::read(io::Cursor::new(lines.join(&b'\n')), 3, &[Input::note("a")]);
         let patience = Patience { silence: Silence::Hold, silent_after: 10, owner: 10 };
         let mut intake = Intake::new(3, &[Input::note("a")], patience);
         // Until the thread has read them.

@@ -159,6 +159,28 @@ impl Implausible<'_> {
         }
     }
 
+    /// Fixed steps that go over whole pieces of a waveform: what happens on these is seen by no step, and books of energy may close all
+    /// the same.
+    pub(super) fn steps(&mut self) {
+        let job = self.job;
+        let stepper = job.model.effective(job.scenario.plan.stepper);
+        let Accuracy::Step(step) = stepper.accuracy() else { return };
+        for waveform in &job.scenario.scene.waveforms {
+            let quickest = waveform.part.quickest();
+            if step > quickest {
+                let path = format!("run.stepper.{}.step", stepper.name());
+                let [step, quickest] = [step, quickest].map(|time| told(time, "s"));
+                let message = format!(
+                    "{} turns within {quickest}: a step of {step} does not see what happens in between",
+                    waveform.name
+                );
+                let help =
+                    "take steps of a fifth of that at most, or run.stepper.event, whose steps end at corners";
+                return self.find("step", &path, message, help);
+            }
+        }
+    }
+
     /// Runs that nobody will see the end of.
     pub(super) fn endless(&mut self) {
         let (job, plan) = (self.job, &self.job.scenario.plan);

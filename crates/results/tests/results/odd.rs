@@ -50,6 +50,7 @@ fn odd_scenes_are_warned_of_word_for_word() {
         "modulus",
         "pressure",
         "resonance",
+        "step",
         "stiff_driver",
         "stroke",
         "tolerance",

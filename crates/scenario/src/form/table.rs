@@ -50,7 +50,7 @@ pub(crate) struct TableForm {
     pub(crate) interpolation: JoinForm,
     /// Factor of all values, any sign; 1 by default.
     #[serde(default = "one", skip_serializing_if = "is_one")]
-    #[schemars(example = 0.5, extend("not" = json!({ "const": 0 })))]
+    #[schemars(example = 0.5, extend("not" = json!({ "const": 0 }), "default" = 1.0))]
     pub(crate) gain: f64,
     /// Added to all values after the gain, in the unit of what follows; 0 by default.
     #[serde(default = "no_value")]

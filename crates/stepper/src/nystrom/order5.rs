@@ -10,7 +10,8 @@
 //!
 //! The last stage stands at c = 1, but not where the step ends. The acceleration at the end in its stead makes a velocity of
 //! order 3: the difference is the error told. For ẍ = -x it is at most 8e-4 h⁴, where the step itself misses by 5e-4 h⁶ and
-//! its dense output by 1e-3 h⁵.
+//! its dense output by 1e-3 h⁵. Both stand at one moment: what time alone makes of a rate, as a fast follower does, the difference
+//! does not see. That is told by the Legendre coefficients of the cubic through the stages: they go on to fall as they do.
 
 use super::tableau::END;
 use super::track::dot;
@@ -45,6 +46,16 @@ const INTEGRALS: [[f64; STAGES]; STAGES] = [
     [0.0, 1.0 / 4.0, -13.0 / 12.0, 15.0 / 16.0],
 ];
 
+/// The Legendre coefficients of degree 1, 2 and 3 of that cubic.
+const LEGENDRE: [[f64; STAGES]; 3] = [
+    [-1.0 / 8.0, -75.0 / 112.0, 27.0 / 56.0, 5.0 / 16.0],
+    [11.0 / 24.0, -125.0 / 336.0, -27.0 / 56.0, 19.0 / 48.0],
+    [-3.0 / 8.0, 75.0 / 112.0, -27.0 / 56.0, 3.0 / 16.0],
+];
+
+/// What the weights make of the Legendre polynomial of degree 5, the first that they miss.
+const MISSED: f64 = 0.28;
+
 impl<N: Storage> Nystrom<N> {
     /// Takes the stages up to a time, the step's end and what acts there.
     pub(super) fn step_by_fifth<S: Conservative + ?Sized>(&mut self, system: &S, end: f64) {
@@ -73,18 +84,21 @@ impl<N: Storage> Nystrom<N> {
     }
 
     /// The error of velocities and, where `scale` has values for them, quadratures in units of `scale`, as if it fell with h⁷ as
-    /// that of order 8 does: e^{7/4}. Positions miss less: by a part h of what velocities do.
+    /// that of order 8 does: e^{7/4} of the difference, and e^{7/6} of what falls with h⁶. Positions miss less: by a part h of what
+    /// velocities do.
     pub(super) fn error_of_fifth(&self, scale: &[f64]) -> f64 {
         let (h, n) = (self.step, self.positions());
-        let (mut largest, mut sum) = (0.0_f64, 0.0);
+        let (mut largest, mut missed, mut sum) = (0.0_f64, 0.0_f64, 0.0);
         for (track, scale) in self.tracks.as_ref().iter().zip(&scale[n..]) {
             let error = (h * VELOCITY[3] * (track.k[END] - track.k[3]) / scale).abs();
             largest = largest.max(error);
+            missed = missed.max((h * track.missed() / scale).abs());
             // A comparison drops NaN, a sum does not.
             sum += error;
         }
         sum += self.end.as_ref().iter().sum::<f64>();
-        if sum.is_finite() { largest * largest.sqrt() * largest.sqrt().sqrt() } else { f64::INFINITY }
+        let by_difference = largest * largest.sqrt() * largest.sqrt().sqrt();
+        if sum.is_finite() { by_difference.max(missed * missed.sqrt().cbrt()) } else { f64::INFINITY }
     }
 
     /// The dense output.
@@ -97,6 +111,14 @@ impl<N: Storage> Nystrom<N> {
 }
 
 impl Track {
+    /// What the weights miss of the mean of a rate: its coefficient of degree 5, where the two degrees from 3 on take as much off as
+    /// the third has less than those before.
+    fn missed(&self) -> f64 {
+        let [first, second, third] = LEGENDRE.each_ref().map(|weights| dot(weights, &self.k, STAGES).abs());
+        let before = first.max(second);
+        if third < before { MISSED * third * (third / before) } else { MISSED * third }
+    }
+
     /// The polynomial of degree 5 with place, velocity and acceleration of both ends, and its derivative. By accelerations
     /// alone: differences of places would be rounding in a short step.
     fn join_ends(&mut self) {
@@ -143,6 +165,18 @@ mod tests {
         NODES.map(|c| c.powi(exponent))
     }
 
+    /// Legendre's polynomial of a degree over [0, 1] at the nodes.
+    fn shifted(degree: u32) -> [f64; STAGES] {
+        NODES.map(|c| {
+            let (x, mut p) = (2.0 * c - 1.0, [1.0, 2.0 * c - 1.0]);
+            for n in 1..degree {
+                let n = f64::from(n);
+                p = [p[1], ((2.0 * n + 1.0) * x * p[1] - n * p[0]) / (n + 1.0)];
+            }
+            p[1]
+        })
+    }
+
     fn product(a: [f64; STAGES], b: [f64; STAGES]) -> [f64; STAGES] {
         std::array::from_fn(|i| a[i] * b[i])
     }
@@ -170,6 +204,15 @@ mod tests {
             assert!((weigh(&POSITION, tree) * order - 1.0).abs() < 1e-14, "{k}");
         }
         assert!((weigh(&POSITION, power(4)) * 30.0 - 1.0).abs() > 1e-3);
+        // Legendre's polynomials have themselves as coefficients.
+        for (degree, weights) in LEGENDRE.iter().enumerate() {
+            for (k, polynomial) in [shifted(1), shifted(2), shifted(3)].into_iter().enumerate() {
+                let exact = f64::from(u8::from(k == degree));
+                assert!((weigh(weights, polynomial) - exact).abs() < 1e-14, "{degree} {k}");
+            }
+            assert!(weigh(weights, power(0)).abs() < 1e-14);
+        }
+        assert!((weigh(&VELOCITY, shifted(5)) - MISSED).abs() < 1e-14);
         // Half squares of the nodes, and the weights at the end of the dense output.
         for (row, node) in POSITIONS.into_iter().zip(NODES) {
             assert!((row.iter().sum::<f64>() - 0.5 * node * node).abs() < 1e-15);

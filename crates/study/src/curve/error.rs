@@ -47,13 +47,15 @@ pub enum CurveError {
     },
     /// Nobody knows in which range to vary something.
     #[error(
-        "{file}: in which range the {varied} is to be varied is not known: nothing holds the body\n   help: give one, --range FROM..TO"
+        "{file}: in which range the {varied} is to be varied is not known: {why}\n   help: give one, --range FROM..TO"
     )]
     NoRange {
         /// The scenario.
         file: String,
         /// What is varied.
         varied: String,
+        /// What keeps it from being known.
+        why: &'static str,
     },
     /// A range that holds nothing.
     #[error("expected a range that rises from one finite value to another, got {from} to {to}")]

@@ -82,9 +82,7 @@ impl Holding {
     /// # Errors
     /// Where nobody knows: of a number by its path.
     pub fn range(&self) -> Result<[f64; 2], CurveError> {
-        let unknown =
-            || CurveError::NoRange { file: self.job.name.clone(), varied: self.variation.name.clone() };
-        self.variation.range.ok_or_else(unknown)
+        self.variation.range.ok_or_else(|| self.variation.no_range(&self.job))
     }
 
     /// The holding forces at some values, to a share of their size, on so many cores; the same for any number. The watcher is told

@@ -79,6 +79,12 @@ impl Variation {
         super::head(&self.name, self.unit)
     }
 
+    /// Why there is no range by default.
+    pub(super) fn no_range(&self, job: &Job) -> CurveError {
+        let why = if self.present == Some(0.0) { "it is 0" } else { "nothing holds the body" };
+        CurveError::NoRange { file: job.name.clone(), varied: self.name.clone(), why }
+    }
+
     /// What reverses all waveforms of the steps' period in time together, so that the drive steps the other way.
     pub(super) fn reversal(job: &Job, kind: &Kind) -> Result<Overrides, CurveError> {
         let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
@@ -95,6 +101,12 @@ impl Variation {
                     "ask for one sense, without --both, and reverse the runs of its pattern for the other";
                 return Err(not_here(job, kind.name(), why, help));
             };
+            if place.word == "table" {
+                let why = format!("\"{name}\" is a table, which cannot be reversed");
+                let help =
+                    "ask for one sense, without --both, and give its points in the other order for the other";
+                return Err(not_here(job, kind.name(), why, help));
+            }
             let back = r#"[{"cycles": 1, "reversed": true}]"#;
             let pattern = (format!("{}.sequence", place.path), back.to_owned());
             let number = |key: &str| place.form.get(key).and_then(Value::as_f64).unwrap_or(0.0);
@@ -145,7 +157,7 @@ impl Variation {
         let others = companions(scene, waveform).into_iter().filter(|w| *w != waveform).filter_map(alike);
         let unit = job.scenario.parameter(&path)?.unit;
         let paths = [(path, 1.0)].into_iter().chain(others.map(|(path, ..)| (path, 1.0))).collect();
-        let range = Some([value / 20.0, 2.0 * value]);
+        let range = (value != 0.0).then_some([value / 20.0, 2.0 * value]);
         Ok(Self { name: key.to_owned(), unit, present: Some(value), range, setting: Setting::Paths(paths) })
     }
 

@@ -268,6 +268,11 @@ fn scenes_without_such_a_curve_are_refused() {
     let table = [("waveforms.drive.table", table)];
     let found = refused("ruby_drive.json", &table, Kind::StepAmplitude);
     says(found, "no one stroke or amplitude");
+    says(both(&table), "is a table, which cannot be reversed");
+    let still = [("waveforms.drive.sawtooth.stroke", "0")];
+    let still =
+        curve("ruby_drive.json", &still, Kind::StepAmplitude).map(|curve| curve.no_range().to_string());
+    says(still.ok(), "is not known: it is 0");
 }
 
 /// Rise, hold and fall of 1.2 ms leave room up to 833 Hz.

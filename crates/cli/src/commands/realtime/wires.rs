@@ -48,7 +48,7 @@ pub(super) fn open(stage: &Stage<'_>, drafts: &mut Drafts) -> Result<Wires, Fail
             None => Source::None,
         },
         Some(Inputs::Stdin) => {
-            Source::Lines(Lines::read(BufReader::new(stdin()), stage.number, stage.inputs.len()))
+            Source::Lines(Lines::read(BufReader::new(stdin()), stage.number, &stage.inputs))
         }
         Some(Inputs::Replay(path)) => {
             let recording = Recording::read(path, stage.number, stage.arguments.period, &stage.inputs)?;

@@ -325,8 +325,10 @@ struct Estimate {
 
 /// Longest step of few stages, s: there it meets the tolerance for the fastest swing; none where nothing swings.
 fn short(method: Method, model: &Model, tolerance: f64) -> f64 {
-    let Some(Estimate { error, power, stable }) = method.brief().and_then(estimate) else { return 0.0 };
-    if tolerance < method.tightest_brief() || model.fastest == 0.0 {
+    let Some(Estimate { error, power, stable }) = method.brief(model, tolerance).and_then(estimate) else {
+        return 0.0;
+    };
+    if model.fastest == 0.0 {
         return 0.0;
     }
     (tolerance / error).powf(power.recip()).min(1.0) * stable / model.fastest

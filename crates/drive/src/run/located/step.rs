@@ -142,7 +142,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         match aim.grade {
             _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
             Grade::Even => self.setting.method,
-            Grade::Few => self.setting.method.brief().unwrap_or(self.setting.method),
+            Grade::Few => self.setting.method.in_few_stages().unwrap_or(self.setting.method),
             Grade::Start | Grade::End => Method::Graded,
         }
     }
