@@ -134,7 +134,7 @@ fn shade<'a>(name: &str, spans: &[(f64, f64)], values: &[f64]) -> Option<Band<'a
         xs: spans.iter().flat_map(|(from, to)| [*from, *to, *to]).collect::<Vec<f64>>().into(),
         low: edge(low).into(),
         high: edge(high).into(),
-        ink: Ink::Shade(0),
+        ink: Ink::Shade(1),
     })
 }
 

@@ -197,10 +197,11 @@ impl Sensitivity {
 
     /// Noise of a figure near a quantity: of runs in which the same happens, or in which that is never the same.
     fn own_noise(&self, f: usize, tried: &[Tried]) -> Option<f64> {
+        let is_of_run = self.figures[f].reading.is_of_run();
         let flickers = [-1.0, 1.0].into_iter().any(|sense| ladder::settled(tried, sense).is_none());
         let value = |tried: &Tried| {
             let sample = tried.sample.as_ref().ok()?;
-            let belongs = flickers || sample.happened == self.happened;
+            let belongs = flickers || !is_of_run || sample.happened == self.happened;
             sample.figures.get(f).copied().flatten().filter(|_| belongs)
         };
         ladder::neighbours(tried, self.figures[f].value, value).and_then(|values| stencil::noise(&values))
@@ -212,7 +213,9 @@ impl Sensitivity {
         let common = noise.unwrap_or(UNMEASURED * self.tolerance * figure.value.abs());
         let own = self.own_noise(f, tried).unwrap_or(common);
         let noise = own.max(common).max(f64::EPSILON * figure.value.abs());
-        Near { tried, figure: f, own: (figure.value, &self.happened), noise }
+        // Events beside a steady motion are those of the run that stands beside it, and end where that does.
+        let happened = figure.reading.is_of_run().then_some(&self.happened);
+        Near { tried, figure: f, own: (figure.value, happened), noise }
     }
 
     /// Noise of all figures.

@@ -79,8 +79,8 @@ pub(super) struct Near<'a> {
     pub(super) tried: &'a [Tried],
     /// Place of the figure.
     pub(super) figure: usize,
-    /// The figure in the scenario itself, and what happens there.
-    pub(super) own: (f64, &'a Happened),
+    /// The figure in the scenario itself, and what happens there; none where it is of no run.
+    pub(super) own: (f64, Option<&'a Happened>),
     /// Standard deviation of the figure's noise.
     pub(super) noise: f64,
 }
@@ -93,8 +93,8 @@ impl Near<'_> {
         let jumps = levels.each_ref().map(|levels| self.jump(levels));
         let place = [0, 1];
         let slopes = place.map(|side| {
-            let is_whole =
-                jumps[side].is_none() && halves[side].settled.is_none_or(|settled| settled == self.own.1);
+            let is_whole = jumps[side].is_none()
+                && halves[side].settled.is_none_or(|settled| Some(settled) == self.own.1);
             let own = is_whole.then_some(self.own.0);
             let found = estimate(&levels[side], own, Wanted::Slope, self.noise).map(Slope::from);
             found.ok_or_else(|| halves[side].missing.clone().unwrap_or(Missing::Rough))
@@ -127,7 +127,7 @@ impl Near<'_> {
     pub(super) fn bends_near_by(&self) -> bool {
         let halves = [-1.0, 1.0].map(|sense| self.half(sense));
         halves.iter().any(|half| {
-            let is_whole = half.settled.is_none_or(|settled| settled == self.own.1);
+            let is_whole = half.settled.is_none_or(|settled| Some(settled) == self.own.1);
             bends_near_by(&self.levels(half, &halves), is_whole.then_some(self.own.0), self.noise)
         })
     }
@@ -136,7 +136,7 @@ impl Near<'_> {
         let levels = ladder::levels(self.tried, sense);
         Half {
             runs: levels.iter().filter_map(|tried| tried.figure(self.figure).ok()).collect(),
-            settled: ladder::settled(self.tried, sense),
+            settled: self.own.1.and(ladder::settled(self.tried, sense)),
             missing: levels.iter().rev().find_map(|tried| tried.figure(self.figure).err()),
         }
     }
@@ -161,10 +161,10 @@ impl Near<'_> {
 
     /// What happens more or less often close below than close above.
     fn changes(&self, halves: &[Half<'_>; 2]) -> Vec<String> {
-        match [halves[0].settled, halves[1].settled] {
-            [Some(below), Some(above)] if below != above => {
+        match (self.own.1, [halves[0].settled, halves[1].settled]) {
+            (Some(own), [Some(below), Some(above)]) if below != above => {
                 let told = [("below", below), ("above", above)].into_iter();
-                told.flat_map(|(side, happened)| differences(side, self.own.1, happened)).collect()
+                told.flat_map(|(side, happened)| differences(side, own, happened)).collect()
             }
             _ => Vec::new(),
         }
@@ -306,7 +306,7 @@ mod tests {
         let tried: Vec<Tried> =
             ladder::first().chain(ladder::finer()).map(|(share, is_level)| try_at(share, is_level)).collect();
         let (own, count) = f(0.0).unwrap();
-        Near { tried: &tried, figure: 0, own: (own, &happened(count)), noise: 1e-16 }.derivative()
+        Near { tried: &tried, figure: 0, own: (own, Some(&happened(count))), noise: 1e-16 }.derivative()
     }
 
     #[test]

@@ -188,6 +188,24 @@ fn the_step_of_the_ideal_drive_and_its_zero_step_have_the_derivatives_of_their_c
     Ok(())
 }
 
+/// A longer period takes the end of a run to before an event of its last period. That is none of the steady motion beside it, whose step
+/// has one slope, the same as on either side of the run's last step, which is as good as settled.
+#[test]
+fn events_at_the_end_of_a_run_are_none_of_its_steady_motion() -> Checked {
+    let asked = of(&["steady.step_m", "steps.last_m"], &["waveforms.drive.sawtooth.period"]);
+    let (_, taken) = taken(&example("quickstart.json"), &[], &asked)?;
+    let slope = known(&taken.derivatives[0][0])?;
+    let Derivative::Split { below: Ok(below), above: Ok(above), why: Split::Events(_) } =
+        &taken.derivatives[1][0]
+    else {
+        return Err(format!("{:?}", taken.derivatives[1][0]).into());
+    };
+    for side in [below, above] {
+        assert!((side.value - slope.value).abs() < side.error + slope.error, "{side:?}, {slope:?}");
+    }
+    Ok(())
+}
+
 /// Units are nobody's choice: in others of mass, length and time the same drive makes the same step. So elasticities of a length, each
 /// times the power in which its quantity has the unit, sum up to 0 of masses, 1 of lengths, 0 of times.
 #[test]
