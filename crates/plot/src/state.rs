@@ -31,18 +31,33 @@ pub struct SpringMap<'a> {
 }
 
 const NOTHING: &str = "no springs recorded";
+/// Contacts that have room one below the other, and how many columns there are where more are shown.
+const ROWS: usize = 17;
+const COLUMNS: usize = 3;
 
 /// One panel per contact: time to the right, the row of springs upwards, states in colours of their own. A state is
-/// shown from half way since the moment before to half way to the moment after.
+/// shown from half way since the moment before to half way to the moment after. Of more contacts than there is room for, the first
+/// are shown, and the title says of how many.
 pub fn state_figure<'a>(title: &str, maps: &[SpringMap<'a>]) -> Figure<'a> {
     if maps.is_empty() {
         return Figure::without_data(title, NOTHING);
     }
+    let shown = maps.len().min(ROWS * COLUMNS);
+    let title = if shown < maps.len() {
+        format!("{title}: {shown} of {} contacts", maps.len())
+    } else {
+        title.to_owned()
+    };
+    let (rows, arrangement) = if shown <= ROWS {
+        (shown, Arrangement::Column { share_x: true })
+    } else {
+        (shown.div_ceil(COLUMNS), Arrangement::Columns { columns: COLUMNS })
+    };
     Figure {
-        title: Label::plain(title),
-        size: Figure::size_for(340, if maps.len() < 3 { 560 } else { 420 }, maps.len()),
-        panels: maps.iter().map(panel).collect(),
-        arrangement: Arrangement::Column { share_x: true },
+        title: Label::plain(&title),
+        size: Figure::size_for(340, if shown < 3 { 560 } else { 420 }, rows),
+        panels: maps[..shown].iter().map(panel).collect(),
+        arrangement,
         ..Figure::default()
     }
 }

@@ -59,6 +59,27 @@ fn states_of_springs() {
     draw_everywhere("state-two", &state_figure("Two contacts", &two));
 }
 
+/// A hundred contacts have no room below each other: columns of as many as have, and the title says so.
+#[test]
+fn states_of_a_hundred_contacts_are_those_that_have_room() {
+    let few = row(48, 400, 2.0, 0.3);
+    let named: Vec<String> = (1..=100).map(|k| format!("ball {k}")).collect();
+    let maps: Vec<_> = named.iter().map(|name| few.map(name)).collect();
+    for (count, last, title) in
+        [(17, "ball 17", "Many"), (51, "ball 51", "Many"), (100, "ball 51", "Many: 51 of 100 contacts")]
+    {
+        let figure = state_figure("Many", &maps[..count]);
+        let drawing = draw_svg(&figure).unwrap();
+        let all = texts(&drawing);
+        assert!(
+            all.iter().any(|text| text.text.contains(title))
+                && all.iter().any(|text| text.text.contains(last)),
+            "{count}"
+        );
+        assert!(!all.iter().any(|text| text.text.contains("ball 52")), "{count}");
+    }
+}
+
 /// Pixels of the shades of the light theme: open, stick, slip +, slip -.
 fn shaded(picture: &Picture) -> [f64; 4] {
     Theme::light().shades.map(|Colour(r, g, b)| picture.count([r, g, b]) as f64)
