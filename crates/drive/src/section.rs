@@ -258,10 +258,28 @@ impl<'m> Section<'m> {
         begun
     }
 
+    /// Whether a memory that had given way where the section was made holds something in a state: then that has numbers of which the
+    /// section knows nothing.
+    fn holds_more(&self, state: &State) -> bool {
+        let is_of = |c: usize, unknown: &Unknown| matches!(unknown, Unknown::Height(own, _) | Unknown::Slope(own, _) if *own == c);
+        let has_none =
+            |c: usize| !self.carried.contains(&c) && !self.unknowns.iter().any(|unknown| is_of(c, unknown));
+        self.model.contacts.iter().filter(|contact| !contact.inert && !contact.balanced).any(|contact| {
+            let c = contact.place;
+            match &state.memories[c] {
+                Memory::Curve(curve) if has_none(c) => legs::holds(&curve.legs(), state.memories[c].apex().d),
+                _ => false,
+            }
+        })
+    }
+
     /// The numbers of a state less those of another one, each in its own unit; none where their memories have other
     /// knots.
     #[must_use]
     pub fn difference(&self, of: &State, less: &State) -> Option<Vec<f64>> {
+        if self.holds_more(of) || self.holds_more(less) {
+            return None;
+        }
         let layout = self.model.layout();
         let at = |place: usize| of.y[place] - less.y[place];
         let number = |unknown: &Unknown| match *unknown {

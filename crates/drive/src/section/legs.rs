@@ -11,6 +11,14 @@ pub(super) fn unknowns(contact: &Contact, c: usize, legs: &Legs) -> Vec<Unknown>
     heights.chain(grown.map(|k| Unknown::Slope(c, k))).collect()
 }
 
+/// A knot nearer than this to the centre or the apex, as a part of the depth, may be one of rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// Whether a memory has a knot that is none of rounding.
+pub(super) fn holds(legs: &Legs, d: f64) -> bool {
+    legs.heights.iter().any(|height| height.min(d - height) > ROUNDING * d)
+}
+
 /// A number of one memory less that of another; none where they have other knots.
 pub(super) fn difference(unknown: Unknown, of: [&Memory; 2], contact: &Contact) -> Option<f64> {
     let [Memory::Curve(one), Memory::Curve(other)] = of else { return None };

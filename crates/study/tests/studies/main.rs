@@ -17,6 +17,7 @@ mod landmarks;
 mod noisy_table;
 mod outlook;
 mod page;
+mod passing_grip;
 mod sensitivity;
 mod steady;
 mod variations;
