@@ -22,6 +22,8 @@ const COORDINATES: usize = 8;
 /// Displacement of a contact, as a share of the largest in its mode, from which on the mode is the contact's.
 const MOVED: f64 = 0.05;
 
+/// Times that differ by less than this, as a part of them, are the same.
+const ROUNDED: f64 = 1e-9;
 /// Events, or steps, of a run of some days.
 const MANY: f64 = 1e12;
 /// Bodies up to which they are estimated, which takes all modes.
@@ -166,8 +168,9 @@ impl Implausible<'_> {
         let stepper = job.model.effective(job.scenario.plan.stepper);
         let Accuracy::Step(step) = stepper.accuracy() else { return };
         for waveform in &job.scenario.scene.waveforms {
-            let quickest = waveform.part.quickest();
-            if step > quickest {
+            let ((low, high), quickest) = (waveform.part.range(), waveform.part.quickest());
+            // As long as a piece is no longer than it, but for rounding.
+            if high > low && step > quickest * (1.0 + ROUNDED) {
                 let path = format!("run.stepper.{}.step", stepper.name());
                 let [step, quickest] = [step, quickest].map(|time| told(time, "s"));
                 let message = format!(

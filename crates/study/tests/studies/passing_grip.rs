@@ -37,7 +37,6 @@ fn what_a_contact_comes_to_hold_is_a_number_of_the_motion() -> Result<(), Box<dy
     let fades = changes[14] / changes[13];
     let found = steady::find(&job, &Options::default())?;
     let largest = found.multipliers.first().ok_or("no multiplier")?;
-    println!("{largest:?}, steps by {fades}, {} unknowns", found.unknowns.len());
     assert!((largest.re - fades).abs() < 1e-3 && largest.im == 0.0, "{largest:?} {fades}");
     assert!((found.step.ok_or("no step")? - steps[22]).abs() < 1e-16);
     Ok(())
