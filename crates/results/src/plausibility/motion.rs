@@ -24,6 +24,8 @@ const MOVED: f64 = 0.05;
 
 /// Times that differ by less than this, as a part of them, are the same.
 const ROUNDED: f64 = 1e-9;
+/// Pieces of a waveform that are looked at.
+const PIECES: usize = 100_000;
 /// Events, or steps, of a run of some days.
 const MANY: f64 = 1e12;
 /// Bodies up to which they are estimated, which takes all modes.
@@ -167,8 +169,9 @@ impl Implausible<'_> {
         let job = self.job;
         let stepper = job.model.effective(job.scenario.plan.stepper);
         let Accuracy::Step(step) = stepper.accuracy() else { return };
+        let plan = &job.scenario.plan;
         for waveform in &job.scenario.scene.waveforms {
-            let ((low, high), quickest) = (waveform.part.range(), waveform.part.quickest());
+            let ((low, high), quickest) = (waveform.part.range(), quickest(&waveform.part, plan.duration));
             // As long as a piece is no longer than it, but for rounding.
             if high > low && step > quickest * (1.0 + ROUNDED) {
                 let path = format!("run.stepper.{}.step", stepper.name());
@@ -251,4 +254,11 @@ fn share(waveform: &Waveform, period: f64, order: u32) -> f64 {
     };
     let largest = (1..=HARMONICS).map(amplitude).fold(0.0, f64::max);
     if largest > 0.0 { amplitude(order) / largest } else { 0.0 }
+}
+
+/// Shortest time between two turns of a waveform within a run of so long, s: its shortest piece there, or half of its shortest wave.
+fn quickest(waveform: &Waveform, until: f64) -> f64 {
+    let pieces = std::iter::successors(Some(waveform.piece_at(0.0)), |piece| Some(waveform.after(piece)));
+    let inside = pieces.take(PIECES).take_while(|piece| piece.end <= until);
+    inside.map(|piece| piece.end - piece.start).fold(2.0 * waveform.resolution(), f64::min)
 }

@@ -35,6 +35,14 @@ pub(crate) struct Rates {
     high: Vec<f64>,
     works: Vec<f64>,
     sums: Vec<[f64; 4]>,
+    firsts: Vec<First>,
+}
+
+/// A contact where the arc begins: the height of its front, m, and αN there with its first two derivatives.
+#[derive(Debug, Clone, Copy)]
+struct First {
+    height: f64,
+    sums: [f64; 3],
 }
 
 /// Where the quantity of a contact stands.
@@ -45,9 +53,12 @@ pub(crate) fn place(slip: usize, quantity: usize) -> usize {
 /// An arc as it is at the moment from which changes are counted.
 struct Origin<'s> {
     swing: &'s Swing<'s>,
+    firsts: &'s [First],
     way: f64,
     speed: f64,
     push: f64,
+    /// The way between both turning points, m; 1 where none is sought.
+    range: f64,
 }
 
 impl Origin<'_> {
@@ -57,37 +68,54 @@ impl Origin<'_> {
         works.clear();
         works.extend([self.speed, way]);
         let mut push = self.push;
-        for slip in &self.swing.slips {
-            let first = slip.height - slip.lean * self.way;
-            let [[n0, p0, s0], [n, p, _]] = [first, first - slip.lean * way].map(|h| slip.sums(h));
+        for (slip, First { height, sums: [n0, p0, s0] }) in self.swing.slips.iter().zip(self.firsts) {
+            let [n, p, _] = slip.sums(height - slip.lean * way);
             let mean = (n0 - n) / slip.lean;
             push -= p0 - p;
             works.extend([mean - p0 * way, p * way - mean, (p0 - p) / slip.lean - s0 * way]);
         }
         push
     }
+
+    /// Shares of both turning points in the way at an angle.
+    fn share(&self, q: f64) -> [f64; 2] {
+        match self.swing.clock {
+            Clock::Way => [0.0; 2],
+            Clock::Angle => [(self.swing.high - q) / self.range, (q - self.swing.low) / self.range],
+        }
+    }
 }
 
 impl Rates {
     /// Those of an arc; false where the quadrature of no rule serves, or its end has no digits.
     pub(crate) fn find(&mut self, arc: &Stretch<'_>, allowed: f64) -> bool {
-        let (swing, [from, to]) = (arc.swing, arc.clock);
-        let [begin, end] = [from, to].map(|at| swing.way(at));
+        let mut firsts = std::mem::take(&mut self.firsts);
+        firsts.clear();
+        let begin = arc.swing.way(arc.clock[0]);
+        firsts.extend(arc.swing.slips.iter().map(|slip| {
+            let height = slip.height - slip.lean * begin;
+            First { height, sums: slip.sums(height) }
+        }));
+        let is_found = self.find_from(arc, (begin, &firsts), allowed);
+        self.firsts = firsts;
+        is_found
+    }
+
+    fn find_from(&mut self, arc: &Stretch<'_>, (begin, firsts): (f64, &[First]), allowed: f64) -> bool {
+        let (swing, to) = (arc.swing, arc.clock[1]);
+        let end = swing.way(to);
         let [first, last] = swing.speed_at([begin, end]);
         let [_, [push], _] = swing.force([begin]);
-        let origin = Origin { swing, way: begin, speed: first, push };
+        let range = if swing.clock == Clock::Way { 1.0 } else { swing.high - swing.low };
+        let origin = Origin { swing, firsts, way: begin, speed: first, push, range };
         let count = FIRST + EACH * swing.slips.len();
-        let Some(range) = self.turn(&origin, count) else { return false };
         let turns = swing.clock == Clock::Angle && to == PI;
-        if !turns && swing.clock == Clock::Angle && swing.high - end < LOST * range {
+        let is_lost = !turns && swing.clock == Clock::Angle && swing.high - end < LOST * range;
+        if is_lost || !self.turn(&origin, count) || !self.times(arc, &origin, allowed) {
             return false;
         }
-        if !self.times(arc, &origin, range, allowed) {
-            return false;
-        }
-        let start = self.share(swing, begin, range);
+        let (start, finish) = (origin.share(begin), origin.share(end));
         let bend = origin.works(end, &mut self.works);
-        let finish = self.share(swing, end, range);
         self.ends.clear();
         for k in 0..count {
             let (low, high) = (self.low[k], self.high[k]);
@@ -111,41 +139,31 @@ impl Rates {
         self.ends.iter().flatten().all(|rate| rate.is_finite())
     }
 
-    /// How both turning points move; the way between them.
-    fn turn(&mut self, origin: &Origin<'_>, count: usize) -> Option<f64> {
+    /// How both turning points move; false where one of them has no force.
+    fn turn(&mut self, origin: &Origin<'_>, count: usize) -> bool {
         let swing = origin.swing;
-        [&mut self.low, &mut self.high].into_iter().for_each(|moved| {
+        for (at, moved) in [(swing.low, &mut self.low), (swing.high, &mut self.high)] {
             moved.clear();
             moved.resize(count, 0.0);
-        });
-        if swing.clock == Clock::Way {
-            return Some(1.0);
-        }
-        for (at, moved) in [(swing.low, &mut self.low), (swing.high, &mut self.high)] {
+            if swing.clock == Clock::Way {
+                continue;
+            }
             let bend = origin.works(at, &mut self.works);
             if bend == 0.0 {
-                return None;
+                return false;
             }
             moved.iter_mut().zip(&self.works).for_each(|(moved, work)| *moved = -work / bend);
         }
-        Some(swing.high - swing.low)
-    }
-
-    /// Shares of both turning points in the way at an angle.
-    fn share(&self, swing: &Swing<'_>, q: f64, range: f64) -> [f64; 2] {
-        if swing.clock == Clock::Way {
-            return [0.0; 2];
-        }
-        [(swing.high - q) / range, (q - swing.low) / range]
+        true
     }
 
     /// ∂T by the coarsest rule that serves, s; false where none does.
-    fn times(&mut self, arc: &Stretch<'_>, origin: &Origin<'_>, range: f64, allowed: f64) -> bool {
+    fn times(&mut self, arc: &Stretch<'_>, origin: &Origin<'_>, allowed: f64) -> bool {
         let rules = if arc.is_whole() { &ARCS } else { &RULES };
         quadrature::worth_trying(rules, allowed).any(|rule| {
             self.sums.clear();
             self.sums.resize(self.low.len(), [0.0; 4]);
-            rule.nodes().for_each(|nodes| self.add(arc, origin, range, nodes));
+            rule.nodes().for_each(|nodes| self.add(arc, origin, nodes));
             self.sums.iter().all(|[value, second, first, size]| {
                 let tail = (second.abs() + first.abs()) / size;
                 value.is_finite() && (*size == 0.0 || CAUTION * tail * tail <= allowed)
@@ -154,12 +172,12 @@ impl Rates {
     }
 
     /// Adds what four nodes make of the sums.
-    fn add(&mut self, arc: &Stretch<'_>, origin: &Origin<'_>, range: f64, nodes: &Nodes) {
+    fn add(&mut self, arc: &Stretch<'_>, origin: &Origin<'_>, nodes: &Nodes) {
         let (ways, paces, squares) = arc.nodes(nodes.at);
         for i in 0..LANES {
             let bend = origin.works(ways[i], &mut self.works);
-            let [a, b] = self.share(arc.swing, ways[i], range).map(|share| share * bend);
-            let (slower, wider) = (-paces[i] / squares[i], paces[i] / range);
+            let [a, b] = origin.share(ways[i]).map(|share| share * bend);
+            let (slower, wider) = (-paces[i] / squares[i], paces[i] / origin.range);
             let shares = nodes.shares.map(|shares| shares[i]);
             let moved = self.low.iter().zip(&self.high).zip(&self.works);
             for (sums, ((low, high), work)) in self.sums.iter_mut().zip(moved) {

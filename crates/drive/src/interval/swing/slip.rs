@@ -83,7 +83,7 @@ impl PartialSlip {
         self.law.root == 1
     }
 
-    /// αN and its first two derivatives at a height, by what b falls as it does: m³/s², m²/s² and m/s² over m, m², m³ of the height.
+    /// αN and its first two derivatives by the height, at a height: its parts of ∫b dh, of b and of db/dh but for their signs; m²/s², m/s², 1/s².
     pub(super) fn sums(&self, height: f64) -> [f64; 3] {
         let height = above(height);
         let ([force, stiffness, _], root) =
