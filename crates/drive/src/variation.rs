@@ -67,6 +67,8 @@ pub struct Variation<'m> {
     left: Option<State>,
     outcome: Result<(), VariationError>,
     tolerance: f64,
+    /// Longest step of the equations, as a part of the run's.
+    longest: f64,
     /// What is put in and lost on the way.
     works: Works,
     /// What the contacts hold in the interval, and which of them act on the derivatives; what links make of these.
@@ -135,6 +137,7 @@ impl<'m> Variation<'m> {
             left: None,
             outcome: Ok(()),
             tolerance,
+            longest: 1.0,
             works: Works::default(),
         })
     }
@@ -148,6 +151,12 @@ impl<'m> Variation<'m> {
     #[must_use]
     pub fn with_energies(self) -> Self {
         Self { works: self.works.led(self.layout), ..self }
+    }
+
+    /// In steps of half the length at most: what differs from a variation in whole ones is what those miss, whatever they tell.
+    #[must_use]
+    pub fn in_halves(self) -> Self {
+        Self { longest: 0.5, ..self }
     }
 
     /// Ends the variation where the run stands, its memories come along ([`Run::stop`](crate::Run::stop)).

@@ -2,6 +2,7 @@
 
 use super::statics::Statics;
 use super::{Settling, elimination};
+use crate::scene::Axis;
 use crate::state::State;
 use nalgebra::DVector;
 use std::collections::VecDeque;
@@ -184,24 +185,58 @@ impl<'a> Search<'a> {
         balance
     }
 
+    /// Coordinates along one axis that forces tie to each other, those alone left out.
+    fn groups<'s>(&'s self, statics: &'s Statics) -> impl Iterator<Item = Vec<usize>> + 's {
+        let free = &self.settling.model.free;
+        let mut seen = self.held.to_vec();
+        let tied = |i: usize, j: usize| statics.stiffness[(i, j)] != 0.0 || statics.stiffness[(j, i)] != 0.0;
+        let from = (0..free.len()).filter(|i| free[*i].axis != Axis::Pitch);
+        from.filter_map(move |first| {
+            let mut group = vec![first];
+            if std::mem::replace(&mut seen[first], true) {
+                return None;
+            }
+            let mut next = 0;
+            while let Some(&i) = group.get(next) {
+                for j in 0..free.len() {
+                    if !seen[j] && free[j].axis == free[first].axis && tied(i, j) {
+                        seen[j] = true;
+                        group.push(j);
+                    }
+                }
+                next += 1;
+            }
+            (group.len() > 1).then_some(group)
+        })
+    }
+
     /// What is left at a place: the static forces less what is still missing. It holds where every free
-    /// coordinate's rest is at most 1e-9 of what acts on it, beside rounding.
+    /// coordinate's rest is at most 1e-9 of what acts on it, beside rounding. What bodies do to each other has none for all of them
+    /// together: a pair that slides away would find a balance where rounding of its way is as much as what pulls.
     fn left(&self, y: Vec<f64>) -> Balance {
         let statics = self.settling.statics(self.state, &y);
         let residual = &statics.net - self.missing;
-        let (mut size, mut holds) = (0.0_f64, true);
+        let (mut size, mut holds, mut is_noise) = (0.0_f64, true, false);
         // What acts on one coordinate is rounded, and a link hands that on to another on which nothing else acts: by works
         // along natural lengths they are of one kind.
         let free = &self.settling.model.free;
         let works = free.iter().zip(&statics.acting).map(|(free, acting)| free.scale.0 * acting);
         let rounding = ROUNDED * f64::EPSILON * works.fold(0.0, f64::max);
+        let allowed =
+            |i: usize| BALANCED * (statics.acting[i] + self.missing[i].abs()) + rounding / free[i].scale.0;
         for i in (0..residual.len()).filter(|i| !self.held[*i] && residual[*i] != 0.0) {
             let (left, acting) = (residual[i].abs(), statics.acting[i] + self.missing[i].abs());
             size = size.max(left / acting);
             // Rounding of a place far away is a force of a stiff contact: it is allowed beside the share of
             // what acts.
-            holds &= left <= BALANCED * acting + statics.noise[i] + rounding / free[i].scale.0;
+            holds &= left <= allowed(i) + statics.noise[i];
+            is_noise |= left > allowed(i);
         }
+        holds &= !is_noise
+            || self.groups(&statics).all(|group| {
+                let left: f64 = group.iter().map(|i| residual[*i]).sum();
+                left.abs() <= group.iter().map(|i| allowed(*i)).sum::<f64>() + statics.noise_together(&group)
+            });
         Balance { y, residual, holds, size, statics }
     }
 }

@@ -32,18 +32,28 @@ const SLOW: f64 = 0.25;
 /// How nodes lie in a stride: evenly in the root of a height that goes evenly with the part.
 #[derive(Debug, Clone, Copy)]
 struct Grade {
-    from: f64,
-    to: f64,
+    /// The roots of the height at its ends, and which they are: the n-th.
+    roots: [f64; 2],
+    n: f64,
 }
 
 impl Grade {
-    const EVEN: Self = Self { from: 1.0, to: 1.0 };
+    const EVEN: Self = Self { roots: [0.0, 1.0], n: 1.0 };
 
-    /// Where the place of a node lies in a step between two parts of the stride, and how steeply it moves with the place.
-    fn of(self, place: f64, between: [f64; 2]) -> (f64, f64) {
-        let [from, to] = between.map(|part| (self.from + (self.to - self.from) * part).max(0.0).sqrt());
-        let (sum, rise) = (from + to, (to - from) * place);
-        (place * (2.0 * from + rise) / sum, 2.0 * (from + rise) / sum)
+    /// For a height that goes between these.
+    fn between(heights: [f64; 2], n: f64) -> Self {
+        Self { roots: heights.map(|height| height.max(0.0).powf(n.recip())), n }
+    }
+
+    /// Part of the stride where the roots have gone so far, and how steeply it moves with that.
+    fn part(self, gone: f64) -> (f64, f64) {
+        let [from, to] = self.roots;
+        if self.n == 1.0 {
+            return (gone, 1.0);
+        }
+        let (rise, all) = (to - from, to.powf(self.n) - from.powf(self.n));
+        let root = from + rise * gone;
+        ((root.powf(self.n) - from.powf(self.n)) / all, self.n * root.powf(self.n - 1.0) * rise / all)
     }
 }
 
@@ -91,7 +101,7 @@ impl Variation<'_> {
         }
         let (grade, begin) = self.grade(from, stride);
         self.time = begin;
-        let (mut at, mut length) = (0.0, 1.0);
+        let (mut at, mut length) = (0.0, self.longest);
         while at < 1.0 {
             // No stub is left for the last step.
             let to = if at + 1.01 * length >= 1.0 { 1.0 } else { at + length };
@@ -152,8 +162,8 @@ impl Variation<'_> {
         Components { positions: free, rates, stride: self.layout.dimension() }
     }
 
-    /// How nodes lie in a stride. The stiffness of a contact goes as a root of the height of its slip front: where that comes near the
-    /// centre nodes lie evenly in the root. Also when it begins, s.
+    /// How nodes lie in a stride. The stiffness of a contact goes as a root of the height of its slip front ([`Contact::root`]): where
+    /// that comes near the centre nodes lie evenly in the root. Also when it begins, s.
     fn grade(&mut self, from: &State, stride: &mut dyn Stride) -> (Grade, f64) {
         let (mut y, mut heights) = (std::mem::take(&mut self.y), std::mem::take(&mut self.heights));
         let laws = self.laws(from);
@@ -173,18 +183,23 @@ impl Variation<'_> {
         heights.clear();
         heights.extend(self.acting.iter().map(|c| height(*c, begin, &y)));
         let [end, last] = rate(1.0, &mut y);
-        let ends = self.acting.iter().zip(&heights).map(|(c, from)| (*from, height(*c, end, &y)));
-        let lowest = ends.min_by(|a, b| a.1.total_cmp(&b.1));
+        let ends = self.acting.iter().zip(&heights).map(|(c, from)| (*c, [*from, height(*c, end, &y)]));
         let is_even = first.min(last) > SLOW * middle && laws.components.rates == self.layout.free;
+        let low: Vec<_> = ends.filter(|(_, [from, to])| *to < LOW * from).collect();
+        let lowest = low.iter().map(|(_, ends)| *ends).min_by(|[_, a], [_, b]| a.total_cmp(b));
         (self.y, self.heights) = (y, heights);
         let grade = match lowest {
-            Some((from, to)) if is_even && to < LOW * from => Grade { from, to },
+            // What is smooth in a root is hardly less so in a higher one.
+            Some(ends) if is_even => {
+                let roots = low.iter().map(|(c, _)| self.model.contacts[*c].root());
+                Grade::between(ends, roots.fold(1.0, f64::max))
+            }
             _ => Grade::EVEN,
         };
         (grade, begin)
     }
 
-    /// Tries one step between two parts of a stride and tells what it misses, in natural scales.
+    /// Tries one step between two places of a graded stride and tells what it misses, in natural scales.
     fn attempt(
         &mut self,
         from: &State,
@@ -200,8 +215,8 @@ impl Variation<'_> {
         let (mut paces, is_moved) = ([0.0; NODES], !self.parameters.is_empty());
         let each = nodes.iter_mut().zip(&mut passed);
         for ((place, pace), (node, passed)) in Gauss::places().into_iter().zip(&mut paces).zip(each) {
-            let (part, steep) = grade.of(place, [begin, end]);
-            let [t, rate] = stride.at(begin + part * (end - begin), &mut y[..known]);
+            let (part, steep) = grade.part(begin + place * (end - begin));
+            let [t, rate] = stride.at(part, &mut y[..known]);
             *pace = rate * steep * (end - begin);
             laws.lay_out((t, &y), node, &mut passed.stands);
             if is_moved {

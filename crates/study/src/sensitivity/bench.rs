@@ -22,11 +22,13 @@ impl Watcher for Silent<'_> {
 /// Where variants are run.
 pub(super) struct Bench<'a> {
     pub(super) asked: &'a Sensitivity,
+    /// Local error per step of the runs.
+    pub(super) tolerance: f64,
     pub(super) cores: usize,
     pub(super) watcher: &'a (dyn Watcher + Sync),
     /// Whether figures may be made of rows: what variations tell of is made of moments and events.
     pub(super) has_rows: bool,
-    pub(super) done: AtomicUsize,
+    pub(super) done: &'a AtomicUsize,
 }
 
 impl Bench<'_> {
@@ -39,13 +41,13 @@ impl Bench<'_> {
             let value = quantity.value + share * scales[q];
             let goes_on = self.watcher.goes_on();
             let variant = if goes_on {
-                sample::variant(&asked.job, &quantity.path, value, asked.tolerance)
+                sample::variant(&asked.job, &quantity.path, value, self.tolerance)
             } else {
                 Err(Missing::NotRun)
             };
             let variant = variant.map(|job| if self.has_rows { job } else { sample::without_rows(job) });
             let silent = Silent(self.watcher);
-            let sample = variant.and_then(|job| Sample::of(&job, &asked.figures, asked.tolerance, &silent));
+            let sample = variant.and_then(|job| Sample::of(&job, &asked.figures, self.tolerance, &silent));
             let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
             self.watcher.reached(done as f64);
             Tried { share, offset: value - quantity.value, is_level, sample }

@@ -236,6 +236,18 @@ impl Derivative {
         Self::Known(Slope { value, error, source: Source::Variation })
     }
 
+    /// With more that its slopes may be off by.
+    pub(super) fn less_sure(self, by: f64) -> Self {
+        let wider = |slope: Slope| Slope { error: slope.error + by, ..slope };
+        match self {
+            Self::Known(slope) => Self::Known(wider(slope)),
+            Self::Split { below, above, why } => {
+                Self::Split { below: below.map(wider), above: above.map(wider), why }
+            }
+            Self::Unknown(missing) => Self::Unknown(missing),
+        }
+    }
+
     /// What a variation tells instead, if this is the same within both errors.
     pub(super) fn or_led(self, (value, error): (f64, f64)) -> Self {
         match self {

@@ -28,6 +28,8 @@ impl Tried {
 
 /// Powers of two of the levels: from 0.8 % inwards each a quarter of the one before.
 const LEVELS: [i32; 7] = [7, 9, 11, 13, 15, 17, 19];
+/// How many levels are the farthest.
+const FARTHEST: usize = 3;
 /// That of the level at which bends and noise weigh about the same in a single difference.
 const NEAR: i32 = 15;
 /// The same where something else happens as near as these: to where noise leaves a few digits.
@@ -51,6 +53,11 @@ pub(super) fn first() -> impl Iterator<Item = (f64, bool)> {
 /// Those of them at which runs are compared with what a variation tells.
 pub(super) fn beside() -> impl Iterator<Item = (f64, bool)> {
     first().filter(|(share, _)| share.abs() == 2.0_f64.powi(-NEAR))
+}
+
+/// The farthest of them, on both sides, which slopes are most often made of.
+pub(super) fn farthest() -> impl Iterator<Item = (f64, bool)> {
+    both(LEVELS.into_iter().take(FARTHEST).map(|power| (2.0_f64.powi(-power), true)))
 }
 
 /// Those that have not been tried.

@@ -25,7 +25,8 @@ impl Steady {
     }
 
     /// By how much the step of a body changes with each of some numbers, m per unit of their distances. Whole families of motions,
-    /// and such as depend on memories that are carried along, have no slopes: none then, and where the body makes no steps.
+    /// and such as depend on memories that are carried along, have no slopes: none then, and where the body makes no steps. The equations
+    /// go in halves of the run's steps where these are asked for.
     ///
     /// # Errors
     ///
@@ -33,7 +34,7 @@ impl Steady {
     pub(crate) fn step_slopes(
         &self,
         job: &Job,
-        parameters: &[Parameter],
+        (parameters, is_halved): (&[Parameter], bool),
         goes_on: &dyn Fn() -> bool,
     ) -> Result<Option<Vec<f64>>, VariationError> {
         let Some(body) = job.scenario.figures.body else { return Ok(None) };
@@ -43,6 +44,9 @@ impl Steady {
         let section = Section::new(&self.model, self.state.clone());
         let state = section.base().clone();
         let mut variation = section.variation((&state, parameters), self.tolerance)?;
+        if is_halved {
+            variation = variation.in_halves();
+        }
         let limits = Limits { wall: None, ..job.scenario.plan.limits };
         let stepper = Stepper::Event { tolerance: self.tolerance };
         let plan = Plan { duration: f64::MAX, stepper, limits, every: None, until_steady: None };

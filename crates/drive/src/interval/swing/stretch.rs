@@ -68,11 +68,6 @@ impl Stride for Stretch<'_> {
         let t = from + part * (to - from);
         let (place, pace) = if self.swing.is_free() {
             (self.swing.freely(t, t - self.swing.start.t), to - from)
-        } else if self.swing.nears {
-            let [first, last] = [begin, end].map(|at| (self.swing.to - at).max(0.0).sqrt());
-            let left = first + part * (last - first);
-            let (place, slowness) = self.swing.standing(self.swing.to - left * left, t);
-            (place, 2.0 * left * (first - last) * slowness)
         } else {
             let (place, slowness) = self.swing.standing(begin + part * (end - begin), t);
             (place, slowness * (end - begin))
