@@ -132,8 +132,13 @@ impl Steady {
     /// Largest magnitude of a multiplier; 0 without any, NaN where they are not known.
     #[must_use]
     pub fn radius(&self) -> f64 {
-        let none = if self.holding().is_empty() { 0.0 } else { f64::NAN };
+        let none = if self.lacks_multipliers() { f64::NAN } else { 0.0 };
         self.multipliers.first().map_or(none, Multiplier::modulus)
+    }
+
+    /// Whether a disturbance may do anything, for what is known: there are numbers, or memories beside them, and no multipliers.
+    fn lacks_multipliers(&self) -> bool {
+        self.multipliers.is_empty() && !self.unknowns.is_empty() || !self.holding().is_empty()
     }
 
     /// Contacts that hold all through and whose memories are no numbers of the map. A body that they hold swings about what they
@@ -148,7 +153,13 @@ impl Steady {
     pub fn doubt(&self) -> Option<String> {
         let holding = self.named(&self.holding());
         let led = if holding.len() == 1 { "its memory is" } else { "their memories are" };
-        (!holding.is_empty()).then(|| format!("{}, and {led} led along", never_slip(&holding)))
+        match holding.is_empty() {
+            true if self.lacks_multipliers() => {
+                Some("its multipliers are not found; by a tighter tolerance they may be".to_owned())
+            }
+            true => None,
+            false => Some(format!("{}, and {led} led along", never_slip(&holding))),
+        }
     }
 
     /// How many periods of a waveform, s, there are in one of the motion, the common one of all waveforms.
@@ -177,7 +188,7 @@ impl Steady {
     pub fn comes_back(&self) -> Option<bool> {
         let stays = self.multipliers.iter().any(|multiplier| multiplier.kind() == Kind::Stays);
         let may_stay = stays || !self.shaken_down.is_empty();
-        if self.is_stable() && may_stay || !self.holding().is_empty() { None } else { Some(self.is_stable()) }
+        if self.is_stable() && may_stay || self.lacks_multipliers() { None } else { Some(self.is_stable()) }
     }
 }
 

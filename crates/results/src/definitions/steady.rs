@@ -29,6 +29,7 @@ pub(super) const STEADY: &[Definition] = &[
     ),
     key("multipliers.im", "its imaginary part, at least 0"),
     key("multipliers.modulus", "|λ|, by which a disturbance has become larger after a period"),
+    key("multipliers.error", "how far both parts, and |λ|, may be off: one as near to 1 as that `stays`"),
     key(
         "multipliers.kind",
         "what becomes of a disturbance: `forgotten` after a period, `fades`, `stays`, or `grows`",

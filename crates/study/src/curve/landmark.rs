@@ -105,7 +105,8 @@ impl Curve {
         self.motion_at(at, search.traced.direction, search.watcher)
     }
 
-    /// Where steps begin for the last time, or end for the first. They have the sense of the longest.
+    /// Where steps begin for the last time as something grows, whichever sign it has, or end for the first. They have the sense of the
+    /// longest.
     fn edge(&self, search: &Search<'_>, (name, rises): (&'static str, bool)) -> Landmark {
         let traced = search.traced;
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
@@ -116,7 +117,8 @@ impl Curve {
         let mut known: Vec<(f64, Option<f64>)> =
             lengths.iter().map(|(at, length)| (*at, length.step)).collect();
         // From the side with steps the first place without is the edge's, whichever way it lies.
-        if rises {
+        let size = |place: Option<&(f64, Option<f64>)>| place.map_or(0.0, |(at, _)| at.abs());
+        if rises && size(known.last()) >= size(known.first()) {
             known.reverse();
         }
         let from = if rises { 0 } else { known.iter().position(|(_, step)| step.is_some()).unwrap_or(0) };
@@ -131,9 +133,11 @@ impl Curve {
             return Landmark::unfound(name, Unfound::Outside(why), 0);
         };
         let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
-        let beyond = |point: &&Point| if rises { point.value <= still } else { point.value >= still };
+        // Of the other sign it steps the other way anyway.
+        let side = nearest.first().map_or(1.0, |(at, _)| at.signum());
+        let is_smaller = |point: &&Point| (0.0..=(side * still).max(0.0)).contains(&(side * point.value));
         let is_back = |point: &Point| point.motion.as_ref().is_ok_and(|motion| motion.steps(-sense));
-        let turns = rises && traced.points.iter().filter(beyond).any(is_back);
+        let turns = rises && traced.points.iter().filter(is_smaller).any(is_back);
         Landmark { turns, ..self.close_in(search, (name, sense), &Around { lengths, nearest, still }) }
     }
 
@@ -150,7 +154,7 @@ impl Curve {
             |asked, at| {
                 let steps = asked.iter().filter_map(|(place, length)| Some((*place, length.step?)));
                 let step = ahead::line(steps.chain(nearest.iter().copied()), at);
-                Length { step: step.filter(|step| *step > 0.0), error: None }
+                Length { step: step.filter(|step| *step > 0.0), error: None, rest: 0.0 }
             },
             |at| Length::of(self.look(search, at), sense),
             search.told,
@@ -161,7 +165,8 @@ impl Curve {
                 let heard = asked.into_iter().filter_map(|(at, length)| Some((at, length.ok()?)));
                 let all = heard.chain(lengths.iter().copied());
                 let ends = all.filter(|(at, _)| [bracket.steps, bracket.still].contains(at));
-                let doubt = ends.filter_map(|(_, length)| length.error).fold(0.0, f64::max);
+                let doubt = ends.map(|(_, length)| length.error.unwrap_or(0.0).max(length.rest));
+                let doubt = doubt.fold(0.0, f64::max);
                 let half_width = bracket.half_width() + doubt / slope(nearest, *still);
                 Landmark { name, at: Ok(bracket.middle()), half_width, value: None, runs, turns: false }
             }
@@ -262,6 +267,8 @@ struct Search<'a> {
 struct Length {
     step: Option<f64>,
     error: Option<f64>,
+    /// What a step may have and count as none, where there is something of it: the edge is that much farther away.
+    rest: f64,
 }
 
 /// What is known around an edge: the lengths of all points, the nearest two with a step, and the nearest without.
@@ -288,9 +295,11 @@ impl Length {
         match motion {
             Ok(motion) => {
                 let step = motion.steps(sense).then_some(sense * motion.step);
-                Ok(Self { step, error: Some(motion.error) })
+                let is_short = step.is_none() && sense * motion.step > motion.error;
+                let rest = if is_short { motion.least() } else { 0.0 };
+                Ok(Self { step, error: Some(motion.error), rest })
             }
-            Err(fault) if fault.makes_no_step() => Ok(Self { step: None, error: None }),
+            Err(fault) if fault.makes_no_step() => Ok(Self { step: None, error: None, rest: 0.0 }),
             Err(fault) => Err(fault),
         }
     }

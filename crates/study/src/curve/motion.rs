@@ -209,7 +209,12 @@ impl Motion {
     /// Whether it steps along a direction, 1 or -1: further than the error and than a hundred-thousandth of u_c.
     #[must_use]
     pub fn steps(&self, direction: f64) -> bool {
-        direction * self.step > (STILL * self.natural).max(self.error)
+        direction * self.step > self.least().max(self.error)
+    }
+
+    /// A step that is no longer counts as none, m.
+    pub(super) fn least(&self) -> f64 {
+        STILL * self.natural
     }
 }
 

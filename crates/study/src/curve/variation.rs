@@ -157,7 +157,9 @@ impl Variation {
         let others = companions(scene, waveform).into_iter().filter(|w| *w != waveform).filter_map(alike);
         let unit = job.scenario.parameter(&path)?.unit;
         let paths = [(path, 1.0)].into_iter().chain(others.map(|(path, ..)| (path, 1.0))).collect();
-        let range = (value != 0.0).then_some([value / 20.0, 2.0 * value]);
+        let mut range = [value / 20.0, 2.0 * value];
+        range.sort_by(f64::total_cmp);
+        let range = (value != 0.0).then_some(range);
         Ok(Self { name: key.to_owned(), unit, present: Some(value), range, setting: Setting::Paths(paths) })
     }
 

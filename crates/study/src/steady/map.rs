@@ -57,6 +57,8 @@ pub(super) struct Gradient {
     pub(super) way: DMatrix<f64>,
     /// Whether it is exact, but for the tolerance of the run.
     pub(super) is_exact: bool,
+    /// Whether all columns are known: disturbed by a number, memories may come back with other knots.
+    pub(super) is_whole: bool,
     /// What differences miss where the map bends between them, as a share of the size of all entries: of those to both sides in second
     /// order, of one to one side alone in first.
     pub(super) missed: f64,
@@ -257,6 +259,7 @@ impl<'m> Map<'m> {
                 numbers: matrix(gradient.numbers),
                 way: matrix(gradient.way),
                 is_exact: true,
+                is_whole: true,
                 missed: 0.0,
             });
         }
@@ -386,7 +389,7 @@ impl<'m> Map<'m> {
         Some(Slope { numbers, way: way.collect(), bend })
     }
 
-    /// A gradient from what each number changes. One that cannot be moved leaves nothing behind.
+    /// A gradient from what each number changes. One that cannot be moved leaves nothing behind, and the gradient is not whole.
     fn gradient(
         &mut self,
         image: &Image,
@@ -397,11 +400,15 @@ impl<'m> Map<'m> {
             numbers: DMatrix::zeros(count, count),
             way: DMatrix::zeros(image.way.len(), count),
             is_exact: false,
+            is_whole: true,
             missed: 0.0,
         };
         let (mut bends, mut changes, mut order) = (0.0, 0.0, 2);
         for j in 0..count {
-            let Some(Slope { numbers, way, bend }) = slope(self, j)? else { continue };
+            let Some(Slope { numbers, way, bend }) = slope(self, j)? else {
+                gradient.is_whole = false;
+                continue;
+            };
             match bend {
                 Some([bend, change]) => (bends, changes) = (bends + bend, changes + change),
                 // One difference to one side alone tells nothing of a bend.

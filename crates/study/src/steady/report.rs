@@ -43,6 +43,7 @@ struct MultiplierReport {
     re: Real,
     im: Real,
     modulus: Real,
+    error: Real,
     kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     beat_periods: Option<Real>,
@@ -129,6 +130,7 @@ impl MultiplierReport {
             re: Real(multiplier.re),
             im: Real(multiplier.im),
             modulus: Real(multiplier.modulus()),
+            error: Real(multiplier.error),
             kind: multiplier.kind().name(),
             beat_periods: multiplier.beat().map(Real),
             fold_periods: multiplier.periods().map(Real),

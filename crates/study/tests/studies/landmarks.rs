@@ -65,6 +65,23 @@ fn the_zero_step_stroke_is_that_of_the_closed_form() -> Checked {
     Ok(())
 }
 
+/// Mirrored, steps go back: S₀ lies as far below 0, on a range by default, and on one across 0 where the far end is.
+#[test]
+fn negative_strokes_have_the_mirrored_zero_step() -> Checked {
+    let (curve, natural) = ideal(Kind::StepAmplitude, -40e-9)?;
+    let [from, to] = curve.range(&()).ok_or("a range")?;
+    assert!((from / -80e-9 - 1.0).abs() < 1e-9 && (to / -2e-9 - 1.0).abs() < 1e-9, "{from} {to}");
+    let wanted = (0..8).fold(0.74, |share, _| zero_step(pull(share * natural)));
+    for shares in [[-1.1, -0.9, -0.7, -0.5], [-1.5, -1.0, -0.2, 1.0]] {
+        let mut traced = curve.trace(&shares.map(|share| share * natural), 2, &());
+        curve.mark(&mut traced, 1e-4, 2, &())?;
+        let found = only(&traced.landmarks, "zero_step")?;
+        let at = found.at.clone()? / natural;
+        assert!((at / -wanted - 1.0).abs() < 1e-4 && !found.turns, "{at} {wanted}");
+    }
+    Ok(())
+}
+
 #[test]
 fn the_stall_is_that_of_the_closed_form() -> Checked {
     let (curve, natural) = ideal(Kind::ForceSpeed, 50e-9)?;

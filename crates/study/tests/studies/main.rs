@@ -19,6 +19,7 @@ mod outlook;
 mod page;
 mod passing_grip;
 mod sensitivity;
+mod shakedown;
 mod steady;
 mod variations;
 mod vibrating_table;

@@ -70,9 +70,10 @@ fn stable(found: &Steady) -> String {
 fn multipliers(multipliers: &[Multiplier]) -> String {
     let row = |multiplier: &Multiplier| {
         let im = if multiplier.im == 0.0 { String::new() } else { format!(" ± {:.6} i", multiplier.im) };
+        let error = multiplier.doubt().map_or_else(String::new, |error| format!(" ± {error:.0e}"));
         vec![
             format!("{:.6}{im}", multiplier.re),
-            format!("{:.6}", multiplier.modulus()),
+            format!("{:.6}{error}", multiplier.modulus()),
             format!("a disturbance {}", multiplier.words()),
         ]
     };

@@ -1,0 +1,48 @@
+//! Multipliers of a motion some of whose numbers come back as they are, and of one whose memories come back with other knots when it is disturbed.
+
+use std::error::Error;
+use std::path::Path;
+use stickslip_results::Job;
+use stickslip_study::steady::{self, Options, Steady};
+
+fn found(tolerance: f64) -> Result<Steady, Box<dyn Error>> {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/riding_on_springs.json");
+    let job = Job::prepare(Path::new(file), &[], Path::new(""))?;
+    Ok(steady::find(&job, &Options { tolerance, ..Options::default() })?)
+}
+
+/// The slider bounces on two worn caps for ever, e^{±iωT}, ω² = k/m: of a cap worn to the radius b F = 2E*/3R (2a² + b²) √(a² - b²)
+/// and k = 2E*a (Popov, Heß, Willert, *Handbook of Contact Mechanics*, sec. 2.5.9). What rides on it holds what it does for ever.
+#[test]
+fn an_undamped_bounce_beside_what_is_held_for_ever_keeps_its_modulus() -> Result<(), Box<dyn Error>> {
+    let (modulus, flat, radius) = (210e9 / (2.0 * (1.0 - 0.3_f64.powi(2))), 1.3885066760561482e-5_f64, 1e-3);
+    let (mass, load, period) = (0.018971336644657607, 0.5 * 0.2413518496485078, 0.0004371375771447785);
+    let force =
+        |a: f64| 2.0 * modulus / (3.0 * radius) * (2.0 * a * a + flat * flat) * (a * a - flat * flat).sqrt();
+    let mut ends = [flat, 2.0 * flat];
+    for _ in 0..60 {
+        let middle = 0.5 * (ends[0] + ends[1]);
+        ends[usize::from(force(middle) > load)] = middle;
+    }
+    let turn = (2.0 * 2.0 * modulus * ends[0] / mass).sqrt() * period;
+    let found = found(1e-12)?;
+    let largest = found.multipliers.first().ok_or("no multiplier")?;
+    assert!(
+        (largest.re - turn.cos()).abs() < 1e-6 && (largest.im - turn.sin().abs()).abs() < 1e-6,
+        "{largest:?}"
+    );
+    let held = found.multipliers.iter().filter(|one| (one.re - 1.0).abs() < 1e-9 && one.im == 0.0).count();
+    assert!(held >= 8 && found.is_one_of_many(), "{:?}", found.multipliers);
+    Ok(())
+}
+
+/// By a loose tolerance what rides comes back with other knots wherever it is disturbed, and no column but one is known: its own, of
+/// a body that fades by 57 %, is none of all.
+#[test]
+fn multipliers_of_some_numbers_are_none_of_all() -> Result<(), Box<dyn Error>> {
+    let found = found(1e-8)?;
+    assert!(found.multipliers.is_empty() && found.radius().is_nan(), "{:?}", found.multipliers);
+    assert!(found.comes_back().is_none());
+    assert!(found.doubt().is_some_and(|doubt| doubt.contains("multipliers are not found")));
+    Ok(())
+}
