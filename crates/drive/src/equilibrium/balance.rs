@@ -235,7 +235,8 @@ impl<'a> Search<'a> {
         holds &= !is_noise
             || self.groups(&statics).all(|group| {
                 let left: f64 = group.iter().map(|i| residual[*i]).sum();
-                left.abs() <= group.iter().map(|i| allowed(*i)).sum::<f64>() + statics.noise_together(&group)
+                left.abs()
+                    <= group.iter().map(|i| allowed(*i)).sum::<f64>() + statics.noise_together(&group, &y)
             });
         Balance { y, residual, holds, size, statics }
     }

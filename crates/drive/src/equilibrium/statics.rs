@@ -17,8 +17,8 @@ pub(super) struct Statics {
     pub(super) acting: DVector<f64>,
     /// What rounding of the coordinates makes of them.
     pub(super) noise: DVector<f64>,
-    /// The largest length that is rounded, m.
-    size: f64,
+    /// The largest length that lies between places of no free coordinate, m.
+    constant: f64,
     /// -∂F/∂q.
     pub(super) stiffness: DMatrix<f64>,
 }
@@ -35,7 +35,7 @@ impl Statics {
     /// Forces along a measure that fall by k per metre of another.
     fn stiffen(&mut self, along: &Measure, with: &Measure, k: f64, y: &[f64]) {
         let size: f64 = with.constant.abs() + with.free.iter().map(|&(j, b)| (b * y[j]).abs()).sum::<f64>();
-        self.size = self.size.max(size);
+        self.constant = self.constant.max(with.constant.abs());
         for &(i, a) in &along.free {
             self.noise[i] += 4.0 * f64::EPSILON * size * (a * k).abs();
             with.free.iter().for_each(|&(j, b)| self.stiffness[(i, j)] += a * b * k);
@@ -44,11 +44,11 @@ impl Statics {
 }
 
 impl Statics {
-    /// What rounding makes of the sum of the forces on some coordinates: that of what acts between them cancels.
-    pub(super) fn noise_together(&self, group: &[usize]) -> f64 {
+    /// What rounding of the coordinates, at y, makes of the sum of the forces on some of them: that of what acts between these cancels.
+    pub(super) fn noise_together(&self, group: &[usize], y: &[f64]) -> f64 {
         let stiffness = |j: usize| group.iter().map(|i| self.stiffness[(*i, j)]).sum::<f64>().abs();
-        let all: f64 = (0..self.net.len()).map(stiffness).sum();
-        4.0 * f64::EPSILON * self.size * all
+        let noise = |(j, y): (usize, &f64)| stiffness(j) * (self.constant + y.abs());
+        4.0 * f64::EPSILON * y[..self.net.len()].iter().enumerate().map(noise).sum::<f64>()
     }
 }
 
@@ -62,7 +62,8 @@ impl Settling<'_> {
         let n = model.free.len();
         let loads = DVector::from_iterator(n, model.free.iter().map(|f| f.force));
         let (acting, noise) = (loads.abs(), DVector::zeros(n));
-        let mut statics = Statics { net: loads, acting, noise, size: 0.0, stiffness: DMatrix::zeros(n, n) };
+        let mut statics =
+            Statics { net: loads, acting, noise, constant: 0.0, stiffness: DMatrix::zeros(n, n) };
         let mut answers = self.answers.borrow_mut();
         let contacts = model.contacts.iter().zip(&state.memories).zip(self.apexes(state, y));
         for (((contact, memory), to), answer) in contacts.zip(answers.iter_mut()) {

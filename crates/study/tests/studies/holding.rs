@@ -120,6 +120,20 @@ fn what_slides_together_is_not_held_by_rounding() -> Checked {
     Ok(())
 }
 
+/// The same of bodies whose weight presses them: μN less, or more, what pulls already. Rounding of places along x is none of what presses.
+#[test]
+fn what_slides_under_its_own_weight_is_not_held_by_rounding() -> Checked {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/stacked.json");
+    let found = Holding::new(Path::new(file), &[], Some("contacts.c00.friction"))?;
+    let (normal, pull) =
+        (0.09110279481868781 + 0.2582944690591921, 0.0030996927685020804 + 0.004467301331380124);
+    let values = [0.03, 0.1, 0.17];
+    for (friction, ways) in values.into_iter().zip(ways(&found, &values)?) {
+        are(ways, [friction * normal + pull, friction * normal - pull])?;
+    }
+    Ok(())
+}
+
 /// A load on the stage of the data sheet goes through its balls, which hold 3·0.15·5 N, and the foot on its stack.
 #[test]
 fn a_stage_is_held_by_the_contacts_of_its_foot() -> Checked {
