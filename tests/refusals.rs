@@ -115,6 +115,35 @@ fn what_only_the_model_can_tell_points_into_the_file_too() {
     refused(&from, &to, "\"equilibrium\"", "run.start: `slider` has no static equilibrium along x");
 }
 
+/// A stiff spring bears a body one of whose feet touches as long as it does not pitch. Where it may it tips off that foot, hangs level, and slides
+/// by m g sin α: that is told, and not the pitch, of which 0 N m stay unbalanced.
+#[test]
+fn what_tips_off_its_foot_is_said_to_slide() {
+    let foot = |x: f64, gap: &str| {
+        format!(
+            r#"{{ "between": ["ground", "block"], "materials": ["steel", "steel"], "profile": {{ "flat": {{ "radius": 1e-5 }} }},
+                "friction": 0.27, "normal": "coupled", "at": {{ "block": {{ "x": {x}, "z": -5.8e-3 }} }}{gap} }}"#
+        )
+    };
+    let text = format!(
+        r#"{{ "stickslip": 1, "materials": {{ "steel": {{ "youngs_modulus": 210e9, "poisson_ratio": 0.3 }} }},
+            "bodies": {{ "block": {{ "mass": 1.7e-4, "x": "free", "z": "free", "pitch": "free", "inertia": 1.7e-8 }} }},
+            "contacts": {{ "front": {}, "rear": {} }},
+            "springs": {{ "leaf": {{ "between": ["ground", "block"], "direction": "z", "stiffness": 3.565e7, "preload": -8.7e-3 }} }},
+            "loads": [ {{ "on": "block", "z": -0.13 }} ],
+            "gravity": {{ "acceleration": 9.81, "incline": 0.0654 }},
+            "run": {{ "duration": 1e-3, "start": "equilibrium" }} }}"#,
+        foot(7.3e-3, ""),
+        foot(-10.2e-3, r#", "gap": 9.4e-7"#)
+    );
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("block.json");
+    std::fs::write(&file, text).unwrap();
+    let pull = 1.7e-4 * 9.81 * 0.0654_f64.sin();
+    let message = format!("`block` has no static equilibrium along x: -{pull:.3e} N stay unbalanced");
+    check(&run(&file, &folder.path().join("out"), &[]), &[&message]);
+}
+
 #[test]
 fn a_run_with_more_rows_than_fit_is_refused() {
     refused(

@@ -294,6 +294,7 @@ impl<'m> Settling<'m> {
     ) -> SceneError {
         let nothing = DVector::zeros(held.len());
         let gone = self.balance(state, &nothing, y, &held);
+        let farthest = gone.farthest(&held);
         let mut without = |i: usize, y: &[f64]| {
             held[i] = true;
             let others = self.balance(state, &nothing, y, &held);
@@ -302,11 +303,16 @@ impl<'m> Settling<'m> {
         };
         let place = along.iter().copied().find(|i| without(*i, y).holds).unwrap_or(first);
         // Held where it went when nothing held it.
-        let unbalanced = without(place, &gone.y).residual[place];
+        let held_there = without(place, &gone.y);
+        // What tips or comes loose may find all its own forces gone, and it is another coordinate that is left without balance.
+        let (place, unbalanced) = match farthest.filter(|_| !held_there.is_off(place)) {
+            Some(other) => (other, gone.residual[other]),
+            None => (place, held_there.residual[place]),
+        };
         let Free { body, axis, .. } = self.model.free[place];
         let body = self.model.bodies[body].name.clone();
         // Alone along its axis it bears nothing but its own.
-        let shared = along.len() > 1;
+        let shared = self.model.free.iter().filter(|free| free.axis == axis).count() > 1;
         SceneFault::NoEquilibrium { body, axis, unbalanced, shared }.of(Place::Run, Field::Start)
     }
 }

@@ -61,6 +61,18 @@ pub(super) struct Search<'a> {
 }
 
 impl Balance {
+    /// Whether what is left on a coordinate is more than rounding.
+    pub(super) fn is_off(&self, i: usize) -> bool {
+        self.residual[i].abs() > BALANCED * self.statics.acting[i]
+    }
+
+    /// The coordinate, of those that are not held, that is farthest from balance, by what acts on it.
+    pub(super) fn farthest(&self, held: &[bool]) -> Option<usize> {
+        let share = |i: usize| self.residual[i].abs() / self.statics.acting[i];
+        let off = (0..self.residual.len()).filter(|i| !held[*i] && self.is_off(*i));
+        off.max_by(|a, b| share(*a).total_cmp(&share(*b)))
+    }
+
     /// Whether part of a step from here comes to a place, to the last bit.
     fn leads_to(&self, place: &Self, (step, share): (&DVector<f64>, f64)) -> bool {
         // Coordinates come first, the rest stays as it is.
