@@ -43,9 +43,9 @@ impl DormandPrince {
         self.keep::<END>();
         // Only steps in which something is looked at pay for these three. The cubic through both ends costs none, but misses
         // a swing by 1.6e-4 inside a step of half a radian, and this by 5e-9: an event would undo what the step has gained.
-        self.stage::<Stage14, S, 0, 0>(system, NODES[13]);
-        self.stage::<Stage15, S, 0, 0>(system, NODES[14]);
-        self.stage::<Stage16, S, 0, 0>(system, NODES[15]);
+        self.stage::<Stage14, S, 0, 0, true>(system, NODES[13]);
+        self.stage::<Stage15, S, 0, 0, true>(system, NODES[14]);
+        self.stage::<Stage16, S, 0, 0, true>(system, NODES[15]);
         self.keep::<15>();
         self.polynomials_of::<Weights>(END, |k| {
             [Dense5::dot(k), Dense6::dot(k), Dense7::dot(k), Dense8::dot(k)]

@@ -8,6 +8,24 @@ use super::tableau::{Pair, Row, pairs_of};
 use super::{DormandPrince, Grade};
 use crate::{System, Target};
 
+/// Stages summed without a loop, in 0.7 of the instructions, over pairs of coupled components and of others: bodies with up to five coordinates,
+/// some of whose contacts grow. All other numbers are right by the last arm.
+macro_rules! of_pairs {
+    ($step:ident, $by:ident, $may_grade:literal, $system:ident) => {
+        match ($step.stage.len() / 2, $step.k.len() - $step.stage.len() / 2) {
+            (1, 1) => $step.$by::<1, 1, $may_grade, S>($system),
+            (2, 1) => $step.$by::<2, 1, $may_grade, S>($system),
+            (2, 2) => $step.$by::<2, 2, $may_grade, S>($system),
+            (3, 1) => $step.$by::<3, 1, $may_grade, S>($system),
+            (3, 3) => $step.$by::<3, 3, $may_grade, S>($system),
+            (4, 2) => $step.$by::<4, 2, $may_grade, S>($system),
+            (4, 3) => $step.$by::<4, 3, $may_grade, S>($system),
+            (5, 3) => $step.$by::<5, 3, $may_grade, S>($system),
+            _ => $step.$by::<0, 0, $may_grade, S>($system),
+        }
+    };
+}
+
 impl DormandPrince {
     /// Tries a step: all stages, the end y + h Σ b_i k_i, the error.
     pub(super) fn attempt_span<S: System + ?Sized>(
@@ -27,30 +45,25 @@ impl DormandPrince {
             return self.coast(system);
         }
         self.recall_first();
-        // Pairs of coupled components and of others: bodies with up to four coordinates, some of whose contacts grow. Their even steps
-        // are summed without a loop, in 0.7 of the instructions; all other numbers are right by the last arm.
-        let pairs = (self.stage.len() / 2, self.k.len() - self.stage.len() / 2);
-        match (self.extent.grade, pairs) {
-            (Grade::Few, _) => self.by_fifth(system),
-            (Grade::Even, (1, 1)) => self.by_eighth::<1, 1, S>(system),
-            (Grade::Even, (2, 1)) => self.by_eighth::<2, 1, S>(system),
-            (Grade::Even, (3, 1)) => self.by_eighth::<3, 1, S>(system),
-            (Grade::Even, (3, 3)) => self.by_eighth::<3, 3, S>(system),
-            (Grade::Even, (4, 2)) => self.by_eighth::<4, 2, S>(system),
-            (Grade::Even, (4, 3)) => self.by_eighth::<4, 3, S>(system),
-            _ => self.by_eighth::<0, 0, S>(system),
+        match self.extent.grade {
+            Grade::Few => of_pairs!(self, by_fifth, false, system),
+            Grade::Even => of_pairs!(self, by_eighth, false, system),
+            Grade::Start | Grade::End => of_pairs!(self, by_eighth, true, system),
         }
         self.error(scale)
     }
 
     /// The stages of the pair of order 5, the end, and the slopes there: they are the last stage.
     #[inline(never)]
-    fn by_fifth<S: System + ?Sized>(&mut self, system: &S) {
-        self.stage::<order5::Stage2, S, 0, 0>(system, order5::NODES[1]);
-        self.stage::<order5::Stage3, S, 0, 0>(system, order5::NODES[2]);
-        self.stage::<order5::Stage4, S, 0, 0>(system, order5::NODES[3]);
-        self.stage::<order5::Stage5, S, 0, 0>(system, order5::NODES[4]);
-        self.stage::<order5::Stage6, S, 0, 0>(system, order5::NODES[5]);
+    fn by_fifth<const PAIRS: usize, const RATES: usize, const MAY_GRADE: bool, S: System + ?Sized>(
+        &mut self,
+        system: &S,
+    ) {
+        self.stage::<order5::Stage2, S, PAIRS, RATES, MAY_GRADE>(system, order5::NODES[1]);
+        self.stage::<order5::Stage3, S, PAIRS, RATES, MAY_GRADE>(system, order5::NODES[2]);
+        self.stage::<order5::Stage4, S, PAIRS, RATES, MAY_GRADE>(system, order5::NODES[3]);
+        self.stage::<order5::Stage5, S, PAIRS, RATES, MAY_GRADE>(system, order5::NODES[4]);
+        self.stage::<order5::Stage6, S, PAIRS, RATES, MAY_GRADE>(system, order5::NODES[5]);
         self.keep::<5>();
         self.end_by::<order5::Weights>();
         self.end_slopes(system);
@@ -61,18 +74,21 @@ impl DormandPrince {
 
     /// The stages of the pair of order 8 and the end.
     #[inline(never)]
-    fn by_eighth<const PAIRS: usize, const RATES: usize, S: System + ?Sized>(&mut self, system: &S) {
-        self.stage::<Stage2, S, PAIRS, RATES>(system, NODES[1]);
-        self.stage::<Stage3, S, PAIRS, RATES>(system, NODES[2]);
-        self.stage::<Stage4, S, PAIRS, RATES>(system, NODES[3]);
-        self.stage::<Stage5, S, PAIRS, RATES>(system, NODES[4]);
-        self.stage::<Stage6, S, PAIRS, RATES>(system, NODES[5]);
-        self.stage::<Stage7, S, PAIRS, RATES>(system, NODES[6]);
-        self.stage::<Stage8, S, PAIRS, RATES>(system, NODES[7]);
-        self.stage::<Stage9, S, PAIRS, RATES>(system, NODES[8]);
-        self.stage::<Stage10, S, PAIRS, RATES>(system, NODES[9]);
-        self.stage::<Stage11, S, PAIRS, RATES>(system, NODES[10]);
-        self.stage::<Stage12, S, PAIRS, RATES>(system, NODES[11]);
+    fn by_eighth<const PAIRS: usize, const RATES: usize, const MAY_GRADE: bool, S: System + ?Sized>(
+        &mut self,
+        system: &S,
+    ) {
+        self.stage::<Stage2, S, PAIRS, RATES, MAY_GRADE>(system, NODES[1]);
+        self.stage::<Stage3, S, PAIRS, RATES, MAY_GRADE>(system, NODES[2]);
+        self.stage::<Stage4, S, PAIRS, RATES, MAY_GRADE>(system, NODES[3]);
+        self.stage::<Stage5, S, PAIRS, RATES, MAY_GRADE>(system, NODES[4]);
+        self.stage::<Stage6, S, PAIRS, RATES, MAY_GRADE>(system, NODES[5]);
+        self.stage::<Stage7, S, PAIRS, RATES, MAY_GRADE>(system, NODES[6]);
+        self.stage::<Stage8, S, PAIRS, RATES, MAY_GRADE>(system, NODES[7]);
+        self.stage::<Stage9, S, PAIRS, RATES, MAY_GRADE>(system, NODES[8]);
+        self.stage::<Stage10, S, PAIRS, RATES, MAY_GRADE>(system, NODES[9]);
+        self.stage::<Stage11, S, PAIRS, RATES, MAY_GRADE>(system, NODES[10]);
+        self.stage::<Stage12, S, PAIRS, RATES, MAY_GRADE>(system, NODES[11]);
         self.keep::<11>();
         self.end_by::<Weights>();
     }
@@ -95,10 +111,16 @@ impl DormandPrince {
     ///
     /// Evaluations follow on one another, so what counts is the path from one slope to the next: a product and a sum.
     ///
-    /// `PAIRS` is the number of pairs of coupled components of an even step, known when compiled, and `RATES` that of those on which
-    /// nothing depends; 0 is any number, and any grade.
+    /// `PAIRS` is the number of pairs of coupled components, known when compiled, and `RATES` that of those on which nothing depends; 0 is any
+    /// number. Unless it `MAY_GRADE` the step is even.
     #[inline(always)]
-    pub(super) fn stage<R: Row, S: System + ?Sized, const PAIRS: usize, const RATES: usize>(
+    pub(super) fn stage<
+        R: Row,
+        S: System + ?Sized,
+        const PAIRS: usize,
+        const RATES: usize,
+        const MAY_GRADE: bool,
+    >(
         &mut self,
         system: &S,
         node: f64,
@@ -124,10 +146,13 @@ impl DormandPrince {
         }
         // Over σ the slopes begin with 0 at a singular start; the straight motion with the first slope is taken apart from
         // them and added here exactly.
-        let is_even = PAIRS > 0 || self.extent.grade.is_even();
+        let is_even = !MAY_GRADE || self.extent.grade.is_even();
         if !is_even {
             let past = h * self.extent.grade.time(node);
-            self.stage.iter_mut().zip(&self.ends.first).for_each(|(to, first)| *to += past * first);
+            let stage = &mut self.stage.as_chunks_mut::<2>().0[..pairs];
+            for (to, first) in stage.iter_mut().zip(&pairs_of(&self.ends.first)[..pairs]) {
+                *to = (Pair(*to) + past * Pair(*first)).0;
+            }
         }
         // A node of 1 is the very end of the step, not t + h, which may differ in the last bit.
         let t = if node == 1.0 {
@@ -140,7 +165,11 @@ impl DormandPrince {
         system.slopes(t, &self.stage[..self.dimension], &mut self.newest[..self.total]);
         self.evaluations += 1;
         if !is_even {
-            self.pace(self.extent.grade.pace(node));
+            let (pace, all) = (self.extent.grade.pace(node), pairs + others);
+            let newest = &mut self.newest.as_chunks_mut::<2>().0[..all];
+            for (slope, first) in newest.iter_mut().zip(&pairs_of(&self.ends.first)[..all]) {
+                *slope = (pace * (Pair(*slope) - Pair(*first))).0;
+            }
         }
     }
 
