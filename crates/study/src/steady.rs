@@ -97,6 +97,8 @@ pub struct Steady {
     pub drifts: usize,
     /// Names of the numbers that the map is of.
     pub unknowns: Vec<String>,
+    /// Names of those of which it is not known what becomes of a disturbance: memories come back with other knots.
+    pub untold: Vec<String>,
     /// Contacts whose memories are no numbers of the map, but are carried along: multipliers do not know of them.
     pub carried: Vec<usize>,
     /// Contacts that never slip grossly in a period: what their springs near the centre hold, they hold for ever. Of such
@@ -188,7 +190,11 @@ impl Steady {
     pub fn comes_back(&self) -> Option<bool> {
         let stays = self.multipliers.iter().any(|multiplier| multiplier.kind() == Kind::Stays);
         let may_stay = stays || !self.shaken_down.is_empty();
-        if self.is_stable() && may_stay || self.lacks_multipliers() { None } else { Some(self.is_stable()) }
+        if self.is_stable() && (may_stay || !self.untold.is_empty()) || self.lacks_multipliers() {
+            None
+        } else {
+            Some(self.is_stable())
+        }
     }
 }
 
@@ -229,6 +235,7 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     // along, has still to come.
     let slides = |c: usize| section.slides(&fixed.image.way, c).abs();
     let slid = never_gave_way.iter().map(|c| slides(*c)).fold(0.0, f64::max);
+    let names: Vec<String> = section.unknowns().iter().map(|unknown| section.name(*unknown)).collect();
     let found = Steady {
         period: endless.period,
         begins: endless.begins,
@@ -237,7 +244,8 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         bound: bound.step + slid.max(creeps),
         multipliers,
         drifts: section.drifts(),
-        unknowns: section.unknowns().iter().map(|unknown| section.name(*unknown)).collect(),
+        unknowns: names.clone(),
+        untold: bound.gradient.unknown.iter().filter_map(|j| names.get(*j).cloned()).collect(),
         carried: section.carried().to_vec(),
         shaken_down: never_gave_way,
         is_dragged: loose == Some(Loose::Slides),

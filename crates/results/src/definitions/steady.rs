@@ -49,6 +49,10 @@ pub(super) const STEADY: &[Definition] = &[
     key("aftermath.most_m", "the longest of these steps"),
     key("aftermath.words", "the same in words"),
     key("unknowns", "the numbers that the map of a period is of"),
+    key(
+        "untold",
+        "those of which no multiplier is told: memories come back with other knots when one of them is disturbed",
+    ),
     key("drifts", "number of ways along which nothing changes but the place"),
     key(
         "carried",

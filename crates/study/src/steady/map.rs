@@ -57,8 +57,8 @@ pub(super) struct Gradient {
     pub(super) way: DMatrix<f64>,
     /// Whether it is exact, but for the tolerance of the run.
     pub(super) is_exact: bool,
-    /// Whether all columns are known: disturbed by a number, memories may come back with other knots.
-    pub(super) is_whole: bool,
+    /// Numbers whose columns are not known: disturbed by one of them memories come back with other knots.
+    pub(super) unknown: Vec<usize>,
     /// What differences miss where the map bends between them, as a share of the size of all entries: of those to both sides in second
     /// order, of one to one side alone in first.
     pub(super) missed: f64,
@@ -259,7 +259,7 @@ impl<'m> Map<'m> {
                 numbers: matrix(gradient.numbers),
                 way: matrix(gradient.way),
                 is_exact: true,
-                is_whole: true,
+                unknown: Vec::new(),
                 missed: 0.0,
             });
         }
@@ -389,7 +389,7 @@ impl<'m> Map<'m> {
         Some(Slope { numbers, way: way.collect(), bend })
     }
 
-    /// A gradient from what each number changes. One that cannot be moved leaves nothing behind, and the gradient is not whole.
+    /// A gradient from what each number changes. One that cannot be moved leaves nothing behind, and its column is not known.
     fn gradient(
         &mut self,
         image: &Image,
@@ -400,13 +400,13 @@ impl<'m> Map<'m> {
             numbers: DMatrix::zeros(count, count),
             way: DMatrix::zeros(image.way.len(), count),
             is_exact: false,
-            is_whole: true,
+            unknown: Vec::new(),
             missed: 0.0,
         };
         let (mut bends, mut changes, mut order) = (0.0, 0.0, 2);
         for j in 0..count {
             let Some(Slope { numbers, way, bend }) = slope(self, j)? else {
-                gradient.is_whole = false;
+                gradient.unknown.push(j);
                 continue;
             };
             match bend {

@@ -137,16 +137,22 @@ fn digits(x: f64) -> String {
 }
 
 /// The multipliers of a gradient that was led along by runs of a tolerance near a fixed point, where so large a defect is left, the
-/// largest first; of a pair one stands for both. None where its numbers are not finite, or not all known.
+/// largest first; of a pair one stands for both. None where its numbers are not finite.
+///
+/// Where columns are not known those of the others are multipliers as long as none of the others moves what is not known: the gradient is
+/// then a triangle of blocks. Else there are none.
 pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Multiplier> {
-    if !gradient.is_whole {
-        return Vec::new();
-    }
     let size = gradient.numbers.norm();
     let shares = ENTRIES * tolerance.max(defect) + gradient.missed;
     let entries = shares * size + gradient.noise(tolerance);
-    let error = |value| NEUTRAL.max(moved(&gradient.numbers, value, entries));
-    let mut all: Vec<Multiplier> = eigenvalues(&gradient.numbers)
+    let known: Vec<usize> = (0..gradient.numbers.ncols()).filter(|j| !gradient.unknown.contains(j)).collect();
+    let columns = gradient.numbers.select_columns(&known);
+    if gradient.unknown.iter().any(|i| columns.row(*i).amax() > entries.max(NEUTRAL)) {
+        return Vec::new();
+    }
+    let numbers = columns.select_rows(&known);
+    let error = |value| NEUTRAL.max(moved(&numbers, value, entries));
+    let mut all: Vec<Multiplier> = eigenvalues(&numbers)
         .into_iter()
         .filter(|value| value.im >= 0.0)
         .map(|value| Multiplier { re: value.re, im: value.im, error: error(value) })
@@ -187,7 +193,7 @@ mod tests {
 
     fn led(numbers: DMatrix<f64>) -> Gradient {
         let way = DMatrix::zeros(0, numbers.ncols());
-        Gradient { numbers, way, is_exact: true, is_whole: true, missed: 0.0 }
+        Gradient { numbers, way, is_exact: true, unknown: Vec::new(), missed: 0.0 }
     }
 
     #[test]

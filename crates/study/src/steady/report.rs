@@ -25,6 +25,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     aftermath: Option<AftermathReport>,
     unknowns: Vec<String>,
+    untold: Vec<String>,
     drifts: usize,
     carried: Vec<String>,
     shaken_down: Vec<String>,
@@ -100,6 +101,7 @@ impl Report {
             multipliers: found.multipliers.iter().map(MultiplierReport::of).collect(),
             aftermath: aftermath.map(AftermathReport::of),
             unknowns: found.unknowns.clone(),
+            untold: found.untold.clone(),
             drifts: found.drifts,
             carried: found.named(&found.carried),
             shaken_down: found.named(&found.shaken_down),

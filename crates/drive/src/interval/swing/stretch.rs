@@ -3,8 +3,8 @@
 use super::{PhasePoint, Swing};
 use crate::record::Stride;
 
-/// From one moment of a swing to another. Its parts go with the clock, or with the root of what is left on it where slip reaches a
-/// centre at the end: no moment is searched for.
+/// From one moment of a swing to another. Its parts go with the clock: no moment is searched for. Where slip reaches a centre at the end
+/// nodes are crowded by whoever lays them, as the profile asks for.
 #[derive(Debug)]
 pub struct Stretch<'s> {
     pub(super) swing: &'s Swing<'s>,

@@ -10,6 +10,8 @@ use thiserror::Error;
 
 /// A load that is held though it is so many times all friction and all other forces: something else holds it.
 const ENDLESS: f64 = 64.0;
+/// How far a balance is known, as a share of all friction and all other forces: what is left on a coordinate may be 1e-9 of what acts on it.
+const RESOLVED: f64 = 4e-9;
 /// A drive that does not hold this share of them holds nothing.
 const NOTHING: f64 = 1e-12;
 
@@ -18,7 +20,7 @@ const NOTHING: f64 = 1e-12;
 pub struct Held {
     /// The largest load that is held, N.
     pub force: f64,
-    /// How far it may be off, N: half of the bracket.
+    /// How far it may be off, N: half of the bracket, and no less than a balance is known to.
     pub half_width: f64,
     /// What gives way beyond.
     pub lost: Lost,
@@ -136,8 +138,8 @@ impl Still {
             true => Bracket::narrow(vec![(holds, 1.0)], still, tolerance, |load, _| try_at(load))?,
             false => None,
         };
-        let (force, half_width) =
-            bracket.map_or((0.0, still), |bracket| (bracket.middle(), bracket.half_width()));
+        let (force, half_width) = bracket
+            .map_or((0.0, still), |bracket| (bracket.middle(), bracket.half_width().max(RESOLVED * scale)));
         lost.map_or(Err(Holdless::NotRun), |lost| Ok(Held { force, half_width, lost, runs }))
     }
 
