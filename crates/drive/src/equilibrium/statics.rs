@@ -41,9 +41,7 @@ impl Statics {
             with.free.iter().for_each(|&(j, b)| self.stiffness[(i, j)] += a * b * k);
         }
     }
-}
 
-impl Statics {
     /// What rounding of the coordinates, at y, makes of the sum of the forces on some of them: that of what acts between these cancels.
     pub(super) fn noise_together(&self, group: &[usize], y: &[f64]) -> f64 {
         let stiffness = |j: usize| group.iter().map(|i| self.stiffness[(*i, j)]).sum::<f64>().abs();
