@@ -28,13 +28,13 @@ pub use energies::EnergyRates;
 pub use error::VariationError;
 pub use parameter::Parameter;
 
-use crate::Model;
 use crate::contact::{Contact, Mode};
 use crate::event::Event;
 use crate::model::Binding;
 use crate::record::{Record, Stride};
 use crate::scene::Axis;
 use crate::state::{Layout, State};
+use crate::{Model, Piece};
 pub(crate) use anchors::Anchors;
 use anchors::Held;
 use arcs::Arc;
@@ -77,8 +77,9 @@ pub struct Variation<'m> {
     links: Vec<f64>,
     /// How high their fronts are where a step of the run begins, as parts of the depth.
     heights: Vec<f64>,
-    /// How each number of the scene moves each waveform in the interval.
+    /// How each number of the scene moves each waveform on these pieces.
     moving: Vec<Moving>,
+    pieces: Vec<Piece>,
     /// Whether the run has told a step of it.
     strode: bool,
     /// Detours of the run before it was followed.
@@ -116,6 +117,7 @@ impl<'m> Variation<'m> {
             acting: Vec::new(),
             heights: Vec::new(),
             moving: Vec::new(),
+            pieces: Vec::new(),
             links: tangent::links(model),
             strode: false,
             detours: None,
@@ -234,6 +236,12 @@ impl<'m> Variation<'m> {
         Ok(())
     }
 
+    /// Waveforms where a run stands.
+    fn moment<'a>(&'a self, state: &'a State) -> Moment<'a> {
+        let moving = if state.pieces == self.pieces { &self.moving[..] } else { &[] };
+        Moment { moving, ..Moment::of(self.model, state) }
+    }
+
     /// (δu, δd) of a contact by each number.
     fn moved(&self, contact: &Contact, at: Moment<'_>) -> Vec<(f64, f64)> {
         self.moved_by(contact, &self.columns, at)
@@ -259,9 +267,12 @@ impl<'m> Variation<'m> {
     fn take_up(&mut self, state: &State) {
         self.strode = false;
         self.acting.clear();
-        self.moving.clear();
-        for parameter in self.parameters {
-            self.moving.extend(parameter.moving(&state.pieces, state.t));
+        if self.pieces != state.pieces {
+            self.pieces.clone_from(&state.pieces);
+            self.moving.clear();
+            for parameter in self.parameters {
+                self.moving.extend(parameter.moving(&state.pieces, state.t));
+            }
         }
         for (c, contact) in self.model.contacts.iter().enumerate() {
             if !contact.inert {

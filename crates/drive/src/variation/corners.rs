@@ -3,7 +3,6 @@
 //! At a corner one law gives way to another at a time t that a number moves by δt: what is led along by the law of before goes on by
 //! that of after, δ + (f₋ - f₊)δt.
 
-use super::parameter::Moment;
 use super::{Variation, VariationError};
 use crate::contact::Contact;
 use crate::equations::Equations;
@@ -54,7 +53,7 @@ impl Variation<'_> {
 
     /// (δu, δd) of a contact by each number where an interval ends or begins, at a corner that moves with them.
     pub(super) fn moved_at_corner(&self, contact: &Contact, at: &State) -> Vec<(f64, f64)> {
-        let mut moved = self.moved(contact, Moment::of(self.model, at));
+        let mut moved = self.moved(contact, self.moment(at));
         let Some(corner) = self.corner.as_ref().filter(|corner| !corner.slopes.is_empty()) else {
             return moved;
         };

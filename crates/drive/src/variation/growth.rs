@@ -38,7 +38,7 @@ impl Variation<'_> {
             let at = |i: usize| state.y[i];
             let motion = Equations::on(self.model, state, self.layout, false).motion(contact, state.t, at);
             let (slope, memory) = (motion.du / motion.dd, &state.memories[c]);
-            let moved = self.moved(contact, Moment::of(self.model, state));
+            let moved = self.moved(contact, self.moment(state));
             self.anchors[c].begin_growth(memory.apex().d.max(0.0), slope, &moved);
             if left.is_some_and(|left| left.modes[c] == Mode::Grow) {
                 continue;
@@ -87,11 +87,7 @@ impl Variation<'_> {
                 let [t, _] = stride.at(part, &mut self.y);
                 let eq = Equations::on(self.model, from, self.layout, false);
                 let motion = eq.motion(contact, t, |i| self.y[i]);
-                let moved = self.moved_by(
-                    contact,
-                    &columns,
-                    Moment { t, moving: &self.moving, ..Moment::of(self.model, from) },
-                );
+                let moved = self.moved_by(contact, &columns, Moment { t, ..self.moment(from) });
                 self.anchors[c].grow(motion.d, motion.du / motion.dd, &moved);
             }
         }

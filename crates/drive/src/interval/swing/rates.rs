@@ -30,11 +30,12 @@ const LOST: f64 = 1e-9;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rates {
     pub(crate) ends: Vec<[f64; 2]>,
-    /// Both turning points' changes, w at a place, and the sums of ∂T: its value, two coefficients, its size.
+    /// Both turning points' changes, w at a place and at four, and the sums of ∂T, node by node: its value, two coefficients, its size.
     low: Vec<f64>,
     high: Vec<f64>,
-    works: Vec<f64>,
-    sums: Vec<[f64; 4]>,
+    works: Vec<[f64; 1]>,
+    lanes: Vec<Lanes>,
+    sums: Vec<[Lanes; 4]>,
     firsts: Vec<First>,
 }
 
@@ -62,22 +63,28 @@ struct Origin<'s> {
 }
 
 impl Origin<'_> {
-    /// w of all quantities at a way q of the swing, m, and b there.
-    fn works(&self, q: f64, works: &mut Vec<f64>) -> f64 {
-        let way = q - self.way;
+    /// w of all quantities at ways q of the swing, m, and b there.
+    #[inline(always)]
+    fn works<const L: usize>(&self, q: [f64; L], works: &mut Vec<[f64; L]>) -> [f64; L] {
+        let ways = q.map(|q| q - self.way);
         works.clear();
-        works.extend([self.speed, way]);
-        let mut push = self.push;
+        works.extend([[self.speed; L], ways]);
+        let mut push = [self.push; L];
         for (slip, First { height, sums: [n0, p0, s0] }) in self.swing.slips.iter().zip(self.firsts) {
-            let [n, p, _] = slip.sums(height - slip.lean * way);
-            let mean = (n0 - n) / slip.lean;
-            push -= p0 - p;
-            works.extend([mean - p0 * way, p * way - mean, (p0 - p) / slip.lean - s0 * way]);
+            let [n, p, _] = slip.sums(ways.map(|way| height - slip.lean * way));
+            let (means, falls) = (n.map(|n| (n0 - n) / slip.lean), p.map(|p| p0 - p));
+            (0..L).for_each(|i| push[i] -= falls[i]);
+            works.extend([
+                array::from_fn(|i| means[i] - p0 * ways[i]),
+                array::from_fn(|i| p[i] * ways[i] - means[i]),
+                array::from_fn(|i| falls[i] / slip.lean - s0 * ways[i]),
+            ]);
         }
         push
     }
 
     /// Shares of both turning points in the way at an angle.
+    #[inline(always)]
     fn share(&self, q: f64) -> [f64; 2] {
         match self.swing.clock {
             Clock::Way => [0.0; 2],
@@ -94,7 +101,7 @@ impl Rates {
         let begin = arc.swing.way(arc.clock[0]);
         firsts.extend(arc.swing.slips.iter().map(|slip| {
             let height = slip.height - slip.lean * begin;
-            First { height, sums: slip.sums(height) }
+            First { height, sums: slip.sums([height]).map(|[sum]| sum) }
         }));
         let is_found = self.find_from(arc, (begin, &firsts), allowed);
         self.firsts = firsts;
@@ -115,7 +122,7 @@ impl Rates {
             return false;
         }
         let (start, finish) = (origin.share(begin), origin.share(end));
-        let bend = origin.works(end, &mut self.works);
+        let [bend] = origin.works([end], &mut self.works);
         self.ends.clear();
         for k in 0..count {
             let (low, high) = (self.low[k], self.high[k]);
@@ -127,12 +134,12 @@ impl Rates {
                 Clock::Angle if k == SPEED => push.recip(),
                 Clock::Angle => 0.0,
             };
-            let late = late - self.sums[k][0];
+            let late = late - total(self.sums[k][0]);
             // Where it turns it is at rest to the last bit, and goes along its turning point.
             let (way, speed) = if turns {
                 (high, 0.0)
             } else {
-                (moved(finish) + last * late, (self.works[k] + bend * moved(finish)) / last)
+                (moved(finish) + last * late, (self.works[k][0] + bend * moved(finish)) / last)
             };
             self.ends.push([way, speed + bend * late]);
         }
@@ -148,11 +155,11 @@ impl Rates {
             if swing.clock == Clock::Way {
                 continue;
             }
-            let bend = origin.works(at, &mut self.works);
+            let [bend] = origin.works([at], &mut self.works);
             if bend == 0.0 {
                 return false;
             }
-            moved.iter_mut().zip(&self.works).for_each(|(moved, work)| *moved = -work / bend);
+            moved.iter_mut().zip(&self.works).for_each(|(moved, [work])| *moved = -work / bend);
         }
         true
     }
@@ -162,11 +169,12 @@ impl Rates {
         let rules = if arc.is_whole() { &ARCS } else { &RULES };
         quadrature::worth_trying(rules, allowed).any(|rule| {
             self.sums.clear();
-            self.sums.resize(self.low.len(), [0.0; 4]);
+            self.sums.resize(self.low.len(), [[0.0; LANES]; 4]);
             rule.nodes().for_each(|nodes| self.add(arc, origin, nodes));
-            self.sums.iter().all(|[value, second, first, size]| {
+            self.sums.iter().all(|sums| {
+                let [value, second, first, size] = sums.map(total);
                 let tail = (second.abs() + first.abs()) / size;
-                value.is_finite() && (*size == 0.0 || CAUTION * tail * tail <= allowed)
+                value.is_finite() && (size == 0.0 || CAUTION * tail * tail <= allowed)
             })
         })
     }
@@ -174,19 +182,26 @@ impl Rates {
     /// Adds what four nodes make of the sums.
     fn add(&mut self, arc: &Stretch<'_>, origin: &Origin<'_>, nodes: &Nodes) {
         let (ways, paces, squares) = arc.nodes(nodes.at);
-        for i in 0..LANES {
-            let bend = origin.works(ways[i], &mut self.works);
-            let [a, b] = origin.share(ways[i]).map(|share| share * bend);
-            let (slower, wider) = (-paces[i] / squares[i], paces[i] / origin.range);
-            let shares = nodes.shares.map(|shares| shares[i]);
-            let moved = self.low.iter().zip(&self.high).zip(&self.works);
-            for (sums, ((low, high), work)) in self.sums.iter_mut().zip(moved) {
-                let rate = wider * (high - low) + slower * (work + a * low + b * high);
-                (0..3).for_each(|n| sums[n] += shares[n] * rate);
-                sums[3] += shares[0] * rate.abs();
+        let bends = origin.works(ways, &mut self.lanes);
+        let shares = ways.map(|way| origin.share(way));
+        let near: [Lanes; 2] = array::from_fn(|end| array::from_fn(|i| shares[i][end] * bends[i]));
+        let slower: Lanes = array::from_fn(|i| -paces[i] / squares[i]);
+        let wider = paces.map(|pace| pace / origin.range);
+        let moved = self.low.iter().zip(&self.high).zip(&self.lanes);
+        for (sums, ((low, high), works)) in self.sums.iter_mut().zip(moved) {
+            let gone: Lanes = array::from_fn(|i| works[i] + near[0][i] * low + near[1][i] * high);
+            let rates: Lanes = array::from_fn(|i| wider[i] * (high - low) + slower[i] * gone[i]);
+            for (sum, shares) in sums.iter_mut().zip(&nodes.shares) {
+                (0..LANES).for_each(|i| sum[i] += shares[i] * rates[i]);
             }
+            (0..LANES).for_each(|i| sums[3][i] += nodes.shares[0][i] * rates[i].abs());
         }
     }
+}
+
+/// What four nodes have together.
+fn total([a, b, c, d]: Lanes) -> f64 {
+    (a + b) + (c + d)
 }
 
 impl Stretch<'_> {

@@ -83,14 +83,28 @@ impl PartialSlip {
         self.law.root == 1
     }
 
-    /// αN and its first two derivatives by the height, at a height: its parts of ∫b dh, of b and of db/dh but for their signs; m²/s², m/s², 1/s².
-    pub(super) fn sums(&self, height: f64) -> [f64; 3] {
-        let height = above(height);
-        let ([force, stiffness, _], root) =
-            rooted!(self.law, N => (self.derivatives::<N>(height), root::<N>(height)));
-        let [value, ..] = self.law.divided([height; 3]);
-        let power = self.gain * root;
-        [power * height * height * value, power * height * force, power * stiffness]
+    /// αN and its first two derivatives by the height, at heights: its parts of ∫b dh, of b and of db/dh but for their signs; m²/s², m/s², 1/s².
+    #[inline(always)]
+    pub(super) fn sums<const L: usize>(&self, heights: [f64; L]) -> [[f64; L]; 3] {
+        rooted!(self.law, N => self.sums_inside::<N, L>(heights.map(above)))
+    }
+
+    #[inline(always)]
+    fn sums_inside<const N: usize, const L: usize>(&self, heights: [f64; L]) -> [[f64; L]; 3] {
+        let e = 2.0 + 1.0 / N as f64;
+        let (mut values, mut forces, mut stiffness) = ([1.0; L], [e; L], [e * (e - 1.0); L]);
+        if self.law.terms.len() > 1 {
+            for i in 0..L {
+                [values[i], ..] = self.law.divided([heights[i]; 3]);
+                [forces[i], stiffness[i], _] = self.derivatives::<N>(heights[i]);
+            }
+        }
+        let powers = heights.map(|height| self.gain * root::<N>(height));
+        [
+            array::from_fn(|i| powers[i] * heights[i] * heights[i] * values[i]),
+            array::from_fn(|i| powers[i] * heights[i] * forces[i]),
+            array::from_fn(|i| powers[i] * stiffness[i]),
+        ]
     }
 
     /// Takes up the turning points.
