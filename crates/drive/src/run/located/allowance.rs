@@ -37,6 +37,8 @@ const FINEST: f64 = 1e-13;
 // Without it the flyback of a stage that has run for 0.4 s took steps of 16 ps, 3.1 million of them at a tolerance of 1e-11. With
 // 0.001 that period takes 59 600 steps in all, with 0.01 to 8 46 300; with 1 or more a stack at 1e-12 ends in other last digits.
 const RUSH: f64 = 0.1;
+/// Tolerance below which contacts are asked, too: at it a thousand seconds of a drive that goes by 10⁵ natural lengths a second are not seen.
+const RUSH_BELOW: f64 = 1e-8;
 
 /// Differences over which derivatives are taken, in natural scales: far below what bends a contact's force, which is a tenth of
 /// u_c and more, and far above rounding.
@@ -115,8 +117,9 @@ impl Allowance {
         let noise = if beyond > 0.0 { 8.0 * f64::EPSILON * state.t * surge(model, state) } else { 0.0 };
         scale[layout.dimension()..].fill(work + noise.min(beyond));
         // Where nothing swings there is no such step.
-        if !model.links.is_empty() && model.fastest > 0.0 {
-            allow_rush(model, state, scale);
+        let by_contacts = self.strict < RUSH_BELOW;
+        if model.fastest > 0.0 && (by_contacts || !model.links.is_empty()) {
+            allow_rush(model, state, scale, by_contacts);
         }
     }
 }
@@ -146,28 +149,40 @@ pub(super) fn differences(model: &Model) -> Vec<f64> {
     natural.allowed.scale[..coupled].iter().map(|scale| unit * scale).collect()
 }
 
-/// Raises what is allowed to what rounding of time leaves of the forces of fast strokes.
+/// Raises what is allowed to what rounding of time leaves of the forces of fast strokes and followers, and rounding of places of contacts
+/// whose bodies started far from the origin.
 ///
-/// A stage of a step lies at a time that is rounded to εt, and a link's force changes by F' = kṡ + cs̈ in a second: accelerations
-/// are wrong by εtF'/m and powers by εtF'ṡ, and what a step makes of them falls with its length only. Allowed is what one of
-/// [`RUSH`]/ω makes of them, ω the fastest natural motion's.
-fn allow_rush(model: &Model, state: &State, scale: &mut [f64]) {
+/// A stage of a step lies at a time that is rounded to εt, and a link's force changes by F' = kṡ + cs̈ in a second, a contact's by 2G\*a u̇ of
+/// what it follows: accelerations are wrong by εtF'/m and powers by εtF'ṡ, and what a step makes of them falls with its length only.
+/// Allowed is what one of [`RUSH`]/ω makes of them, ω the fastest natural motion's.
+fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool) {
     let layout = model.layout();
     let equations = Equations::on(model, state, layout, false);
     let at = Components { t: state.t, y: |i: usize| state.y[i] };
     let moment = RUSH / model.fastest;
-    let late = f64::EPSILON * state.t * moment;
+    let late = f64::EPSILON * state.t;
     let mut work = 0.0;
-    for link in model.links.iter().filter(|link| matches!(link.stroke, Stroke::Driven(_))) {
-        let stroke = equations.stroke(link, &at);
-        let push = late * (link.stiffness * stroke.rate + link.damping * stroke.acceleration).abs();
-        work += push * stroke.rate.abs();
-        for (i, a) in &link.elongation.free {
+    let mut push = |force: f64, rate: f64, free: &[(usize, f64)]| {
+        let push = moment * force.abs();
+        work += push * rate.abs();
+        for (i, a) in free {
             let speed = push * a.abs() * model.free[*i].mobility;
             let (place, velocity) = (*i, layout.velocity(*i));
             scale[place] = scale[place].max(speed * moment);
             scale[velocity] = scale[velocity].max(speed);
         }
+    };
+    for link in model.links.iter().filter(|link| matches!(link.stroke, Stroke::Driven(_))) {
+        let stroke = equations.stroke(link, &at);
+        let force = late * (link.stiffness * stroke.rate + link.damping * stroke.acceleration);
+        push(force, stroke.rate, &link.elongation.free);
+    }
+    for contact in model.contacts.iter().filter(|contact| by_contacts && !contact.inert) {
+        let rate = |w: usize| equations.signal(w, &at).rate;
+        let rate: f64 = contact.u.driven.iter().map(|(w, a)| a * rate(*w)).sum();
+        let place = f64::EPSILON * contact.u.constant.abs();
+        let stiffness = contact.count * contact.interface.stick_stiffness(contact.natural.depth);
+        push(stiffness * (late * rate.abs() + place), rate, &contact.u.free);
     }
     scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
 }
