@@ -121,7 +121,12 @@ fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, Curve
         ways.iter().for_each(|(curve, traced)| tell(curve, traced));
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
-    Ok(verdict(&ways))
+    let verdict = verdict(&ways);
+    // Why there is nothing at all is no note.
+    if verdict == Verdict::Stopped && (arguments.quiet || arguments.json) {
+        ways.iter().take(1).for_each(|(curve, traced)| complain_of_faults(curve, traced));
+    }
+    Ok(verdict)
 }
 
 /// A range worth looking at for all of them.
@@ -258,6 +263,11 @@ fn tell(curve: &Curve, traced: &Traced) {
             "note: which way the drive steps without load is not known; loads act against +x"
         ));
     }
+    complain_of_faults(curve, traced);
+}
+
+/// That points have no motion, and why the first of them has none.
+fn complain_of_faults(curve: &Curve, traced: &Traced) {
     let first = traced.points.iter().find_map(|point| Some((point.value, point.motion.as_ref().err()?)));
     if let Some((value, fault)) = first {
         let (count, all) = (traced.faults(), traced.points.len());

@@ -40,6 +40,9 @@ pub enum Unfound {
     NotRun,
 }
 
+/// Why nothing is found where no point has steps at all.
+const NO_MOTION: &str = "no point has a motion";
+
 impl From<Motionless> for Unfound {
     fn from(why: Motionless) -> Self {
         if why == Motionless::NotRun { Self::NotRun } else { Self::Motionless(why) }
@@ -126,6 +129,7 @@ impl Curve {
             known[from..].iter().map_while(|(at, step)| step.map(|step| (*at, step))).collect();
         let Some(&(still, _)) = known.get(from + steps.len()).filter(|_| !steps.is_empty()) else {
             let why = match (steps.is_empty(), rises) {
+                _ if lengths.is_empty() => NO_MOTION,
                 (false, _) => "the drive steps at all points",
                 (true, true) => "no step at the end of the range",
                 (true, false) => "the drive steps at none",
@@ -195,6 +199,7 @@ impl Curve {
         let best = (0..known.len()).max_by(|a, b| known[*a].value.total_cmp(&known[*b].value));
         let Some(place) = best.filter(|place| known[*place].value > known[*place].error) else {
             let why = match yields {
+                _ if known.is_empty() => NO_MOTION,
                 Yield::Power => "no point with a step does work against its load",
                 Yield::Step | Yield::Speed => "the drive steps at none",
             };

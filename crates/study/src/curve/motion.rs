@@ -3,7 +3,7 @@
 //! [`steady::find`] leads into the motion that repeats itself, whether or not a run would stay in it. Where it is not
 //! found, or a disturbance of it grows, the drive is run (`waiting`).
 
-use super::waiting::waited;
+use super::waiting::{Unstable, waited};
 use crate::steady::{self, Multiplier, Options, SteadyError};
 use stickslip_drive::{RunError, Waveform};
 use stickslip_results::{Job, Watcher};
@@ -89,6 +89,21 @@ pub enum Motionless {
         /// Periods that were run.
         periods: u32,
     },
+    /// Steps that swing about those of a motion that a run leaves, or are those, and have come to nothing else yet.
+    #[error(
+        "leaves its steady motion: a disturbance grows by {:.2e} % a period, and after {periods} periods {step:.4e} m a period ± {spread:.1e} m are no other motion yet",
+        100.0 * (growth - 1.0)
+    )]
+    Grows {
+        /// Periods that were run.
+        periods: u32,
+        /// The mean step, m.
+        step: f64,
+        /// By what steps swing about it, m.
+        spread: f64,
+        /// By which factor a disturbance grows in a period.
+        growth: f64,
+    },
     /// Steps on their way.
     #[error(
         "steps go on changing: after {periods} periods {step:.3e} m, by {change:.1e} m from the last to this one"
@@ -127,7 +142,17 @@ impl Motion {
         let options = Options { tolerance: TOLERANCE, periods, goes_on: &goes_on, ..Options::default() };
         match steady::find(job, &options) {
             Ok(found) if found.is_stable() => Self::found(job, &found),
-            Ok(found) => waited(job, watcher).map(|motion| Self { work: motion.work + found.work, ..motion }),
+            Ok(found) => {
+                let period = waveform(job)?.period().ok_or(Motionless::NoSteps)?;
+                let share = 1.0 / found.periods_of(period);
+                let leaves = found.step.map(|step| Unstable {
+                    step: share * step,
+                    error: share * found.bound,
+                    growth: found.radius().powf(share),
+                });
+                let motion = waited(job, watcher, leaves)?;
+                Ok(Self { work: motion.work + found.work, ..motion })
+            }
             Err(SteadyError::Interrupted(_)) => Err(Motionless::NotRun),
             Err(
                 SteadyError::NoConvergence { .. }
@@ -138,7 +163,7 @@ impl Motion {
                 | SteadyError::Incommensurate { .. }
                 | SteadyError::Flies { .. }
                 | SteadyError::Run(_),
-            ) => waited(job, watcher),
+            ) => waited(job, watcher, None),
             Err(error) => Err(Motionless::Search(error)),
         }
     }
@@ -242,6 +267,7 @@ impl Motionless {
             Self::Run(_) | Self::Search(_) => "stopped",
             Self::SlidesAway { .. } => "slides away",
             Self::Flies { .. } => "in the air",
+            Self::Grows { .. } => "leaves",
             Self::Unsettled { .. } => "not settled",
         }
     }

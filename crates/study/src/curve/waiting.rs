@@ -7,6 +7,9 @@
 //! does to a limit grows as 1/(1-r)², and steps that grow evenly, as where a load drags the body away, have r = 1.
 //!
 //! What a body flies or slides in a period may be even by itself: only steps in which a contact holds it are taken for steady.
+//!
+//! A run that begins near a motion that it leaves stays with it as long as a disturbance takes to grow. It is run on, and what has not left
+//! is no motion that a drive would have in the end.
 
 use super::motion::{Course, Motion, Motionless, STILL, natural, waveform};
 use crate::grip::{Grip, Loose};
@@ -15,8 +18,9 @@ use stickslip_drive::{Event, Plan, Record, Run, RunError};
 use stickslip_results::summary::step_bounds;
 use stickslip_results::{Job, Watcher};
 
-/// Most periods that are waited for.
+/// Most periods that are waited for, and while a swing about a motion that a run leaves is growing.
 const WAITED: u32 = 400;
+const LEAVING: u32 = 10_000;
 /// What may be left of the way to the limit, as a share of the step or of the natural length of the body's contacts, whichever
 /// is longer.
 const LEFT: f64 = 1e-6;
@@ -26,17 +30,36 @@ const FEWEST: usize = 5;
 const AGREEING: usize = 3;
 /// By which share a beat that stays as it is may be larger or smaller in the last quarter of the periods than in the one before.
 const STAYS: f64 = 0.05;
+/// By which share it may be so by the whole of the last half, as its fit tells.
+const DRIFTS: f64 = 0.01;
+/// Part of the growth of a disturbance at which a swing has not grown with it.
+const LAGS: f64 = 0.1;
+/// By which share what has left a motion may range wider or less in the last quarter than in the one before.
+const WIDER: f64 = 0.25;
 /// Where the changes of steps are rounding, as a share of their scale.
 const ROUNDING: f64 = 1e-11;
 
-/// Runs a job period by period until its steps are steady.
-pub(super) fn waited(job: &Job, watcher: &dyn Watcher) -> Result<Motion, Motionless> {
+/// A motion that repeats itself and that a run leaves: its step and how far that may be off, m, and by which factor a disturbance grows
+/// in a period.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unstable {
+    pub(super) step: f64,
+    pub(super) error: f64,
+    pub(super) growth: f64,
+}
+
+/// Runs a job period by period until its steps are steady: on another motion than the one it `leaves`, if there is one.
+pub(super) fn waited(
+    job: &Job,
+    watcher: &dyn Watcher,
+    leaves: Option<Unstable>,
+) -> Result<Motion, Motionless> {
     let body = job.scenario.figures.body.ok_or(Motionless::NoSteps)?;
     let waveform = waveform(job)?;
     let period = waveform.period().ok_or(Motionless::NoSteps)?;
     let (start, stop) = waveform.window();
     let cycles = ((stop - start) / period * (1.0 + 1e-12)).floor();
-    let most = f64::from(WAITED).min(cycles) as u32;
+    let most = f64::from(if leaves.is_some() { LEAVING } else { WAITED }).min(cycles) as u32;
     if (most as usize) < FEWEST {
         return Err(Motionless::Ends(most));
     }
@@ -69,11 +92,42 @@ pub(super) fn waited(job: &Job, watcher: &dyn Watcher) -> Result<Motion, Motionl
         steps.push(x - before);
         before = x;
         hold.note(k as usize, loose);
-        if let Some(limit) = limit(&steps[hold.loose_until..], natural, LEFT) {
+        let other = |limit: &Mean| leaves.is_none_or(|it| it.is_other(limit, LEFT * natural));
+        if let Some(limit) = limit(&steps[hold.loose_until..], natural, LEFT).filter(other) {
             return Ok(motion((Course::Steady, limit, 0.0), k));
         }
+        if k == most || k % WAITED == 0 {
+            match judged(&steps, hold, bounds, leaves) {
+                Err(Motionless::Grows { .. }) if k < most => (),
+                found => return Ok(motion(found?, k)),
+            }
+        }
     }
-    Ok(motion(judged(&steps, hold, bounds)?, most))
+    Err(Motionless::Ends(most))
+}
+
+impl Unstable {
+    /// Whether a limit of steps, m, is that of another motion.
+    fn is_other(&self, limit: &Mean, near: f64) -> bool {
+        (limit.value - self.step).abs() > limit.error + self.error + near
+    }
+
+    /// Whether steps that swing about a mean by so much, over so many steps, may be those of a run that has not left, or is on its way: they
+    /// range wider than before, or have another mean.
+    fn may_hold(&self, steps: &[f64], (mean, spread, period): (f64, f64, f64)) -> bool {
+        let parts = steps.split_at(steps.len() / 2);
+        let parts = [parts.0, parts.1];
+        let [before, after] = parts.map(extent);
+        let wider = (after / before - 1.0).abs();
+        let grown = self.growth.powf(parts[1].len() as f64) - 1.0;
+        let swings_on = (mean - self.step).abs() < spread && wider > LAGS * grown.min(1.0);
+        let moves_on = match parts.map(|part| Mean::of(part, period)) {
+            // That which lies on the way has a large error.
+            [Some(a), Some(b)] => (a.value - b.value).abs() > 2.0 * a.error.min(b.error),
+            _ => true,
+        };
+        swings_on || wider.is_nan() || wider > WIDER || moves_on
+    }
 }
 
 /// In which periods something held the body.
@@ -126,7 +180,12 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
 }
 
 /// What steps do that have not become steady: with their mean and by how much they swing about it.
-fn judged(steps: &[f64], hold: Hold, bounds: Bounds) -> Result<(Course, Mean, f64), Motionless> {
+fn judged(
+    steps: &[f64],
+    hold: Hold,
+    bounds: Bounds,
+    leaves: Option<Unstable>,
+) -> Result<(Course, Mean, f64), Motionless> {
     let periods = steps.len() as u32;
     let half = &steps[steps.len() / 2..];
     let last = steps.last().copied().unwrap_or(0.0);
@@ -144,19 +203,37 @@ fn judged(steps: &[f64], hold: Hold, bounds: Bounds) -> Result<(Course, Mean, f6
     let plain = half.iter().sum::<f64>() / half.len() as f64;
     // Too few swings say no more than that the mean lies between their ends.
     let mean = |period, spread| Mean::of(half, period).unwrap_or(Mean { value: plain, error: spread });
+    let grows = |(unstable, step, spread): (Unstable, f64, f64)| {
+        Err(Motionless::Grows { periods, step, spread, growth: unstable.growth })
+    };
     match settling {
         Settling::Settled(settled) => {
-            Ok((Course::Steady, Mean { value: settled.value, error: settled.error }, 0.0))
+            let settled = Mean { value: settled.value, error: settled.error };
+            match leaves.filter(|unstable| !unstable.is_other(&settled, 0.0)) {
+                Some(unstable) => grows((unstable, settled.value, 0.0)),
+                None => Ok((Course::Steady, settled, 0.0)),
+            }
         }
-        Settling::Beats { period, amplitude, .. } => {
+        Settling::Beats { period, growth, amplitude, .. } => {
             // One that goes on growing or fading takes the mean with it, and nobody knows how far.
             let [before, after] = [&half[..half.len() / 2], &half[half.len() / 2..]].map(extent);
             let Mean { value, error } = mean(period, amplitude);
-            let stays = (after - before).abs() <= STAYS * before;
+            if let Some(unstable) = leaves.filter(|it| it.may_hold(half, (value, amplitude, period))) {
+                return grows((unstable, value, amplitude));
+            }
+            let drifts = growth.is_some_and(|growth| (growth.ln() * half.len() as f64).abs() > DRIFTS);
+            // What has left a motion has been asked already.
+            let stays = leaves.is_some() || !drifts && (after - before).abs() <= STAYS * before;
             let error = if stays { error } else { error.max(amplitude) };
             Ok((Course::Beats, Mean { value, error }, amplitude))
         }
-        Settling::Irregular { spread } => Ok((Course::Irregular, mean(0.0, spread), spread)),
+        Settling::Irregular { spread } => {
+            let mean = mean(0.0, spread);
+            match leaves.filter(|it| it.may_hold(half, (mean.value, spread, 0.0))) {
+                Some(unstable) => grows((unstable, mean.value, spread)),
+                None => Ok((Course::Irregular, mean, spread)),
+            }
+        }
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
             // Where nobody knows how long a step can be, one that grows to no limit that is foreseen.
             let is_foreseen = matches!(settling, Settling::NotSettled { limit: Some(_), .. });
@@ -222,9 +299,9 @@ mod tests {
         assert_eq!(limit(&grows, 4e-8, 1e-6), None);
         let swings: Vec<f64> = (0..200).map(|k| 1e-8 * (1.0 + 0.1 * f64::from(k).sin())).collect();
         assert_eq!(limit(&swings, 4e-8, 1e-6), None);
-        let judged_so = judged(&grows, Hold::default(), FREE);
+        let judged_so = judged(&grows, Hold::default(), FREE, None);
         assert!(matches!(judged_so, Err(Motionless::SlidesAway { periods: 50, .. })), "{judged_so:?}");
-        let (course, mean, spread) = judged(&swings, Hold::default(), FREE).unwrap();
+        let (course, mean, spread) = judged(&swings, Hold::default(), FREE, None).unwrap();
         assert_eq!(course, Course::Beats);
         // 15 swings in 100 values: their mean is known to less than a tenth of the swing.
         assert!((mean.value - 1e-8).abs() <= mean.error && mean.error < 1e-10, "{mean:?}");
@@ -233,9 +310,34 @@ mod tests {
         // One that grows goes on growing: nobody knows what that makes of the mean.
         let of = |k: i32| 1e-10 * 1.004_f64.powi(k);
         let grows: Vec<f64> = (0..400).map(|k| 1e-8 + of(k) * f64::from(k).sin()).collect();
-        let (course, mean, spread) = judged(&grows, Hold::default(), FREE).unwrap();
+        let (course, mean, spread) = judged(&grows, Hold::default(), FREE, None).unwrap();
         assert_eq!(course, Course::Beats);
         assert!(mean.error >= spread && spread > 0.5_f64.cos() * of(399), "{mean:?} {spread}");
+    }
+
+    /// A swing that grows as a disturbance of the motion at its middle does has not left that; one that stays has, and so has one elsewhere.
+    #[test]
+    fn what_still_swings_about_a_motion_that_it_leaves_is_none() {
+        let unstable = Unstable { step: 1e-8, error: 1e-17, growth: 1.0004 };
+        let swings = |count: i32, growth: f64, middle: f64| -> Vec<f64> {
+            (0..count).map(|k| middle + 1e-9 * growth.powi(k) * (0.7 * f64::from(k)).sin()).collect()
+        };
+        let of = |steps: &[f64]| judged(steps, Hold::default(), FREE, Some(unstable));
+        let slowly = of(&swings(400, 1.0004, 1e-8));
+        assert!(matches!(slowly, Err(Motionless::Grows { periods: 400, .. })), "{slowly:?}");
+        let still = of(&[1e-8; 400]);
+        assert!(matches!(still, Err(Motionless::Grows { .. })), "{still:?}");
+        for middle in [1e-8, -3e-8] {
+            let (course, mean, _) = of(&swings(1600, 1.0, middle)).unwrap();
+            assert_eq!(course, Course::Beats);
+            assert!((mean.value - middle).abs() <= mean.error && mean.error < 1e-10, "{mean:?}");
+        }
+        // On its way from there it has a mean that moves.
+        let left = |k: f64| -4e-8 / (1.0 + (-(k - 1400.0) / 40.0).exp());
+        let underway: Vec<f64> =
+            swings(1600, 1.0, 1e-8).iter().zip(0..).map(|(s, k)| s + left(f64::from(k))).collect();
+        let underway = of(&underway);
+        assert!(matches!(underway, Err(Motionless::Grows { .. })), "{underway:?}");
     }
 
     /// A constant force: each step is longer than the one before by F T²/m. Differences of such places are rounded, and by chance
@@ -248,7 +350,7 @@ mod tests {
             for count in FEWEST..steps.len() {
                 assert_eq!(limit(&steps[..count], 4e-8, 1e-6), None, "{stretch} {count}");
             }
-            let judged = judged(&steps, Hold::default(), FREE);
+            let judged = judged(&steps, Hold::default(), FREE, None);
             assert!(matches!(judged, Err(Motionless::SlidesAway { .. })), "{judged:?}");
         }
     }
@@ -257,13 +359,13 @@ mod tests {
     #[test]
     fn what_is_dragged_or_flies_is_not_steady() {
         let loose = |loose| Hold { loose_until: 20, held_until: 17, loose: Some(loose) };
-        let of = |step: f64, hold| judged(&[step; 20], hold, Bounds { least: 1e-12, ..FREE });
+        let of = |step: f64, hold| judged(&[step; 20], hold, Bounds { least: 1e-12, ..FREE }, None);
         assert_eq!(of(5e-8, loose(Loose::Flies)), Err(Motionless::Flies { periods: 20 }));
         assert!(matches!(of(-2e-7, loose(Loose::Slides)), Err(Motionless::SlidesAway { .. })));
         assert!(of(0.0, loose(Loose::Slides)).is_ok() && of(-2e-7, Hold::default()).is_ok());
         // What hops and touches again has a mean, though it flies at the end.
         let hops: Vec<f64> = (0..100).map(|k| if k % 7 == 3 { 1e-8 } else { 5e-8 }).collect();
         let hold = Hold { loose_until: 100, held_until: 96, loose: Some(Loose::Flies) };
-        assert!(judged(&hops, hold, FREE).is_ok());
+        assert!(judged(&hops, hold, FREE, None).is_ok());
     }
 }

@@ -48,9 +48,14 @@ pub(super) fn trace(arguments: &CharacteriseArguments) -> Result<Verdict, CurveF
         tell(&holding, &points);
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
+    let stopped = points.iter().all(|point| point.ways.iter().all(Result::is_err));
+    // Why there is nothing at all is no note.
+    if stopped && (arguments.quiet || arguments.json) {
+        complain_of_faults(&holding, &points);
+    }
     Ok(match done < all {
         true => Verdict::Interrupted,
-        false if points.iter().all(|point| point.ways.iter().all(Result::is_err)) => Verdict::Stopped,
+        false if stopped => Verdict::Stopped,
         false => Verdict::Done,
     })
 }
@@ -70,6 +75,11 @@ fn tell(holding: &Holding, points: &[Point]) {
     }
     [0..=2, 4..=5].into_iter().for_each(|columns| table::to_the_right(&mut table, columns));
     say(format_args!("load on {} that is held at rest\n{table}", holding.on()));
+    complain_of_faults(holding, points);
+}
+
+/// That loads are not found, and why the first of them is not.
+fn complain_of_faults(holding: &Holding, points: &[Point]) {
     let faults = points
         .iter()
         .flat_map(|point| point.ways.iter().filter_map(|way| Some((point.value, way.as_ref().err()?))));
