@@ -5,7 +5,7 @@
 //!
 //! Nothing here is read off rows. Ends of cycles are marks, turning points are events; where the contact's law has no time in
 //! it, the way from one to the next is walked once more, and what lies between is asked of the law. Elsewhere moments are dense:
-//! peaks between them are those of parabolas, and the mean of a prescribed load is an integral of its waveform.
+//! peaks between them are those of polynomials, and the mean of a prescribed load is an integral of its waveform.
 
 mod judged;
 mod load;
@@ -116,7 +116,7 @@ struct Setup<'a> {
     /// Range of u up to which it stands still, m.
     still: f64,
     load: Option<&'a Load>,
-    /// Whether moments are so dense that extremes between them are those of parabolas.
+    /// Whether moments are so dense that extremes between them are those of polynomials.
     is_dense: bool,
     /// Whether its force never jumps at an event.
     is_continuous: bool,

@@ -11,8 +11,8 @@ use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 /// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
 /// extremes and corners that are no events. On what drives it the body that steps has no loops.
 const PARTS: f64 = 512.0;
-/// The same of a period of a load that is shorter, where the contact's body goes to and fro in many of them: parabolas through moments
-/// so near find the extremes of a sine to 4e-6 of it.
+/// The same of a period of a load that is shorter, where the contact's body goes to and fro in many of them: polynomials through moments
+/// so near find the extremes of a sine to 3e-8 of it.
 const LOAD_PARTS: f64 = 64.0;
 /// Most parts of a period in all: a cycle of more moments than there is room for would not be told.
 const MOST_PARTS: f64 = 65_536.0;
