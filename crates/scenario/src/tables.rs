@@ -284,14 +284,17 @@ fn column(at: &At<'_>, key: &str, name: Option<&str>, header: &[Head]) -> Result
         }
         ([], header) => {
             let fault = at.fault(format!("the file has no column \"{}\"", shown(name)));
-            let help = match header {
-                [only] if only.full.contains([';', '\t']) => Some(format!(
-                    "its first line is \"{}\": put commas between the fields",
-                    shown(&only.full)
-                )),
-                _ => suggest::help(name, header.iter().map(|head| head.full.as_str())),
-            };
-            Err(fault.maybe_help(help))
+            Err(fault.maybe_help(help(name, header)))
         }
+    }
+}
+
+/// What may help where a column is not found: what is near by, or the commas that a line of heads lacks.
+fn help(name: &str, header: &[Head]) -> Option<String> {
+    match header {
+        [only] if only.full.contains([';', '\t']) => {
+            Some(format!("its first line is \"{}\": put commas between the fields", shown(&only.full)))
+        }
+        _ => suggest::help(name, header.iter().map(|head| head.full.as_str())),
     }
 }

@@ -30,8 +30,8 @@ const STENCIL: usize = 5;
 /// What a slope is at most, of the mean slope, that is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Share of a slope in the middle, or of its jump, by which every second point alone would have it otherwise where the points do not
-/// hold it: r^{4/3} and smoother, and what is left of the cubics' error.
+/// Share of a slope in the middle, or of its jump, by which every second point alone would have it otherwise, or every fourth, where the points
+/// do not hold it: r^{4/3} and smoother, what is left of the cubics' error, and what rounding has made of measured points.
 const FADES: f64 = 0.25;
 
 impl Outline {
@@ -53,29 +53,34 @@ impl Outline {
         let slopes = slopes(&radii, &gaps, &at);
         let mut outline = Self { radii, gaps, slopes, kinks: at, error: 0.0 };
         let thinned = outline.thinned();
-        outline.smooth(&thinned);
+        // Of fewer points no more is known.
+        let twice = (outline.radii.len() > 4 * STENCIL).then(|| thinned.thinned());
+        outline.smooth(&[Some(&thinned), twice.as_ref()]);
         outline.error = outline.distance(&thinned);
         Ok(outline)
     }
 
-    /// Takes tips and edges away that are not in the points but in what is made of them: slopes that are rounding, or that every second
-    /// point would have quite different.
+    /// Takes tips and edges away that are not in the points but in what is made of them: slopes that are rounding, or that every second or
+    /// every fourth point would have quite different.
     // Left in, they are no more than the error of g, but a pressure without bound: that of a table of r²/2R at every second distance of
     // points, and of a sphere's at most.
-    fn smooth(&mut self, thinned: &Self) {
+    fn smooth(&mut self, thinned: &[Option<&Self>; 2]) {
         let mean = self.gaps[self.gaps.len() - 1] / self.radii[self.radii.len() - 1];
         // Of rⁿ half the distance takes 2ⁿ⁻¹ from the slope, of a tip it leaves what is there.
-        let fades =
-            |own: f64, coarse: f64| own.abs() <= ROUNDING * mean || (coarse - own).abs() >= FADES * own.abs();
+        let fades = |own: f64, coarse: &dyn Fn(&Self) -> f64| {
+            let differs = |other: &Self| (coarse(other) - own).abs() >= FADES * own.abs();
+            own.abs() <= ROUNDING * mean || thinned.iter().flatten().any(|other| differs(other))
+        };
         let (_, secant, [tip, _]) = self.cell(0);
-        // Where the points bend down from the first, or not at all, it is a tip they show.
-        if tip < 0.5 * secant && fades(tip, thinned.slopes[0][0]) {
+        // Where the points bend down from the first it is a tip they show.
+        let bends_up = self.gaps.len() > 2 && self.cell(1).1 >= secant;
+        if bends_up && fades(tip, &|other| other.slopes[0][0]) {
             self.slopes[0][0] = 0.0;
         }
         for i in 0..self.kinks.len() {
             let kink = self.kinks[i];
-            let coarse = thinned.kinks.get(i).map_or(0.0, |kink| thinned.jump(*kink));
-            if fades(self.jump(kink), coarse) {
+            let coarse = |other: &Self| other.kinks.get(i).map_or(0.0, |kink| other.jump(*kink));
+            if fades(self.jump(kink), &coarse) {
                 let limit = 3.0 * self.cell(kink - 1).1.min(self.cell(kink).1);
                 let slope = (0.5 * (self.slopes[kink - 1][1] + self.slopes[kink][0])).min(limit);
                 (self.slopes[kink - 1][1], self.slopes[kink][0]) = (slope, slope);

@@ -1,8 +1,8 @@
 //! Profiles by points: tables of (r, f) through the numerical transform (4.20) against closed forms, and normal laws.
 
 use stickslip_contact::{
-    Apex, ContactError, Curve, FirstLoadingError, Interface, Move, NormalGiven, Pair, Profile, ProfileError,
-    Row, Segment, Springs,
+    Apex, ContactError, Curve, FirstLoadingError, Interface, Material, Move, NormalGiven, Pair, Profile,
+    ProfileError, Row, Segment, Springs,
 };
 
 /// A profile of closed form, its f, the last radius of its table, its kinks.
@@ -345,4 +345,37 @@ fn what_is_no_profile_is_refused() {
     assert_eq!(law(&[(0.0, 0.0), (1.0, 1.0), (2.0, 1.5)]), ProfileError::Softening { index: 2 });
     assert_eq!(law(&[(0.0, 0.0), (1.0, 1.0), (1.0, 3.0)]), ProfileError::Order { index: 2 });
     assert_eq!(law(&[(0.0, 0.0), (1.0, 0.0), (2.0, 3.0)]), ProfileError::Fall { index: 1 });
+}
+
+/// A ball of 1 mm by points that are rounded, as those of an instrument: Hertz' pressure 2E\*d/(πa), to what rounding leaves of the shape
+/// about the middle. In tables of 50, 60 and, by nanometres, 20 parts the first points went as those of a cone.
+#[test]
+fn a_ball_by_rounded_points_has_no_tip() {
+    let pair = Pair::new(Material::new(210e9, 0.3).unwrap(), Material::new(210e9, 0.3).unwrap());
+    for (quantum, all) in
+        [(1e-10, &[10, 20, 25, 30, 40, 50, 60, 70, 80, 100][..]), (1e-9, &[10, 15, 20, 25, 30])]
+    {
+        for &parts in all {
+            let point = |k: u32| {
+                let r = 20e-6 * f64::from(k) / f64::from(parts);
+                (r, (r * r / 2e-3 / quantum).round() * quantum)
+            };
+            let points: Vec<(f64, f64)> = (0..=parts).map(point).collect();
+            let law = Interface::new(pair, Profile::table(&points, &[]).unwrap(), 0.3).unwrap();
+            let d = 1e-7;
+            let peak = law.peak_pressure(d).unwrap();
+            let hertz = 2.0 * law.normal_modulus() * d / (std::f64::consts::PI * (d * 1e-3).sqrt());
+            assert!((peak / hertz - 1.0).abs() < 0.1, "{quantum:e} {parts}: {peak:e} {hertz:e}");
+        }
+    }
+    // What has a tip keeps it, by as many points and by few.
+    for parts in [6, 20, 21, 50, 200] {
+        let point = |k: u32| {
+            let r = 20e-6 * f64::from(k) / f64::from(parts);
+            (r, 5e-3 * r + r * r / 2e-3)
+        };
+        let points: Vec<(f64, f64)> = (0..=parts).map(point).collect();
+        let law = Interface::new(pair, Profile::table(&points, &[]).unwrap(), 0.3).unwrap();
+        assert_eq!(law.peak_pressure(1e-7), Some(f64::INFINITY), "{parts}");
+    }
 }

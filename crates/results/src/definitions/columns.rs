@@ -158,7 +158,11 @@ pub(super) const COLUMNS: &[Definition] = &[
     of("fields.csv", "slip_m", "local slip at r, counted from how far the centre has slid"),
     of("fields.csv", "w_m", "normal displacement of the surface at r"),
     of("fields.csv", "state", "`stick`, `slip` or `open` at r"),
-    of("fields.csv", "error_Pa", "estimated error of both stresses; 0 where closed forms hold"),
+    of(
+        "fields.csv",
+        "error_Pa",
+        "estimated error of both stresses, of the quadrature alone: what a table leaves open between its points is not in it; 0 where closed forms hold",
+    ),
     of("fields.csv", "error_m", "estimated error of the displacements; 0 where closed forms hold"),
     of("friction.csv", "time_s", "the moment"),
     of("friction.csv", "contact", "the contact, one of its count"),

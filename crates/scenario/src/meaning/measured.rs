@@ -46,7 +46,7 @@ pub(super) fn table(at: &At<'_>, form: &GapTableForm) -> Result<Profile, Fault> 
         ProfileError::NotRising { index, .. } => {
             let message =
                 "the profile bends down so far before this point that its equivalent g(x) does not rise";
-            let help = "circles of contact that grow need a profile that is convex, or nearly so";
+            let help = "circles of contact that grow need a profile that is convex, or nearly so; points that scatter are not: give fewer of them, or smooth them";
             points_at.index(index).fault(message).help(help).against_path(points_at.path())
         }
         _ => few(&points_at, &error),
@@ -78,7 +78,7 @@ pub(super) fn normal_law(at: &At<'_>, form: &NormalLawForm, pair: Pair) -> Resul
         ProfileError::Softening { index } => {
             let fault = at.index(index).fault("the force rises less steeply up to this point than before it");
             fault
-                .help("a contact grows as it is pressed: its stiffness does not fall")
+                .help("a contact grows as it is pressed: its stiffness does not fall; where points scatter, give fewer of them, or smooth them")
                 .against_path(at.path())
         }
         _ => few(&at, &error),

@@ -5,7 +5,7 @@ use super::sheet;
 use crate::error::{Report, ScenarioError};
 use crate::excerpt::Excerpt;
 use crate::units::{self, Kind};
-use crate::{suggest, syntax, text};
+use crate::{syntax, text};
 use std::ops::Range;
 use std::path::Path;
 
@@ -43,7 +43,7 @@ pub fn pairs(path: &Path, first: &[(&str, &str)], second: &[(&str, &str)]) -> Re
     let Some((second_place, second_name)) = found else {
         let names: Vec<&str> = second.iter().map(|(name, _)| *name).collect();
         let message = format!("expected a column {}", names.join(" or "));
-        let help = suggest::help(names[0], header.iter().map(|head| head.full.as_str()));
+        let help = super::help(names[0], &header);
         return Err(in_text(&name, &text, sheet::head(&text, 0), (message, help)));
     };
     let first_place = given.map_or(second_place, |(place, _)| place);
