@@ -24,8 +24,12 @@ pub struct EnergyBook<'a> {
     pub error: &'a [f64],
 }
 
+/// Part of the tallest area that is thinner than a line.
+const THIN: f64 = 1e-3;
+
 /// Above, the input as a line over the areas of what it became: friction, damping, and what is stored since the
-/// start. Below, each on its own scale, the two stores and the error of the book.
+/// start; where less is stored than at the start, what of that is used up lies over the losses that it paid for. Below, each on its own scale,
+/// the two stores, where they hold anything, and the error of the book.
 pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
     let panel = |label: &str, values: &'a [f64], ink, share| Panel {
         x: Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") },
@@ -42,11 +46,13 @@ pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
     balance.bands = areas(book);
     let mut error = panel("error", book.error, Ink::Foreground, 0.7);
     error.references = vec![Reference::Horizontal { y: 0.0, label: Label::default() }];
-    let kinetic = panel("kinetic", book.kinetic, Ink::Palette(1), 0.9);
+    // What has no mass has none to show.
+    let moves = book.kinetic.iter().any(|kinetic| *kinetic != 0.0);
+    let kinetic = moves.then(|| panel("kinetic", book.kinetic, Ink::Palette(1), 0.9));
     let elastic = panel("elastic", book.elastic, Ink::Palette(0), 0.9);
     Figure {
         title: Label::plain(title),
-        panels: vec![balance, kinetic, elastic, error],
+        panels: [Some(balance), kinetic, Some(elastic), Some(error)].into_iter().flatten().collect(),
         arrangement: Arrangement::Column { share_x: true },
         size: Figure::size_for(1500, 0, 0),
         ..Figure::default()
@@ -65,14 +71,20 @@ fn areas<'a>(book: &EnergyBook<'a>) -> Vec<Band<'a>> {
         ink,
     };
     let stored = since_start(book.kinetic).into_iter().zip(since_start(book.elastic)).map(|(k, e)| k + e);
-    let all = stored.zip(&lost).map(|(stored, lost)| stored + lost).collect();
+    let (gained, used): (Vec<f64>, Vec<f64>) =
+        stored.zip(&lost).map(|(stored, lost)| (lost + stored.max(0.0), lost + stored.min(0.0))).unzip();
     let zeros = vec![0.0; book.friction.len()];
     let mut bands = vec![band("friction", zeros, book.friction.to_vec(), Ink::Shade(1))];
     if book.damping.iter().any(|damping| *damping != 0.0) {
         bands.push(band("damping", book.friction.to_vec(), lost.clone(), Ink::Shade(3)));
     }
-    // Over the others: what was stored at the start and is used up reaches down into them.
-    bands.push(band("stored since the start", lost, all, Ink::Shade(2)));
+    // Thinner than a line it is not seen.
+    let tallest = gained.iter().copied().fold(0.0, f64::max);
+    let is_used = used.iter().zip(&lost).any(|(used, lost)| lost - used > THIN * tallest);
+    bands.push(band("stored since the start", lost.clone(), gained, Ink::Shade(2)));
+    if is_used {
+        bands.push(band("lost of what was stored at the start", used, lost, Ink::Pale(0)));
+    }
     bands
 }
 

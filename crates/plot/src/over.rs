@@ -2,16 +2,17 @@
 
 use crate::Label;
 use crate::figure::Figure;
-use crate::panel::{Band, Mosaic, Note, Panel, Series, is_drawable};
+use crate::panel::{Band, Mosaic, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 use std::borrow::Cow;
 
 /// Width of a curve among many.
 const FINE: f64 = 0.75;
 
-/// The curves of figures of one kind in one: each figure has a colour, named at the ends of its curves, which are told apart by
-/// dashes. What is pale in a figure, for it came before, is left out, and so is what stands behind in all but the first. None where the
-/// figures have other panels than the first, or none of them has curves.
+/// The curves of figures of one kind in one: each figure has a colour, named in the legend, its curves told apart by
+/// dashes. What is pale in a figure, for it came before, is left out, and so is what stands behind in all but the first. Lines of
+/// one name that lie elsewhere in another figure are named after theirs. None where the figures have other panels than the first, or
+/// none of them has curves.
 pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Figure<'a>> {
     let (_, first) = figures.first()?;
     let is_like = |figure: &Figure<'_>| {
@@ -35,14 +36,17 @@ fn panel<'a>(figures: &[(String, Figure<'a>)], place: usize) -> Panel<'a> {
     let of = |figure: &Figure<'a>| figure.panels[place].clone();
     let mut all: Panel<'a> = figures.first().map(|(_, figure)| of(figure)).unwrap_or_default();
     (all.series, all.bands, all.references) = (Vec::new(), Vec::new(), Vec::new());
+    let differ = differing(figures, place);
     for (result, (name, figure)) in figures.iter().enumerate() {
         let panel = of(figure);
         // Another scale is another axis.
         all.top = all.top.filter(|top| panel.top.as_ref() == Some(top));
         all.right = all.right.filter(|right| panel.right.as_ref() == Some(right));
         for reference in panel.references {
-            if !all.references.contains(&reference) {
-                all.references.push(reference);
+            let named =
+                if differ.contains(&reference.label().text()) { reference.of(name) } else { reference };
+            if !all.references.contains(&named) {
+                all.references.push(named);
             }
         }
         let (behind, shown): (Vec<_>, Vec<_>) =
@@ -58,19 +62,31 @@ fn panel<'a>(figures: &[(String, Figure<'a>)], place: usize) -> Panel<'a> {
                 label if is_only || label.is_empty() => name.clone(),
                 label => format!("{name}: {label}"),
             };
-            all.notes.extend(end(&series, &words, Ink::Palette(result)));
             let style = Style { ink: Some(Ink::Palette(result)), dash: Some(Dash::at(dash)), width: FINE };
-            all.series.push(Series { style, label: Label::default(), directed: false, ..series });
+            all.series.push(Series { style, label: Label::plain(&words), directed: false, ..series });
         }
     }
     all
 }
 
-/// A name at the end of a curve.
-fn end(series: &Series<'_>, words: &str, ink: Ink) -> Option<Note> {
-    let mut points = series.xs.iter().copied().zip(series.ys.iter().copied());
-    let end = points.rfind(|(x, y)| is_drawable(*x) && is_drawable(*y))?;
-    Some(Note { lines: vec![Label::plain(words)], about: [end; 2], on: None, ink: Some(ink) })
+/// Names of lines that lie elsewhere in some figures than in the first.
+fn differing(figures: &[(String, Figure<'_>)], place: usize) -> Vec<String> {
+    let of = |figure: &Figure<'_>| figure.panels[place].references.clone();
+    let first = figures.first().map(|(_, figure)| of(figure)).unwrap_or_default();
+    let others = figures.iter().skip(1).flat_map(|(_, figure)| of(figure));
+    let named = others.filter(|other| !first.contains(other)).map(|other| other.label().text());
+    named.filter(|name| !name.is_empty()).collect()
+}
+
+impl Reference {
+    /// The line of a result among those of others.
+    fn of(self, name: &str) -> Self {
+        let named = |label: Label| label.followed_by(&format!(" of {name}"));
+        match self {
+            Self::Horizontal { y, label } => Self::Horizontal { y, label: named(label) },
+            Self::Vertical { x, label } => Self::Vertical { x, label: named(label) },
+        }
+    }
 }
 
 impl Figure<'_> {

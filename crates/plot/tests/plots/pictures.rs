@@ -136,7 +136,13 @@ fn energies() {
     draw_everywhere("energy", &figure);
     // The book closes: the areas reach up, or down, to the line of the input.
     let drawing = draw_svg(&figure).unwrap();
-    let stored = polygons(&drawing, &hex(Theme::light().shades[2]));
+    let [_, friction, stored, damping] = Theme::light().shades.map(hex);
+    let fills = drawing.split("<polygon ").skip(1).map(|tag| value(tag, "fill"));
+    let used =
+        fills.into_iter().find(|fill| ![&friction, &stored, &damping].map(|it| it.as_str()).contains(fill));
+    // Less is stored at times than at the start: what of it is lost has a colour of its own, below the line of losses.
+    let used = polygons(&drawing, used.unwrap());
+    let stored: Vec<_> = polygons(&drawing, &stored).into_iter().chain(used).collect();
     let line = polylines(&drawing, &hex(Theme::light().foreground))
         .into_iter()
         .find(|line| line.len() > 50)
