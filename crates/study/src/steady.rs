@@ -164,6 +164,16 @@ impl Steady {
         }
     }
 
+    /// The numbers of which no multiplier is told, in words.
+    #[must_use]
+    pub fn names_untold(&self) -> Option<String> {
+        let first = self.untold.first()?;
+        Some(match self.untold.len() {
+            1 => first.clone(),
+            count => format!("{first} and {} more numbers", count - 1),
+        })
+    }
+
     /// How many periods of a waveform, s, there are in one of the motion, the common one of all waveforms.
     pub(crate) fn periods_of(&self, waveform: f64) -> f64 {
         (self.period / waveform).round().max(1.0)

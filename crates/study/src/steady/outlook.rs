@@ -39,12 +39,17 @@ impl Steady {
             beat: largest.and_then(super::Multiplier::beat).map(Real),
             fold: largest.and_then(super::Multiplier::periods).map(Real),
             words: match self.doubt() {
-                None => self.becomes() + &led,
+                None => self.becomes() + &self.not_told().unwrap_or_default() + &led,
                 Some(doubt) => format!("fades or stays, which is not known: {doubt}"),
             },
             carried,
             shaken_down: self.named(&self.shaken_down),
         })
+    }
+
+    /// That it is not known what becomes of a disturbance of some numbers.
+    fn not_told(&self) -> Option<String> {
+        Some(format!("; of {} that is not known", self.names_untold()?))
     }
 
     /// What becomes of a disturbance, in words: of what stays, and of what fades slowest beside it; and whether others like it do as well.

@@ -61,9 +61,16 @@ impl Report {
     /// The results cannot be written.
     pub(crate) fn not_written(job: &Job, error: &io::Error) -> Self {
         let folder = job.folder.display();
+        // Nothing but another command takes the drafts of a run away.
+        let help = match error.kind() {
+            io::ErrorKind::NotFound => {
+                "\n   help: the files begun there are gone: another run has written into the same folder; give each its own by --out"
+            }
+            _ => "",
+        };
         Self::failed(
             Verdict::Stopped,
-            format!("{}: the results cannot be written to {folder}: {}", job.name, words(error)),
+            format!("{}: the results cannot be written to {folder}: {}{help}", job.name, words(error)),
         )
     }
 

@@ -33,7 +33,12 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
             "shaken down",
             told(&found.shaken_down, "no gross slip ever; one motion of a whole family, the nearest"),
         ),
-        ("not told", untold(&found.untold)),
+        (
+            "not told",
+            found.names_untold().map(|names| {
+                format!("{names}: memories come back with other knots, multipliers do not know of them")
+            }),
+        ),
         ("led along", told(&found.carried, "memory is no unknown; multipliers do not know of it")),
     ];
     let rows = rows.into_iter().filter_map(|(label, cell)| Some(vec![label.to_owned(), cell?]));
@@ -42,16 +47,6 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
     let motion = grid(["STEADY MOTION", ""], rows);
     let multipliers = multipliers(&found.multipliers);
     [head, motion, multipliers].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n\n")
-}
-
-/// The numbers of which no multiplier is told.
-fn untold(names: &[String]) -> Option<String> {
-    let first = names.first()?;
-    let all = match names.len() {
-        1 => first.clone(),
-        count => format!("{first} and {} more numbers", count - 1),
-    };
-    Some(format!("{all}: memories come back with other knots, multipliers do not know of them"))
 }
 
 /// Whether a run stays.
