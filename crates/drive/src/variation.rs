@@ -62,9 +62,9 @@ pub struct Variation<'m> {
     /// What the contacts remember.
     anchors: Vec<Anchors>,
     /// The state at which the interval began; none before the run has, and after it has ended.
-    from: Option<State>,
+    from: Option<Box<State>>,
     /// The same of the interval that has just ended.
-    left: Option<State>,
+    left: Option<Box<State>>,
     outcome: Result<(), VariationError>,
     tolerance: f64,
     /// Longest step of the equations, as a part of the run's.
@@ -328,7 +328,7 @@ impl Record for Variation<'_> {
             self.outcome = self.check_turns(left, state);
             self.turn_corner(state);
         }
-        self.begin_growth(left.as_ref(), state);
+        self.begin_growth(left.as_deref(), state);
         self.take_up(state);
         // In the room of the interval before.
         self.from = Some(match left {
@@ -336,7 +336,7 @@ impl Record for Variation<'_> {
                 room.copy(state);
                 room
             }
-            None => state.clone(),
+            None => Box::new(state.clone()),
         });
     }
 }

@@ -98,10 +98,13 @@ fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, Curve
     progress.tell(format_args!("{name}: {what}, {count} points"));
     let values = match asked {
         Some(range) => range.values()?,
-        None => match wide(&curves, &interrupt) {
-            Some(range) => of(arguments, range).values()?,
-            None => Vec::new(),
-        },
+        None => {
+            progress.tell(format_args!("{name}: looking for a range"));
+            match wide(&curves, &interrupt) {
+                Some(range) => of(arguments, range).values()?,
+                None => Vec::new(),
+            }
+        }
     };
     let mut all = Vec::new();
     for curve in &curves {

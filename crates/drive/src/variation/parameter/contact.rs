@@ -72,6 +72,9 @@ impl Parameter {
     /// How a contact is moved.
     pub(in crate::variation) fn shift(&self, contact: &Contact, at: Moment<'_>) -> Shift {
         let (c, rates) = (contact.place, &self.contacts[contact.place]);
+        if !rates.any {
+            return Shift::default();
+        }
         let [u, du] = self.followed(&contact.u, at);
         let [d, dd] = match &contact.press {
             Press::Constant { .. } => [rates.d, 0.0],
