@@ -152,7 +152,7 @@ pub(super) fn differences(model: &Model) -> Vec<f64> {
 /// Raises what is allowed to what rounding of time leaves of the forces of fast strokes and followers, and rounding of places of contacts
 /// whose bodies started far from the origin.
 ///
-/// A stage of a step lies at a time that is rounded to εt, and a link's force changes by F' = kṡ + cs̈ in a second, a contact's by 2G\*a u̇ of
+/// A stage of a step lies at a time that is rounded to εt, and a link's force changes by F' = kṡ + cs̈ in a second, a contact's by mω²u̇ of
 /// what it follows: accelerations are wrong by εtF'/m and powers by εtF'ṡ, and what a step makes of them falls with its length only.
 /// Allowed is what one of [`RUSH`]/ω makes of them, ω the fastest natural motion's.
 fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool) {
@@ -181,7 +181,10 @@ fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool
         let rate = |w: usize| equations.signal(w, &at).rate;
         let rate: f64 = contact.u.driven.iter().map(|(w, a)| a * rate(*w)).sum();
         let place = f64::EPSILON * contact.u.constant.abs();
-        let stiffness = contact.count * contact.interface.stick_stiffness(contact.natural.depth);
+        let Some((first, _)) = contact.u.free.first() else { continue };
+        let free = &model.free[*first];
+        // All that holds the coordinate when it sticks: mω².
+        let stiffness = (free.scale.1 / free.scale.0).powi(2) / free.mobility;
         push(stiffness * (late * rate.abs() + place), rate, &contact.u.free);
     }
     scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
