@@ -24,7 +24,7 @@ pub mod steps;
 
 pub use cycles::{Cut, split_cycles};
 pub use fretting::Cycle;
-pub use mean::Mean;
+pub use mean::{Mean, Moved};
 pub use prefix::Prefix;
 pub use regime::{Regime, Thresholds};
 pub use sequence::Sequence;

@@ -8,6 +8,8 @@ use crate::sequence::{Sequence, mean_of};
 
 /// Most batches.
 const BATCHES: usize = 10;
+/// How much of its move from third to third a mean may keep that has a limit.
+const FORESEEN: f64 = 0.9;
 /// Fewest of them that say anything.
 const FEWEST: usize = 3;
 /// Student's t of two sides at 95 %, of 2 degrees of freedom and more: Abramowitz and Stegun, *Handbook of Mathematical Functions*
@@ -28,19 +30,61 @@ impl Mean {
     /// The mean of values that swing with a period, in values, or change without one (0). Batches have the same number of whole
     /// swings, and are as many as there are, at most ten; none where that makes fewer than three.
     pub fn of<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<Self> {
-        let count = values.count();
-        let unit = if period > 0.0 { period } else { 1.0 };
-        let units = (count as f64 / unit).floor();
-        let batches = BATCHES.min(units as usize);
-        let student = STUDENT.get(batches.checked_sub(FEWEST)?)?;
-        // Ends of batches are rounded, their lengths are not: no rest is left that grows.
-        let length = (units / batches as f64).floor() * unit;
-        let start = |batch: usize| count - ((batches - batch) as f64 * length).round() as usize;
-        let means: Vec<f64> = (0..batches).map(|b| mean_of(values, start(b)..start(b + 1))).collect();
-        let value = mean_of(values, start(0)..count);
-        let scatter = means.iter().map(|mean| (mean - value).powi(2)).sum::<f64>() / (batches - 1) as f64;
-        Some(Self { value, error: student * (scatter / batches as f64).sqrt() })
+        let (means, start) = batches(values, period)?;
+        let value = mean_of(values, start..values.count());
+        Some(Self { value, error: error(&means, value)? })
     }
+
+    /// How the mean of the same values moves, if it does: from the first half of the batches to the last by more than twice how well the
+    /// better of both halves is known. None of fewer than six batches, too.
+    pub fn moved<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<Moved> {
+        let (means, _) = batches(values, period)?;
+        let of = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+        let (first, last) = means.split_at(means.len() / 2);
+        let [a, b] = [first, last].map(of);
+        // A half on whose way it moves has a large error.
+        let known = error(first, a)?.min(error(last, b)?);
+        let third = means.len() / 3;
+        let [to, middle, from] =
+            [0, 1, 2].map(|k| means.len() - k * third).map(|end| of(&means[end - third..end]));
+        let falls = (to - middle) / (middle - from);
+        let left = (to - middle) * falls / (1.0 - falls);
+        let is_foreseen = (0.0..FORESEEN).contains(&falls);
+        let to_go = if is_foreseen { (to + left - of(&means)).abs() } else { f64::INFINITY };
+        let by = (a - b).abs();
+        (by > 2.0 * known).then_some(Moved { by, to_go })
+    }
+}
+
+/// A mean that is on its way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moved {
+    /// From the first half to the last.
+    pub by: f64,
+    /// From the mean of all to where it goes if it becomes slower as it has, from third to third; infinite where it does not.
+    pub to_go: f64,
+}
+
+/// Means of as many batches as there are, and where the first begins.
+fn batches<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<(Vec<f64>, usize)> {
+    let count = values.count();
+    let unit = if period > 0.0 { period } else { 1.0 };
+    let units = (count as f64 / unit).floor();
+    let batches = BATCHES.min(units as usize);
+    if batches < FEWEST {
+        return None;
+    }
+    // Ends of batches are rounded, their lengths are not: no rest is left that grows.
+    let length = (units / batches as f64).floor() * unit;
+    let start = |batch: usize| count - ((batches - batch) as f64 * length).round() as usize;
+    Some(((0..batches).map(|b| mean_of(values, start(b)..start(b + 1))).collect(), start(0)))
+}
+
+/// How far the mean of endlessly many batches may lie from a value, by 95 %.
+fn error(means: &[f64], value: f64) -> Option<f64> {
+    let student = STUDENT.get(means.len().checked_sub(FEWEST)?)?;
+    let scatter = means.iter().map(|mean| (mean - value).powi(2)).sum::<f64>() / (means.len() - 1) as f64;
+    Some(student * (scatter / means.len() as f64).sqrt())
 }
 
 #[cfg(test)]
@@ -55,6 +99,23 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         })
+    }
+
+    /// A mean that comes to rest has as far to go as its thirds tell; one that goes on evenly may go anywhere, and one of noise does not move.
+    #[test]
+    fn a_mean_on_its_way_is_told_from_chance() {
+        let of = |f: &dyn Fn(i32) -> f64| -> Vec<f64> { (0..300).map(f).collect() };
+        let share = 0.99_f64;
+        let rests = of(&|k| share.powi(k));
+        let moved = Mean::moved(&rests[..], 0.0).unwrap();
+        let mean = rests.iter().sum::<f64>() / 300.0;
+        assert!((moved.to_go / mean - 1.0).abs() < 0.05, "{moved:?} {mean}");
+        assert_eq!(Mean::moved(&of(&|k| f64::from(k))[..], 0.0).unwrap().to_go, f64::INFINITY);
+        let chance = (0..100).filter(|seed| {
+            let values: Vec<f64> = noise(seed + 1).take(300).collect();
+            Mean::moved(&values[..], 0.0).is_some()
+        });
+        assert!(chance.count() < 15);
     }
 
     /// How often the error is kept of 400 sequences of 200 values with the mean 0, and how large it is on average.

@@ -13,7 +13,7 @@
 
 use super::motion::{Course, Motion, Motionless, STILL, natural, waveform};
 use crate::grip::{Grip, Loose};
-use stickslip_analysis::{Bounds, Mean, Settling};
+use stickslip_analysis::{Bounds, Mean, Moved, Settling};
 use stickslip_drive::{Event, Plan, Record, Run, RunError};
 use stickslip_results::summary::step_bounds;
 use stickslip_results::{Job, Watcher};
@@ -30,6 +30,8 @@ const FEWEST: usize = 5;
 const AGREEING: usize = 3;
 /// By which share a beat that stays as it is may be larger or smaller in the last quarter of the periods than in the one before.
 const STAYS: f64 = 0.05;
+/// How many times as far as a mean that becomes slower has to go it may go.
+const SURE: f64 = 2.0;
 /// By which share it may be so by the whole of the last half, as its fit tells.
 const DRIFTS: f64 = 0.01;
 /// Part of the growth of a disturbance at which a swing has not grown with it.
@@ -121,13 +123,15 @@ impl Unstable {
         let wider = (after / before - 1.0).abs();
         let grown = self.growth.powf(parts[1].len() as f64) - 1.0;
         let swings_on = (mean - self.step).abs() < spread && wider > LAGS * grown.min(1.0);
-        let moves_on = match parts.map(|part| Mean::of(part, period)) {
-            // That which lies on the way has a large error.
-            [Some(a), Some(b)] => (a.value - b.value).abs() > 2.0 * a.error.min(b.error),
-            _ => true,
-        };
-        swings_on || wider.is_nan() || wider > WIDER || moves_on
+        swings_on || wider.is_nan() || wider > WIDER || moved(steps, period).is_some()
     }
+}
+
+/// How the mean of steps that swing with a period, in steps, moves by more than chance and rounding; none where it does not, or they are
+/// too few to tell.
+fn moved(steps: &[f64], period: f64) -> Option<Moved> {
+    let scale = steps.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
+    Mean::moved(steps, period).filter(|moved| moved.by > ROUNDING * scale)
 }
 
 /// In which periods something held the body.
@@ -194,7 +198,9 @@ fn judged(
     let settling = Settling::of(steps, Bounds { most: f64::INFINITY, ..bounds });
     let slides = Motionless::SlidesAway { periods, step: last, change };
     let swings = matches!(settling, Settling::Beats { .. } | Settling::Irregular { .. });
-    let is_loose = !swings || steps.len() - hold.held_until >= half.len();
+    // What hops may touch in every third period alone.
+    let long = if swings { half.len() } else { (steps.len() / 10).max(1) };
+    let is_loose = steps.len() - hold.held_until >= long;
     match hold.loose.filter(|_| is_loose && last.abs() > bounds.least) {
         Some(Loose::Flies) => return Err(Motionless::Flies { periods }),
         Some(Loose::Slides) => return Err(slides),
@@ -223,15 +229,19 @@ fn judged(
             }
             let drifts = growth.is_some_and(|growth| (growth.ln() * half.len() as f64).abs() > DRIFTS);
             // What has left a motion has been asked already.
+            let to_go = moved(half, period).map_or(0.0, |moved| SURE * moved.to_go);
             let stays = leaves.is_some() || !drifts && (after - before).abs() <= STAYS * before;
-            let error = if stays { error } else { error.max(amplitude) };
+            let error = error.max(if stays { to_go.min(amplitude) } else { amplitude });
             Ok((Course::Beats, Mean { value, error }, amplitude))
         }
         Settling::Irregular { spread } => {
             let mean = mean(0.0, spread);
             match leaves.filter(|it| it.may_hold(half, (mean.value, spread, 0.0))) {
                 Some(unstable) => grows((unstable, mean.value, spread)),
-                None => Ok((Course::Irregular, mean, spread)),
+                None => {
+                    let error = mean.error.max(moved(half, 0.0).map_or(0.0, |moved| moved.by));
+                    Ok((Course::Irregular, Mean { error, ..mean }, spread))
+                }
             }
         }
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
@@ -315,6 +325,22 @@ mod tests {
         assert!(mean.error >= spread && spread > 0.5_f64.cos() * of(399), "{mean:?} {spread}");
     }
 
+    /// A beat whose size stays and whose mean is still on its way: its batches scatter little, and know nothing of what is to come.
+    #[test]
+    fn a_mean_on_its_way_is_known_to_what_it_has_to_go() {
+        let fades = |k: i32| 4e-11 * 0.995_f64.powi(k);
+        let beat = |k: i32| 1e-8 + [0.0, 3e-9, -1e-9][k as usize % 3] + fades(k);
+        let steps: Vec<f64> = (0..400).map(beat).collect();
+        let (course, mean, _) = judged(&steps, Hold::default(), FREE, None).unwrap();
+        assert_eq!(course, Course::Beats);
+        let exact = 1e-8 + 2e-9 / 3.0;
+        let off = (mean.value - exact).abs();
+        assert!(off <= mean.error && mean.error < 3.0 * off, "{mean:?} {off:e}");
+        let steps: Vec<f64> = (0..400).map(|k| beat(k) - fades(k)).collect();
+        let (_, mean, _) = judged(&steps, Hold::default(), FREE, None).unwrap();
+        assert!((mean.value - exact).abs() < 1e-20 && mean.error < 1e-18, "{mean:?}");
+    }
+
     /// A swing that grows as a disturbance of the motion at its middle does has not left that; one that stays has, and so has one elsewhere.
     #[test]
     fn what_still_swings_about_a_motion_that_it_leaves_is_none() {
@@ -363,7 +389,9 @@ mod tests {
         assert_eq!(of(5e-8, loose(Loose::Flies)), Err(Motionless::Flies { periods: 20 }));
         assert!(matches!(of(-2e-7, loose(Loose::Slides)), Err(Motionless::SlidesAway { .. })));
         assert!(of(0.0, loose(Loose::Slides)).is_ok() && of(-2e-7, Hold::default()).is_ok());
-        // What hops and touches again has a mean, though it flies at the end.
+        // What touches in every third period is held, though it flies in the last, and so is what hops and touches again.
+        let hold = Hold { loose_until: 100, held_until: 98, loose: Some(Loose::Flies) };
+        assert!(judged(&[5e-8; 100], hold, FREE, None).is_ok());
         let hops: Vec<f64> = (0..100).map(|k| if k % 7 == 3 { 1e-8 } else { 5e-8 }).collect();
         let hold = Hold { loose_until: 100, held_until: 96, loose: Some(Loose::Flies) };
         assert!(judged(&hops, hold, FREE, None).is_ok());
