@@ -100,7 +100,7 @@ pub(super) fn waited(
         }
         if k == most || k % WAITED == 0 {
             match judged(&steps, hold, bounds, leaves) {
-                Err(Motionless::Grows { .. }) if k < most => (),
+                Err(Motionless::Grows { .. } | Motionless::Unsettled { .. }) if k < most => (),
                 found => return Ok(motion(found?, k)),
             }
         }
