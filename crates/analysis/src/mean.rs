@@ -8,13 +8,13 @@ use crate::sequence::{Sequence, mean_of};
 
 /// Most batches.
 const BATCHES: usize = 10;
-/// How much of its move from third to third a mean may keep that has a limit.
-const FORESEEN: f64 = 0.9;
 /// Fewest of them that say anything.
 const FEWEST: usize = 3;
 /// Student's t of two sides at 95 %, of 2 degrees of freedom and more: Abramowitz and Stegun, *Handbook of Mathematical Functions*
 /// (1964), table 26.10.
 const STUDENT: [f64; BATCHES - FEWEST + 1] = [4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262];
+/// How much of its move from third to third a mean may keep that has a limit.
+const FORESEEN: f64 = 0.9;
 
 /// A mean.
 #[derive(Debug, Clone, Copy, PartialEq)]

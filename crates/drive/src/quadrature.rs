@@ -29,6 +29,12 @@ pub(crate) const LANES: usize = 4;
 /// Numbers that are worked on together.
 pub(crate) type Lanes = [f64; LANES];
 
+/// What they come to.
+#[inline(always)]
+pub(crate) fn total([a, b, c, d]: Lanes) -> f64 {
+    (a + b) + (c + d)
+}
+
 /// Four nodes of a rule.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Nodes {
@@ -161,7 +167,7 @@ impl Rule {
             let y = f(nodes.at);
             sums = array::from_fn(|k| array::from_fn(|i| sums[k][i] + nodes.shares[k][i] * y[i]));
         }
-        let [value, second, first] = sums.map(|[a, b, c, d]| (a + b) + (c + d));
+        let [value, second, first] = sums.map(total);
         // Two coefficients: of an even or odd function every other one vanishes.
         let tail = second.abs() + first.abs();
         let error = CAUTION * (tail / value).powi(2);

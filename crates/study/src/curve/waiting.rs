@@ -89,7 +89,9 @@ pub(super) fn waited(
         Motion { step, error, spread, period, course, multiplier, work, natural }
     };
     let ((mut before, _), mut steps, mut hold) = (place(0)?, Vec::new(), Hold::default());
-    for k in 1..=most {
+    let mut k = 0;
+    loop {
+        k += 1;
         let (x, loose) = place(k)?;
         steps.push(x - before);
         before = x;
@@ -105,7 +107,6 @@ pub(super) fn waited(
             }
         }
     }
-    Err(Motionless::Ends(most))
 }
 
 impl Unstable {
@@ -114,15 +115,16 @@ impl Unstable {
         (limit.value - self.step).abs() > limit.error + self.error + near
     }
 
-    /// Whether steps that swing about a mean by so much, over so many steps, may be those of a run that has not left, or is on its way: they
-    /// range wider than before, or have another mean.
-    fn may_hold(&self, steps: &[f64], (mean, spread, period): (f64, f64, f64)) -> bool {
-        let parts = steps.split_at(steps.len() / 2);
-        let parts = [parts.0, parts.1];
-        let [before, after] = parts.map(extent);
+    /// Whether what steps do, which swing with a period, in steps, may be that of a run that has not left, or is on its way: they are those of
+    /// this motion, range wider than before, or have another mean.
+    fn may_hold(&self, steps: &[f64], (course, mean, spread): (Course, Mean, f64), period: f64) -> bool {
+        if course == Course::Steady {
+            return !self.is_other(&mean, 0.0);
+        }
+        let [before, after] = extents(steps);
         let wider = (after / before - 1.0).abs();
-        let grown = self.growth.powf(parts[1].len() as f64) - 1.0;
-        let swings_on = (mean - self.step).abs() < spread && wider > LAGS * grown.min(1.0);
+        let grown = self.growth.powf((steps.len() - steps.len() / 2) as f64) - 1.0;
+        let swings_on = (mean.value - self.step).abs() < spread && wider > LAGS * grown.min(1.0);
         swings_on || wider.is_nan() || wider > WIDER || moved(steps, period).is_some()
     }
 }
@@ -209,51 +211,48 @@ fn judged(
     let plain = half.iter().sum::<f64>() / half.len() as f64;
     // Too few swings say no more than that the mean lies between their ends.
     let mean = |period, spread| Mean::of(half, period).unwrap_or(Mean { value: plain, error: spread });
-    let grows = |(unstable, step, spread): (Unstable, f64, f64)| {
-        Err(Motionless::Grows { periods, step, spread, growth: unstable.growth })
-    };
-    match settling {
+    let (found, period) = match settling {
         Settling::Settled(settled) => {
-            let settled = Mean { value: settled.value, error: settled.error };
-            match leaves.filter(|unstable| !unstable.is_other(&settled, 0.0)) {
-                Some(unstable) => grows((unstable, settled.value, 0.0)),
-                None => Ok((Course::Steady, settled, 0.0)),
-            }
+            ((Course::Steady, Mean { value: settled.value, error: settled.error }, 0.0), 0.0)
         }
         Settling::Beats { period, growth, amplitude, .. } => {
-            // One that goes on growing or fading takes the mean with it, and nobody knows how far.
-            let [before, after] = [&half[..half.len() / 2], &half[half.len() / 2..]].map(extent);
             let Mean { value, error } = mean(period, amplitude);
-            if let Some(unstable) = leaves.filter(|it| it.may_hold(half, (value, amplitude, period))) {
-                return grows((unstable, value, amplitude));
-            }
+            // One that goes on growing or fading takes the mean with it, and nobody knows how far. What has left a motion is asked below.
+            let [before, after] = extents(half);
             let drifts = growth.is_some_and(|growth| (growth.ln() * half.len() as f64).abs() > DRIFTS);
-            // What has left a motion has been asked already.
-            let to_go = moved(half, period).map_or(0.0, |moved| SURE * moved.to_go);
             let stays = leaves.is_some() || !drifts && (after - before).abs() <= STAYS * before;
+            let to_go = moved(half, period).map_or(0.0, |moved| SURE * moved.to_go);
             let error = error.max(if stays { to_go.min(amplitude) } else { amplitude });
-            Ok((Course::Beats, Mean { value, error }, amplitude))
+            ((Course::Beats, Mean { value, error }, amplitude), period)
         }
         Settling::Irregular { spread } => {
-            let mean = mean(0.0, spread);
-            match leaves.filter(|it| it.may_hold(half, (mean.value, spread, 0.0))) {
-                Some(unstable) => grows((unstable, mean.value, spread)),
-                None => {
-                    let error = mean.error.max(moved(half, 0.0).map_or(0.0, |moved| moved.by));
-                    Ok((Course::Irregular, Mean { error, ..mean }, spread))
-                }
-            }
+            let Mean { value, error } = mean(0.0, spread);
+            let error = error.max(moved(half, 0.0).map_or(0.0, |moved| moved.by));
+            ((Course::Irregular, Mean { value, error }, spread), 0.0)
         }
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
             // Where nobody knows how long a step can be, one that grows to no limit that is foreseen.
             let is_foreseen = matches!(settling, Settling::NotSettled { limit: Some(_), .. });
             let grows = bounds.most == f64::INFINITY && change * last > 0.0 && !is_foreseen;
-            Err(match grows || last.abs() > bounds.most {
+            return Err(match grows || last.abs() > bounds.most {
                 true => slides,
                 false => Motionless::Unsettled { periods, step: last, change },
-            })
+            });
         }
+    };
+    match leaves.filter(|unstable| unstable.may_hold(half, found, period)) {
+        Some(Unstable { growth, .. }) => {
+            let (_, Mean { value: step, .. }, spread) = found;
+            Err(Motionless::Grows { periods, step, spread, growth })
+        }
+        None => Ok(found),
     }
+}
+
+/// How far the first half of steps ranges, and the last.
+fn extents(steps: &[f64]) -> [f64; 2] {
+    let (first, last) = steps.split_at(steps.len() / 2);
+    [extent(first), extent(last)]
 }
 
 /// How far apart the longest and the shortest step are.

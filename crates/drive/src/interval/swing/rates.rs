@@ -10,7 +10,7 @@
 
 use super::stretch::Stretch;
 use super::{Clock, Swing};
-use crate::quadrature::{self, ARCS, LANES, Lanes, Nodes, RULES};
+use crate::quadrature::{self, ARCS, LANES, Lanes, Nodes, RULES, total};
 use std::array;
 use std::f64::consts::PI;
 
@@ -197,11 +197,6 @@ impl Rates {
             (0..LANES).for_each(|i| sums[3][i] += nodes.shares[0][i] * rates[i].abs());
         }
     }
-}
-
-/// What four nodes have together.
-fn total([a, b, c, d]: Lanes) -> f64 {
-    (a + b) + (c + d)
 }
 
 impl Stretch<'_> {
