@@ -25,4 +25,10 @@ pub trait FixedStep {
 pub trait Stepping<S: ?Sized>: FixedStep {
     /// Moves `y` (all components) from `t` to `t + h`.
     fn step(&mut self, system: &S, t: f64, y: &mut [f64], h: f64);
+
+    /// The same where forces go with the root of the time that is left until `t + h + left`, `left` ≥ 0.
+    fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
+        let _ = left;
+        self.step(system, t, y, h);
+    }
 }

@@ -1,6 +1,7 @@
 //! How many steps a frame takes.
 
 use super::Linearised;
+use crate::contact::Contact;
 use crate::{Model, Stepper, Waveform};
 use std::f64::consts::FRAC_PI_2;
 
@@ -16,12 +17,16 @@ impl Model {
     ///
     /// Kinks of a contact's law inside a step (loops that close, turning points) cost a method of any order a local error of
     /// (ωh)², ω the fastest swing with all contacts stuck and as deep as they get, or the fastest wave of a waveform:
-    /// h = 9 √accuracy/ω, at most half the longest stable step. States of blocks go smoothly from corner to corner, where a
-    /// step of the method loses (|λ|h)⁵/120 of what settles: h = (120 accuracy)^{1/5}/|λ|, λ the largest of their eigenvalues.
+    /// h = 9 √accuracy/ω, at most half the longest stable step. States of blocks go smoothly from corner to corner, and bodies settle on
+    /// damped contacts: there a step of the method loses (|λ|h)⁵/120 of what settles: h = (120 accuracy)^{1/5}/|λ|, λ the largest of
+    /// their eigenvalues.
     pub fn substeps(&self, length: f64, accuracy: f64) -> f64 {
         let parts = self.parts(|d| d.most);
         let swing = parts.iter().map(Linearised::highest_frequency).fold(0.0, f64::max);
-        let settling = self.block_eigenvalues().iter().map(|rate| rate.norm()).fold(0.0, f64::max);
+        let of_blocks = self.block_eigenvalues().iter().map(|rate| rate.norm()).fold(0.0, f64::max);
+        // What other dampers make of bodies is gone before it counts, but where a contact slips its damping is another.
+        let is_damped = self.contacts.iter().any(Contact::is_damped);
+        let settling = if is_damped { of_blocks.max(self.paces().fading) } else { of_blocks };
         let stable = self.longest_step(Stepper::Frames { length, accuracy }).unwrap_or(f64::INFINITY);
         let quarter = self.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
         let fastest = swing.max(FRAC_PI_2 / quarter);

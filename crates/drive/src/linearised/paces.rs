@@ -15,6 +15,8 @@ const STIFF: f64 = 100.0;
 pub(crate) struct Paces {
     /// Largest |λ|, 1/s, of the motions e^{λt} of bodies.
     pub(crate) fastest: f64,
+    /// The same of those that fade, 0 without any.
+    pub(crate) fading: f64,
     /// Whether the fastest of all motions that fade, states of blocks among them, is far faster than what does not fade and
     /// what the waveforms do.
     pub(crate) stiff: bool,
@@ -54,8 +56,9 @@ impl Model {
                 }
             }
         }
+        let fading = all.fading;
         self.block_eigenvalues().iter().for_each(|rate| all.add(rate));
-        Paces { fastest, stiff: all.fading > 0.0 && all.fading > STIFF * all.pace(self) }
+        Paces { fastest, fading, stiff: all.fading > 0.0 && all.fading > STIFF * all.pace(self) }
     }
 }
 

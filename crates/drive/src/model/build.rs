@@ -73,7 +73,7 @@ impl Model {
         scale::assign(contacts, free, &self.links, &self.waveforms, (deepest, pushes), scales);
         self.moment = balanced::moment(&self.waveforms);
         self.settle_balanced();
-        Paces { fastest: self.fastest, stiff: self.stiff } = self.paces();
+        Paces { fastest: self.fastest, stiff: self.stiff, .. } = self.paces();
         self.parts = parts::divide(scene, self);
         Ok(())
     }

@@ -14,13 +14,14 @@ use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon};
 use super::ledger::Ledger;
 use super::output::{Opening, Output};
-use crate::contact::{Mode, Motion};
+use crate::contact::{Contact, Mode, Motion};
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
+pub(super) use branches::Weakening;
 use branches::{Branches, KNOTS};
 pub(super) use step::Between;
 use stickslip_contact::{ContactState, Memory, Segment};
@@ -43,6 +44,8 @@ pub(super) struct Chords<'a> {
     pub(super) crossing: bool,
     /// Of frames: branches that contacts keep to.
     branches: Option<Branches<'a>>,
+    /// Whether springs of any contact are damped.
+    is_damped: bool,
     /// The contacts at both ends of the step.
     before: Vec<Motion>,
     motions: Vec<Motion>,
@@ -66,6 +69,7 @@ impl<'a> Chords<'a> {
             watched: false,
             crossing: !plan.stepper.ends_at_corners(),
             branches: matches!(plan.stepper, Stepper::Frames { .. }).then(|| Branches::of(model)),
+            is_damped: model.contacts.iter().any(Contact::is_damped),
             before: Vec::with_capacity(model.contacts.len()),
             motions: Vec::with_capacity(model.contacts.len()),
             last: Vec::with_capacity(layout.total()),
@@ -93,6 +97,9 @@ impl<'a> Chords<'a> {
                 self.ledger.set_out(state.t);
                 self.horizon.steps.begin(state);
             }
+        }
+        if !goes_on {
+            self.branch_at_start(state);
         }
         self.output.set_out(state.t, record);
         if opening.has_row(self.output.every, state.t) {

@@ -3,7 +3,7 @@
 //! A step is never chosen: an error that events make is the stepper's own, of second order at best. The work of a run is known
 //! beforehand.
 
-use super::chords::Chords;
+use super::chords::{Chords, Weakening};
 use super::horizon::{Goal, Progress};
 use super::output::Opening;
 use crate::equations::Equations;
@@ -17,6 +17,13 @@ const REMAINDER: f64 = 1e-9;
 
 /// The least part of a step to which one is cut where a contact's branch ends: what bounds the work.
 const LEAST: f64 = 0.125;
+/// The same where its damping weakens.
+const BRIEF: f64 = 1e-6;
+/// How often a step is taken anew to where the damping of a contact weakens.
+const CORRECTIONS: u32 = 2;
+/// Lengths of a step within which the damping of a contact must give way for its stages to lie for that: of a root that lies farther a plain
+/// one misses a millionth.
+const NEAR: f64 = 4.0;
 
 /// A length of time, s, and the whole number of steps that it takes: of plain fixed steps one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,8 +184,10 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         let t = state.t;
         let on_corner =
             !self.chords.crossing && state.pieces.iter().any(|piece| piece.start == t || piece.end == t);
-        let slack = if on_corner { self.slack(t) } else { 0.0 };
-        t < self.chords.horizon.limit() - slack
+        // The end of a run has its row, however near to a corner.
+        let limit = self.chords.horizon.limit();
+        let slack = if on_corner && limit < self.chords.horizon.end { self.slack(t) } else { 0.0 };
+        t < limit - slack
     }
 
     /// One step, up to the next moment of the grid or to where the run is cut before it.
@@ -211,7 +220,8 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         }
         self.chords.prepare(state);
         self.attempt(state, end);
-        if !is_due && self.chords.glides(state, (end, &self.y), record) {
+        let is_plain = !is_due && self.root_ahead(state, end).is_none();
+        if is_plain && self.chords.glides(state, (end, &self.y), record) {
             self.grid.count += if end >= aim - slack { 1.0 } else { 0.0 };
             return self.chords.bounds.step(state, record).map(|()| Progress::Made);
         }
@@ -239,21 +249,56 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
     }
 
     /// Takes a step to `end` anew, to where the first branch of a contact ends in it, but to no less than an eighth of a whole
-    /// one; gives the end, s.
-    fn cut(&mut self, state: &State, end: f64) -> f64 {
-        let Some(first) = self.chords.first_end(state, (end, &self.y)) else { return end };
-        let least = state.t + LEAST * self.grid.step;
-        let cut = first.max(least);
-        if cut > first || cut >= end {
-            self.chords.let_end_decide();
+    /// one, unless the damping of a contact weakens there; gives the end, s.
+    fn cut(&mut self, state: &State, mut end: f64) -> f64 {
+        self.chords.let_end_decide();
+        let mut is_rooted = false;
+        for _ in 0..CORRECTIONS {
+            let Some(first) = self.chords.first_end(state, (end, &self.y)) else { break };
+            let weakens = self.chords.weakens(state);
+            let least = if weakens.is_some() { BRIEF } else { LEAST };
+            // What is used up before the step begins ends as soon as time goes on.
+            let cut = first.max(state.t + least * self.whole(state));
+            let first = if weakens.is_some() { cut } else { first };
+            if cut > first || cut >= end {
+                self.chords.let_end_decide();
+            }
+            if cut >= end {
+                return end;
+            }
+            end = cut;
+            is_rooted = weakens == Some(Weakening::Away);
+            self.again(state, end, is_rooted.then_some(end));
+            if weakens.is_none() {
+                return end;
+            }
         }
-        if cut >= end {
-            return end;
+        if !is_rooted && let Some(root) = self.root_ahead(state, end) {
+            self.again(state, end, Some(root));
         }
+        end
+    }
+
+    /// Length that a step has which nothing cuts, s: from corner to corner where these are nearer to each other than steps.
+    fn whole(&self, state: &State) -> f64 {
+        let pieces = state.pieces.iter().map(|piece| piece.end - piece.start).filter(|length| *length > 0.0);
+        pieces.fold(self.grid.step, f64::min)
+    }
+
+    /// Where the damping of a contact gives way so soon after a step to `end` that its stages are to lie for that, s.
+    fn root_ahead(&mut self, state: &State, end: f64) -> Option<f64> {
+        let root = self.chords.gives_way_after(state, (end, &self.y))?;
+        (root - state.t < NEAR * (end - state.t)).then_some(root)
+    }
+
+    /// Takes a step to `end` anew; where the damping of a contact gives way at a `root`, s, with its stages for that.
+    fn again(&mut self, state: &State, end: f64, root: Option<f64>) {
         self.y.copy_from_slice(&state.y);
         self.stepper.restart();
-        self.attempt(state, cut);
-        cut
+        let Some(root) = root else { return self.attempt(state, end) };
+        let y = &mut self.y[..self.moved];
+        let way = (end - state.t, (root - end).max(0.0));
+        self.stepper.step_to_a_root(&self.chords.equations(state), state.t, y, way);
     }
 
     /// The step from where the state is to `end`, s.

@@ -2,6 +2,7 @@
 //! taken, and that a frame's work is bounded whatever comes from outside.
 
 use crate::shared::{Lottery, Stage, example, frames};
+use std::path::Path;
 use stickslip_drive::{Plan, Run, Stepper, Trace};
 
 /// Frames, s.
@@ -153,4 +154,79 @@ fn work_is_bounded_whatever_comes() {
     let limit = model.contact_natural(0).unwrap().force;
     assert!(merged.knots > 0, "no memory was ever full");
     assert!(merged.force < 0.5 * limit, "{merged:?} of {limit:e} N");
+}
+
+/// While springs stick their damping pushes with sixty times what friction holds, for the twentieth part of a step: it was a branch of its
+/// own in none, and the first flank alone was half lost.
+#[test]
+fn frames_see_a_damped_contact_give_way() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/frames_damped.json");
+    let set = |damping: &str, flyback: &str, heading: &str| {
+        [
+            ("contacts.ball.damping", damping),
+            ("waveforms.cmd.generator.shape.sawtooth.flyback", flyback),
+            ("waveforms.cmd.generator.heading", heading),
+        ]
+        .map(|(key, value)| (key.to_owned(), value.to_owned()))
+    };
+    let cases = [
+        ("\"5 us\"", "\"10.8 us\"", "backward", 1e-3),
+        ("\"20 us\"", "\"10.8 us\"", "backward", 1e-3),
+        ("\"50 us\"", "\"10.8 us\"", "forward", 1e-3),
+        // Shorter than a step, and faster than the slider settles.
+        ("\"20 us\"", "\"0.9 us\"", "backward", 1e-3),
+        ("\"100 us\"", "\"10.8 us\"", "backward", 1e-2),
+    ];
+    for (damping, flyback, heading, most) in cases {
+        let stage = Stage::of(&file, &set(damping, flyback, heading)).unwrap();
+        let exact = rows(&stage, Stepper::Event { tolerance: 1e-11 }, 4e-3);
+        let off = [1e-3, 1e-4].map(|accuracy| {
+            apart(&stage, &exact, &rows(&stage, Stepper::Frames { length: 40e-6, accuracy }, 4e-3))
+        });
+        println!("{damping}, {flyback}, {heading}: {off:?} u_c");
+        assert!(off.iter().all(|off| *off < most), "{damping}, {flyback}, {heading}: {off:?}");
+        let lost = |trace: &Trace| {
+            let place =
+                stage.job.model.channels().iter().position(|it| it.name == "energy.damping_J").unwrap();
+            trace.rows().last().unwrap()[place]
+        };
+        let frames = rows(&stage, Stepper::Frames { length: 40e-6, accuracy: 1e-3 }, 4e-3);
+        assert!((lost(&frames) / lost(&exact) - 1.0).abs() < 3e-3, "{damping}: {:e}", lost(&frames));
+    }
+}
+
+/// The end of a run a last place beyond the last cycle of its waveform: its row was left out, and friction since the branch before.
+#[test]
+fn an_end_a_last_place_after_a_corner_has_its_row() {
+    let set =
+        [("waveforms.drive.sawtooth.cycles", "3"), ("plots", "[]"), ("output", r#"{"every":"0.1 ms"}"#)];
+    let stage =
+        Stage::of(&example("p1.json"), &set.map(|(key, value)| (key.to_owned(), value.to_owned()))).unwrap();
+    let end = 3e-3_f64.next_up();
+    let last = |stepper| rows(&stage, stepper, end).rows().last().unwrap().to_vec();
+    let (frames, exact) = (last(frames(20e-6)), last(Stepper::Event { tolerance: 1e-11 }));
+    assert_eq!((frames[0], exact[0]), (end, end));
+    let friction = stage.job.model.channels().iter().position(|it| it.name == "energy.friction_J").unwrap();
+    assert!(
+        (frames[friction] / exact[friction] - 1.0).abs() < 1e-3,
+        "{:e}, {:e}",
+        frames[friction],
+        exact[friction]
+    );
+}
+
+/// A flyback that is shorter than a step of a frame: slip begins in it, and what was put in is known.
+#[test]
+fn a_flyback_shorter_than_a_step_is_seen() {
+    let set = [
+        ("waveforms.drive.sawtooth.flyback", "\"1 us\""),
+        ("plots", "[]"),
+        ("output", r#"{"every":"0.1 ms"}"#),
+    ];
+    let stage =
+        Stage::of(&example("p1.json"), &set.map(|(key, value)| (key.to_owned(), value.to_owned()))).unwrap();
+    let input = stage.job.model.channels().iter().position(|it| it.name == "energy.input_J").unwrap();
+    let last = |stepper| rows(&stage, stepper, 10e-3).rows().last().unwrap()[input];
+    let (frames, exact) = (last(frames(40e-6)), last(Stepper::Event { tolerance: 1e-11 }));
+    assert!((frames / exact - 1.0).abs() < 0.02, "{frames:e}, {exact:e}");
 }

@@ -4,7 +4,9 @@
 //! of the memory for many steps: one chord to its end is the same as many, and until then a force costs one M. So the memory
 //! of such a contact stays behind, and its branch is looked at where steps end. A piece that is used up, or a sense that has
 //! turned, cuts the step where the cubic through both its ends says that it did, but never to less than an eighth: the work of
-//! a step is bounded, and of several ends within an eighth the later ones cost the error of a kink in so short a time.
+//! a step is bounded, and of several ends within an eighth the later ones cost the error of a kink in so short a time. Where an edge
+//! of a damped contact uses up its piece the step ends there, however soon: with the springs that stick goes a force of many times what
+//! friction holds. Of such pieces there are at most as many as a memory has turning points.
 
 use super::Chords;
 use super::way::{Way, end_of};
@@ -24,6 +26,15 @@ const TOGETHER: f64 = 1e-6;
 /// What may be left of a piece that is used up, in u_c.
 const NEAR: f64 = 1e-6;
 
+/// How the damping of a contact weakens where an edge has used up its piece: with the springs that stick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::run) enum Weakening {
+    /// A loop closes.
+    Loop,
+    /// It gives way: the last of the springs begin to slip, and until then the force goes with the root of the time that is left.
+    Away,
+}
+
 /// What is known between two ends of branches.
 pub(in crate::run) struct Branches<'a> {
     pub(super) interval: Interval<'a>,
@@ -41,7 +52,6 @@ impl<'a> Branches<'a> {
         Self { interval: Interval::of(model), current: false, ended: room(), due: room() }
     }
 
-    /// Whether all contacts of a model keep to branches of closed form.
     /// What is left of the piece of contact `c` in a motion, m: as whoever [glides](Chords::glides) sees it, to the last bit.
     fn left(&self, c: usize, branch: &Branch, motion: &Motion) -> f64 {
         match self.interval.closed_form(c) {
@@ -50,6 +60,7 @@ impl<'a> Branches<'a> {
         }
     }
 
+    /// Whether all contacts of a model keep to branches of closed form.
     #[inline]
     fn holds_all(&self, model: &Model) -> bool {
         self.current && self.interval.closed.len() == model.contacts.len()
@@ -121,13 +132,12 @@ impl<'a> Chords<'a> {
         true
     }
 
-    /// When the first branch ends in the step to time t in y, s; none where none does.
+    /// When the first branch ends in the step to time t in y, s; none where none does: then what was found before holds.
     pub(in crate::run) fn first_end(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
         self.branches.as_ref()?;
         self.move_contacts(state, t, y);
         let duration = t - state.t;
         let Some(branches) = &mut self.branches else { return None };
-        branches.due.clear();
         let mut first = f64::INFINITY;
         for (c, (from, to)) in self.before.iter().zip(&self.motions).enumerate() {
             let Mode::Slip(branch) = &state.modes[c] else { continue };
@@ -142,6 +152,38 @@ impl<'a> Chords<'a> {
             first = first.min(share);
         }
         (first < f64::INFINITY).then_some(state.t + first * duration)
+    }
+
+    /// How the damping of a contact weakens where the step was found to end; none where no edge of a damped contact has used up its piece
+    /// there.
+    pub(in crate::run) fn weakens(&self, state: &State) -> Option<Weakening> {
+        let due = self.branches.iter().flat_map(|branches| &branches.due);
+        let damped = due.filter(|(c, _)| self.model.contacts[*c].is_damped());
+        let ways = damped.filter_map(|(c, sense)| match &state.modes[*c] {
+            Mode::Slip(branch) if branch.sense() == *sense && branch.ends_in_the_centre() => {
+                Some(Weakening::Away)
+            }
+            Mode::Slip(branch) if branch.sense() == *sense => Some(Weakening::Loop),
+            _ => None,
+        });
+        ways.max()
+    }
+
+    /// When the damping of a contact will give way after the step to time t in y, s, at its speed there; none where none is to.
+    pub(in crate::run) fn gives_way_after(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
+        if !self.is_damped {
+            return None;
+        }
+        self.move_contacts(state, t, y);
+        let branches = self.branches.as_ref()?;
+        let ends = self.model.contacts.iter().enumerate().filter_map(|(c, contact)| {
+            let Mode::Slip(branch) = &state.modes[c] else { return None };
+            let speed = branch.sense() * self.motions[c].du;
+            let left = branches.left(c, branch, &self.motions[c]);
+            let is_to = contact.is_damped() && branch.ends_in_the_centre() && left >= 0.0 && speed > 0.0;
+            is_to.then(|| t + left / speed)
+        });
+        ends.reduce(f64::min)
     }
 
     /// A step was not cut, or not where the first branch ends: its end decides.
@@ -202,6 +244,21 @@ impl<'a> Chords<'a> {
         }
     }
 
+    /// Where a run sets out: contacts that move take their first branches.
+    pub(super) fn branch_at_start(&mut self, state: &mut State) {
+        if self.branches.is_none() {
+            return;
+        }
+        self.measure(state);
+        for (c, motion) in self.motions.iter().enumerate() {
+            state.modes[c] =
+                next_mode(&self.model.contacts[c], &state.memories[c], motion, (motion.du.signum(), 0.0));
+            if let Mode::Slip(branch) = &state.modes[c] {
+                self.senses[c] = branch.sense();
+            }
+        }
+    }
+
     /// After a corner: contacts that turn there come to where the state is, and take their next branches.
     ///
     /// Fails where a memory refuses its path.
@@ -218,7 +275,14 @@ impl<'a> Chords<'a> {
         self.measure(state);
         self.ledger.clear();
         for (c, motion) in self.motions.iter().enumerate() {
-            let turns = matches!(&state.modes[c], Mode::Slip(branch) if branch.sense() * motion.du < 0.0);
+            let turns = match &state.modes[c] {
+                Mode::Slip(branch) => branch.sense() * motion.du < 0.0,
+                // At rest until now.
+                _ => {
+                    state.memories[c].branching().is_some()
+                        && keeps_to_branches(&self.model.contacts[c], motion)
+                }
+            };
             if let (true, Some(branches)) = (turns, &mut self.branches) {
                 branches.ended.push((c, motion.du.signum()));
                 self.ledger.push(c, t, Segment::Straight(motion.apex()));
@@ -262,10 +326,15 @@ impl<'a> Chords<'a> {
 /// before (m), by a cubic's error, counts as gone.
 fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left): (f64, f64)) -> Mode {
     match memory.branching() {
-        Some(branching) if contact.is_constant() && !contact.inert && motion.d > 0.0 && motion.du != 0.0 => {
+        Some(branching) if keeps_to_branches(contact, motion) => {
             let slack = if left < NEAR * contact.natural.displacement { left.max(0.0) } else { 0.0 };
             Mode::Slip(branching.branch(&contact.interface, sense, slack))
         }
         _ => Mode::Whole { sense: 0.0 },
     }
+}
+
+/// Whether a contact that moves so keeps to branches of its law.
+fn keeps_to_branches(contact: &Contact, motion: &Motion) -> bool {
+    contact.is_constant() && !contact.inert && motion.d > 0.0 && motion.du != 0.0
 }
