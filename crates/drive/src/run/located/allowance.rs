@@ -5,6 +5,7 @@
 //! they are compared with: errors that no shorter step makes smaller would end a run in steps too small. They
 //! are set at events and at rejections, not at every step.
 
+use super::shift::FAR;
 use crate::Model;
 use crate::contact::Contact;
 use crate::equations::{Components, Equations};
@@ -150,7 +151,7 @@ pub(super) fn differences(model: &Model) -> Vec<f64> {
 }
 
 /// Raises what is allowed to what rounding of time leaves of the forces of fast strokes and followers, and rounding of places of contacts
-/// whose bodies started far from the origin.
+/// whose bodies started far from the origin, and of stacks whose ends have gone far from there.
 ///
 /// A stage of a step lies at a time that is rounded to εt, and a link's force changes by F' = kṡ + cs̈ in a second, a contact's by mω²u̇ of
 /// what it follows: accelerations are wrong by εtF'/m and powers by εtF'ṡ, and what a step makes of them falls with its length only.
@@ -174,7 +175,12 @@ fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool
     };
     for link in model.links.iter().filter(|link| matches!(link.stroke, Stroke::Driven(_))) {
         let stroke = equations.stroke(link, &at);
-        let force = late * (link.stiffness * stroke.rate + link.damping * stroke.acceleration);
+        let travel = link.elongation.travel(|i| state.y[i]);
+        let lengths = link.elongation.free.iter().map(|(i, a)| a.abs() * model.free[*i].scale.0);
+        let is_far = travel > FAR * lengths.fold(f64::INFINITY, f64::min);
+        let place = if is_far { f64::EPSILON * travel } else { 0.0 };
+        let timely = late * (link.stiffness * stroke.rate + link.damping * stroke.acceleration);
+        let force = timely.abs() + link.stiffness * place;
         push(force, stroke.rate, &link.elongation.free);
     }
     for contact in model.contacts.iter().filter(|contact| by_contacts && !contact.inert) {

@@ -87,7 +87,7 @@ impl Watch {
                 solver.cut(fall.t);
                 self.arrive_at_cut(eq, solver);
             }
-            let Self { from, to, near, tolerance, fired } = self;
+            let Self { from, to, near, tolerance, fired, .. } = self;
             let search =
                 Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true, seen: ArrayVec::new() };
             fired.clear();

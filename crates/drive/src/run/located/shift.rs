@@ -12,7 +12,7 @@ use crate::state::State;
 
 /// A coordinate this many natural lengths away from its origin takes it along.
 // Two thousand periods of P1 at 1e-9: an error of 4e-11 u_c; shifted at ten times the distance 5e-10.
-const FAR: f64 = 1024.0;
+pub(super) const FAR: f64 = 1024.0;
 /// What is left of a double without its fraction.
 const SIGN_AND_EXPONENT: u64 = 0xfff0_0000_0000_0000;
 
