@@ -57,7 +57,7 @@ pub(crate) struct Balance {
     /// Largest of |input|, kinetic energy, change of elastic energy and heat at any time.
     #[serde(rename = "throughput_J")]
     throughput: Real,
-    /// Largest error over throughput; none where nothing moved.
+    /// Largest error over throughput; none where nothing moved but for rounding.
     #[serde(skip_serializing_if = "Option::is_none")]
     largest_error_relative: Option<Real>,
 }
@@ -130,7 +130,9 @@ impl Books {
             error,
             largest_error: Real(self.worst),
             throughput: Real(self.throughput),
-            largest_error_relative: (self.throughput > 0.0).then(|| Real(self.worst / self.throughput)),
+            // Where next to nothing moves rounding of what is stored is all that there is.
+            largest_error_relative: (self.throughput > ROUNDING * self.largest)
+                .then(|| Real(self.worst / self.throughput)),
         }
     }
 }
@@ -139,8 +141,14 @@ impl Books {
 /// by so many of the tolerances that it was asked for. `work` is the natural scale of work, J, which tolerances are relative to.
 ///
 /// Each of the six energies is booked for itself: work put in by what drives, the rest from places, speeds, memories and
-/// integrals. Nothing makes the books close but steps that are exact, and no stepper's error estimate comes into them.
-pub(crate) fn warning(books: &Books, stepper: Stepper, (work, is_asked): (f64, bool)) -> Option<Warning> {
+/// integrals. Nothing makes the books close but steps that are exact, and no stepper's error estimate comes into them. `finest` is the
+/// rounding of the places where bodies start in natural displacements: no tolerance below it is met.
+pub(crate) fn warning(
+    books: &Books,
+    stepper: Stepper,
+    (work, is_asked): (f64, bool),
+    finest: f64,
+) -> Option<Warning> {
     let has_dense_output = matches!(stepper, Stepper::Event { .. });
     let missing = if has_dense_output { books.worst } else { books.worst_at_steps() };
     let (through, rounding) = (books.throughput, ROUNDING * books.largest);
@@ -168,13 +176,21 @@ pub(crate) fn warning(books: &Books, stepper: Stepper, (work, is_asked): (f64, b
         Accuracy::Step(_) | Accuracy::Frame { .. } => return None,
     };
     let unit = tolerance * through.max(work);
-    if is_open(most * unit) {
-        return warning(
-            format!("{share:.1e}"),
-            format!(": {:.0} times the tolerance of {tolerance:e}", missing / unit),
-        );
+    if !is_open(most * unit) {
+        return None;
     }
-    None
+    let said = warning(
+        format!("{share:.1e}"),
+        format!(": {:.0} times the tolerance of {tolerance:e}", missing / unit),
+    );
+    if finest <= tolerance {
+        return said;
+    }
+    let help = format!(
+        "bodies that start so far from 0 have places rounded to {finest:.0e} u_c, more than the tolerance: no smaller one closes \
+         the books, a start nearer to 0 does"
+    );
+    said.map(|warning| warning.help(help))
 }
 
 /// What to try where books are open.
@@ -210,7 +226,7 @@ mod tests {
         assert_eq!(balance.largest_error_relative, Some(Real(5e-10)));
         books.read(&[f64::NAN; 6]);
         assert!(books.balance().largest_error.0.is_nan());
-        assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, (0.0, true)).is_some());
+        assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, (0.0, true), 0.0).is_some());
     }
 
     /// What is said of a throughput of 1 J, an elastic energy of `stored` and errors in a row, at an event and at the end, all in J.
@@ -222,7 +238,7 @@ mod tests {
         books.read(&row);
         books.read_event(&event);
         books.read(&end);
-        warning(&books, stepper, (work, true)).map(|warning| warning.message)
+        warning(&books, stepper, (work, true), 0.0).map(|warning| warning.message)
     }
 
     #[test]
@@ -246,6 +262,19 @@ mod tests {
         // A tolerance is relative to the natural scale of work, and rounding to all that is stored.
         assert!(said(event, 0.0, [0.0, 0.0, 2e-5], 3.0).is_none());
         assert!(said(verlet, 1e11, [0.0, 0.0, 0.05], 0.0).is_none());
+    }
+
+    /// A body that starts 1 m from 0 has its place to 2.2e-16 m, a hundred millionth of 22 nm.
+    #[test]
+    fn a_smaller_tolerance_is_not_advised_where_places_are_rounded() {
+        let books = Books { throughput: 1.0, worst: 1e-4, ..Books::new(&[]) };
+        let help = |tolerance, finest| {
+            warning(&books, Stepper::Event { tolerance }, (0.0, true), finest)
+                .and_then(|said| said.help)
+                .unwrap()
+        };
+        assert!(help(1e-9, 1e-8).contains("rounded to 1e-8 u_c"));
+        assert_eq!(help(1e-9, 1e-9), advice(Stepper::Event { tolerance: 1e-9 }));
     }
 
     /// Rows between two steps count where they are as exact as the steps.

@@ -47,9 +47,10 @@ pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
 }
 
 /// Whether the force of contact `c` between two moments of a run follows from the contact's own law: that has no time in it, and
-/// all turning points are events.
+/// all turning points are events. What never rubs has no events.
 pub(crate) fn is_walked(job: &Job, c: usize) -> bool {
-    knows_turns(job) && job.has_law_without_time(c)
+    let rubs = job.model.contact_natural(c).is_some_and(|natural| natural.force > 0.0);
+    rubs && knows_turns(job) && job.has_law_without_time(c)
 }
 
 /// Whether all turning points of a run are events, and nothing jumps.

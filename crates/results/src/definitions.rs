@@ -9,6 +9,7 @@ mod curve;
 mod info;
 mod keys;
 mod outlook;
+mod realtime;
 mod sensitivity;
 mod steady;
 
@@ -41,6 +42,7 @@ pub fn definitions() -> impl Iterator<Item = &'static Definition> {
         .chain(branch::BRANCH)
         .chain(curve::CURVE)
         .chain(sensitivity::SENSITIVITY)
+        .chain(realtime::REALTIME)
 }
 
 impl Definition {
@@ -98,7 +100,7 @@ fn lowered(below: char) -> Option<char> {
 /// The page, in Markdown.
 pub fn definitions_page() -> String {
     let mut page = String::from(
-        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,\n`validate`, `characterise` and `sensitivity` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
+        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,\n`validate`, `characterise`, `sensitivity` and `realtime` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
          entry. Names end\nwith their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is `start`, \
          or `least` and\n`most` of a load that varies. How the figures of steps and loops are found, and how exact they are, is told on \
          [their\npage](figures.md); what the contacts obey, on [the page of the physics](physics.md). Numbers in brackets such as (4.26) are \

@@ -92,7 +92,7 @@ pub use kept::Kept;
 pub use outcome::Outcome;
 pub use parts::Parts;
 pub use periods::Periods;
-pub use quantity::quantity;
+pub use quantity::{apart, quantity};
 pub use real::Real;
 pub use record::{Draft, Recorder};
 pub use results::{Results, ResultsError};

@@ -127,9 +127,12 @@ pub(crate) fn are_dense(job: &Job, c: usize) -> bool {
         job.scenario.scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free)
     };
     let sides = job.scenario.scene.contacts.get(c).map(|contact| contact.part.between);
+    let tells_turns = job.model.effective(job.scenario.plan.stepper).locates_events();
     let steps = job.scenario.figures.body.filter(is_free).zip(sides).is_some_and(|(body, sides)| {
         let frees = |side: &Side| matches!(side, Side::Body(other) if *other != body && is_free(other));
-        sides.contains(&Side::Body(body)) && !sides.iter().any(frees)
+        // What holds it has loops, of which fixed steps tell no turn.
+        let is_untold = sides.contains(&Side::Ground) && !tells_turns;
+        sides.contains(&Side::Body(body)) && !sides.iter().any(frees) && !is_untold
     });
     match Periods::of_contact(job, c, f64::INFINITY) {
         Some(_) => !steps,
@@ -161,11 +164,12 @@ fn peaks_of_load(load: &Waveform) -> Vec<Grid> {
     std::iter::once(0.0).chain(phases.turns()).map(grid).collect()
 }
 
-/// Where the waveform of the figures turns without a corner, which would be an event.
+/// Where the waveform of the figures turns without an event: without a corner, or at one of which a run in fixed steps tells nothing.
 fn turns(job: &Job, periods: &Periods) -> Vec<Grid> {
     let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
-    let curved = waveform.map(|it| &it.part).filter(|waveform| !waveform.is_straight());
-    let Some(phases) = curved.and_then(Phases::of) else { return Vec::new() };
+    let tells_corners = job.model.effective(job.scenario.plan.stepper).locates_events();
+    let untold = waveform.map(|it| &it.part).filter(|waveform| !(tells_corners && waveform.is_straight()));
+    let Some(phases) = untold.and_then(Phases::of) else { return Vec::new() };
     let grid = |turn: f64| Grid { start: periods.start + turn, ..Grid::of(periods, 1.0) };
     phases.turns().map(grid).collect()
 }

@@ -69,11 +69,21 @@ impl fmt::Display for Warning {
     }
 }
 
+/// Rounding of where the bodies start, in the smallest natural displacement of a contact. What they travel is counted from near by.
+fn finest(job: &Job) -> f64 {
+    let places = job.scenario.scene.bodies.iter().map(|body| body.part.x.position.abs());
+    let contacts = 0..job.scenario.scene.contacts.len();
+    let natural = contacts.filter_map(|c| job.model.contact_natural(c)).map(|scale| scale.displacement);
+    let least = natural.filter(|length| *length > 0.0).fold(f64::INFINITY, f64::min);
+    f64::EPSILON * places.fold(0.0, f64::max) / least
+}
+
 /// What came out in the run itself: energy books that do not close, steps whose error is not known.
 pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     let asked = job.scenario.plan.stepper;
     let stepper = job.model.effective(asked);
-    let of_books = books::warning(&outcome.books, stepper, (job.work(), stepper.name() == asked.name()));
+    let is_asked = stepper.name() == asked.name();
+    let of_books = books::warning(&outcome.books, stepper, (job.work(), is_asked), finest(job));
     let mut warnings: Vec<Warning> = of_books.into_iter().collect();
     let missed = outcome.state.counts().missed;
     if missed > 0 {

@@ -120,7 +120,11 @@ pub(super) const CONTACT: &[Definition] = &[
     of(FIELDS, "pressure_Pa", "p(r) = -(1/π)∫_r^∞ q_z′(x)/√(x² - r²) dx, pressure"),
     of(FIELDS, "shear_Pa", "τ(r), shear stress: the same of q_x (4.25)"),
     of(FIELDS, "displacement_m", "tangential displacement of the surface at r (4.25)"),
-    of(FIELDS, "slip_m", "local slip at r beyond the centre's; in gross slip 0 there"),
+    of(
+        FIELDS,
+        "slip_m",
+        "by how much the surface at r lags behind that in the centre: local slip beyond the centre's (in gross slip 0 there) and, where the contact has grown on a slanting way, what the body had moved before r touched",
+    ),
     of(FIELDS, "deflection_m", "normal displacement of the surface at r"),
     of(FIELDS, "state", "`stick`, `slip` or `open` at r"),
     of(LINE, "corner", "number of the corner"),

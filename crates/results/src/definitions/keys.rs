@@ -152,7 +152,7 @@ pub(super) const KEYS: &[Definition] = &[
     of("steps.steady.step_m", "the steady step: their mean"),
     of(
         "steps.steady.error_m",
-        "how far the mean of all later steps may lie from it; at least as far as it is from the steady motion found directly, where that is stable and within a thousandth. What fixed steps miss by their length is in it no more than what a tolerance allows",
+        "how far the mean of all later steps may lie from it; at least as far as it is from the steady motion found directly, where that is stable and within a thousandth, of fixed steps within a tenth; with `frames` at least what may be lost of a stroke. What fixed steps miss by their length is not in it where no steady motion was found, nor what a tolerance allows",
     ),
     of("steps.steady.repeatability_m", "standard deviation of those steps"),
     of("steps.steady.back_step", "share of the forward stroke that is lost in the flyback and after"),

@@ -11,6 +11,7 @@ use crate::real::Real;
 use serde::Serialize;
 use stickslip_analysis::settling::BAND;
 use stickslip_analysis::{Bounds, Settling, Steps, Strides};
+use stickslip_drive::Accuracy;
 use stickslip_drive::scene::{Freedom, Side, Varying};
 
 /// A step below this share of the natural displacement counts as nothing.
@@ -20,6 +21,10 @@ const MOMENTS: u32 = 1000;
 /// Global over local error of a run, as comparisons allow it; that of fixed steps, which promise none.
 const GLOBAL: f64 = 100.0;
 const FIXED: f64 = 1e-9;
+/// Share by which a step that is made of fixed steps may be off, and still be of the motion that is found directly.
+const COARSE: f64 = 0.1;
+/// Share of the time in which all contacts of a body are open that hops.
+const FLIES: f64 = 0.01;
 /// A step below this share of how far the body goes in a period is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -54,6 +59,9 @@ pub struct DriveSummary {
     /// Why the last step is as long as it is, in sentences.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub why: Vec<String>,
+    /// What fixed steps promise of a step, m; none of a tolerance.
+    #[serde(skip)]
+    promised: Option<f64>,
 }
 
 impl DriveSummary {
@@ -69,11 +77,13 @@ impl DriveSummary {
     }
 
     /// Compares a settled step with that of the motion that was found directly: what fades slowly hides behind what fades fast, and
-    /// steps do not tell of it. One that is farther away than settled steps are from their limit is of another motion.
+    /// steps do not tell of it, nor of what fixed steps miss. One that is farther away than settled steps are from their limit, and fixed
+    /// steps from what they are to be, is of another motion.
     pub(super) fn compare(&mut self, motion: &Repetition) {
         let Some(steady) = &mut self.steady else { return };
         let apart = (steady.step.0 - motion.step.0 / motion.periods as f64).abs();
-        if motion.stable == Some(true) && apart <= BAND * steady.step.0.abs() {
+        let band = if self.promised.is_some() { COARSE } else { BAND };
+        if motion.stable == Some(true) && apart <= band * steady.step.0.abs() {
             steady.error = Real(steady.error.0.max(apart));
         }
     }
@@ -188,6 +198,8 @@ pub(super) fn of(
     let bounds = match flight(job, outcome) {
         // Nothing holds it any more: whatever it does in a period is no step.
         Some(_) => Bounds { most: 0.0, ..step_bounds(job) },
+        // What flies a part of each period may come down anywhere.
+        None if hops(job, outcome) => Bounds { most: f64::INFINITY, ..step_bounds(job) },
         None => step_bounds(job),
     };
     // Without contacts nothing tells what a step is but how far the body goes in a period.
@@ -196,6 +208,10 @@ pub(super) fn of(
     let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds);
     let ends = [strides.last().map_or(f64::NAN, |last| last.length()), strides.longest()];
     let mut summary = summary(&steps, ends, (&body.name, &waveform.name, period));
+    summary.promised = promised(job);
+    if let (Some(steady), Some(promised)) = (&mut summary.steady, summary.promised) {
+        steady.error = Real(steady.error.0.max(promised));
+    }
     summary.last_period = period::of(job, outcome, stroke(job).is_some());
     summary.why = summary.last_period.as_ref().map(|last| why::of(job, drivers, last)).unwrap_or_default();
     Some(summary)
@@ -213,6 +229,15 @@ pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
     (since <= last).then_some(since)
 }
 
+/// Whether the body of the figures is in the air for a good part of the time: one of its contacts, and all that there are.
+fn hops(job: &Job, outcome: &Outcome) -> bool {
+    let Some(body) = job.scenario.figures.body else { return false };
+    let touching = job.scenario.scene.contacts.iter().enumerate();
+    let mut own = touching.filter(|(_, contact)| contact.part.between.contains(&Side::Body(body))).peekable();
+    let flies = |c: usize| outcome.tally.contact(c).and_then(|contact| contact.open_share());
+    own.peek().is_some() && own.all(|(c, _)| flies(c).is_some_and(|share| share > FLIES))
+}
+
 /// What is known of a step before any is made.
 ///
 /// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke, or than all strokes of a burst
@@ -227,6 +252,15 @@ pub fn step_bounds(job: &Job) -> Bounds {
     };
     let most = stroke(job).map_or(f64::INFINITY, |stroke| way(job).unwrap_or(0.0).max(2.0 * stroke));
     Bounds { least: NOTHING * natural, most, error: promised * natural }
+}
+
+/// What fixed steps promise of a step, m: of frames what may be lost of a stroke, of others nothing is known; none of a tolerance.
+fn promised(job: &Job) -> Option<f64> {
+    match job.model.effective(job.scenario.plan.stepper).accuracy() {
+        Accuracy::Tolerance(_) => None,
+        Accuracy::Step(_) => Some(0.0),
+        Accuracy::Frame { error, .. } => Some(error * stroke(job).unwrap_or(0.0)),
+    }
 }
 
 /// Stroke of the waveform of the figures, where it is a length: one that a body or an actuator follows.
@@ -276,6 +310,7 @@ fn summary(
         net_travel: Real(steps.net_travel),
         last_period: None,
         why: Vec::new(),
+        promised: None,
     }
 }
 

@@ -361,3 +361,31 @@ fn without_a_step_the_rising_way_is_forth() {
         assert!(stroke > 7e-7, "{amplitude}: {stroke:e}");
     }
 }
+
+/// Fixed steps end beside the flyback's ends; how long it takes is the waveform's own.
+#[test]
+fn fixed_steps_know_how_long_a_flyback_takes() {
+    let steppers = [
+        r#"{"frames":{"length":"40 us"}}"#,
+        r#"{"rk4":{"step":"3.7 us"}}"#,
+        r#"{"verlet":{"step":"10 us"}}"#,
+    ];
+    for stepper in steppers {
+        let (steps, _) = account("quickstart", &[("run.stepper", stepper), ("plots", "[]")]);
+        near(number(&steps, "/last_period/back/time_s"), 10e-6, 1e-12, stepper);
+        near(number(&steps, "/last_period/forth/time_s"), 9.99e-3, 1e-12, stepper);
+        near(number(&steps, "/last_period/back/stroke_m"), -200e-9, 1e-18, stepper);
+    }
+}
+
+/// Frames that may lose a thousandth of a stroke do not know their step to a hundredth of a nanometre of 200.
+#[test]
+fn a_step_of_frames_is_not_told_more_exactly_than_they_promise() {
+    let set = [
+        ("run.stepper", r#"{"frames":{"length":"40 us"}}"#),
+        ("plots", "[]"),
+        ("figures.steady_motion", "false"),
+    ];
+    let (steps, _) = account("quickstart", &set);
+    near(number(&steps, "/steady/error_m"), 0.2e-9, 1e-15, "error");
+}

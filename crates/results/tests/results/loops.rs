@@ -356,3 +356,14 @@ fn a_loop_between_two_sliders_does_not_depend_on_the_body_of_the_figures() {
     near(half_range(column("c1.u_m")), amplitude(&loops[0]), 1e-3, "amplitude of the rows");
     near(half_range(column("c1.fx_N")), force(&loops[0]), 1e-3, "force of the rows");
 }
+
+/// Contacts without friction, without a load, or apart go to and fro with their bodies, and no event tells of it.
+#[test]
+fn what_never_rubs_moves_all_the_same() {
+    let job = prepare(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/never_rubs.json"), &[]);
+    for c in 0..3 {
+        let cycle = last_cycle(&job, c);
+        near(cycle.cycle.displacement_amplitude, 600e-9, 1e-9, "amplitude");
+        assert!(!cycle.is_still && cycle.cycle.force_amplitude == 0.0 && cycle.cycle.dissipated == 0.0);
+    }
+}
