@@ -138,10 +138,13 @@ impl Pen<'_> {
 
     /// A figure in the look, in one of its colours.
     fn looking<'f>(&self, mut figure: Figure<'f>, theme: Colours) -> Figure<'f> {
-        let (width, height) = figure.size;
         figure = match self.look.width_in_mm() {
             Some(mm) => figure.printed(mm),
-            None => Figure { size: (width * self.look.scale, height * self.look.scale), ..figure },
+            None => {
+                let figure = figure.roomy();
+                let (width, height) = figure.size;
+                Figure { size: (width * self.look.scale, height * self.look.scale), ..figure }
+            }
         };
         figure.theme = match theme {
             Colours::Light => Theme::light(),

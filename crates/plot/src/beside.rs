@@ -26,10 +26,10 @@ impl Beside {
     ) -> Self {
         let scale = |rescaled: Option<&Rescaled>, of: &Scale| {
             let Rescaled { label, by } = rescaled.filter(|r| r.by > 0.0 && r.by.is_finite())?;
-            Some(Scale::new(
-                &Axis::new(label.clone(), ""),
-                of.range().map(|(low, high)| (low / by, high / by)),
-            ))
+            // The ends of what is 0 throughout say nothing in this unit either.
+            let by = if of.is_of_nothing() { &1.0 } else { by };
+            let range = of.range().map(|(low, high)| (low / by, high / by));
+            Some(Scale::new(&Axis::new(label.clone(), ""), range).of_nothing(of.is_of_nothing()))
         };
         Self { top: scale(top, x), right: scale(right, y) }
     }

@@ -3,7 +3,7 @@
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Band, Panel, Reference, Series};
-use crate::theme::{Dash, Ink, Style};
+use crate::theme::{Dash, Ink, Style, Theme};
 use crate::trajectory::Track;
 
 /// Height that each panel beyond two adds to the figure, px.
@@ -117,8 +117,9 @@ fn curve<'a>(course: &DriveCourse<'a>, name: &str, values: &'a [f64], style: Sty
     Series { style, ..Series::new(name, course.time, values) }
 }
 
+/// Solid as long as there are colours.
 fn solid(place: usize) -> Style {
-    Style { ink: Some(Ink::Palette(place)), dash: Some(Dash::Solid), width: 1.0 }
+    Style { ink: Some(Ink::Palette(place)), dash: Some(Dash::at(place / Theme::COLOURS)), width: 1.0 }
 }
 
 /// Spans shaded over the range of some values.

@@ -44,10 +44,12 @@ const TALL: f64 = 3.5;
 /// and slip. Rings are shaded by what they do. All moments have the same scales.
 pub fn fields_figure<'a>(title: &str, moments: &[FieldsMoment<'a>]) -> Figure<'a> {
     if moments.iter().all(|moment| moment.r.is_empty()) {
-        return Figure::without_data(
-            title,
-            "no fields: nothing touches, or the contact is a list of springs",
-        );
+        let words = if moments.is_empty() {
+            "no fields: the run did not come to any of the moments that were asked for"
+        } else {
+            "no fields: nothing touches, or the contact is a list of springs"
+        };
+        return Figure::without_data(title, words);
     }
     let tall = TALL * median(moments);
     let bounded = |value: f64| if value.abs() <= tall { value } else { f64::NAN };

@@ -6,6 +6,11 @@ use crate::{Label, Panel, PlotError, Theme};
 /// Least height of a frame in print, em of its numbers, and of one alone as a share of its width.
 const LEAST_FRAME: f64 = 6.0;
 const LEAST_ALONE: f64 = 0.6;
+/// Least width of a column in print, em of its numbers, and of one with texts inside its frames.
+const LEAST_COLUMN: f64 = 12.0;
+const LEAST_NOTED_COLUMN: f64 = 18.0;
+/// How many times as high a figure may become in print for texts that would be left out.
+const GROWTH: f64 = 2.0;
 
 /// A figure: what it shows, not yet how many pixels apart.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,23 +66,78 @@ impl Figure<'_> {
 
     /// Width in print for which the sizes of the theme are made, mm.
     pub const PRINT_WIDTH: f64 = 160.0;
-    /// Pixels to the inch of a figure with a size in print.
+    /// Pixels to the inch of a figure with a size in print, and at least of one that would have too many.
     pub const PRINT_DENSITY: f64 = 600.0;
+    const LEAST_DENSITY: f64 = 300.0;
     const INCH: f64 = 25.4;
 
     /// The figure for print in a width, mm: letters and lines keep their size in points, the frames become smaller. It is as much
-    /// lower as it is narrower, unless legends take more rows or frames would be lower than letters leave to see.
+    /// lower as it is narrower, unless legends take more rows, frames would be lower than letters leave to see, or texts in them would be
+    /// left out; fewer panels stand side by side where letters ask for it.
     #[must_use]
     pub fn printed(mut self, width: f64) -> Self {
-        let across = width / Self::INCH * Self::PRINT_DENSITY;
-        let high = across * f64::from(self.size.1) / f64::from(self.size.0);
-        self.size = (across.round() as u32, high.round() as u32);
+        let lost = lost_notes(&self);
         self.print_width = Some(width);
+        let columns = self.columns_in_print(width);
+        let rows = |columns: usize| self.panels.len().div_ceil(columns.max(1)) as f64;
+        let longer = rows(columns) / rows(self.arrangement.columns(self.panels.len()));
+        let shape = longer * f64::from(self.size.1) / f64::from(self.size.0);
+        self.arrangement = self.arrangement.in_columns(columns);
+        let mut density = Self::PRINT_DENSITY;
+        while density > Self::LEAST_DENSITY && width / Self::INCH * density * shape > f64::from(Self::MOST) {
+            density *= 0.5;
+        }
+        let across = width / Self::INCH * density;
+        self.size = (across.round() as u32, (across * shape).round().min(f64::from(Self::MOST)) as u32);
         self = self.with_room_for_legends();
-        while self.size.1 < Self::MOST && has_low_frames(&self) {
+        while has_low_frames(&self) && self.grow(&mut density) {}
+        self.with_room_for_notes(lost, density)
+    }
+
+    /// Taller by a tenth, with fewer pixels to the inch where there would be too many; tells whether it is.
+    fn grow(&mut self, density: &mut f64) -> bool {
+        if self.size.1 >= Self::MOST {
+            if *density <= Self::LEAST_DENSITY {
+                return false;
+            }
+            *density *= 0.5;
+            self.size = (self.size.0 / 2, self.size.1 / 2);
+        }
+        self.size.1 = (self.size.1 + self.size.1 / 10).min(Self::MOST);
+        true
+    }
+
+    /// Taller by what the texts inside frames need, so that no more than so many are left out; as it is where nothing helps.
+    fn with_room_for_notes(mut self, lost: usize, mut density: f64) -> Self {
+        let shape = |size: (u32, u32)| f64::from(size.1) / f64::from(size.0);
+        let most = GROWTH * shape(self.size);
+        let (mut best, mut least) = (self.size, lost_notes(&self));
+        while least > lost && shape(self.size) < most && self.grow(&mut density) {
+            let still = lost_notes(&self);
+            if still < least {
+                (best, least) = (self.size, still);
+            }
+        }
+        Self { size: best, ..self }
+    }
+
+    /// The figure as high as its panels need to be drawn at all.
+    #[must_use]
+    pub fn roomy(mut self) -> Self {
+        let is_low = |figure: &Self| matches!(Layout::new(figure), Err(PlotError::NoRoom { height, width, .. }) if height <= width);
+        while self.size.1 < Self::MOST && is_low(&self) {
             self.size.1 = (self.size.1 + self.size.1 / 10).min(Self::MOST);
         }
         self
+    }
+
+    /// How many panels stand side by side in print: no more than leave each its letters.
+    fn columns_in_print(&self, width: f64) -> usize {
+        let columns = self.arrangement.columns(self.panels.len());
+        let ems = f64::from(Self::DEFAULT_SIZE.0) * width / Self::PRINT_WIDTH / self.theme.tick;
+        let noted = self.panels.iter().any(|panel| !panel.notes.is_empty());
+        let least = if noted { LEAST_NOTED_COLUMN } else { LEAST_COLUMN };
+        columns.min((ems / least) as usize).max(1)
     }
 
     /// Px of this figure per px of one 1600 px wide for 16 cm.
@@ -133,6 +193,11 @@ impl Figure<'_> {
     }
 }
 
+/// How many texts inside frames found no place.
+fn lost_notes(figure: &Figure<'_>) -> usize {
+    Layout::new(figure).map_or(usize::MAX, |layout| layout.panels.iter().map(|place| place.lost).sum())
+}
+
 /// Whether a frame is too low for its letters; one of an aspect of its own is as high as it is.
 fn has_low_frames(figure: &Figure<'_>) -> bool {
     match Layout::new(figure) {
@@ -150,6 +215,16 @@ fn has_low_frames(figure: &Figure<'_>) -> bool {
 }
 
 impl Arrangement {
+    /// The same with fewer columns.
+    fn in_columns(self, columns: usize) -> Self {
+        match self {
+            Self::Column { .. } => self,
+            Self::Row => Self::Grid { columns, share: false },
+            Self::Grid { share, .. } => Self::Grid { columns, share },
+            Self::Columns { .. } => Self::Columns { columns },
+        }
+    }
+
     /// Panels side by side, of a number of panels.
     pub(crate) fn columns(self, panels: usize) -> usize {
         match self {

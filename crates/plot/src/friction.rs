@@ -55,13 +55,20 @@ pub fn friction_figures<'a>(title: &str, works: &[(&str, &FrictionWork<'a>)]) ->
         }
     }
     if panels.is_empty() {
-        let has_no_radii = !works.is_empty() && works.iter().all(|(_, work)| work.r.is_empty());
-        let words = if has_no_radii {
+        let last = works.iter().filter_map(|(_, work)| work.moments.last()).copied().fold(f64::NAN, f64::max);
+        let words = if works.is_empty() {
+            "no map of friction work: the run did not come to any of the moments that were asked for"
+                .to_owned()
+        } else if works.iter().all(|(_, work)| work.r.is_empty()) {
             "no map of friction work: a list of springs or a normal law has no shape in three dimensions"
+                .to_owned()
         } else {
-            "no friction work: nothing has slipped"
+            let unit = works[0].1.axis.1;
+            let until =
+                if unit.is_empty() { String::new() } else { format!(" until {}", quantity(last, unit, 4)) };
+            format!("no friction work{until}: nothing has slipped")
         };
-        return Figure::without_data(title, words);
+        return Figure::without_data(title, &words);
     }
     Figure {
         title: Label::plain(title),

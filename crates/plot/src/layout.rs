@@ -43,8 +43,9 @@ pub(crate) struct Placed<'f, 'a> {
     pub(crate) legend: (Legend, Point),
     /// Whether the x and the y axis carry numbers and a label.
     pub(crate) numbered: (bool, bool),
-    /// Texts inside the frame.
+    /// Texts inside the frame, and how many have found no place.
     pub(crate) notes: Vec<PlacedNote>,
+    pub(crate) lost: usize,
     /// Whether there is nothing to show.
     pub(crate) empty: bool,
 }
@@ -129,7 +130,7 @@ impl<'f, 'a> Layout<'f, 'a> {
         }
         let mut panels = place::panels(requests, figure, sizes, body)?;
         for panel in &mut panels {
-            panel.notes = notes::place(panel, sizes)?;
+            notes::place(panel, sizes)?;
         }
         Ok(Self { title, legend: (legend, legend_at), panels, sizes })
     }

@@ -3,7 +3,6 @@
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Band, Panel, Series, is_drawable};
-use crate::scale::quantity;
 use crate::theme::{Dash, Ink, Style};
 
 /// The memory curve of a contact at a moment: at which displacement the springs of every height are anchored.
@@ -11,8 +10,8 @@ use crate::theme::{Dash, Ink, Style};
 pub struct MemoryMoment<'a> {
     /// Name of the contact.
     pub contact: &'a str,
-    /// Time, s.
-    pub time: f64,
+    /// Time, as it is told.
+    pub time: &'a str,
     /// Indentation depth, m: the apex lies at h = d.
     pub d: f64,
     /// Tangential displacement, m: the apex lies at p = u.
@@ -34,7 +33,10 @@ pub fn memory_figure<'a>(title: &str, moments: &[MemoryMoment<'a>]) -> Figure<'a
     let first = moments.first().map(|moment| moment.contact);
     let is_named = moments.iter().any(|moment| Some(moment.contact) != first);
     if moments.is_empty() {
-        return Figure::without_data(title, "no memory recorded");
+        return Figure::without_data(
+            title,
+            "no memory recorded: the run did not come to any of the moments that were asked for",
+        );
     }
     let mut panels: Vec<Panel<'a>> = moments.iter().map(|moment| panel(moment, is_named)).collect();
     let ranges: Vec<(f64, f64)> = moments.iter().map(reach).collect();
@@ -77,7 +79,7 @@ fn reach(moment: &MemoryMoment<'_>) -> (f64, f64) {
 
 fn panel<'a>(moment: &MemoryMoment<'a>, is_named: bool) -> Panel<'a> {
     let MemoryMoment { d, u, slope, .. } = *moment;
-    let time = format!("t = {}", quantity(moment.time, "s", 6));
+    let time = format!("t = {}", moment.time);
     let wedge = Band {
         label: Label::markup("wedge |p − u| ≤ κ(d − h)"),
         xs: vec![0.0, d].into(),

@@ -44,26 +44,30 @@ const MOST: usize = 200;
 /// everything near is crowded the whole frame took seconds for each note, and what points from afar is read by nobody.
 const TRIED: usize = 10_000;
 
-/// Gives the notes of a panel their places.
-pub(crate) fn place(panel: &Placed<'_, '_>, sizes: Sizes) -> Result<Vec<PlacedNote>, PlotError> {
+/// Gives the notes of a panel their places; how many have found none is told inside the frame or, where even that has no room, below it.
+pub(crate) fn place(panel: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), PlotError> {
     let notes = &panel.panel.notes;
-    let mut placed = Vec::new();
     if notes.is_empty() || panel.empty {
-        return Ok(placed);
+        return Ok(());
     }
+    let mut placed = Vec::new();
     let mut board = Board::new(panel, sizes.tick);
     for note in notes.iter().take(MOST) {
         placed.extend(board.set(panel, note)?);
     }
-    let left_out = notes.len() - placed.len();
-    if left_out > 0 {
+    panel.lost = notes.len() - placed.len();
+    if panel.lost > 0 {
+        let words = format!("and {} more", panel.lost);
         let corner = (panel.x.end(), panel.y.end());
-        let words = Label::plain(&format!("and {left_out} more"));
-        let note = Note { lines: vec![words], about: [corner; 2], on: None, ink: None };
-        // It names nothing that is there.
-        placed.extend(board.set(panel, &note)?.map(|note| PlacedNote { pointer: None, ..note }));
+        let note = Note { lines: vec![Label::plain(&words)], about: [corner; 2], on: None, ink: None };
+        match board.set(panel, &note)? {
+            // It names nothing that is there.
+            Some(note) => placed.push(PlacedNote { pointer: None, ..note }),
+            None => panel.x.label = panel.x.label.clone().followed_by(&format!("; {} left out", panel.lost)),
+        }
     }
-    Ok(placed)
+    panel.notes = placed;
+    Ok(())
 }
 
 /// The frame in cells, and what lies on them.

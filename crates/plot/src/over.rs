@@ -11,20 +11,18 @@ const FINE: f64 = 0.75;
 
 /// The curves of figures of one kind in one: each figure has a colour, named in the legend, its curves told apart by
 /// dashes. What is pale in a figure, for it came before, is left out, and so is what stands behind in all but the first. Lines of
-/// one name that lie elsewhere in another figure are named after theirs. None where the figures have other panels than the first, or
-/// none of them has curves.
+/// one name that lie elsewhere in another figure are named after theirs. Panels are left out from the first on that is not the same in
+/// all figures. None where that is the first of all, or none of them has curves.
 pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Figure<'a>> {
     let (_, first) = figures.first()?;
-    let is_like = |figure: &Figure<'_>| {
-        let units = |figure: &Figure<'_>| -> Vec<(String, String)> {
-            figure.panels.iter().map(|panel| (panel.x.unit.clone(), panel.y.unit.clone())).collect()
+    let alike = |figure: &Figure<'_>| {
+        let is_like = |(own, other): &(&Panel<'_>, &Panel<'_>)| {
+            own.x.unit == other.x.unit && own.y.unit == other.y.unit
         };
-        figure.arrangement == first.arrangement && units(figure) == units(first)
+        first.panels.iter().zip(&figure.panels).take_while(is_like).count()
     };
-    if !figures.iter().all(|(_, figure)| is_like(figure)) {
-        return None;
-    }
-    let panels: Vec<Panel<'a>> = (0..first.panels.len()).map(|place| panel(figures, place)).collect();
+    let common = figures.iter().map(|(_, figure)| alike(figure)).min().unwrap_or(0);
+    let panels: Vec<Panel<'a>> = (0..common).map(|place| panel(figures, place)).collect();
     if panels.iter().all(|panel| panel.series.is_empty()) {
         return None;
     }

@@ -7,7 +7,7 @@ use crate::label::Label;
 use crate::lanes::Names;
 use crate::layout::{Area, Placed, Sizes};
 use crate::legend::Legend;
-use crate::panel::Panel;
+use crate::panel::{Axis, Panel};
 use crate::range::{Extent, extents};
 use crate::scale::{Along, Scale};
 
@@ -83,8 +83,11 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
     let place = |(i, (request, (x, y))): (usize, (Request<'f, 'a>, (Extent, Extent)))| {
         let (panel, all) = (request.panel, all[i % group]);
         let (x, y) = (if share_x { all.0 } else { x }, if share_y { all.1 } else { y });
-        let x = Scale::new(&panel.x, x.range(margin(panel.x.tight)));
-        let y = Scale::new(&panel.y, y.range(margin(panel.y.tight)));
+        let scale = |axis: &Axis, extent: Extent| {
+            let is_nothing = extent.is_nothing() && !axis.logarithmic;
+            Scale::new(axis, extent.range(margin(axis.tight))).of_nothing(is_nothing)
+        };
+        let (x, y) = (scale(&panel.x, x), scale(&panel.y, y));
         Placed {
             panel,
             frame: Area::default(),
@@ -97,6 +100,7 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
             heading: (request.heading, (0.0, 0.0)),
             legend: (request.legend, (0.0, 0.0)),
             notes: Vec::new(),
+            lost: 0,
             numbered: (!share_x || i >= last_row, !share_y || i % columns == 0),
             empty: panel.is_empty(),
         }

@@ -20,6 +20,9 @@ pub struct ProfilePair<'a> {
     pub a: f64,
 }
 
+/// How far the picture goes at least, of the contact radius.
+const BEYOND: f64 = 1.15;
+
 /// Both curves on both sides of the axis, with the indentation d at which g reaches the contact radius ±a.
 pub fn profile_figure<'a>(title: &str, pair: &ProfilePair<'a>) -> Figure<'a> {
     let curve = |label: &str, values: &[f64], place: usize| {
@@ -34,8 +37,10 @@ pub fn profile_figure<'a>(title: &str, pair: &ProfilePair<'a>) -> Figure<'a> {
     let rims =
         [-pair.a, pair.a].map(|x| Reference::Vertical { x, label: Label::plain("contact radius ±a") });
     let references = if pair.a > 0.0 { [vec![level], rims.to_vec()].concat() } else { Vec::new() };
+    // The heights of a flat punch end at its rims, which are to be seen.
+    let around = (pair.a > 0.0).then_some((-BEYOND * pair.a, BEYOND * pair.a));
     let panel = Panel {
-        x: Axis { tight: true, ..Axis::new(Label::plain("r, x"), "m") },
+        x: Axis { tight: true, covers: around, ..Axis::new(Label::plain("r, x"), "m") },
         y: Axis::new(Label::plain("height"), "m"),
         series: std::iter::once(curve("g(x), pressed into the row of springs", pair.g, 0))
             .chain(three)

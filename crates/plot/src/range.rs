@@ -28,6 +28,11 @@ impl Extent {
         }
     }
 
+    /// Whether all there is is 0, but for what no number has digits for.
+    pub(crate) fn is_nothing(self) -> bool {
+        self.0.is_some_and(|(low, high)| low.abs().max(high.abs()) <= SMALLEST)
+    }
+
     /// A range of some width that holds every value, with a margin on both sides; none of nothing.
     pub(crate) fn range(self, margin: f64) -> Option<(f64, f64)> {
         let (low, high) = self.0?;

@@ -18,6 +18,8 @@ pub(crate) struct Scale {
     shown: Option<(f64, f64)>,
     /// Whether the ends are powers of ten.
     decades: bool,
+    /// Whether all that is there is 0: then the ends say nothing.
+    is_nothing: bool,
     /// Places (0 to 1) and numbers of the ticks.
     pub(crate) ticks: Vec<(f64, String)>,
     /// What it measures.
@@ -47,7 +49,18 @@ impl Scale {
         let Some((from, to)) = range else {
             let unit = unit_text(&label, "", &axis.unit);
             let (offset, low, high, ticks) = (0.0, 0.0, 1.0, Vec::new());
-            return Self { offset, low, high, numbered, shown: None, decades: false, ticks, label, unit };
+            return Self {
+                offset,
+                low,
+                high,
+                numbered,
+                shown: None,
+                decades: false,
+                is_nothing: false,
+                ticks,
+                label,
+                unit,
+            };
         };
         if axis.logarithmic {
             let unit = unit_text(&label, "", &axis.unit);
@@ -59,6 +72,7 @@ impl Scale {
                 numbered,
                 shown: range,
                 decades: true,
+                is_nothing: false,
                 ticks,
                 label,
                 unit,
@@ -74,14 +88,28 @@ impl Scale {
         };
         let unit = unit_text(&label, &less, &multiple.unit);
         let shown = Some((multiple.apply(low), multiple.apply(high)));
-        Self { offset, low, high, numbered, shown, decades: false, ticks: Vec::new(), label, unit }
+        let (decades, is_nothing, ticks) = (false, false, Vec::new());
+        Self { offset, low, high, numbered, shown, decades, is_nothing, ticks, label, unit }
+    }
+
+    /// The scale of what is 0 throughout, whose ends are arbitrary: its only number is 0.
+    pub(crate) fn of_nothing(self, is_nothing: bool) -> Self {
+        Self { is_nothing, ..self }
+    }
+
+    /// Whether its ends are arbitrary.
+    pub(crate) fn is_of_nothing(&self) -> bool {
+        self.is_nothing
     }
 
     /// Gives the axis as many ticks as fit at a size of `em` px.
     pub(crate) fn set_ticks(&mut self, along: Along, em: f64) -> Result<(), PlotError> {
         let ticks = if self.decades { decades } else { ticks };
         let shown = self.shown.filter(|_| self.numbered);
-        self.ticks = shown.map_or(Ok(Vec::new()), |shown| ticks(shown, along, em))?;
+        self.ticks = match shown {
+            Some(_) if self.is_nothing => vec![(self.place(0.0), "0".to_owned())],
+            shown => shown.map_or(Ok(Vec::new()), |shown| ticks(shown, along, em))?,
+        };
         Ok(())
     }
 

@@ -116,6 +116,9 @@ impl Colour {
 }
 
 impl Theme {
+    /// How many colours curves have before they come round.
+    pub(crate) const COLOURS: usize = OKABE_ITO.len();
+
     /// Dark on white, for paper.
     pub fn light() -> Self {
         Self {

@@ -5,9 +5,9 @@ use crate::look::{Pen, Picture};
 use crate::theory::moments::condition;
 use stickslip_contact::SpringState;
 use stickslip_plot::{FieldsMoment, FieldsZone, fields_figure};
+use stickslip_results::apart;
 use stickslip_results::files::FIELDS;
 use stickslip_results::moments::{self, OverRadius};
-use stickslip_results::{Real, quantity};
 use stickslip_scenario::PlotName;
 
 /// Moments in one picture, at most.
@@ -27,10 +27,12 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     // The last ones: a run ends in what it has come to.
     moments.drain(..moments.len().saturating_sub(MOST));
     let several = moments.iter().any(|moment| moment.contact != moments[0].contact);
+    let times = apart(&moments.iter().map(|moment| moment.time).collect::<Vec<f64>>(), "s");
     let parts: Vec<(String, Vec<FieldsZone>, f64)> = moments
         .iter()
-        .map(|moment| {
-            let time = format!("t = {}", quantity(Real(moment.time), "s"));
+        .zip(times)
+        .map(|(moment, time)| {
+            let time = format!("t = {time}");
             let heading = if several { format!("{}, {time}", moment.contact) } else { time };
             let law = job.model.contacts().find(|(name, _)| *name == moment.contact);
             (heading, zones(moment), law.map_or(0.0, |(_, law)| law.friction()))

@@ -3,10 +3,10 @@
 use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{FrictionWork, friction_figures};
+use stickslip_results::apart;
 use stickslip_results::curves;
 use stickslip_results::files::FRICTION;
 use stickslip_results::moments::{self, OverRadius};
-use stickslip_results::{Real, quantity};
 use stickslip_scenario::PlotName;
 
 /// Contacts in one picture, at most.
@@ -31,10 +31,11 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     for moment in moments::friction(written(&sources.insides.friction, FRICTION)?)? {
         match courses.iter().position(|course| course.name == moment.contact) {
             Some(place) => courses[place].push(moment),
-            None if courses.len() < MOST => courses.push(Course::of(moment)),
-            None => {}
+            None => courses.push(Course::of(moment)),
         }
     }
+    let (told, all) = (courses.len(), courses.iter().filter(|course| course.most() > 0.0).count());
+    let courses = Course::busiest(courses);
     let marks: Vec<Vec<(f64, String)>> = courses.iter().map(Course::marks).collect();
     let works: Vec<FrictionWork<'_>> = courses
         .iter()
@@ -47,13 +48,19 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
             marks,
         })
         .collect();
-    let named = courses.len() > 1;
+    let named = told > 1;
+    let title = match all {
+        all if courses.len() < all => {
+            format!("{} ({} of {all} contacts that slip)", sources.job.title(), courses.len())
+        }
+        _ => sources.job.title().to_owned(),
+    };
     let works: Vec<(&str, &FrictionWork<'_>)> = courses
         .iter()
         .zip(&works)
         .map(|(course, work)| (if named { course.name.as_str() } else { "" }, work))
         .collect();
-    Ok(pen.draw(PlotName::Friction, friction_figures(sources.job.title(), &works))?)
+    Ok(pen.draw(PlotName::Friction, friction_figures(&title, &works))?)
 }
 
 impl Course {
@@ -64,10 +71,28 @@ impl Course {
         course
     }
 
+    /// The largest work per area, J/m².
+    fn most(&self) -> f64 {
+        self.work.iter().copied().filter(|work| work.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// Of several those on which friction does work, of many those on which it does the most, in their order.
+    fn busiest(mut courses: Vec<Self>) -> Vec<Self> {
+        let mut most: Vec<f64> = courses.iter().map(Self::most).collect();
+        most.sort_by(|a, b| b.total_cmp(a));
+        let least = most.get(MOST - 1).copied().unwrap_or(0.0);
+        if most.first().is_some_and(|most| *most > 0.0) {
+            courses.retain(|course| course.most() > 0.0 && course.most() >= least);
+        }
+        courses.truncate(MOST);
+        courses
+    }
+
     /// Some of its moments, evenly chosen: with a line for each a long run would be a hatching.
     fn marks(&self) -> Vec<(f64, String)> {
-        let mark = |time: f64| (time, format!("t = {}", quantity(Real(time), "s")));
-        curves::chosen(&self.moments, MARKED).into_iter().map(mark).collect()
+        let chosen: Vec<f64> = curves::chosen(&self.moments, MARKED).into_iter().collect();
+        let told = apart(&chosen, "s");
+        chosen.into_iter().zip(told).map(|(time, told)| (time, format!("t = {told}"))).collect()
     }
 
     fn push(&mut self, mut moment: OverRadius) {

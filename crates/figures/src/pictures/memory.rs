@@ -3,6 +3,7 @@
 use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{MemoryMoment, memory_figure};
+use stickslip_results::apart;
 use stickslip_results::curves::{self, MemoryCurve};
 use stickslip_results::files::MEMORY;
 use stickslip_scenario::PlotName;
@@ -25,14 +26,9 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         let law = job.model.contacts().find(|(contact, _)| *contact == name);
         law.map_or(f64::NAN, |(_, law)| law.stick_slope())
     };
-    let moments = curves.iter().map(|MemoryCurve { contact, time, apex, h, p }| MemoryMoment {
-        contact,
-        time: *time,
-        d: apex.0,
-        u: apex.1,
-        slope: slope(contact),
-        h,
-        p,
+    let times = apart(&curves.iter().map(|curve| curve.time).collect::<Vec<f64>>(), "s");
+    let moments = curves.iter().zip(&times).map(|(MemoryCurve { contact, apex, h, p, .. }, time)| {
+        MemoryMoment { contact, time, d: apex.0, u: apex.1, slope: slope(contact), h, p }
     });
     let moments: Vec<MemoryMoment<'_>> = moments.collect();
     let title = of_all(job.title(), "", (moments.len(), all));

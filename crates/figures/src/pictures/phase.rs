@@ -23,6 +23,7 @@ const REST: f64 = 1e-9;
 struct Mover<'a> {
     body: &'a str,
     axis: Axis,
+    is_free: bool,
 }
 
 /// The free coordinates, or else all that move. A body that comes back to its start in the last period is shown all the
@@ -41,7 +42,10 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         let strokes = trails.iter().filter(|(mover, _)| mover.axis == axis).map(|(_, trail)| trail.stroke());
         strokes.fold(0.0, f64::max)
     };
-    let is_moving = |(mover, trail): &&(Mover<'_>, Trail)| trail.stroke() > REST * largest(mover.axis);
+    // What a waveform prescribes is no rounding, however small.
+    let is_prescribed = trails.iter().all(|(mover, _)| !mover.is_free);
+    let rest = if is_prescribed { 0.0 } else { REST };
+    let is_moving = |(mover, trail): &&(Mover<'_>, Trail)| trail.stroke() > rest * largest(mover.axis);
     let moving: Vec<&(Mover<'_>, Trail)> = trails.iter().filter(is_moving).collect();
     let waveform = job.scenario.figures.waveform.and_then(|place| job.scenario.scene.waveforms.get(place));
     let periods = waveform.and_then(|waveform| Periods::until(&waveform.part, kept.end()));
@@ -144,7 +148,7 @@ fn movers(job: &Job) -> Vec<Mover<'_>> {
         let bodies = job.scenario.scene.bodies.iter();
         let moving = bodies.flat_map(|body| {
             let coordinates = body.part.coordinates().into_iter().filter(move |(_, c)| wanted(&c.freedom));
-            coordinates.map(|(axis, _)| Mover { body: &body.name, axis })
+            coordinates.map(|(axis, c)| Mover { body: &body.name, axis, is_free: c.freedom == Freedom::Free })
         });
         moving.collect()
     };

@@ -4,9 +4,9 @@ use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
 use stickslip_contact::{Interface, Springs};
 use stickslip_plot::{SpringCondition, SubstituteMoment, substitute_figure};
+use stickslip_results::apart;
 use stickslip_results::curves::{self, MemoryCurve};
 use stickslip_results::files::MEMORY;
-use stickslip_results::{Real, quantity};
 use stickslip_scenario::PlotName;
 
 /// Drawings in one picture, at most.
@@ -42,9 +42,12 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     curves.drain(..curves.len().saturating_sub(MOST));
     let several = curves.iter().any(|curve| curve.contact != curves[0].contact);
     let deepest = curves.iter().map(|curve| curve.apex.0).fold(0.0, f64::max);
-    let rows = curves.into_iter().filter_map(|curve| {
+    let times = apart(&curves.iter().map(|curve| curve.time).collect::<Vec<f64>>(), "s");
+    let rows = curves.into_iter().zip(times).filter_map(|(curve, time)| {
         let (_, law) = job.model.contacts().find(|(name, _)| *name == curve.contact)?;
-        Row::of(law, curve, deepest, several)
+        let time = format!("t = {time}");
+        let heading = if several { format!("{}, {time}", curve.contact) } else { time };
+        Row::of(law, curve, deepest, heading)
     });
     let rows: Vec<Row<'_>> = rows.collect();
     let stretches = rows.iter().flat_map(|row| row.stretch.iter().map(|s| s.abs()));
@@ -56,11 +59,9 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
 }
 
 impl<'a> Row<'a> {
-    fn of(law: &'a Interface, curve: MemoryCurve, deepest: f64, several: bool) -> Option<Self> {
+    fn of(law: &'a Interface, curve: MemoryCurve, deepest: f64, heading: String) -> Option<Self> {
         let span = 2.0 * BEYOND * law.profile().radius(deepest);
         let springs = Springs::new(law.profile(), SPRINGS, span).ok()?;
-        let time = format!("t = {}", quantity(Real(curve.time), "s"));
-        let heading = if several { format!("{}, {time}", curve.contact) } else { time };
         let mut row = Self { law, heading, curve, x: vec![], g: vec![], stretch: vec![], conditions: vec![] };
         for (x, height, _) in springs.cells() {
             let (stretch, condition) = row.spring(height);

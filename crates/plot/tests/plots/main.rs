@@ -9,6 +9,7 @@ mod drawn;
 mod contacts;
 mod growth;
 mod pictures;
+mod print;
 mod scenes;
 mod specimens;
 mod work_precision;

@@ -207,9 +207,10 @@ fn memories() {
     let (d, slope) = (100e-9, 0.25);
     let turns = [0.8, -0.6, 0.5, -0.4, 0.3, -0.2, 0.9, -0.1, 0.05, 0.6, -0.7, 0.2].map(|u| u * slope * d);
     let curves: Vec<_> = (1..=turns.len()).map(|n| memory(&turns[..n], d, slope)).collect();
+    let times: Vec<String> = (0..turns.len()).map(|n| format!("{} ms", 1.25 * n as f64)).collect();
     let moment = |n: usize, drift: f64| MemoryMoment {
         contact: "ball",
-        time: 1.25e-3 * n as f64,
+        time: &times[n],
         d,
         u: turns[n] + drift * n as f64,
         slope,
@@ -231,7 +232,7 @@ fn memories() {
 fn memory_stays_in_its_wedge() {
     let (d, slope, u) = (100e-9, 0.25, -15e-9);
     let (h, p) = memory(&[20e-9, u], d, slope);
-    let moment = MemoryMoment { contact: "ball", time: 1.0, d, u, slope, h: &h, p: &p };
+    let moment = MemoryMoment { contact: "ball", time: "1 s", d, u, slope, h: &h, p: &p };
     let figure = memory_figure("", &[moment]);
     let drawing = draw_svg(&figure).unwrap();
     let wedges = polygons(&drawing, &hex(Theme::light().shades[1]));
@@ -360,7 +361,10 @@ fn where_there_is_nothing_the_picture_says_so() {
     let figures = [
         (loop_figure("", &[]), "no contacts"),
         (state_figure("", &[]), "no springs recorded"),
-        (memory_figure("", &[]), "no memory recorded"),
+        (
+            memory_figure("", &[]),
+            "no memory recorded: the run did not come to any of the moments that were asked for",
+        ),
         (phase_figure("", &[]), "nothing moves"),
         (events_figure("", (0.0, 1.0), &[]), "no events"),
         (compare_figure("", ("a", "b"), &[]), "no channels to compare"),
@@ -394,7 +398,7 @@ proptest! {
         assert_no_panic(&energy_figure(&name, &book));
         let path = |displacement, velocity| PhasePath { name: &name, coordinate: None, displacement, velocity };
         assert_no_panic(&phase_figure(&name, &[path(&a, &b), path(&a, &a), path(&c, &c)]));
-        let moment = |i: usize| MemoryMoment { contact: &name, time: at(i), d: at(i + 1), u: at(i + 2), slope: at(i + 3), h: &a, p: &a };
+        let moment = |i: usize| MemoryMoment { contact: &name, time: &name, d: at(i + 1), u: at(i + 2), slope: at(i + 3), h: &a, p: &a };
         assert_no_panic(&memory_figure(&name, &[moment(0), moment(3), moment(5)]));
         let track = |times: &[f64]| EventTrack { source: &name, kind: "touch", times: times.to_vec() };
         assert_no_panic(&events_figure(&name, (at(0), at(1)), &[track(&a), track(&b)]));

@@ -1,0 +1,87 @@
+//! Figures in the width of a column of print, and figures over each other.
+
+use crate::drawn::texts;
+use stickslip_plot::{
+    Arrangement, Axis, Figure, Label, MemoryMoment, Note, Panel, Series, draw_svg, memory_figure, overlaid,
+};
+
+/// Six curves of a contact with a long name.
+fn memories<'a>(times: &'a [String], (h, p): (&'a [f64], &'a [f64])) -> Figure<'a> {
+    let moment =
+        |time: &'a String| MemoryMoment { contact: "trunc cone", time, d: 1e-7, u: 0.0, slope: 0.2, h, p };
+    let other = MemoryMoment { contact: "worn", ..moment(&times[0]) };
+    memory_figure("Memory", &times[1..].iter().map(moment).chain([other]).collect::<Vec<_>>())
+}
+
+/// As many panels side by side as leave each its letters: at 60 mm headings were cut before the time that tells panels apart.
+#[test]
+fn narrow_figures_have_fewer_columns_and_whole_headings() {
+    let times: Vec<String> = (0..6).map(|k| format!("{}.125 ms", 91 + k)).collect();
+    let (h, p) = ([0.0, 1e-7], [0.0, 0.0]);
+    let columns = |width: f64| {
+        let figure = memories(&times, (&h, &p)).printed(width);
+        let said = texts(&draw_svg(&figure).unwrap());
+        let all = said.iter().map(|text| text.text.as_str()).collect::<Vec<_>>().join(" ");
+        assert!(times.iter().all(|time| all.contains(time.as_str())) && !all.contains('…'), "{width}: {all}");
+        assert!(figure.size.1 <= Figure::MOST);
+        match figure.arrangement {
+            Arrangement::Grid { columns, .. } => columns,
+            _ => 0,
+        }
+    };
+    assert_eq!([60.0, 85.0, 160.0].map(columns), [1, 2, 3]);
+}
+
+/// A panel with a curve of a unit.
+fn panel(unit: &str) -> Panel<'static> {
+    Panel {
+        x: Axis::new(Label::plain("u"), unit),
+        y: Axis::new(Label::plain("F"), "N"),
+        series: vec![Series::new("loop", vec![0.0, 1.0], vec![0.0, 1.0])],
+        ..Panel::default()
+    }
+}
+
+/// Five names along a line, which a frame of half the height has no room for.
+#[test]
+fn a_figure_grows_for_the_names_in_its_frames_and_says_which_are_left_out() {
+    let name = |k: usize| Note {
+        lines: vec![Label::plain(&format!("name {k}"))],
+        about: [(k as f64 / 5.0, 0.5); 2],
+        on: None,
+        ink: None,
+    };
+    let noted = Panel { notes: (0..5).map(name).collect(), ..panel("m") };
+    let figure = Figure { panels: vec![noted], size: (1600, 500), ..Figure::default() };
+    let named = |figure: &Figure<'_>| {
+        let said = texts(&draw_svg(figure).unwrap());
+        said.iter().filter(|text| text.text.starts_with("name ")).count()
+    };
+    assert_eq!(named(&figure), 5);
+    let printed = figure.clone().printed(85.0);
+    assert_eq!(named(&printed), 5);
+    // Without more height they are not all there, and it is said how many.
+    let low = Figure { size: (printed.size.0, printed.size.0 * 34 / 100), ..printed };
+    let said = texts(&draw_svg(&low).unwrap());
+    let left_out = 5 - named(&low);
+    assert!(left_out > 0);
+    let is_told = |text: &str| {
+        text.contains(&format!("and {left_out} more")) || text.contains(&format!("{left_out} left out"))
+    };
+    assert!(said.iter().any(|text| is_told(&text.text)), "{said:?}");
+}
+
+#[test]
+fn what_figures_have_in_common_is_laid_over_each_other() {
+    let of = |units: &[&str]| Figure {
+        panels: units.iter().map(|unit| panel(unit)).collect(),
+        ..Figure::default()
+    };
+    let over = |a: &[&str], b: &[&str]| {
+        overlaid("", &[("a".to_owned(), of(a)), ("b".to_owned(), of(b))]).map(|figure| figure.panels.len())
+    };
+    assert_eq!(over(&["m", ""], &["m", ""]), Some(2));
+    assert_eq!(over(&["m"], &["m", ""]), Some(1));
+    assert_eq!(over(&["m", "s"], &["m", ""]), Some(1));
+    assert_eq!(over(&["s"], &["m", ""]), None);
+}
