@@ -299,3 +299,20 @@ fn symbols_are_explained() {
         assert!(stdout(&output).contains(name), "{symbol}: {}", stdout(&output));
     }
 }
+
+/// With a clock, an empty loop before it and rows of springs tried.
+#[test]
+fn every_figure_of_a_loop_is_defined() {
+    let out = tempdir().unwrap();
+    let (file, folder) = (scenario("commanded"), out.path().to_str().unwrap().to_owned());
+    let timing = ["--period", "1 ms", "--for", "20 ms", "--floor", "20 ms", "--json", "--quiet"];
+    let told = answers(&[&["realtime", file.to_str().unwrap(), "--out", &folder], &timing[..]].concat());
+    assert_eq!(lacking("realtime.json", &told), Vec::<String>::new());
+    let known = definitions().filter(|definition| definition.file == "realtime.json");
+    let mut found = BTreeSet::new();
+    keys(&told[0], "", &mut found);
+    // And nothing is defined that is not there, but for lists that are empty.
+    for definition in known.filter(|known| !["denied", "inputs"].contains(&known.name)) {
+        assert!(found.iter().any(|name| definition.defines("realtime.json", name)), "{}", definition.name);
+    }
+}

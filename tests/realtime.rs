@@ -155,7 +155,7 @@ fn what_cannot_be_is_refused_and_says_why() {
         (&["--channels", "stage.y_m"], "there is no channel \"stage.y_m\"; there are time_s, "),
         (&["--channels", "stage.x_m,stage.x_m"], "twice"),
         (&["--inputs", &in_use], "ddress already in use"),
-        (&["--inputs", &never, "--wait", "50 ms"], "no good input came within 0.05 s"),
+        (&["--inputs", &never, "--wait", "50 ms"], "no good input came within 0.05 s; nothing was computed"),
         (&["--inputs", "udp:nowhere"], "expected HOST:PORT"),
         (&["--inputs", &foreign], "not a recording of inputs"),
         (&["--outputs", "udp"], "nobody speaks who could be answered"),

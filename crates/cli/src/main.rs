@@ -17,7 +17,11 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     console::interrupt::outlive_file_limits();
-    let verdict = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(said) => return ExitCode::from(console::answer::told(&said)),
+    };
+    let verdict = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Resume(arguments) => resume::resume(&arguments),
         Command::Check(arguments) => check::check(&arguments),

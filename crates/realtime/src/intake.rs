@@ -49,6 +49,25 @@ pub struct Patience {
     pub owner: u64,
 }
 
+impl Received {
+    /// What was refused, in words that follow others; nothing where nothing was.
+    #[must_use]
+    pub fn refused(&self) -> String {
+        let counts = [
+            (self.wrong_length, "of a wrong length"),
+            (self.foreign, "of another form, version or number of values"),
+            (self.other_scenario, "for another scenario"),
+            (self.repeated, "repeated"),
+            (self.out_of_order, "out of order"),
+            (self.out_of_range, "with a value out of its range or not finite"),
+            (self.other_client, "from another client"),
+        ];
+        let told = counts.into_iter().filter(|(count, _)| *count > 0);
+        let told: Vec<String> = told.map(|(count, why)| format!("{count} {why}")).collect();
+        if told.is_empty() { String::new() } else { format!(" (refused were {})", told.join(", ")) }
+    }
+}
+
 /// What came.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Received {
@@ -169,6 +188,12 @@ impl Intake {
     /// Notes that so many came with values that are none of an input's.
     pub(crate) fn note_out_of_range(&mut self, count: u64) {
         self.received.out_of_range += count;
+    }
+
+    /// Notes that so many good ones were followed by another one before anybody looked.
+    pub(crate) fn note_superseded(&mut self, count: u64) {
+        self.received.good += count;
+        self.received.superseded += count;
     }
 
     /// Notes a frame in which somebody was always writing.

@@ -58,6 +58,9 @@ pub fn encode(bytes: &mut [u8], scenario: u64, stamp: Stamp, values: &[f64]) {
     }
 }
 
+/// Place of the sequence number among the words of a packet.
+pub(crate) const SEQUENCE: usize = 2;
+
 /// The words of a packet.
 pub(crate) fn words(scenario: u64, stamp: Stamp, values: &[f64]) -> impl Iterator<Item = u64> {
     let head = [first_word(values.len()), scenario, stamp.sequence, stamp.time.to_bits()];

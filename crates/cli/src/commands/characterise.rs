@@ -100,7 +100,13 @@ fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, Curve
         Some(range) => range.values()?,
         None => {
             progress.tell(format_args!("{name}: looking for a range"));
-            match wide(&curves, &interrupt) {
+            let found = wide(&curves, &interrupt);
+            // What was tried until then is no range.
+            if interrupt.is_raised() {
+                complain(format_args!("{name}: interrupted while a range was looked for; no point is done"));
+                return Ok(Verdict::Interrupted);
+            }
+            match found {
                 Some(range) => of(arguments, range).values()?,
                 None => Vec::new(),
             }

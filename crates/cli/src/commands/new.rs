@@ -63,6 +63,12 @@ pub(crate) fn new(arguments: &NewArguments) -> Verdict {
     let text = TEMPLATES.iter().find(|(name, _)| *name == arguments.template).map_or("", |(_, text)| text);
     match write(&arguments.name, text, arguments.schema.as_deref()) {
         Ok(file) => {
+            // What begins with a dash would be taken for an option.
+            let file = if file.as_os_str().as_encoded_bytes().starts_with(b"-") {
+                Path::new(".").join(file)
+            } else {
+                file
+            };
             let (title, run) = (title(text), word(&file));
             say(format_args!("{}: {title}\n  next: stickslip run {run}", file.display()));
             Verdict::Done

@@ -49,7 +49,9 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
         Some(Inputs::Replay(path)) => Some(path.as_path()),
         _ => None,
     };
-    let mut drafts = Drafts::beside(std::iter::once(arguments.file.as_path()).chain(replayed));
+    // Where the report goes is known to take it before the loop begins: nothing of that comes again.
+    let folder = files::ready(&stage)?;
+    let mut drafts = Drafts::beside(std::iter::once(arguments.file.as_path()).chain(replayed), &job.folder);
     let Wires { wiring, mut reels, recorded } = wires::open(&stage, &mut drafts)?;
     let order = stage.order(recorded)?;
     let (probe, rows) = stage.measure(!arguments.quiet)?;
@@ -60,7 +62,8 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     let ended = session::run(&mut drive, wiring, &outputs, &order, &mut reels, &bar);
     drop(bar);
     if ended.waited_in_vain {
-        return Err(Failure::NoInput { wait: order.wait });
+        let refused = ended.wiring.intake.received().refused();
+        return Err(Failure::NoInput { wait: order.wait, refused });
     }
     let names = |names: Vec<&String>| names.into_iter().cloned().collect();
     let subject = Subject {
@@ -75,17 +78,23 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     let report = Report::new(subject, &order.pace, order.frames, &ended);
     let unwritten = reels.iter().find_map(|reel| reel.failure().map(ToString::to_string));
     drop(reels);
-    // Whatever becomes of the one, the other is tried: nothing of the loop comes again.
-    let (written, kept) = (files::write(&stage, &report, &ended), drafts.keep());
-    tell(arguments, &report, &ended, &written?)?;
+    // Whatever becomes of the one, the other is tried.
+    let (written, kept) = (files::write(folder, &stage, &report, &ended), drafts.keep());
+    tell(arguments, &report, &ended, written.as_deref().ok())?;
+    written?;
     if let Some(words) = unwritten {
         return Err(Failure::Cut(words));
     }
     kept.map(|()| verdict(&ended))
 }
 
-/// Prints the report.
-fn tell(arguments: &RealtimeArguments, report: &Report, ended: &Ended, written: &str) -> Result<(), Failure> {
+/// Prints the report, also where it could not be `written`.
+fn tell(
+    arguments: &RealtimeArguments,
+    report: &Report,
+    ended: &Ended,
+    written: Option<&str>,
+) -> Result<(), Failure> {
     // Whoever asked for a favour learns that there was none, also where no report is printed.
     if arguments.quiet || arguments.json {
         ended.denied.iter().for_each(|denied| complain(format_args!("{denied}")));
@@ -93,7 +102,8 @@ fn tell(arguments: &RealtimeArguments, report: &Report, ended: &Ended, written: 
     if arguments.json {
         say_json(&report.line()?);
     } else if !arguments.quiet {
-        say(format_args!("{}\n  {written}", text(report, ended.timing.slowest.frames().first())));
+        let written = written.map(|written| format!("\n  {written}")).unwrap_or_default();
+        say(format_args!("{}{written}", text(report, ended.timing.slowest.frames().first())));
     }
     Ok(())
 }

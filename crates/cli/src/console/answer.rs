@@ -43,6 +43,15 @@ pub(crate) fn verdict() -> Verdict {
     })
 }
 
+/// Prints help, or what is wrong with the arguments; gives the exit code.
+pub(crate) fn told(said: &clap::Error) -> u8 {
+    let printed = said.print();
+    if !said.use_stderr() {
+        keep(printed);
+    }
+    verdict().code().max(u8::try_from(said.exit_code()).unwrap_or(u8::MAX))
+}
+
 fn keep(result: io::Result<()>) {
     if let Err(error) = result
         && error.kind() != ErrorKind::BrokenPipe

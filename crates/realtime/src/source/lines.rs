@@ -16,6 +16,8 @@ const LONGEST: u64 = 4096;
 pub struct Lines {
     mailbox: Arc<Mailbox>,
     seen: u64,
+    /// Number of the last line that was seen.
+    last: u64,
     record: Vec<u64>,
     odd: u64,
     refused: u64,
@@ -57,7 +59,7 @@ impl Lines {
                 let _ = seqlock::write(&filled.words, wire::words(scenario, stamp, &found));
             }
         });
-        Self { mailbox, seen: 0, record: vec![0; length], odd: 0, refused: 0 }
+        Self { mailbox, seen: 0, last: 0, record: vec![0; length], odd: 0, refused: 0 }
     }
 
     pub(super) fn poll(&mut self, intake: &mut Intake) {
@@ -72,6 +74,9 @@ impl Lines {
             Found::Torn(_) => intake.note_torn(),
             Found::New(counter) => {
                 self.seen = counter;
+                let sequence = self.record[wire::SEQUENCE];
+                intake.note_superseded(sequence - self.last - 1);
+                self.last = sequence;
                 intake.offer_words(Client::Only, self.record.iter().copied());
             }
         }
@@ -116,6 +121,24 @@ mod tests {
             (intake.values(), intake.received().good, intake.received().out_of_range),
             (&[0.01][..], 1, 2)
         );
+    }
+
+    #[test]
+    fn lines_that_nobody_saw_are_counted() {
+        let mut lines = Lines::read(io::Cursor::new("1\n2\n3\n4\n"), 3, &[Input::note("a")]);
+        let patience = Patience { silence: Silence::Hold, silent_after: 10, owner: 10 };
+        let mut intake = Intake::new(3, &[Input::note("a")], patience);
+        for _ in 0..5000 {
+            lines.poll(&mut intake);
+            intake.settle().unwrap();
+            if intake.values() == [4.0] {
+                break;
+            }
+            thread::sleep(std::time::Duration::from_millis(1));
+        }
+        let (received, looks) = (intake.received(), intake.received().good - intake.received().superseded);
+        assert_eq!((intake.values(), received.good), (&[4.0][..], 4));
+        assert!((1..=4).contains(&looks), "{received:?}");
     }
 
     #[test]

@@ -101,11 +101,13 @@ pub(crate) enum Failure {
     },
     /// The input never came.
     #[error(
-        "--inputs: no good input came within {wait} s; nothing was computed\n   help: start the client before, or wait longer with --wait; --wait 0 starts without"
+        "--inputs: no good input came within {wait} s{refused}; nothing was computed\n   help: start the client before, or wait longer with --wait; --wait 0 starts without"
     )]
     NoInput {
         /// How long was waited, s.
         wait: f64,
+        /// What came and was refused, in words.
+        refused: String,
     },
     /// A file cannot be begun.
     #[error("{}: {}", path.display(), words(source))]

@@ -17,6 +17,8 @@ use tempfile::NamedTempFile;
 const REPORT: &str = "realtime.json";
 const HISTOGRAM: &str = "histogram.csv";
 const FRAMES: &str = "frames.csv";
+/// Bytes that are kept for them.
+const RESERVE: usize = 1 << 16;
 
 /// Files that are written while the loop runs; they get their names when it is over.
 #[derive(Debug, Default)]
@@ -24,13 +26,16 @@ pub(super) struct Drafts {
     files: Vec<(NamedTempFile, PathBuf)>,
     /// What the command reads, and must not replace.
     read: Vec<PathBuf>,
+    /// What the report is written to.
+    reported: Vec<PathBuf>,
 }
 
 impl Drafts {
-    /// None yet; what is at these paths is read.
-    pub(super) fn beside<'p>(read: impl IntoIterator<Item = &'p Path>) -> Self {
+    /// None yet; what is at these paths is read, and the report goes into a folder.
+    pub(super) fn beside<'p>(read: impl IntoIterator<Item = &'p Path>, report: &Path) -> Self {
         let read = read.into_iter().filter_map(|path| path.canonicalize().ok()).collect();
-        Self { read, ..Self::default() }
+        let reported = report.canonicalize().map(|at| names().iter().map(|name| at.join(name)).collect());
+        Self { read, reported: reported.unwrap_or_default(), ..Self::default() }
     }
 
     /// Begins a file.
@@ -48,7 +53,7 @@ impl Drafts {
         if self.read.contains(&at) {
             return Err(Failure::IsRead(path.to_owned()));
         }
-        if self.files.iter().any(|(_, known)| *known == at) {
+        if self.reported.contains(&at) || self.files.iter().any(|(_, known)| *known == at) {
             return Err(Failure::Twice(path.to_owned()));
         }
         let file = draft(folder, &name.to_string_lossy()).map_err(failed)?;
@@ -68,12 +73,25 @@ impl Drafts {
     }
 }
 
+/// Names of all files of the report.
+fn names() -> Vec<String> {
+    [REPORT, HISTOGRAM, FRAMES].map(str::to_owned).into_iter().chain(realtime::all_files()).collect()
+}
+
+/// The folder of the report, with room for it.
+pub(super) fn ready(stage: &Stage<'_>) -> Result<Folder, Failure> {
+    Ok(Folder::ready(&stage.job.folder, RESERVE)?)
+}
+
 /// Writes the report; returns where it is.
-pub(super) fn write(stage: &Stage<'_>, report: &Report, ended: &Ended) -> Result<String, Failure> {
-    let at = &stage.job.folder;
-    let mut folder = Folder::make(at)?;
-    let stale: Vec<String> =
-        [REPORT, HISTOGRAM, FRAMES].map(str::to_owned).into_iter().chain(realtime::all_files()).collect();
+pub(super) fn write(
+    mut folder: Folder,
+    stage: &Stage<'_>,
+    report: &Report,
+    ended: &Ended,
+) -> Result<String, Failure> {
+    let (at, stale) = (&stage.job.folder, names());
+    folder.release();
     // A command that was killed has left its drafts.
     sweep(at, &stale);
     folder.write(REPORT, report.pretty()?.as_bytes())?;
@@ -100,7 +118,9 @@ mod tests {
         let [scene, link] = ["scene.json", "link"].map(|name| folder.path().join(name));
         std::fs::write(&scene, "scene").unwrap();
         std::os::unix::fs::symlink(&scene, &link).unwrap();
-        let mut drafts = Drafts::beside([scene.as_path()]);
+        let mut drafts = Drafts::beside([scene.as_path()], folder.path());
+        let report = folder.path().join(REPORT);
+        assert!(matches!(drafts.begin(&report), Err(Failure::Twice(_))));
         assert!(matches!(drafts.begin(&scene), Err(Failure::IsRead(_))));
         assert!(matches!(drafts.begin(&link), Err(Failure::NoPlainFile(_))));
         assert!(matches!(drafts.begin(Path::new("/dev/null")), Err(Failure::NoPlainFile(_))));

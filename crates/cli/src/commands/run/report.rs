@@ -95,12 +95,7 @@ impl Report {
                 format!("{}: not all pictures could be written: {}", job.name, words(&failure)),
                 format!("   help: make room, then `stickslip plot {}`", job.folder.display()),
             ];
-            self.error = [std::mem::take(&mut self.error)]
-                .into_iter()
-                .filter(|said| !said.is_empty())
-                .chain(lines)
-                .collect::<Vec<_>>()
-                .join("\n");
+            self.complain(lines);
             self.verdict = self.verdict.max(Verdict::Stopped);
         }
         self
@@ -131,6 +126,22 @@ impl Report {
             self.result += &format!("\n  {words}");
         }
         self
+    }
+
+    /// The same of a run whose steady motion somebody did not wait for.
+    pub(crate) fn without_outlook(mut self, job: &Job) -> Self {
+        let folder = job.folder.display();
+        let said = "interrupted while its steady motion was looked for; all else is in";
+        self.complain([format!("{}: {said} {folder}", job.name)]);
+        self.verdict = self.verdict.max(Verdict::Interrupted);
+        self
+    }
+
+    /// Adds to what went wrong.
+    fn complain(&mut self, lines: impl IntoIterator<Item = String>) {
+        let before = std::mem::take(&mut self.error);
+        let all: Vec<String> = [before].into_iter().filter(|said| !said.is_empty()).chain(lines).collect();
+        self.error = all.join("\n");
     }
 
     /// The same where results that are warned of are not good enough.

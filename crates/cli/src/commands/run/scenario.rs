@@ -4,6 +4,7 @@ use super::report::Report;
 use crate::console::interrupt::Interrupt;
 use crate::console::pace::Paced;
 use crate::console::progress::Progress;
+use std::cell::Cell;
 use std::io;
 use std::time::Instant;
 use stickslip_figures::{Look, Sources};
@@ -11,6 +12,7 @@ use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
 use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
 use stickslip_results::folder::{Folder, sweep};
+use stickslip_results::outlook::Outlook;
 use stickslip_results::summary::Status;
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, Watcher};
 use stickslip_study::steady::outlook;
@@ -41,6 +43,9 @@ pub(crate) enum Beginning {
     /// Where its checkpoint is, with more of them; at another interval, s, where one is given.
     Resumed(Box<Resumption>, Option<f64>),
 }
+
+/// Why there is no steady motion where somebody did not want to wait for it.
+const GIVEN_UP: &str = "no steady motion: interrupted while it was looked for";
 
 /// Runs a job and writes its results, also those of a run that did not come to its end.
 pub(crate) fn run(
@@ -96,11 +101,21 @@ pub(crate) fn write(
     (outcome, drafts): (&Outcome, Vec<Draft>),
 ) -> io::Result<Report> {
     let mut summary = Summary::new(job, outcome);
+    let mut gave_up = false;
     if summary.status == Status::Done {
         // What the run has left of its time is all that is taken.
         let (begun, wall) = (Instant::now(), job.scenario.plan.limits.wall.unwrap_or(f64::INFINITY));
         let has_time = || outcome.wall + begun.elapsed().as_secs_f64() < wall;
-        summary.set_outlook(outlook(job, &|| goes_on() && has_time()));
+        let interrupted = Cell::new(false);
+        let goes_on = || {
+            interrupted.set(!goes_on());
+            !interrupted.get() && has_time()
+        };
+        summary.set_outlook(outlook(job, &goes_on));
+        gave_up = interrupted.get();
+        if gave_up {
+            summary.set_outlook(Some(Outlook::NotFound { fault: GIVEN_UP.to_owned() }));
+        }
     }
     summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;
@@ -121,7 +136,8 @@ pub(crate) fn write(
     summary.set_files(names);
     folder.write(SUMMARY, summary.pretty()?.as_bytes())?;
     folder.publish()?;
-    Ok(Report::ended(job, outcome, &summary)?.without_pictures(job, undrawn))
+    let report = Report::ended(job, outcome, &summary)?.without_pictures(job, undrawn);
+    Ok(if gave_up { report.without_outlook(job) } else { report })
 }
 
 /// Draws the pictures; returns why some of them could not be written, which costs the run nothing else.
@@ -147,4 +163,36 @@ fn draw(
         }
     }
     failure
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::console::verdict::Verdict;
+    use std::path::Path;
+
+    #[test]
+    fn a_steady_motion_that_nobody_waits_for_is_told() {
+        let root = tempfile::tempdir().unwrap();
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
+        let job = Job::prepare(&file, &[("plots".to_owned(), "[]".to_owned())], root.path()).unwrap();
+        let look = Look { formats: Vec::new(), themes: Vec::new(), scale: 1, width: None };
+        let written = |goes_on: &dyn Fn() -> bool| {
+            let folder = Folder::make(&job.folder).unwrap();
+            let recorder = Recorder::new(&job, &()).with_tables(&folder).unwrap();
+            let (outcome, drafts) = job.run_recorded(recorder).unwrap();
+            let report = write(&job, (&look, goes_on), folder, (&outcome, drafts)).unwrap();
+            (report, std::fs::read_to_string(job.folder.join(SUMMARY)).unwrap())
+        };
+        let (report, summary) = written(&|| true);
+        assert!(report.verdict == Verdict::Done && report.error.is_empty() && !summary.contains(GIVEN_UP));
+        let (report, summary) = written(&|| false);
+        assert_eq!(report.verdict, Verdict::Interrupted);
+        assert!(
+            report.error.contains("interrupted while its steady motion was looked for"),
+            "{}",
+            report.error
+        );
+        assert!(summary.contains(GIVEN_UP) && summary.contains(r#""status": "done""#));
+    }
 }
