@@ -68,7 +68,7 @@ pub(crate) enum StepperForm {
     #[schemars(example = json!({ "rk4": { "step": "1 us" } }))]
     Rk4(StepForm),
     /// Frames of one length and bounded work, each of so many Runge–Kutta steps of order 4 that an accuracy is kept: for real
-    /// time. Steps end at corners of waveforms; contacts remember no more than 64 turning points.
+    /// time. Steps end at corners of waveforms; contacts remember no more than 256 turning points.
     #[schemars(example = json!({ "frames": { "length": "20 us", "accuracy": 1e-3 } }))]
     Frames(FramesForm),
     /// Dormand–Prince 5(4) without events: the plain explicit reference.

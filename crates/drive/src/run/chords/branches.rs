@@ -19,7 +19,7 @@ use crate::{Model, record::Record};
 use stickslip_contact::{Apex, Branch, Memory, Segment};
 
 /// Turning points that a contact remembers.
-pub(in crate::run) const KNOTS: usize = 64;
+pub(in crate::run) const KNOTS: usize = 256;
 
 /// Ends of branches so near to each other, in shares of a step, are one.
 const TOGETHER: f64 = 1e-6;
