@@ -133,9 +133,9 @@ fn work_is_bounded_whatever_comes() {
     let mut value = 0.0;
     for k in 1..=200_000_i32 {
         // Held, small and large jumps, and now and then rest, so that loops pile up.
-        if k % 20_000 < 400 {
+        if k % 20_000 < 2000 {
             // A swing that dies out leaves loop within loop.
-            value = 300e-9 * 0.985_f64.powi(k % 20_000) * if k % 2 == 0 { 1.0 } else { -1.0 };
+            value = 300e-9 * 0.998_f64.powi(k % 20_000) * if k % 2 == 0 { 1.0 } else { -1.0 };
             run.hold(0, value).unwrap();
         } else if lottery.draw(4) == 0 {
             let reach = [1e-9, 10e-9, 100e-9, 300e-9][lottery.draw(4)];
