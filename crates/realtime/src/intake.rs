@@ -49,25 +49,6 @@ pub struct Patience {
     pub owner: u64,
 }
 
-impl Received {
-    /// What was refused, in words that follow others; nothing where nothing was.
-    #[must_use]
-    pub fn refused(&self) -> String {
-        let counts = [
-            (self.wrong_length, "of a wrong length"),
-            (self.foreign, "of another form, version or number of values"),
-            (self.other_scenario, "for another scenario"),
-            (self.repeated, "repeated"),
-            (self.out_of_order, "out of order"),
-            (self.out_of_range, "with a value out of its range or not finite"),
-            (self.other_client, "from another client"),
-        ];
-        let told = counts.into_iter().filter(|(count, _)| *count > 0);
-        let told: Vec<String> = told.map(|(count, why)| format!("{count} {why}")).collect();
-        if told.is_empty() { String::new() } else { format!(" (refused were {})", told.join(", ")) }
-    }
-}
-
 /// What came.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Received {
@@ -99,6 +80,25 @@ pub struct Received {
     pub owners: u64,
     /// How often the silence allowed was over.
     pub silences: u64,
+}
+
+impl Received {
+    /// What was refused, in words; none where nothing was.
+    #[must_use]
+    pub fn refused(&self) -> Option<String> {
+        let counts = [
+            (self.wrong_length, "of wrong length"),
+            (self.foreign, "no packets"),
+            (self.other_scenario, "of another scenario"),
+            (self.repeated, "repeated"),
+            (self.out_of_order, "out of order"),
+            (self.out_of_range, "out of range"),
+            (self.other_client, "of another client"),
+        ];
+        let told = counts.into_iter().filter(|(count, _)| *count > 0);
+        let told: Vec<String> = told.map(|(count, what)| format!("{count} {what}")).collect();
+        (!told.is_empty()).then(|| told.join(", "))
+    }
 }
 
 /// The values for the next frame, and what was judged.

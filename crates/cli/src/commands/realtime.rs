@@ -63,6 +63,7 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     drop(bar);
     if ended.waited_in_vain {
         let refused = ended.wiring.intake.received().refused();
+        let refused = refused.map_or_else(String::new, |refused| format!(" (refused: {refused})"));
         return Err(Failure::NoInput { wait: order.wait, refused });
     }
     let names = |names: Vec<&String>| names.into_iter().cloned().collect();

@@ -65,22 +65,8 @@ fn inputs(report: &Report) -> Option<String> {
     if report.inputs.is_empty() {
         return None;
     }
-    let refused = [
-        (received.wrong_length, "of wrong length"),
-        (received.foreign, "no packets"),
-        (received.other_scenario, "of another scenario"),
-        (received.repeated, "repeated"),
-        (received.out_of_order, "out of order"),
-        (received.out_of_range, "out of range"),
-        (received.other_client, "of another client"),
-    ];
-    let refused: Vec<String> =
-        refused.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
-    let refused = if refused.is_empty() {
-        "none refused".to_owned()
-    } else {
-        format!("refused: {}", refused.join(", "))
-    };
+    let refused = received.refused();
+    let refused = refused.map_or_else(|| "none refused".to_owned(), |refused| format!("refused: {refused}"));
     Some(format!(
         "  inputs: {} good, {refused}; {} of {} frames had no new one, {} in a row at most",
         received.good, received.stale_frames, report.frames, received.most_stale
