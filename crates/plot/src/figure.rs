@@ -124,7 +124,7 @@ impl Figure<'_> {
     /// The figure as high as its panels need to be drawn at all.
     #[must_use]
     pub fn roomy(mut self) -> Self {
-        let is_low = |figure: &Self| matches!(Layout::new(figure), Err(PlotError::NoRoom { height, width, .. }) if height <= width);
+        let is_low = |figure: &Self| matches!(Layout::framed(figure), Err(PlotError::NoRoom { height, width, .. }) if height <= width);
         while self.size.1 < Self::MOST && is_low(&self) {
             self.size.1 = (self.size.1 + self.size.1 / 10).min(Self::MOST);
         }
@@ -195,12 +195,15 @@ impl Figure<'_> {
 
 /// How many texts inside frames found no place.
 fn lost_notes(figure: &Figure<'_>) -> usize {
+    if figure.panels.iter().all(|panel| panel.notes.is_empty()) {
+        return 0;
+    }
     Layout::new(figure).map_or(usize::MAX, |layout| layout.panels.iter().map(|place| place.lost).sum())
 }
 
 /// Whether a frame is too low for its letters; one of an aspect of its own is as high as it is.
 fn has_low_frames(figure: &Figure<'_>) -> bool {
-    match Layout::new(figure) {
+    match Layout::framed(figure) {
         Err(PlotError::NoRoom { height, width, .. }) => height <= width,
         Err(_) => false,
         Ok(layout) => {

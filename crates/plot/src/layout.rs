@@ -105,6 +105,15 @@ impl Sizes {
 
 impl<'f, 'a> Layout<'f, 'a> {
     pub(crate) fn new(figure: &'f Figure<'a>) -> Result<Self, PlotError> {
+        let mut layout = Self::framed(figure)?;
+        for panel in &mut layout.panels {
+            notes::place(panel, layout.sizes)?;
+        }
+        Ok(layout)
+    }
+
+    /// The same without texts inside the frames, which take the most time.
+    pub(crate) fn framed(figure: &'f Figure<'a>) -> Result<Self, PlotError> {
         figure.check()?;
         let sizes = Sizes::of(figure);
         let width = f64::from(figure.size.0) - 2.0 * sizes.margin;
@@ -128,10 +137,7 @@ impl<'f, 'a> Layout<'f, 'a> {
             let heading = panel.heading.wrapped(sizes.tick, width_above(figure, sizes, i), HEADING_LINES)?;
             requests.push(Request { panel, heading, legend });
         }
-        let mut panels = place::panels(requests, figure, sizes, body)?;
-        for panel in &mut panels {
-            notes::place(panel, sizes)?;
-        }
+        let panels = place::panels(requests, figure, sizes, body)?;
         Ok(Self { title, legend: (legend, legend_at), panels, sizes })
     }
 }
