@@ -125,7 +125,7 @@ impl Sensitivity {
         let is_led = led::tells(&self.job, &self.figures);
         let of = |quantity: &Quantity| match quantity.value {
             0.0 => ladder::probes().count() + ladder::first().count(),
-            _ if is_led => ladder::beside().count(),
+            _ if is_led => ladder::beside(ladder::NEAR[0]).count(),
             _ => ladder::first().count(),
         };
         self.quantities.iter().map(of).sum()
@@ -146,12 +146,16 @@ impl Sensitivity {
                 (0..self.quantities.len()).flat_map(|q| of(q).into_iter().map(move |one| (q, one)));
             bench.run(&scales, &variants.collect::<Vec<_>>())
         };
-        let mut tried = all(&|q| led[q].iter().flat_map(|_| ladder::beside()).collect());
-        let agreed = led.iter().zip(&tried).map(|(led, tried)| match led {
-            Some(slopes) => self.agree(tried, slopes),
-            None => false,
-        });
-        let agreed: Vec<bool> = agreed.collect();
+        let mut tried = vec![Vec::new(); self.quantities.len()];
+        let mut agreed = vec![false; self.quantities.len()];
+        for power in ladder::NEAR {
+            let is_asked = |q: usize| led[q].is_some() && !agreed[q];
+            let more = all(&|q| if is_asked(q) { ladder::beside(power).collect() } else { Vec::new() });
+            for (q, more) in more.into_iter().enumerate() {
+                tried[q].extend(more);
+                agreed[q] = led[q].as_ref().is_some_and(|slopes| agreed[q] || self.agree(&tried[q], slopes));
+            }
+        }
         let further = |q: usize| ladder::further(&tried[q]).collect();
         let more = all(&|q| if agreed[q] { Vec::new() } else { further(q) });
         tried.iter_mut().zip(more).for_each(|(tried, more)| tried.extend(more));
@@ -186,10 +190,10 @@ impl Sensitivity {
         (0..self.figures.len()).any(|f| self.near(&tried[q], f, noise[f]).bends_near_by())
     }
 
-    /// Whether the runs on both sides of a quantity's value say of all figures what a variation does, its errors beside its slopes.
+    /// Whether the nearest runs on both sides of a quantity's value say of all figures what a variation does, its errors beside its slopes.
     fn agree(&self, tried: &[Tried], slopes: &[(f64, f64)]) -> bool {
         let beside = |sense: f64, f: usize| {
-            let (offset, value, _) = ladder::levels(tried, sense).first()?.figure(f).ok()?;
+            let (offset, value, _) = ladder::levels(tried, sense).last()?.figure(f).ok()?;
             Some((offset.abs(), (value - self.figures[f].value) / offset))
         };
         self.figures.iter().zip(slopes).enumerate().all(|(f, (figure, (slope, error)))| {

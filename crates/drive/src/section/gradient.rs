@@ -30,6 +30,10 @@ impl<'m> Section<'m> {
         tolerance: f64,
     ) -> Result<Variation<'m>, VariationError> {
         let (model, layout) = (self.model, self.model.layout());
+        // Another drift leads to other places.
+        if self.drifts.iter().any(|drift| parameters.iter().any(|number| number.lengthens(&drift.shape))) {
+            return Err(VariationError::Form);
+        }
         let (count, scales) = (self.unknowns.len() + parameters.len(), self.scales());
         let mut columns = vec![0.0; count * layout.dimension()];
         for ((unknown, scale), column) in

@@ -173,12 +173,13 @@ impl Variation<'_> {
         Some(())
     }
 
-    /// How the number at a place moves a contact, its κ, and G\*/m as a share; none where it moves its profile.
+    /// How the number at a place moves a contact, its κ, and G\*/m as a share; none where it moves its profile or its levers.
     fn shift(&self, contact: &Contact, at: Moment<'_>, place: usize) -> Option<(Shift, f64, f64)> {
         let (parameter, c) = (&self.parameters[place], contact.place);
         let [_, mobility] = parameter.coordinate(0);
         let stiffer = parameter.tangential(c) + mobility;
-        (!parameter.shapes(c)).then(|| (parameter.shift(contact, at), parameter.slope(c), stiffer))
+        let is_known = !parameter.shapes(c) && parameter.levers(c).iter().all(|levers| levers.is_empty());
+        is_known.then(|| (parameter.shift(contact, at), parameter.slope(c), stiffer))
     }
 
     /// The derivatives at the end of an arc.

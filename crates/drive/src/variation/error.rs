@@ -21,7 +21,7 @@ pub enum VariationError {
     #[error("no variation of contact `{0}` is known: its stiffness jumps as it grows")]
     Profile(String),
     /// A number of the scene that makes another drive of it.
-    #[error("no variation by this number is known: it moves levers, or other parts act with it")]
+    #[error("no variation by this number is known: other parts act with it")]
     Form,
     /// Corners of several waveforms at one moment that a number of the scene moves apart.
     #[error("corners of several waveforms come at t = {t:e} s, and move apart")]

@@ -87,7 +87,7 @@ impl Variation<'_> {
                 let [t, _] = stride.at(part, &mut self.y);
                 let eq = Equations::on(self.model, from, self.layout, false);
                 let motion = eq.motion(contact, t, |i| self.y[i]);
-                let moved = self.moved_by(contact, &columns, Moment { t, ..self.moment(from) });
+                let moved = self.moved_by(contact, &columns, Moment { t, y: &self.y, ..self.moment(from) });
                 self.anchors[c].grow(motion.d, motion.du / motion.dd, &moved);
             }
         }

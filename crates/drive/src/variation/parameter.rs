@@ -5,13 +5,15 @@
 //! a law of its own here. No run of these models is asked for, so that a small distance costs no more than rounding.
 
 mod contact;
+mod levers;
 
 use super::works::Works;
 use super::{Anchors, Variation, VariationError};
-use crate::model::{Measure, Stroke, Terms};
+use crate::model::Stroke;
 use crate::{Model, Piece, Plan, Sample, State};
 use contact::ContactRates;
 pub(super) use contact::{Shift, edge};
+use levers::Levers;
 use stickslip_contact::Memory;
 
 /// A number of the scene, told by models on both sides of its value.
@@ -35,8 +37,10 @@ struct Beside {
 }
 
 /// How the constants of a link move.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct LinkRates {
+    /// Where it is held.
+    pub(super) levers: Levers,
     pub(super) stiffness: f64,
     pub(super) damping: f64,
     pub(super) preload: f64,
@@ -50,9 +54,10 @@ pub(super) struct Stretched {
     /// Its stretch s - e and its length e, m.
     pub(super) stretch: f64,
     pub(super) length: f64,
-    /// The rates of its stroke and of its length, m/s.
+    /// The rates of its stroke and of its length, and what of that followers make, m/s.
     pub(super) stroke_rate: f64,
     pub(super) rate: f64,
+    pub(super) driven: f64,
 }
 
 /// How a starting state moves: its components, of each memory the anchors, a line [a, b] of each piece, and where the books of energies
@@ -63,12 +68,15 @@ struct Start {
     books: [f64; 2],
 }
 
-/// Waveforms on their pieces at a time, s.
+/// Waveforms on their pieces at a time, s, and the components of a run then.
 #[derive(Clone, Copy)]
 pub(super) struct Moment<'a> {
     pub(super) model: &'a Model,
     pub(super) pieces: &'a [Piece],
     pub(super) t: f64,
+    pub(super) y: &'a [f64],
+    /// How far from their origins positions are counted, m.
+    pub(super) shifts: &'a [f64],
     /// How numbers move waveforms there, one number after the other, or the one in question; empty where that is not laid out.
     pub(super) moving: &'a [Moving],
 }
@@ -89,13 +97,19 @@ pub(super) enum Moving {
 impl<'a> Moment<'a> {
     /// Where a run stands.
     pub(super) fn of(model: &'a Model, state: &'a State) -> Self {
-        Self { model, pieces: &state.pieces, t: state.t, moving: &[] }
+        let State { pieces, y, shifts, .. } = state;
+        Self { model, pieces, t: state.t, y, shifts, moving: &[] }
     }
 
     /// As the number at this place finds it.
     pub(super) fn by(self, place: usize) -> Self {
         let count = self.pieces.len();
         Self { moving: self.moving.get(place * count..(place + 1) * count).unwrap_or_default(), ..self }
+    }
+
+    /// A free coordinate from its origin, and its rate: m and m/s, or rad and rad/s.
+    fn coordinate(&self, i: usize) -> [f64; 2] {
+        [self.shifts[i] + self.y[i], self.y[self.model.layout().velocity(i)]]
     }
 
     /// The waveform itself.
@@ -141,10 +155,10 @@ impl Parameter {
     ///
     /// # Errors
     ///
-    /// Models of another form: other parts act, or levers are longer.
+    /// Models of another form, in which other parts act.
     pub fn new(model: &Model, beside: [Model; 4], distance: f64) -> Result<Self, VariationError> {
-        let is_alike = |other: &Model| other.is_alike(model) && levers(other).eq(levers(model));
-        if !beside.iter().all(is_alike) || !beside.iter().all(|other| strokes(other).eq(strokes(model))) {
+        let is_alike = |other: &Model| other.is_alike(model) && strokes(other).eq(strokes(model));
+        if !beside.iter().all(is_alike) {
             return Err(VariationError::Form);
         }
         let beside = Beside { models: beside, distance };
@@ -153,6 +167,7 @@ impl Parameter {
             [beside.rate(|other| other.free[i].force), mobility / model.free[i].mobility]
         };
         let link = |l: usize| LinkRates {
+            levers: Levers::of(&beside, |other| Some(&other.links[l].elongation)),
             stiffness: beside.rate(|other| other.links[l].stiffness),
             damping: beside.rate(|other| other.links[l].damping),
             preload: beside.rate(|other| other.links[l].preload),
@@ -247,15 +262,6 @@ impl Parameter {
         self.beside.rate(end)
     }
 
-    /// How a measure and its rate move beside what is free.
-    fn followed(&self, measure: &Measure, at: Moment<'_>) -> [f64; 2] {
-        let add = |[value, rate]: [f64; 2], (w, a): &(usize, f64)| {
-            let sample = self.sample(*w, at);
-            [value + a * sample.value, rate + a * sample.rate]
-        };
-        measure.driven.iter().fold([0.0; 2], add)
-    }
-
     /// Constant force on a free coordinate, N or N m, and how its mobility moves, as a share of it.
     pub(super) fn coordinate(&self, i: usize) -> [f64; 2] {
         self.coordinates[i]
@@ -274,8 +280,8 @@ impl Parameter {
     }
 
     /// How the constants of a link move.
-    pub(super) fn link_rates(&self, l: usize) -> LinkRates {
-        self.links[l]
+    pub(super) fn link_rates(&self, l: usize) -> &LinkRates {
+        &self.links[l]
     }
 
     /// How a link is stretched where its bodies stand as they do.
@@ -288,9 +294,10 @@ impl Parameter {
                 [sample.value, sample.rate]
             }
         };
-        let [length, rate] = self.followed(&link.elongation, at);
-        let stretch = stroke[0] - rates.length - length;
-        Stretched { stretch, length: rates.length + length, stroke_rate: stroke[1], rate }
+        let moved = self.moved((&link.elongation, &rates.levers), at);
+        let length = rates.length + moved.value;
+        let [stroke, stroke_rate] = stroke;
+        Stretched { stretch: stroke - length, length, stroke_rate, rate: moved.rate, driven: moved.driven }
     }
 
     /// How the mass of a free coordinate moves, kg or kg m².
@@ -309,14 +316,6 @@ fn sampled(model: &Model, w: usize, at: Moment<'_>) -> Sample {
     let waveform = &model.waveforms[w];
     let nothing = Sample { value: f64::NAN, rate: f64::NAN, acceleration: f64::NAN };
     waveform.piece(at.pieces[w].index).map_or(nothing, |piece| waveform.sample(&piece, at.t))
-}
-
-/// What lines of force and ways between the parts are made of.
-fn levers(model: &Model) -> impl Iterator<Item = (&Terms, &Terms)> {
-    let of_links = model.links.iter().map(|link| &link.elongation);
-    let of_contacts =
-        model.contacts.iter().flat_map(|contact| [Some(&contact.u), contact.coupling()]).flatten();
-    of_links.chain(of_contacts).map(|measure| (&measure.free, &measure.driven))
 }
 
 /// What each link and each load follows, what presses each contact, and how many there are.

@@ -150,6 +150,7 @@ impl Variation<'_> {
             count: self.count(),
             parameters: self.parameters,
             moving: &self.moving,
+            shifts: &from.shifts,
         }
     }
 

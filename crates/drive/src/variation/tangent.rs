@@ -159,6 +159,7 @@ pub(super) struct Laws<'a> {
     pub(super) parameters: &'a [Parameter],
     /// How these move waveforms.
     pub(super) moving: &'a [Moving],
+    pub(super) shifts: &'a [f64],
 }
 
 impl Laws<'_> {
@@ -188,12 +189,12 @@ impl Laws<'_> {
     /// Adds what numbers of the scene make of the equations where the motion has passed a node.
     pub(super) fn move_by_numbers(&self, passed: &mut Passed, node: &mut Coefficients) {
         node.forcing.resize(self.components.rates * self.count, 0.0);
-        let (eq, now) = (&self.eq, self.moment(passed));
-        let (t, y, slopes) = (passed.t, &passed.y[..], &mut passed.slopes);
+        let eq = &self.eq;
         if self.parameters.iter().any(Parameter::weighs) {
-            slopes.resize(eq.layout.total(), 0.0);
-            eq.slopes(t, y, slopes);
+            passed.slopes.resize(eq.layout.total(), 0.0);
+            eq.slopes(passed.t, &passed.y, &mut passed.slopes);
         }
+        let (now, t, y, slopes) = (self.moment(passed), passed.t, &passed.y[..], &passed.slopes[..]);
         for (place, (j, parameter)) in self.numbers().enumerate() {
             self.move_by(parameter, (now.by(place), (t, y), slopes), (j, &mut node.forcing));
         }
@@ -205,8 +206,9 @@ impl Laws<'_> {
     }
 
     /// The moment of a node, as waveforms have it.
-    pub(super) fn moment(&self, passed: &Passed) -> Moment<'_> {
-        Moment { model: self.eq.model, pieces: self.eq.pieces, t: passed.now, moving: self.moving }
+    pub(super) fn moment<'p>(&'p self, passed: &'p Passed) -> Moment<'p> {
+        let Equations { model, pieces, .. } = self.eq;
+        Moment { model, pieces, t: passed.now, y: &passed.y, shifts: self.shifts, moving: self.moving }
     }
 
     /// Whether numbers of the scene move the force of a contact.
@@ -242,6 +244,9 @@ impl Laws<'_> {
             let stretch = [stroke.value - length.value, stroke.rate - length.rate];
             let force = parameter.link(model, l, stretch, now);
             link.elongation.free.iter().for_each(|(i, a)| add(*i, model.free[*i].mobility * a * force));
+            let pull = link.stiffness * stretch[0] + link.damping * stretch[1] + link.preload;
+            let levers = &parameter.link_rates(l).levers.free;
+            levers.iter().for_each(|(i, longer)| add(*i, model.free[*i].mobility * longer * pull));
         }
         for (l, load) in model.loads.iter().enumerate() {
             let value = eq.sample(load.waveform, t).value;
@@ -257,8 +262,11 @@ impl Laws<'_> {
             let [along, across] = self.pulls(contact, parameter, (now.by(place), stand), &mut add);
             let terms = contact.u.free.iter().map(|(i, a)| (*i, a * along));
             let depth = contact.coupling().into_iter().flat_map(|d| &d.free);
+            let levers = parameter.levers(contact.place).into_iter().zip(self.forces(contact, stand, now.y));
+            let levers = levers.flat_map(|(levers, force)| levers.iter().map(move |(i, a)| (*i, a * force)));
             terms
                 .chain(depth.map(|(i, a)| (*i, a * across)))
+                .chain(levers)
                 .for_each(|(i, force)| add(i, -model.free[i].mobility * contact.count * force));
         }
     }
@@ -272,6 +280,18 @@ impl Laws<'_> {
         };
         let stiffness = Stiffness::of(contact, law, &motion);
         Stand { stiffness, whole: contact.interface.stick_stiffness(motion.d), force, motion }
+    }
+
+    /// F_x and F_N of one contact where it stands, N, the latter where its bodies press it.
+    pub(super) fn forces(&self, contact: &Contact, stand: &Stand, y: &[f64]) -> [f64; 2] {
+        let mode = self.eq.law(contact.place).1;
+        let growing = contact.slot.filter(|_| *mode == Mode::Grow);
+        let press = match mode {
+            Mode::Open => 0.0,
+            _ if contact.coupling().is_none() => 0.0,
+            _ => contact.interface.normal_force(stand.motion.d),
+        };
+        [growing.map_or(stand.force, |slot| y[self.eq.layout.force(slot)]), press]
     }
 
     /// How F_x and F_N of one contact change by a number of the scene, N; of one that grows F_x is a state, whose rate does.

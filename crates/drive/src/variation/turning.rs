@@ -1,5 +1,6 @@
 //! Where a motion has no derivative: at turns that are as good as none, and at rest.
 
+use super::parameter::Moment;
 use super::{Variation, VariationError};
 use crate::contact::{Contact, Mode};
 use crate::equations::{Components, Equations};
@@ -26,7 +27,7 @@ impl Variation<'_> {
         Ok(())
     }
 
-    /// Whether no contact rests that holds: to either side it would answer with another stiffness.
+    /// Whether no contact rests that holds and numbers move: to either side it would answer with another stiffness.
     pub(super) fn check_rest(&self, state: &State) -> Result<(), VariationError> {
         let holds = |(c, contact): &(usize, &Contact)| {
             matches!(&state.modes[*c], Mode::Slip(branch) if !branch.is_gross())
@@ -34,10 +35,25 @@ impl Variation<'_> {
                 && !contact.u.free.is_empty()
         };
         let mut holding = self.model.contacts.iter().enumerate().filter(holds);
-        match holding.find(|(_, contact)| self.stands(contact, state, self.tolerance)) {
+        let stops =
+            |contact: &Contact| self.stands(contact, state, self.tolerance) && self.moves(contact, state);
+        match holding.find(|(_, contact)| stops(contact)) {
             Some((_, contact)) => Err(VariationError::Grazes { contact: contact.name.clone(), t: state.t }),
             None => Ok(()),
         }
+    }
+
+    /// Whether a number makes a contact slide: where all rest with it no stiffness is asked for.
+    fn moves(&self, contact: &Contact, state: &State) -> bool {
+        let slow = self.tolerance.sqrt() * contact.natural_velocity();
+        let first = self.count() - self.parameters.len();
+        (0..self.count()).any(|j| {
+            let Some(column) = self.column(j) else { return true };
+            let own: f64 = contact.u.free.iter().map(|(i, a)| a * column[self.layout.velocity(*i)]).sum();
+            let number = j.checked_sub(first).map(|place| &self.parameters[place]);
+            let shift = number.map_or(0.0, |number| number.shift(contact, Moment::of(self.model, state)).du);
+            (own + shift).abs() > slow || (own + shift).is_nan()
+        })
     }
 
     /// Whether a contact slides by less than `slow` and is about to by next to nothing, both in natural scales.

@@ -6,7 +6,7 @@
 use super::parameter::{Moment, Parameter};
 use super::steps::Passed;
 use super::tangent::Laws;
-use crate::contact::{Contact, Mode, Motion};
+use crate::contact::{Contact, Mode};
 use crate::equations;
 use crate::model::Link;
 use crate::state::{Layout, State};
@@ -164,7 +164,7 @@ impl Laws<'_> {
                 let (rates, moved) = (parameter.link_rates(l), parameter.stretched(model, l, now));
                 let force = parameter.link(model, l, [pull.stretch, pull.speed], now) - rates.preload;
                 input += force * (pull.stroke - pull.driven) - rates.preload * pull.driven;
-                input += pull.force * (moved.stroke_rate - moved.rate) - link.preload * moved.rate;
+                input += pull.force * (moved.stroke_rate - moved.driven) - link.preload * moved.driven;
                 damping += rates.damping * pull.speed * pull.speed
                     + 2.0 * link.damping * pull.speed * (moved.stroke_rate - moved.rate);
             }
@@ -193,8 +193,7 @@ impl Laws<'_> {
         let stand = self.stand(contact, self.eq.motion(contact, t, |i| y[i]), true);
         let driven = self.driven(contact, &at);
         let growing = contact.slot.filter(|_| *self.eq.law(contact.place).1 == Mode::Grow);
-        let force = growing.map_or(stand.force, |slot| y[self.eq.layout.force(slot)]);
-        let press = self.pressing(contact, &stand.motion);
+        let [force, press] = self.forces(contact, &stand, y);
         let own = |(_, (_, parameter)): &(usize, (usize, &Parameter))| parameter.touches(contact.place);
         for (place, (j, parameter)) in self.numbers().enumerate().filter(own) {
             let now = now.by(place);
@@ -202,7 +201,7 @@ impl Laws<'_> {
             let [along, across] = self.pulls(contact, parameter, (now, &stand), &mut |_, _| ());
             let of_forces = along * driven[0] + across * driven[1];
             powers.forcing[INPUT * self.count + j] +=
-                contact.count * (of_forces + force * shift.du + press * shift.dd);
+                contact.count * (of_forces + force * shift.driven[0] + press * shift.driven[1]);
             if let Some(slot) = growing {
                 powers.forcing[(STORED + slot) * self.count + j] += force * shift.du;
             }
@@ -213,15 +212,6 @@ impl Laws<'_> {
     fn driven(&self, contact: &Contact, at: &impl equations::View) -> [f64; 2] {
         let depth = contact.coupling().map_or(0.0, |d| self.eq.read(d, at).driven);
         [self.eq.read(&contact.u, at).driven, depth]
-    }
-
-    /// F_N of a contact that its bodies press, N.
-    fn pressing(&self, contact: &Contact, motion: &Motion) -> f64 {
-        match self.eq.law(contact.place).1 {
-            Mode::Open => 0.0,
-            _ if contact.coupling().is_none() => 0.0,
-            _ => contact.interface.normal_force(motion.d),
-        }
     }
 
     fn link(&self, link: &Link, at: &impl equations::View) -> Pull {

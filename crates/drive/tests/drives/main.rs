@@ -54,6 +54,7 @@ mod unfed_inputs;
 mod units;
 mod variations;
 mod variations_at_events;
+mod variations_by_levers;
 mod variations_by_parameters;
 mod variations_of_arcs;
 mod variations_of_energies;

@@ -264,7 +264,9 @@ fn led<T>(
     }
     let mut found = match lead(&all) {
         Ok(Some(slopes)) => slopes.into_iter().map(Some).collect(),
-        Err(VariationError::MovesApart { .. } | VariationError::NotSmooth { .. }) if all.len() > 1 => {
+        Err(VariationError::MovesApart { .. } | VariationError::NotSmooth { .. } | VariationError::Form)
+            if all.len() > 1 =>
+        {
             let alone = |one: &&T| lead(&[*one]).ok().flatten().and_then(|slopes| slopes.into_iter().next());
             all.iter().map(alone).collect::<Vec<_>>()
         }

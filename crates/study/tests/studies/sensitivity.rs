@@ -315,16 +315,29 @@ fn an_event_at_the_very_edge_is_told_from_both_sides() -> Checked {
     Ok(())
 }
 
-/// A lever has no variation: alone it is told by runs, as it is beside a quantity that has one.
+/// What is 0 has no variation: alone it is told by runs, as it is beside a quantity that has one.
 #[test]
 fn where_no_quantity_has_a_variation_runs_tell() -> Checked {
-    let (file, set) = (example("three_ball_stage.json"), [("run.cycles", "1")]);
-    let lever = "contacts.front.at.stage.x";
-    let (_, alone) = taken(&file, &set, &of(&["stage.x_m"], &[lever]))?;
-    let (_, beside) = taken(&file, &set, &of(&["stage.x_m"], &[lever, "bodies.stage.inertia"]))?;
+    let (file, set) = (example("three_ball_stage.json"), [("run.cycles", "1"), ("gravity.incline", "0")]);
+    let incline = "gravity.incline";
+    let (_, alone) = taken(&file, &set, &of(&["stage.x_m"], &[incline]))?;
+    let (_, beside) = taken(&file, &set, &of(&["stage.x_m"], &[incline, "bodies.stage.inertia"]))?;
     let slope = known(&alone.derivatives[0][0])?;
     assert!(!is_led(slope) && is_led(known(&beside.derivatives[0][1])?));
     assert_eq!(slope, known(&beside.derivatives[0][0])?);
+    Ok(())
+}
+
+/// Both were told by runs: where contacts lie, and anything of a scene in which a body rests that nothing moves.
+#[test]
+fn levers_and_what_rests_are_led_along() -> Checked {
+    let levers = of(&["stage.x_m"], &["contacts.front.at.stage.x", "contacts.rear.at.stage.z"]);
+    let (_, stage) = taken(&example("three_ball_stage.json"), &[("run.cycles", "1")], &levers)?;
+    let moved = of(&["slider.x_m"], &["bodies.slider.mass", "contacts.still.friction"]);
+    let (_, beside) = taken(&example("vibrated_slider.json"), &[("run.cycles", "2")], &moved)?;
+    for found in [stage, beside].iter().flat_map(|taken| taken.derivatives.iter().flatten()) {
+        assert!(is_led(known(found)?), "{found:?}");
+    }
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! What of a contact moves with a number of its scene.
 
+use super::levers::{Levers, Moved};
 use super::{Beside, Moment, Parameter, sampled};
 use crate::contact::{Contact, Motion, Press};
 use crate::model::Measure;
@@ -7,8 +8,11 @@ use crate::{Model, Sample, State};
 use stickslip_contact::{Memory, Profile};
 
 /// How the constants of a contact move.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct ContactRates {
+    /// Where it lies: levers of u, and of d where its bodies press it.
+    slide: Levers,
+    depth: Levers,
     /// Constants of u and d, m.
     u: f64,
     d: f64,
@@ -32,7 +36,8 @@ pub(in crate::variation) struct Shift {
     pub(in crate::variation) d: f64,
     /// By which its rate of sliding changes, and that of its depth where bodies press it, m/s.
     pub(in crate::variation) du: f64,
-    pub(in crate::variation) dd: f64,
+    /// What of both followers make, m/s.
+    pub(in crate::variation) driven: [f64; 2],
 }
 
 impl ContactRates {
@@ -43,6 +48,8 @@ impl ContactRates {
         let normal = rate(|it| it.interface.normal_modulus()) / law.normal_modulus();
         let moves = contact.press.waveform().is_some_and(|w| waveforms[w]);
         let rates = Self {
+            slide: Levers::of(beside, |other| Some(&other.contacts[c].u)),
+            depth: Levers::of(beside, |other| other.contacts[c].coupling()),
             u: rate(|it| it.u.constant),
             d: rate(|it| match &it.press {
                 Press::Constant { d, .. } => *d,
@@ -58,10 +65,12 @@ impl ContactRates {
             any: false,
         };
         let Self { u, d, tangential, slope, presses, .. } = rates;
+        let is_elsewhere = rates.slide.any() || rates.depth.any();
         let follows = |measure: &Measure| measure.driven.iter().any(|(w, _)| waveforms[*w]);
         let any = [u, d, tangential, slope].iter().any(|rate| *rate != 0.0)
             || presses
             || moves
+            || is_elsewhere
             || follows(&contact.u)
             || contact.coupling().is_some_and(follows);
         Self { any, ..rates }
@@ -75,25 +84,32 @@ impl Parameter {
         if !rates.any {
             return Shift::default();
         }
-        let [u, du] = self.followed(&contact.u, at);
-        let [d, dd] = match &contact.press {
-            Press::Constant { .. } => [rates.d, 0.0],
+        let still = |value: f64| Moved { value, ..Moved::default() };
+        let slide = self.moved((&contact.u, &rates.slide), at);
+        let depth = match &contact.press {
+            Press::Constant { .. } => still(rates.d),
             Press::Coupled(measure) => {
-                let [d, dd] = self.followed(measure, at);
-                [rates.d + d, dd]
+                let moved = self.moved((measure, &rates.depth), at);
+                Moved { value: rates.d + moved.value, ..moved }
             }
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) if rates.presses => {
                 let d = |other: &Model| other.contacts[c].pressed(sampled(other, *w, at), None).0;
-                [self.beside.rate(d), 0.0]
+                still(self.beside.rate(d))
             }
             // As it goes with its waveform it moves with that.
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) if rates.follows => {
                 let moved = Sample { rate: self.sample(*w, at).value, ..at.own(*w) };
-                [contact.pressed(moved, None).1, 0.0]
+                still(contact.pressed(moved, None).1)
             }
-            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => [0.0; 2],
+            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) => Moved::default(),
         };
-        Shift { u: rates.u + u, d, du, dd }
+        Shift {
+            u: rates.u + slide.value,
+            d: depth.value,
+            du: slide.rate,
+
+            driven: [slide.driven, depth.driven],
+        }
     }
 
     /// How far a contact is moved, (u, d) in m, at the moment of a state.
@@ -101,6 +117,12 @@ impl Parameter {
         let at = Moment::of(model, state);
         let shift = self.shift(contact, at);
         (shift.u, shift.d)
+    }
+
+    /// How far its lines of force lie elsewhere: by coordinate the change of its levers, of F_x and of F_N.
+    pub(in crate::variation) fn levers(&self, c: usize) -> [&[(usize, f64)]; 2] {
+        let rates = &self.contacts[c];
+        [&rates.slide, &rates.depth].map(|levers| &levers.free[..])
     }
 
     /// How κ of a contact moves.
