@@ -163,6 +163,30 @@ fn what_killed_commands_left_is_swept() {
 }
 
 /// A file named `...json` has the stem `..`: its results went into the folder above, where pictures were deleted.
+/// The second took the drafts of the first away, whose work was lost when it came to its end.
+#[test]
+fn a_folder_into_which_another_command_is_writing_is_refused() {
+    let root = tempdir().unwrap();
+    let folder = root.path().join("quickstart");
+    fs::create_dir_all(&folder).unwrap();
+    let draft = folder.join(".trace.csv-ab12cd");
+    let written = fs::File::create(&draft).unwrap();
+    written.lock().unwrap();
+    let run = || {
+        let mut command = stickslip();
+        command.arg("run").arg(scenario("quickstart")).arg("--out").arg(root.path());
+        command.args(["--set", "run.cycles=1"]).output().unwrap()
+    };
+    let refused = run();
+    let said = stderr(&refused);
+    assert_eq!(code(&refused), 3, "{said}");
+    assert!(said.contains("another command is writing into it") && said.contains("--out"), "{said}");
+    assert_eq!(listing(&folder), [".trace.csv-ab12cd"]);
+    drop(written);
+    assert_eq!(code(&run()), 0);
+    assert!(!draft.exists() && folder.join("summary.json").exists());
+}
+
 #[test]
 fn a_file_whose_name_is_no_folder_is_refused() {
     let root = tempdir().unwrap();

@@ -1,6 +1,6 @@
 //! Files under temporary names, beside the places that they are meant for.
 
-use std::fs::{self, DirEntry};
+use std::fs::{self, DirEntry, File, TryLockError};
 use std::io;
 use std::path::Path;
 use std::time::Duration;
@@ -12,7 +12,7 @@ const DRAWN: usize = 6;
 /// How long a draft was not touched that is taken for one of a command that was killed.
 const LEFT: Duration = Duration::from_secs(60);
 
-/// An empty file under a temporary name in a folder.
+/// An empty file under a temporary name in a folder, locked as long as it is open: what is not is left of a command that was killed.
 ///
 /// # Errors
 /// What the system says.
@@ -23,14 +23,31 @@ pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
     // Results are for everybody whom the user's mask lets read; temporary files are for nobody else by default.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+    let file = builder.tempfile_in(folder)?;
+    // Where there are no locks nobody is told of others.
+    let _ = file.as_file().try_lock();
+    Ok(file)
 }
 
 /// Removes what runs that were killed have left of drafts of these names. What cannot be removed stays: it is in nobody's way.
-pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
-    for entry in drafts(folder, names) {
-        let _ = fs::remove_file(entry.path());
+///
+/// # Errors
+/// `ResourceBusy`, with nothing done, where another command is writing one of them.
+pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) -> io::Result<()> {
+    let left: Vec<DirEntry> = drafts(folder, names).collect();
+    if left.iter().any(is_written) {
+        return Err(io::Error::new(io::ErrorKind::ResourceBusy, "another command is writing into it"));
     }
+    left.iter().for_each(|entry| {
+        let _ = fs::remove_file(entry.path());
+    });
+    Ok(())
+}
+
+/// Whether somebody has it open.
+fn is_written(entry: &DirEntry) -> bool {
+    let file = File::open(entry.path());
+    file.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
 }
 
 /// The same for those who only add to a folder, whose run may be about to give its drafts their names: what nobody has touched
@@ -71,6 +88,7 @@ mod tests {
     fn only_drafts_of_known_names_are_swept() {
         let root = tempfile::tempdir().unwrap();
         let left = draft(root.path(), "trace.csv").unwrap().keep().unwrap().1;
+        let sweep = |names: &[&str]| sweep(root.path(), names).unwrap();
         let others = [
             ".trace.csv-mine",
             ".trace.csv-ab12cd3",
@@ -81,10 +99,23 @@ mod tests {
         others.iter().for_each(|name| fs::write(root.path().join(name), "").unwrap());
         fs::create_dir(root.path().join(".trace.csv-folder")).unwrap();
         assert!(left.exists());
-        sweep(root.path(), &["events.csv"]);
+        sweep(&["events.csv"]);
         assert!(left.exists());
-        sweep(root.path(), &["events.csv", "trace.csv"]);
+        sweep(&["events.csv", "trace.csv"]);
         assert!(!left.exists());
         assert_eq!(fs::read_dir(root.path()).unwrap().count(), others.len() + 1);
+    }
+
+    #[test]
+    fn what_another_command_is_writing_stays() {
+        let root = tempfile::tempdir().unwrap();
+        let left = draft(root.path(), "events.csv").unwrap().keep().unwrap().1;
+        let own = draft(root.path(), "trace.csv").unwrap();
+        let busy = sweep(root.path(), &["events.csv", "trace.csv"]).unwrap_err();
+        assert_eq!(busy.kind(), io::ErrorKind::ResourceBusy);
+        assert!(left.exists() && own.path().exists());
+        drop(own);
+        sweep(root.path(), &["events.csv", "trace.csv"]).unwrap();
+        assert!(!left.exists());
     }
 }

@@ -66,6 +66,7 @@ impl Report {
             io::ErrorKind::NotFound => {
                 "\n   help: the files begun there are gone: another run has written into the same folder; give each its own by --out"
             }
+            io::ErrorKind::ResourceBusy => "\n   help: wait for it, or choose another place with --out",
             _ => "",
         };
         Self::failed(

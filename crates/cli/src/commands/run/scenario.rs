@@ -63,7 +63,9 @@ pub(crate) fn run(
     // A run that was killed has left its drafts.
     let names =
         [TRACE, EVENTS, CYCLES, STEPS, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
-    sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>());
+    if let Err(error) = sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>()) {
+        return Report::not_written(job, &error);
+    }
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
     let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
     let paced = realtime.then(|| Paced::new(&bar, from));
