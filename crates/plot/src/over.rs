@@ -11,32 +11,43 @@ const FINE: f64 = 0.75;
 
 /// The curves of figures of one kind in one: each figure has a colour, named in the legend, its curves told apart by
 /// dashes. What is pale in a figure, for it came before, is left out, and so is what stands behind in all but the first. Lines of
-/// one name that lie elsewhere in another figure are named after theirs. Panels are left out from the first on that is not the same in
-/// all figures. None where that is the first of all, or none of them has curves.
+/// one name that lie elsewhere in another figure are named after theirs. Panels that not all figures have are left out. None where these are
+/// all, or none of them has curves.
 pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Figure<'a>> {
     let (_, first) = figures.first()?;
-    let alike = |figure: &Figure<'_>| {
-        let is_like = |(own, other): &(&Panel<'_>, &Panel<'_>)| {
-            own.x.unit == other.x.unit && own.y.unit == other.y.unit
-        };
-        first.panels.iter().zip(&figure.panels).take_while(is_like).count()
+    let of_all = |place: usize| -> Option<Vec<(&str, Panel<'a>)>> {
+        figures.iter().map(|(name, figure)| Some((name.as_str(), like(figure, first, place)?))).collect()
     };
-    let common = figures.iter().map(|(_, figure)| alike(figure)).min().unwrap_or(0);
-    let panels: Vec<Panel<'a>> = (0..common).map(|place| panel(figures, place)).collect();
+    let panels: Vec<Panel<'a>> = (0..first.panels.len()).filter_map(of_all).map(panel).collect();
     if panels.iter().all(|panel| panel.series.is_empty()) {
         return None;
     }
-    let figure = Figure { title: Label::plain(title), panels, provenance: Vec::new(), ..first.clone() };
-    Some(figure)
+    // They stand as in a figure that has no others.
+    let mut all = figures.iter().map(|(_, figure)| figure);
+    let stands = all.find(|figure| figure.panels.len() == panels.len()).unwrap_or(first).clone();
+    Some(Figure { title: Label::plain(title), panels, provenance: Vec::new(), ..stands })
 }
 
-fn panel<'a>(figures: &[(String, Figure<'a>)], place: usize) -> Panel<'a> {
-    let of = |figure: &Figure<'a>| figure.panels[place].clone();
-    let mut all: Panel<'a> = figures.first().map(|(_, figure)| of(figure)).unwrap_or_default();
+/// The panel of a figure that shows what one of the first figure does: of several the one in the same place among them.
+fn like<'a>(figure: &Figure<'a>, first: &Figure<'a>, place: usize) -> Option<Panel<'a>> {
+    let shown = |panel: &Panel<'_>| {
+        let [x, y] = [&panel.x, &panel.y].map(|axis| (axis.label.text(), axis.unit.clone()));
+        // A stretch is enlarged beside the whole.
+        (x, y, panel.x.covers.is_some())
+    };
+    let own = shown(&first.panels[place]);
+    let before = first.panels[..place].iter().filter(|panel| shown(panel) == own).count();
+    figure.panels.iter().filter(|panel| shown(panel) == own).nth(before).cloned()
+}
+
+/// Panels that show the same, each under the name of its figure, in one.
+fn panel<'a>(panels: Vec<(&str, Panel<'a>)>) -> Panel<'a> {
+    let mut all: Panel<'a> = panels.first().map(|(_, panel)| panel.clone()).unwrap_or_default();
     (all.series, all.bands, all.references) = (Vec::new(), Vec::new(), Vec::new());
-    let differ = differing(figures, place);
-    for (result, (name, figure)) in figures.iter().enumerate() {
-        let panel = of(figure);
+    all.enlarged = all.enlarged.filter(|_| panels.iter().all(|(_, panel)| panel.enlarged == all.enlarged));
+    let differ = differing(&panels);
+    let others = panels.iter().skip(1).map(|(_, panel)| panel.series.clone()).collect::<Vec<_>>();
+    for (result, (name, panel)) in panels.into_iter().enumerate() {
         // Another scale is another axis.
         all.top = all.top.filter(|top| panel.top.as_ref() == Some(top));
         all.right = all.right.filter(|right| panel.right.as_ref() == Some(right));
@@ -50,28 +61,37 @@ fn panel<'a>(figures: &[(String, Figure<'a>)], place: usize) -> Panel<'a> {
         let (behind, shown): (Vec<_>, Vec<_>) =
             panel.series.into_iter().partition(|series| series.style.ink == Some(Ink::Muted));
         if result == 0 {
-            all.series.extend(behind);
+            // What is not the same in all is that of the first.
+            let own = |series: Series<'a>| {
+                let is_of_all = others.iter().all(|other| other.contains(&series));
+                if is_of_all { series } else { Series { label: named(name, &series), ..series } }
+            };
+            all.series.extend(behind.into_iter().map(own));
         }
         let is_seen = |series: &Series<'a>| !matches!(series.style.ink, Some(Ink::Pale(_)));
         let shown: Vec<Series<'a>> = shown.into_iter().filter(is_seen).collect();
         let is_only = shown.len() == 1;
         for (dash, series) in shown.into_iter().enumerate() {
-            let words = match series.label.text() {
-                label if is_only || label.is_empty() => name.clone(),
-                label => format!("{name}: {label}"),
-            };
+            let label = if is_only { Label::plain(name) } else { named(name, &series) };
             let style = Style { ink: Some(Ink::Palette(result)), dash: Some(Dash::at(dash)), width: FINE };
-            all.series.push(Series { style, label: Label::plain(&words), directed: false, ..series });
+            all.series.push(Series { style, label, directed: false, ..series });
         }
     }
     all
 }
 
-/// Names of lines that lie elsewhere in some figures than in the first.
-fn differing(figures: &[(String, Figure<'_>)], place: usize) -> Vec<String> {
-    let of = |figure: &Figure<'_>| figure.panels[place].references.clone();
-    let first = figures.first().map(|(_, figure)| of(figure)).unwrap_or_default();
-    let others = figures.iter().skip(1).flat_map(|(_, figure)| of(figure));
+/// The name of a curve among those of other figures.
+fn named(name: &str, series: &Series<'_>) -> Label {
+    match series.label.text() {
+        label if label.is_empty() => Label::plain(name),
+        label => Label::plain(&format!("{name}: {label}")),
+    }
+}
+
+/// Names of lines that lie elsewhere in some panels than in the first.
+fn differing(panels: &[(&str, Panel<'_>)]) -> Vec<String> {
+    let first = panels.first().map(|(_, panel)| &panel.references[..]).unwrap_or_default();
+    let others = panels.iter().skip(1).flat_map(|(_, panel)| &panel.references);
     let named = others.filter(|other| !first.contains(other)).map(|other| other.label().text());
     named.filter(|name| !name.is_empty()).collect()
 }

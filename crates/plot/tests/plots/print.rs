@@ -84,4 +84,33 @@ fn what_figures_have_in_common_is_laid_over_each_other() {
     assert_eq!(over(&["m"], &["m", ""]), Some(1));
     assert_eq!(over(&["m", "s"], &["m", ""]), Some(1));
     assert_eq!(over(&["s"], &["m", ""]), None);
+    // Whatever stands between.
+    assert_eq!(over(&["m", "s", ""], &["m", ""]), Some(2));
+}
+
+/// The place of a body enlarged beside its whole was drawn over by what another result had in that place, the way of a contact.
+#[test]
+fn panels_are_laid_over_those_that_show_the_same() {
+    let of = |name: &str, shows: &[(&str, bool)]| {
+        let panels = shows.iter().map(|(shows, is_part)| {
+            let covers = is_part.then_some((1.0, 2.0));
+            let x = Axis { covers, ..Axis::new(Label::plain("time t"), "s") };
+            Panel { x, y: Axis::new(Label::plain(shows), "m"), ..panel("m") }
+        });
+        (name.to_owned(), Figure { panels: panels.collect(), ..Figure::default() })
+    };
+    let shown = |figures: &[(String, Figure<'_>)]| {
+        let figure = overlaid("", figures).unwrap();
+        let told = figure
+            .panels
+            .iter()
+            .map(|panel| (panel.y.label.text(), panel.x.covers.is_some(), panel.series.len()));
+        told.collect::<Vec<_>>()
+    };
+    let whole = of("whole", &[("place", false), ("way", false)]);
+    let parts = of("parts", &[("place", false), ("place", true), ("way", false), ("way", true)]);
+    let common = [("place".to_owned(), false, 2), ("way".to_owned(), false, 2)];
+    assert_eq!(shown(&[whole.clone(), parts.clone()]), common);
+    assert_eq!(shown(&[parts.clone(), whole]), common);
+    assert_eq!(shown(&[parts.clone(), parts]).len(), 4);
 }
