@@ -4,7 +4,7 @@ use crate::account::Phases;
 use crate::contact_path::is_walked;
 use crate::cycles::table_of;
 use crate::job::Job;
-use crate::periods::Periods;
+use crate::periods::{Periods, followed};
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 
@@ -14,6 +14,11 @@ const PARTS: f64 = 512.0;
 /// The same of a period of a load that is shorter, where the contact's body goes to and fro in many of them: polynomials through moments
 /// so near find the extremes of a sine to 3e-8 of it.
 const LOAD_PARTS: f64 = 64.0;
+/// The same of the way of a waveform from least to most, where it goes so fast that parts of the period are longer: a flyback of 0.1 % of the
+/// period went by between two, and openings were told along one chord, half of what they are.
+const WAY_PARTS: f64 = 128.0;
+/// Most of these in a period; a table of noise goes without.
+const MOST_WAY_PARTS: usize = 4096;
 /// Most parts of a period in all: a cycle of more moments than there is room for would not be told.
 const MOST_PARTS: f64 = 65_536.0;
 /// The same of a table, all of it.
@@ -66,7 +71,10 @@ impl Marks {
                     let load = load_of(job, c).filter(|_| is_dense);
                     let parts = if is_dense { parts_of(&periods, load) } else { 1.0 };
                     let of_load = load.into_iter().flat_map(peaks_of_load);
-                    [Grid::of(&periods, parts)].into_iter().chain(of_load).collect()
+                    let drives = followed(job, c).filter_map(|w| scene.waveforms.get(w)).map(|it| &it.part);
+                    let fast = drives.chain(load).filter(|_| is_dense);
+                    let fast = fast.flat_map(|waveform| fast_pieces(waveform, periods.length / parts));
+                    [Grid::of(&periods, parts)].into_iter().chain(of_load).chain(fast).collect()
                 }
                 (None, Some(table)) => Grid::along(table, !is_dense, end),
                 (None, None) => Vec::new(),
@@ -162,6 +170,28 @@ fn peaks_of_load(load: &Waveform) -> Vec<Grid> {
     let Some(phases) = Phases::of(load).filter(|_| !load.is_straight()) else { return Vec::new() };
     let grid = |turn: f64| Grid { start: periods.start + turn, ..Grid::of(&periods, 1.0) };
     std::iter::once(0.0).chain(phases.turns()).map(grid).collect()
+}
+
+/// Within pieces of a waveform that go by in a few parts of a period, each so long, s.
+fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
+    let Some(periods) = Periods::until(waveform, f64::INFINITY) else { return Vec::new() };
+    if waveform.generator().is_some() || waveform.interpolation().is_some() {
+        return Vec::new();
+    }
+    let ((from, to), (low, high)) = (periods.first(), waveform.range());
+    let (mut grids, mut piece) = (Vec::new(), waveform.piece_at(from));
+    while piece.start < to && grids.len() <= MOST_WAY_PARTS {
+        let [begin, end] = [piece.start, piece.end].map(|t| waveform.sample(&piece, t).value);
+        let (parts, length) =
+            ((WAY_PARTS * (end - begin).abs() / (high - low)).ceil(), piece.end - piece.start);
+        if parts * part > length {
+            let at = |k: u64| piece.start + length * (k as f64 / parts);
+            let grid = |k: u64| Grid { start: at(k), ..Grid::of(&periods, 1.0) };
+            grids.extend((1..parts as u64).map(grid));
+        }
+        piece = waveform.after(&piece);
+    }
+    if grids.len() > MOST_WAY_PARTS { Vec::new() } else { grids }
 }
 
 /// Where the waveform of the figures turns without an event: without a corner, or at one of which a run in fixed steps tells nothing.

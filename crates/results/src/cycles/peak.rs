@@ -10,6 +10,8 @@ use std::ops::Range;
 
 /// Moments nearer than this share of their mean distance are one.
 const NEAR: f64 = 0.01;
+/// How far from an event the next moment may be for a limit there, in mean distances of those after it.
+const FAR: f64 = 1.5;
 /// Neighbours on either side.
 const SIDE: usize = 2;
 /// Halvings of the time between neighbours: values there differ by the square of what is left.
@@ -19,11 +21,32 @@ impl Track {
     /// Least and largest value over a cycle: where an extreme is no event, those of the polynomial through the moment and its
     /// neighbours, up to four and none beyond an event: of the sixth order in the time between them. A cycle that comes back goes on where it
     /// began. Where values may jump at events, one next to an event is an extreme as it is.
+    /// There the limits on both sides are values, too.
     pub(super) fn peaks(&self, span: &Range<usize>, values: &[f64], is_continuous: bool) -> (f64, f64) {
         let (low, high) = range(&values[span.start..=span.end]);
         let of = (values, high - low, is_continuous);
         let vertex = |extreme: f64| self.vertex((span.start, span.end), of, extreme);
-        (vertex(low), vertex(high))
+        let met = (vertex(low), vertex(high));
+        if is_continuous {
+            return met;
+        }
+        let events = (span.start..=span.end).filter(|i| self.bends[*i]);
+        let limits = events.flat_map(|event| self.limits(span, values, event));
+        limits.fold(met, |(low, high), limit| (low.min(limit), high.max(limit)))
+    }
+
+    /// What values come to on both sides of an event, by the polynomials through the moments before and after it; none where there are
+    /// too few, or none so near that these tell it.
+    fn limits(&self, span: &Range<usize>, values: &[f64], event: usize) -> impl Iterator<Item = f64> {
+        let ends = (span.start, span.end);
+        let before = self.side(ends, event, false, |j| (j > span.start).then(|| j - 1));
+        let after = self.side(ends, event, false, |j| (j < span.end).then_some(j + 1));
+        [before, after].into_iter().filter_map(move |side| {
+            let [(_, gone), .., (_, all)] = side[..] else { return None };
+            let is_near = gone * (side.len() - 1) as f64 <= FAR * (all - gone);
+            let points = side.iter().map(|(j, way)| (*way, values[*j]));
+            is_near.then(|| Polynomial::through(points).at(0.0)[0]).filter(|limit| limit.is_finite())
+        })
     }
 
     /// The extreme of the polynomial about the moment at which `extreme` is met; the extreme itself where there is none.
@@ -43,8 +66,10 @@ impl Track {
         if (i == first || i == last) && apart > ROUNDING * range {
             return extreme;
         }
-        let back = self.side((first, last), i, is_continuous, |j| if j > first { j - 1 } else { last - 1 });
-        let on = self.side((first, last), i, is_continuous, |j| if j < last { j + 1 } else { first + 1 });
+        let before = |j: usize| Some(if j > first { j - 1 } else { last - 1 });
+        let after = |j: usize| Some(if j < last { j + 1 } else { first + 1 });
+        let back = self.side((first, last), i, is_continuous, before);
+        let on = self.side((first, last), i, is_continuous, after);
         let (Some((_, gone)), Some((_, to_go))) = (back.first(), on.first()) else { return extreme };
         let of = |(j, way): &(usize, f64)| (*way, values[*j] - extreme);
         let bend =
@@ -71,13 +96,13 @@ impl Track {
         (first, last): (usize, usize),
         i: usize,
         is_continuous: bool,
-        next: impl Fn(usize) -> usize,
+        next: impl Fn(usize) -> Option<usize>,
     ) -> Vec<(usize, f64)> {
         let period = self.t[last] - self.t[first];
         let least = NEAR * period / (last - first) as f64;
         let (mut found, mut j, mut way, mut told) = (Vec::with_capacity(2 * SIDE), i, 0.0, 0.0);
         for _ in first..last {
-            let after = next(j);
+            let Some(after) = next(j) else { break };
             let gone = (self.t[after] - self.t[j]).abs();
             j = after;
             way += gone.min((period - gone).abs());
@@ -205,17 +230,31 @@ mod tests {
         }
     }
 
+    /// A force that rises by t³ up to a corner and jumps to nothing there: the limit before it, which no moment meets.
+    #[test]
+    fn a_peak_just_before_a_jump_is_met() {
+        let mut track = Track::default();
+        for k in 0..=40 {
+            let (t, bends) = (0.025 * f64::from(k), k == 20);
+            let force = if t < 0.5 { t * t * t } else { -0.1 * (1.0 - t) };
+            track.push(t, Moment { u: t, d: 0.0, force, normal: 0.0, friction: 0.0, damping: 0.0, bends });
+        }
+        let (low, high) = track.peaks(&(0..40), &track.force, false);
+        assert!((high - 0.125).abs() < 1e-14 && (low + 0.05).abs() < 1e-14, "{low} {high}");
+        assert!((track.peaks(&(0..40), &track.force, true).1 - 0.125).abs() > 1e-3);
+    }
+
     /// An event is where something bends: its own value is the extreme.
     #[test]
     fn an_extreme_that_is_an_event_stays() {
         let bent = track(64, 1.0, true);
         assert_eq!(bent.peaks(&(0..64), &bent.force, true), range(&bent.force));
-        // Up straight to 1, and at an event down at once: no parabola goes above.
+        // Up straight, and at an event down at once: no parabola goes above what it comes to there.
         let mut jumping = Track::default();
         for (t, force, bends) in [(0.0, 0.0, false), (0.5, 0.5, false), (1.0, 1.0, false), (1.5, -9.0, true)]
         {
             jumping.push(t, Moment { u: t, d: 0.0, force, normal: 0.0, friction: 0.0, damping: 0.0, bends });
         }
-        assert_eq!(jumping.peaks(&(0..3), &jumping.force, false).1, 1.0);
+        assert_eq!(jumping.peaks(&(0..3), &jumping.force, false).1, 1.5);
     }
 }
