@@ -41,6 +41,8 @@ pub struct Driver {
     strain: Option<Strain>,
     /// Widest range of its command, as a stroke, m: the scale of its states.
     span: f64,
+    /// Shortest time between two turns of its command, s.
+    quickest: f64,
     /// Guards of each law.
     guards: Vec<Vec<usize>>,
 }
@@ -52,7 +54,15 @@ impl Driver {
         let span = (range.1 - range.0).max(range.0.abs()).max(range.1.abs());
         let span = if span > 0.0 && span.is_finite() { span } else { spec.gain };
         let guards = Course::all().map(|course| course.guards(&spec)).collect();
-        Self { spec, inputs: vec![Input::Signal(signal)], strain: None, span, guards }
+        let inputs = vec![Input::Signal(signal)];
+        Self { spec, inputs, strain: None, span, quickest: f64::INFINITY, guards }
+    }
+
+    /// The same with the shortest time between two turns of its command, s: what the voltage lags by is as small as RC is beside it, and
+    /// current and losses are made of that.
+    #[must_use]
+    pub fn commanded_within(self, quickest: f64) -> Self {
+        Self { quickest, ..self }
     }
 
     /// The same with the charge that the strain of its stack makes: `coupling` κ, above 0 and below 1, and the elongation, a

@@ -66,6 +66,10 @@ impl Builder<'_> {
         }
         let Varying::Follows(signal) = command else { return Ok(command) };
         let driver = Driver::new(spec, signal, reach);
+        let driver = match self.scene.waveforms.get(signal) {
+            Some(waveform) => driver.commanded_within(waveform.part.quickest()),
+            None => driver,
+        };
         let driver = match coupling.filter(|_| spec.control == Control::Voltage) {
             Some(coupling) => driver.reciprocal(coupling, self.elongation(i)),
             None => driver,
