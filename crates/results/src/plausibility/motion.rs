@@ -24,6 +24,8 @@ const MOVED: f64 = 0.05;
 
 /// Times that differ by less than this, as a part of them, are the same.
 const ROUNDED: f64 = 1e-9;
+/// What damped springs resist to a flank, of what they hold, from which on it matters to frames when they give way.
+const STRUCK: f64 = 0.1;
 /// Pieces of a waveform that are looked at.
 const PIECES: usize = 100_000;
 /// Events, or steps, of a run of some days.
@@ -233,6 +235,39 @@ impl Implausible<'_> {
                 self.find("frames_under_input", &path, message, help);
             }
         }
+        self.damped_frames(accuracy);
+    }
+
+    /// Damped springs under a normal that moves, where a flank comes at once: no step ends where the last of them slips.
+    fn damped_frames(&mut self, accuracy: f64) {
+        let job = self.job;
+        let flanks: Vec<(f64, Vec<Side>)> = self
+            .lengths()
+            .into_iter()
+            .filter_map(|(w, sides)| Some((flank(&job.scenario.scene.waveforms.get(w)?.part), sides)))
+            .collect();
+        for (c, contact) in job.scenario.scene.contacts.iter().enumerate() {
+            let is_still = matches!(
+                contact.part.normal,
+                Normal::Force(Varying::Constant(_))
+                    | Normal::Indentation(Varying::Constant(_))
+                    | Normal::Radius(Varying::Constant(_))
+            );
+            let Some(natural) = job.model.contact_natural(c).filter(|_| !is_still && job.is_damped(c)) else {
+                continue;
+            };
+            let meets = |sides: &[Side]| contact.part.between.iter().any(|side| sides.contains(side));
+            let own = flanks.iter().filter(|(_, sides)| meets(sides)).map(|(flank, _)| *flank);
+            let way = contact.part.interface.damping() * own.fold(0.0, f64::max);
+            if way > STRUCK * natural.displacement {
+                let path = format!("contacts.{}.damping", contact.name);
+                let message = format!(
+                    "springs of this contact are damped under a normal that moves, and a flank strikes them: frames keep no accuracy there, more than {accuracy:e} may be lost of a stroke"
+                );
+                let help = "compare with the stepper event, or take it in frames";
+                self.find("frames_under_damping", &path, message, help);
+            }
+        }
     }
 }
 
@@ -254,6 +289,22 @@ fn share(waveform: &Waveform, period: f64, order: u32) -> f64 {
     };
     let largest = (1..=HARMONICS).map(amplitude).fold(0.0, f64::max);
     if largest > 0.0 { amplitude(order) / largest } else { 0.0 }
+}
+
+/// Largest change of a waveform's rate at a corner of its first period, m/s; 0 where it goes on smoothly.
+fn flank(waveform: &Waveform) -> f64 {
+    let until = waveform.period().map_or(f64::INFINITY, |period| waveform.timing().delay + 1.5 * period);
+    let pieces = std::iter::successors(Some(waveform.piece_at(0.0)), |piece| Some(waveform.after(piece)));
+    let mut pieces = pieces.take(PIECES).take_while(|piece| piece.start <= until);
+    let Some(mut last) = pieces.next() else { return 0.0 };
+    let mut most = 0.0_f64;
+    for piece in pieces {
+        let rates =
+            [(&last, last.end), (&piece, piece.start)].map(|(piece, t)| waveform.sample(piece, t).rate);
+        most = most.max((rates[1] - rates[0]).abs());
+        last = piece;
+    }
+    most
 }
 
 /// Shortest time between two turns of a waveform within a run of so long, s: its shortest piece there, or half of its shortest wave.
