@@ -232,15 +232,16 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         return Err(SteadyError::Flies { body: body.name.clone(), periods: map.work() });
     }
     let holds = |section: &Section<'_>| section.carried().iter().any(|c| never_gave_way.contains(c));
-    let creeps = match map.section().is_some_and(holds) {
-        true => moment::creep(&mut map, &fixed, figures)?,
-        false => 0.0,
-    };
-    let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
-    let multipliers = match holds(section) {
+    let (holding, carries) =
+        map.section().map_or((false, false), |section| (holds(section), !section.carried().is_empty()));
+    let multipliers = match holding {
         true => Vec::new(),
         false => multiplier::of(&bound.gradient, (options.tolerance, fixed.defect.amax())),
     };
+    // Of a motion that a run leaves plain periods tell nothing.
+    let fades = multipliers.iter().all(|it| matches!(it.kind(), Kind::Fades | Kind::Forgotten));
+    let creeps = if carries && fades { moment::creep(&mut map, (&fixed, holding), figures)? } else { 0.0 };
+    let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
     // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
     // along, has still to come.
     let slides = |c: usize| section.slides(&fixed.image.way, c).abs();

@@ -24,6 +24,9 @@ const LEAVING: u32 = 10_000;
 /// What may be left of the way to the limit, as a share of the step or of the natural length of the body's contacts, whichever
 /// is longer.
 const LEFT: f64 = 1e-6;
+/// Periods for which a limit has to last: what a memory forgets slowly shows when all else is over. Steps of 1.6 pm that were to fade to
+/// nothing were told within 0.7 fm.
+const LASTING: u32 = 16;
 /// Fewest steps that say anything.
 const FEWEST: usize = 5;
 /// How many limits must agree.
@@ -36,6 +39,10 @@ const SURE: f64 = 2.0;
 const DRIFTS: f64 = 0.01;
 /// Part of the growth of a disturbance at which a swing has not grown with it.
 const LAGS: f64 = 0.1;
+/// By which power of e rounding has become anything.
+const OUTGROWN: f64 = 80.0;
+/// How many times the least step those of a waveform that ends may ring, whose mean is none.
+const RINGS: f64 = 10.0;
 /// By which share what has left a motion may range wider or less in the last quarter than in the one before.
 const WIDER: f64 = 0.25;
 /// Where the changes of steps are rounding, as a share of their scale.
@@ -89,6 +96,8 @@ pub(super) fn waited(
         Motion { step, error, spread, period, course, multiplier, work, natural }
     };
     let ((mut before, _), mut steps, mut hold) = (place(0)?, Vec::new(), Hold::default());
+    // Since when there is a limit, and which.
+    let mut since: Option<(u32, Mean)> = None;
     let mut k = 0;
     loop {
         k += 1;
@@ -97,7 +106,11 @@ pub(super) fn waited(
         before = x;
         hold.note(k as usize, loose);
         let other = |limit: &Mean| leaves.is_none_or(|it| it.is_other(limit, LEFT * natural));
-        if let Some(limit) = limit(&steps[hold.loose_until..], natural, LEFT).filter(other) {
+        let limit = limit(&steps[hold.loose_until..], natural, LEFT).filter(other);
+        since = limit.map(|limit| lasts(since, (k, limit), natural));
+        if let (Some(limit), Some((from, _))) = (limit, since)
+            && (k - from >= LASTING || k == most)
+        {
             return Ok(motion((Course::Steady, limit, 0.0), k));
         }
         if k == most || k % WAITED == 0 {
@@ -107,6 +120,13 @@ pub(super) fn waited(
             }
         }
     }
+}
+
+/// Since which period a limit is the same, and which it was then, m, with what was known of it before.
+fn lasts(since: Option<(u32, Mean)>, (k, limit): (u32, Mean), natural: f64) -> (u32, Mean) {
+    let is_same =
+        |first: &Mean| (limit.value - first.value).abs() <= first.error.max(ROUNDING * natural) + limit.error;
+    since.filter(|(_, first)| is_same(first)).unwrap_or((k, limit))
 }
 
 impl Unstable {
@@ -119,7 +139,9 @@ impl Unstable {
     /// this motion, range wider than before, or have another mean.
     fn may_hold(&self, steps: &[f64], (course, mean, spread): (Course, Mean, f64), period: f64) -> bool {
         if course == Course::Steady {
-            return !self.is_other(&mean, 0.0);
+            // What rounding has had so long to grow by, and has not, does not grow.
+            let has_grown = self.growth.ln() * (2 * steps.len()) as f64 > OUTGROWN;
+            return !has_grown && !self.is_other(&mean, 0.0);
         }
         let [before, after] = extents(steps);
         let wider = (after / before - 1.0).abs();
@@ -209,6 +231,10 @@ fn judged(
         None => {}
     }
     let plain = half.iter().sum::<f64>() / half.len() as f64;
+    let end = &steps[steps.len() - (steps.len() / 4).max(2).min(steps.len())..];
+    let largest = end.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
+    let rings =
+        (end.iter().sum::<f64>() / end.len() as f64).abs() <= bounds.least && largest <= RINGS * bounds.least;
     // Too few swings say no more than that the mean lies between their ends.
     let mean = |period, spread| Mean::of(half, period).unwrap_or(Mean { value: plain, error: spread });
     let (found, period) = match settling {
@@ -229,6 +255,9 @@ fn judged(
             let Mean { value, error } = mean(0.0, spread);
             let error = error.max(moved(half, 0.0).map_or(0.0, |moved| moved.by));
             ((Course::Irregular, Mean { value, error }, spread), 0.0)
+        }
+        Settling::Drifts { .. } | Settling::NotSettled { .. } if rings => {
+            ((Course::Steady, Mean { value: last, error: largest }, 0.0), 0.0)
         }
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
             // Where nobody knows how long a step can be, one that grows to no limit that is foreseen.
@@ -363,6 +392,33 @@ mod tests {
             swings(1600, 1.0, 1e-8).iter().zip(0..).map(|(s, k)| s + left(f64::from(k))).collect();
         let underway = of(&underway);
         assert!(matches!(underway, Err(Motionless::Grows { .. })), "{underway:?}");
+    }
+
+    /// A slow share under a fast one: the limit that the fast one leaves does not last.
+    #[test]
+    fn a_limit_that_does_not_last_begins_anew() {
+        let mean = |value: f64| Mean { value, error: 1e-16 };
+        let from = lasts(None, (7, mean(1.6e-12)), 4e-8);
+        assert_eq!(lasts(Some(from), (8, mean(1.6e-12 + 1.5e-16)), 4e-8).0, 7);
+        assert_eq!(lasts(Some(from), (9, mean(1.5e-12)), 4e-8).0, 9);
+    }
+
+    /// Six steps of which the first are those of the start; and what rounding has had no chance to leave.
+    #[test]
+    fn what_rings_below_the_least_step_makes_none() {
+        let bounds = Bounds { least: 4e-13, most: 1e-6, ..FREE };
+        let steps = [6.9e-9, 1.6e-9, -3e-10, -5e-11, -5.8e-13, 2.2e-13];
+        let (course, mean, _) = judged(&steps, Hold::default(), bounds, None).unwrap();
+        assert!(course == Course::Steady && mean.value.abs() < 4e-13, "{mean:?}");
+        let steps: Vec<f64> = steps.iter().map(|step| 20.0 * step).collect();
+        assert!(matches!(judged(&steps, Hold::default(), bounds, None), Err(Motionless::Unsettled { .. })));
+        let unstable = Unstable { step: 0.0, error: 1e-18, growth: 1.36 };
+        assert!(judged(&[0.0; 400], Hold::default(), bounds, Some(unstable)).is_ok());
+        let slow = Unstable { growth: 1.001, ..unstable };
+        assert!(matches!(
+            judged(&[0.0; 400], Hold::default(), bounds, Some(slow)),
+            Err(Motionless::Grows { .. })
+        ));
     }
 
     /// A constant force: each step is longer than the one before by F T²/m. Differences of such places are rounded, and by chance

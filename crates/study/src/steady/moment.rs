@@ -20,6 +20,8 @@ const OFF: f64 = 1e-3;
 /// Plain periods after which a step has to be the same, and by which share of it it may differ.
 const LASTING: u32 = 16;
 const LASTS: f64 = 1e-3;
+/// How many times its last change a step may still have to go.
+const LEFT: f64 = 30.0;
 /// Shorter ones are too near to an event on either side, as a part of the period.
 const SHORTEST: f64 = 1e-4;
 
@@ -133,20 +135,32 @@ pub(super) fn twice(
     Ok((never_gave_way, loose))
 }
 
-/// What the step of a motion may still be to lose, m, of which a contact that never gives way remembers what is no number of the
-/// map: all of it where it has changed after some plain periods more. A drive that walks by partial slip keeps it.
-pub(super) fn creep(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Result<f64, SteadyError> {
+/// What the step of a motion may still be to lose, m, of which a contact remembers what is no number of the map: what it has changed by after
+/// some plain periods more, and what is left of that as changes fall. Where the contact never gives way (`holds`) it is all of it, if it has
+/// changed: a drive that walks by partial slip keeps it.
+pub(super) fn creep(
+    map: &mut Map<'_>,
+    (fixed, holds): (&Fixed, bool),
+    body: Option<usize>,
+) -> Result<f64, SteadyError> {
     let step = |map: &Map<'_>, image: &Image| {
         body.zip(map.section()).and_then(|(body, at)| at.of_body(&image.way, body, Axis::X)).unwrap_or(0.0)
     };
     let (own, mut state) = (step(map, &fixed.image), fixed.image.state.clone());
-    let mut last = own;
+    let mut steps = vec![own];
     for _ in 0..LASTING {
         let image = map.image(&state, 1.0)?;
-        last = step(map, &image);
+        steps.push(step(map, &image));
         state = image.state;
     }
-    Ok(if (last - own).abs() > LASTS * own.abs() { own.abs() } else { 0.0 })
+    let [middle, last] = [LASTING / 2, LASTING].map(|k| steps[k as usize]);
+    if holds {
+        return Ok(if (last - own).abs() > LASTS * own.abs() { own.abs() } else { 0.0 });
+    }
+    let [before, after] = [middle - own, last - middle].map(f64::abs);
+    let share = after / before;
+    let left = if share < 1.0 { share / (1.0 - share) } else { f64::INFINITY };
+    Ok(if after == 0.0 { before } else { before + after * (1.0 + left.min(LEFT)) })
 }
 
 /// Stretches between two events as (middle, length), s, by their middle; those that are too short are left out.
