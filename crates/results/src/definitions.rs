@@ -100,7 +100,7 @@ fn lowered(below: char) -> Option<char> {
 /// The page, in Markdown.
 pub fn definitions_page() -> String {
     let mut page = String::from(
-        "# Definitions\n\nEvery column of every table, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,\n`validate`, `characterise`, `sensitivity` and `realtime` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
+        "# Definitions\n\nEvery column of the tables of runs and studies, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,\n`validate`, `characterise`, `sensitivity` and `realtime` print, as\n`stickslip explain NAME` tells them; this page is made from the same table, and a test finds whatever lacks an \
          entry. Names end\nwith their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is `start`, \
          or `least` and\n`most` of a load that varies. How the figures of steps and loops are found, and how exact they are, is told on \
          [their\npage](figures.md); what the contacts obey, on [the page of the physics](physics.md). Numbers in brackets such as (4.26) are \

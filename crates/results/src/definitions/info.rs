@@ -44,7 +44,7 @@ pub(super) const INFO: &[Definition] = &[
     ),
     of("contacts.CONTACT.similarity", "both in words"),
     of("contacts.CONTACT.friction", "μ, coefficient of friction"),
-    of("contacts.CONTACT.stick_slope", "κ = μE*/G*, height under the memory curve per displacement"),
+    of("contacts.CONTACT.stick_slope", "κ = μE*/G*, displacement per height of the memory curve: u_c = κd"),
     of(
         "contacts.CONTACT.LOAD.normal_force_N",
         "F_N, normal force of one contact: 2E*∫₀^a (d - g(x)) dx (4.26)",
