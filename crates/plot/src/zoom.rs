@@ -26,9 +26,17 @@ pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), 
         if row == 0 {
             right.heading = Label::plain(heading);
         }
-        // What is beside it is named there.
-        right.series.iter_mut().for_each(|series| series.label = Label::default());
-        right.bands.iter_mut().for_each(|band| band.label = Label::default());
+        // What is beside it is named there, and what is in the part alone here.
+        let is_named = |label: &Label| {
+            left.series
+                .iter()
+                .map(|it| &it.label)
+                .chain(left.bands.iter().map(|it| &it.label))
+                .any(|it| it == label)
+        };
+        let labels = right.series.iter_mut().map(|series| &mut series.label);
+        let labels = labels.chain(right.bands.iter_mut().map(|band| &mut band.label));
+        labels.filter(|label| is_named(label)).for_each(|label| *label = Label::default());
         right.references.iter_mut().for_each(|reference| *label_of(reference) = Label::default());
         panels.extend([left, right]);
     }

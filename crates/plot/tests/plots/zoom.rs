@@ -2,8 +2,8 @@
 
 use crate::drawn::{draw_everywhere, polylines, rectangles, texts};
 use stickslip_plot::{
-    EventTrack, Figure, Track, Trajectory, draw_svg, enlarged_below, enlarged_beside, events_figure,
-    trajectory_figure,
+    EnergyBook, EventTrack, Figure, Track, Trajectory, draw_svg, energy_figure, enlarged_below,
+    enlarged_beside, events_figure, trajectory_figure,
 };
 
 /// Times from one to another, ms, and a slider that rings upon its way, µm.
@@ -53,6 +53,27 @@ fn one_period_beside_the_whole() {
     let count = |word: &str| texts(&drawing).iter().filter(|text| text.text == word).count();
     assert_eq!((count("slider"), count("period 40"), count("±u"), count("time t (ms)")), (1, 1, 1, 2));
     assert_eq!(count("38.5"), 1, "{:?}", texts(&drawing));
+}
+
+/// What is used up of a store within the part, and not over the whole, was an area without a name.
+#[test]
+fn what_is_in_the_part_alone_is_named_there() {
+    let time = [0.0, 1.0, 2.0];
+    let book = |elastic: &'static [f64], friction: &'static [f64]| EnergyBook {
+        time: &[0.0, 1.0, 2.0],
+        input: &[0.0; 3],
+        kinetic: &[0.0; 3],
+        elastic,
+        friction,
+        damping: &[0.0; 3],
+        error: &[0.0; 3],
+    };
+    let whole = energy_figure("", &book(&[1.0, 2.0, 3.0], &[0.0, 1.0, 2.0]));
+    let part = energy_figure("", &book(&[3.0, 2.0, 1.0], &[0.0, 1.0, 2.0]));
+    let both = enlarged_beside(whole, part, (time[1], time[2]), "the last second");
+    let drawing = draw_svg(&both).unwrap();
+    let count = |word: &str| texts(&drawing).iter().filter(|text| text.text == word).count();
+    assert_eq!((count("friction"), count("lost of what was stored at the start")), (1, 1));
 }
 
 #[test]
