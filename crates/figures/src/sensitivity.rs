@@ -42,8 +42,8 @@ pub fn draw((asked, taken): (&Sensitivity, &Taken), look: &Look) -> Result<Vec<P
             let more = all.len().saturating_sub(BARS);
             let bars = all.into_iter().take(BARS).map(|(bar, error)| noted(bar, error, longest));
             let axis = match more {
-                0 => "change in %, per % of the quantity".to_owned(),
-                more => format!("change in %, per % of the quantity; {more} shorter bars are not shown"),
+                0 => "change, % per % of the quantity".to_owned(),
+                more => format!("change, % per %; {more} shorter bars left out"),
             };
             Tornado { name: &figure.name, axis, bars: bars.collect(), absence: "no elasticity is known" }
         })

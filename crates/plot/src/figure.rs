@@ -76,7 +76,7 @@ impl Figure<'_> {
     /// left out; fewer panels stand side by side where letters ask for it.
     #[must_use]
     pub fn printed(mut self, width: f64) -> Self {
-        let lost = lost_notes(&self);
+        let (lost, names) = (lost_notes(&self), least_names(&self));
         self.print_width = Some(width);
         let columns = self.columns_in_print(width);
         let rows = |columns: usize| self.panels.len().div_ceil(columns.max(1)) as f64;
@@ -91,7 +91,22 @@ impl Figure<'_> {
         self.size = (across.round() as u32, (across * shape).round().min(f64::from(Self::MOST)) as u32);
         self = self.with_room_for_legends();
         while has_low_frames(&self) && self.grow(&mut density) {}
-        self.with_room_for_notes(lost, density)
+        self.with_room_for_names(names, &mut density).with_room_for_notes(lost, density)
+    }
+
+    /// Taller by what names of lanes need to be as large beside the letters of axes as this share; as it is where nothing helps.
+    fn with_room_for_names(mut self, share: f64, density: &mut f64) -> Self {
+        let shape = |size: (u32, u32)| f64::from(size.1) / f64::from(size.0);
+        let most = GROWTH * shape(self.size);
+        let mut best = (self.size, *density, least_names(&self));
+        while best.2 < share && shape(self.size) < most && self.grow(density) {
+            let names = least_names(&self);
+            if names > best.2 {
+                best = (self.size, *density, names);
+            }
+        }
+        (self.size, *density) = (best.0, best.1);
+        self
     }
 
     /// Taller by a tenth, with fewer pixels to the inch where there would be too many; tells whether it is.
@@ -199,6 +214,17 @@ fn lost_notes(figure: &Figure<'_>) -> usize {
         return 0;
     }
     Layout::new(figure).map_or(usize::MAX, |layout| layout.panels.iter().map(|place| place.lost).sum())
+}
+
+/// How large the smallest names of lanes are beside the letters of axes; 1 without any.
+fn least_names(figure: &Figure<'_>) -> f64 {
+    if figure.panels.iter().all(|panel| panel.lanes.is_empty()) {
+        return 1.0;
+    }
+    Layout::framed(figure).map_or(0.0, |layout| {
+        let named = layout.panels.iter().filter(|place| !place.panel.lanes.is_empty());
+        named.map(|place| place.names.em / layout.sizes.tick).fold(1.0, f64::min)
+    })
 }
 
 /// Whether a frame is too low for its letters; one of an aspect of its own is as high as it is.

@@ -2,7 +2,8 @@
 
 use crate::drawn::texts;
 use stickslip_plot::{
-    Arrangement, Axis, Figure, Label, MemoryMoment, Note, Panel, Series, draw_svg, memory_figure, overlaid,
+    Arrangement, Axis, EventTrack, Figure, Label, MemoryMoment, Note, Panel, Series, draw_svg, events_figure,
+    memory_figure, overlaid,
 };
 
 /// Six curves of a contact with a long name.
@@ -30,6 +31,26 @@ fn narrow_figures_have_fewer_columns_and_whole_headings() {
         }
     };
     assert_eq!([60.0, 85.0, 160.0].map(columns), [1, 2, 3]);
+}
+
+/// Names of lanes shrank to half of the letters of axes, which keep their size.
+#[test]
+fn a_figure_grows_for_the_names_of_its_lanes() {
+    let kinds = ["gross slip", "gross slip ends", "reversal", "loop closed", "current in limits"];
+    let track = |kind| EventTrack { source: "stack on the left", kind, times: vec![0.5] };
+    let figure = events_figure("Events", (0.0, 1.0), &kinds.map(track));
+    let share = |figure: &Figure<'_>| {
+        let said = texts(&draw_svg(figure).unwrap());
+        let size = |of: &dyn Fn(&str) -> bool| {
+            let [_, top, _, bottom] = said.iter().find(|text| of(&text.text))?.area;
+            Some(bottom - top)
+        };
+        size(&|text| text.contains("reversal")).unwrap()
+            / size(&|text| text.len() == 3 && text.parse::<f64>().is_ok()).unwrap()
+    };
+    let [wide, narrow] = [share(&figure), share(&figure.printed(85.0))];
+    // Without more height than was there they were 0.4 of it.
+    assert!(narrow > 0.89 * wide, "{wide} {narrow}");
 }
 
 /// A panel with a curve of a unit.
