@@ -68,7 +68,10 @@ impl<'a> Chords<'a> {
             standings: vec![ContactState::Open; model.contacts.len()],
             watched: false,
             crossing: !plan.stepper.ends_at_corners(),
-            branches: matches!(plan.stepper, Stepper::Frames { .. }).then(|| Branches::of(model)),
+            branches: match plan.stepper {
+                Stepper::Frames { accuracy, .. } => Some(Branches::of(model, accuracy)),
+                _ => None,
+            },
             is_damped: model.contacts.iter().any(Contact::is_damped),
             before: Vec::with_capacity(model.contacts.len()),
             motions: Vec::with_capacity(model.contacts.len()),

@@ -204,6 +204,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         // A corner where a frame ends is that corner, to the last bit, whether a frame ends there or not.
         let stop = if (until - corner).abs() <= slack { corner } else { until.min(corner) };
         let mut end = if aim > stop - slack { stop } else { aim };
+        end = end.min(state.t + self.chords.longest(state));
         if crossing {
             turned = self.chords.enter(state, end);
         }

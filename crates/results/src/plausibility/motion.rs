@@ -238,7 +238,7 @@ impl Implausible<'_> {
         self.damped_frames(accuracy);
     }
 
-    /// Damped springs under a normal that moves, where a flank comes at once: no step ends where the last of them slips.
+    /// Damped springs under a normal that moves, where a flank comes at once: no step ends just where the last of them slips.
     fn damped_frames(&mut self, accuracy: f64) {
         let job = self.job;
         let flanks: Vec<(f64, Vec<Side>)> = self
@@ -262,7 +262,7 @@ impl Implausible<'_> {
             if way > STRUCK * natural.displacement {
                 let path = format!("contacts.{}.damping", contact.name);
                 let message = format!(
-                    "springs of this contact are damped under a normal that moves, and a flank strikes them: frames keep no accuracy there, more than {accuracy:e} may be lost of a stroke"
+                    "springs of this contact are damped under a normal that moves, and a flank strikes them: more than the {accuracy:e} that frames are asked for may be lost of a stroke"
                 );
                 let help = "compare with the stepper event, or take it in frames";
                 self.find("frames_under_damping", &path, message, help);

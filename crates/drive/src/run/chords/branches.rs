@@ -30,6 +30,11 @@ const NEAR: f64 = 1e-6;
 // With 0, a swing of 0.11 kg on a flat, damped by 59 ns, is ten times as far off at 1e-4.
 const STRONG: f64 = 0.1;
 
+/// Part of the springs of a contact that still stick up to which it gives way, and how far it slides in a step meanwhile, in u_c: the root
+/// of the accuracy that is asked for, between these.
+const HELD: f64 = 1e-3;
+const PARTS: (f64, f64) = (1.0 / 512.0, 1.0 / 32.0);
+
 /// How the damping of a contact weakens where an edge has used up its piece: with the springs that stick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::run) enum Weakening {
@@ -48,12 +53,16 @@ pub(in crate::run) struct Branches<'a> {
     pub(super) ended: Vec<(usize, f64)>,
     /// Those that were found to end where the step was cut, whatever the last bit says, likewise.
     due: Vec<(usize, f64)>,
+    /// How far a damped contact under a normal that moves may slide in a step while it gives way, in u_c.
+    part: f64,
 }
 
 impl<'a> Branches<'a> {
-    pub(super) fn of(model: &'a Model) -> Self {
+    /// Of frames that are asked for so much accuracy.
+    pub(super) fn of(model: &'a Model, accuracy: f64) -> Self {
         let room = || Vec::with_capacity(model.contacts.len());
-        Self { interval: Interval::of(model), current: false, ended: room(), due: room() }
+        let part = accuracy.sqrt().clamp(PARTS.0, PARTS.1);
+        Self { interval: Interval::of(model), current: false, ended: room(), due: room(), part }
     }
 
     /// What is left of the piece of contact `c` in a motion, m: as whoever [glides](Chords::glides) sees it, to the last bit.
@@ -179,6 +188,27 @@ impl<'a> Chords<'a> {
         let contact = &self.model.contacts[c];
         let resisted = contact.interface.damping() * self.motions[c].du.abs();
         branch.ends_in_the_centre() && resisted > STRONG * contact.natural.displacement
+    }
+
+    /// Longest step, s, that sees damped springs give way under a normal that moves, where no branch tells when.
+    pub(in crate::run) fn longest(&self, state: &State) -> f64 {
+        let Some(Branches { part, .. }) = self.branches.as_ref().filter(|_| self.is_damped) else {
+            return f64::INFINITY;
+        };
+        let eq = self.plain(state);
+        let struck =
+            self.model.contacts.iter().filter(|contact| contact.is_damped() && !contact.is_constant());
+        let longest = struck.filter_map(|contact| {
+            let motion = eq.motion(contact, state.t, |i| state.y[i]);
+            let (law, speed, way) = (&contact.interface, motion.du.abs(), contact.natural.displacement);
+            if law.damping() * speed <= STRONG * way {
+                return None;
+            }
+            let all = law.viscosity(law.stick_stiffness(motion.d));
+            let holds = contact.viscosity(eq.law(contact.place), &motion) > HELD * all;
+            holds.then(|| part * way / speed)
+        });
+        longest.fold(f64::INFINITY, f64::min)
     }
 
     /// When the damping of a contact will give way after the step to time t in y, s, at its speed there; none where none is to.
