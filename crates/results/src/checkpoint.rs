@@ -68,7 +68,7 @@ pub fn remove(results: &Path) -> io::Result<()> {
     if ![STATE, JOURNAL].iter().any(|name| place.join(name).is_file()) {
         return Ok(());
     }
-    sweep(&place, &[STATE, SCENARIO])?;
+    sweep(&place, &[STATE, SCENARIO]);
     // Without its state the rest is nothing that could be gone on from.
     for name in [STATE, JOURNAL, SCENARIO] {
         match fs::remove_file(place.join(name)) {

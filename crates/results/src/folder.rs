@@ -7,7 +7,7 @@
 mod drafts;
 
 pub(crate) use drafts::has_drafts;
-pub use drafts::{draft, sweep, sweep_left};
+pub use drafts::{claim, draft, sweep, sweep_left};
 
 use crate::checkpoint;
 use crate::disk::{Disk, System};

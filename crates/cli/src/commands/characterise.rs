@@ -236,8 +236,8 @@ fn write(
     let pictures = picture::draw(ways, arguments.log, &arguments.look.look())?;
     // A command that was killed has left its drafts.
     let stale = picture::all_files(ways.iter().any(|(_, traced)| traced.is_cut()));
-    sweep(out, &curve::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>())
-        .and_then(|()| curve::write(folder, ways, &pictures, stale))
+    sweep(out, &curve::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    curve::write(folder, ways, &pictures, stale)
         .map_err(|source| CurveFailure::Write { path: out.to_owned(), source })
 }
 

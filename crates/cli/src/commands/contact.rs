@@ -114,7 +114,7 @@ fn files(
     // A command that was killed has left its drafts.
     let stale = theory::all_files();
     let tables = TABLES.iter().map(|name| (*name).to_owned()).chain([CONTACT.to_owned()]);
-    sweep(out, &tables.chain(stale.iter().cloned()).collect::<Vec<_>>()).map_err(failed)?;
+    sweep(out, &tables.chain(stale.iter().cloned()).collect::<Vec<_>>());
     Ok(write(folder, &sheet, walk, Beside { pictures: &pictures, stale, notes }).map_err(failed)?)
 }
 

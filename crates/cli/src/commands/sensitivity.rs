@@ -111,9 +111,8 @@ fn write(
     folder.release();
     // A command that was killed has left its drafts.
     let stale = picture::all_files(taken.is_cut());
-    sweep(&out, &sensitivity::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>())
-        .and_then(|()| sensitivity::write(folder, (asked, taken), &pictures, stale))
-        .map_err(failed)
+    sweep(&out, &sensitivity::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    sensitivity::write(folder, (asked, taken), &pictures, stale).map_err(failed)
 }
 
 /// A table for each figure, and what is to be said of some of its rows.

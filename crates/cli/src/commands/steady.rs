@@ -132,7 +132,7 @@ fn write(
         folder.release();
         // A command that was killed has left its drafts.
         let stale = picture::all_files();
-        sweep(&lasting.folder, &stale.iter().cloned().chain([STEADY.to_owned()]).collect::<Vec<_>>())?;
+        sweep(&lasting.folder, &stale.iter().cloned().chain([STEADY.to_owned()]).collect::<Vec<_>>());
         pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
         report.files = folder.names();
         report.files.push(STEADY.to_owned());

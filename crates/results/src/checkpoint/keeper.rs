@@ -69,7 +69,7 @@ impl Keeper {
     /// Goes on with the checkpoints of an earlier part of the run.
     pub(super) fn go_on(job: &Job, stub: Stub, journal: Journal, from: (State, bool)) -> io::Result<Self> {
         let place = place(&job.folder);
-        sweep(&place, &[STATE, SCENARIO])?;
+        sweep(&place, &[STATE, SCENARIO]);
         // Either end is one of this run: whichever of the two files is there after a crash, it can go on.
         folder::write(&place.join(SCENARIO), job.resolved.as_bytes())?;
         Ok(Self::new(place, stub, journal, from))

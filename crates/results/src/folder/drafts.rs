@@ -29,18 +29,23 @@ pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// Removes what runs that were killed have left of drafts of these names. What cannot be removed stays: it is in nobody's way.
+/// Removes what runs that were killed have left of drafts of these names. What another command is writing stays, and what cannot be
+/// removed: it is in nobody's way.
+pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
+    for entry in drafts(folder, names).filter(|entry| !is_written(entry)) {
+        let _ = fs::remove_file(entry.path());
+    }
+}
+
+/// The same for those who are about to write for long.
 ///
 /// # Errors
 /// `ResourceBusy`, with nothing done, where another command is writing one of them.
-pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) -> io::Result<()> {
-    let left: Vec<DirEntry> = drafts(folder, names).collect();
-    if left.iter().any(is_written) {
+pub fn claim(folder: &Path, names: &[impl AsRef<str>]) -> io::Result<()> {
+    if drafts(folder, names).any(|entry| is_written(&entry)) {
         return Err(io::Error::new(io::ErrorKind::ResourceBusy, "another command is writing into it"));
     }
-    left.iter().for_each(|entry| {
-        let _ = fs::remove_file(entry.path());
-    });
+    sweep(folder, names);
     Ok(())
 }
 
@@ -50,10 +55,10 @@ fn is_written(entry: &DirEntry) -> bool {
     file.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
 }
 
-/// The same for those who only add to a folder, whose run may be about to give its drafts their names: what nobody has touched
+/// [`sweep`] for those who only add to a folder, whose run may be about to give its drafts their names: what nobody has touched
 /// for a minute.
 pub fn sweep_left(folder: &Path, names: &[impl AsRef<str>]) {
-    for entry in drafts(folder, names) {
+    for entry in drafts(folder, names).filter(|entry| !is_written(entry)) {
         let touched = entry.metadata().and_then(|found| found.modified());
         if touched.is_ok_and(|touched| touched.elapsed().is_ok_and(|age| age >= LEFT)) {
             let _ = fs::remove_file(entry.path());
@@ -88,7 +93,7 @@ mod tests {
     fn only_drafts_of_known_names_are_swept() {
         let root = tempfile::tempdir().unwrap();
         let left = draft(root.path(), "trace.csv").unwrap().keep().unwrap().1;
-        let sweep = |names: &[&str]| sweep(root.path(), names).unwrap();
+        let sweep = |names: &[&str]| sweep(root.path(), names);
         let others = [
             ".trace.csv-mine",
             ".trace.csv-ab12cd3",
@@ -111,11 +116,14 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let left = draft(root.path(), "events.csv").unwrap().keep().unwrap().1;
         let own = draft(root.path(), "trace.csv").unwrap();
-        let busy = sweep(root.path(), &["events.csv", "trace.csv"]).unwrap_err();
+        let names = ["events.csv", "trace.csv"];
+        let busy = claim(root.path(), &names).unwrap_err();
         assert_eq!(busy.kind(), io::ErrorKind::ResourceBusy);
         assert!(left.exists() && own.path().exists());
+        // Who has something to write all the same takes away what is left alone.
+        sweep(root.path(), &names);
+        assert!(!left.exists() && own.path().exists());
         drop(own);
-        sweep(root.path(), &["events.csv", "trace.csv"]).unwrap();
-        assert!(!left.exists());
+        claim(root.path(), &names).unwrap();
     }
 }

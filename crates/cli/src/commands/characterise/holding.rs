@@ -39,8 +39,8 @@ pub(super) fn trace(arguments: &CharacteriseArguments) -> Result<Verdict, CurveF
     }
     let drawn = picture::draw((&holding, &points), arguments.log, &arguments.look.look())?;
     let stale = pictures::all_files(done < all);
-    let names = sweep(&out, &all_files().chain(stale.iter().cloned()).collect::<Vec<_>>())
-        .and_then(|()| holding::write(folder, (&holding, &points), &drawn, stale))
+    sweep(&out, &all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    let names = holding::write(folder, (&holding, &points), &drawn, stale)
         .map_err(|source| CurveFailure::Write { path: out.clone(), source })?;
     if arguments.json {
         say_json(&holding::json(&holding, &points));

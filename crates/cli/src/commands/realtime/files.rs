@@ -93,7 +93,7 @@ pub(super) fn write(
     let (at, stale) = (&stage.job.folder, names());
     folder.release();
     // A command that was killed has left its drafts.
-    sweep(at, &stale)?;
+    sweep(at, &stale);
     folder.write(REPORT, report.pretty()?.as_bytes())?;
     folder.write(HISTOGRAM, histogram_csv(&ended.timing, &ended.floor).as_bytes())?;
     folder.write(FRAMES, frames_csv(&ended.timing, report.period_s).as_bytes())?;

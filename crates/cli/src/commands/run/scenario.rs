@@ -11,7 +11,7 @@ use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
 use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
-use stickslip_results::folder::{Folder, sweep};
+use stickslip_results::folder::{Folder, claim};
 use stickslip_results::outlook::Outlook;
 use stickslip_results::summary::Status;
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, Watcher};
@@ -63,7 +63,7 @@ pub(crate) fn run(
     // A run that was killed has left its drafts.
     let names =
         [TRACE, EVENTS, CYCLES, STEPS, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
-    if let Err(error) = sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>()) {
+    if let Err(error) = claim(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>()) {
         return Report::not_written(job, &error);
     }
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };

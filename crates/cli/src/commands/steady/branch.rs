@@ -105,8 +105,8 @@ fn write(
     folder.release();
     // A command that was killed has left its drafts.
     let stale = picture::all_files(branch.is_cut());
-    sweep(&out, &continuation::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>())
-        .and_then(|()| continuation::write(folder, (of, branch), accuracy, (&pictures, stale)))
+    sweep(&out, &continuation::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    continuation::write(folder, (of, branch), accuracy, (&pictures, stale))
         .map_err(|source| BranchFailure::Write { path: out, source })
 }
 
