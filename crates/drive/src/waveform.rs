@@ -126,6 +126,12 @@ impl Waveform {
         next
     }
 
+    /// The piece that holds at `t` (s) and those after it, to the last, which has no end.
+    pub fn pieces_from(&self, t: f64) -> impl Iterator<Item = Piece> {
+        let next = |piece: &Piece| (piece.end < f64::INFINITY).then(|| self.after(piece));
+        std::iter::successors(Some(self.piece_at(t)), next)
+    }
+
     /// Value, rate and acceleration at `t` (s) by the law of `piece`, also exactly at its end: the limit from the left.
     #[must_use]
     #[inline]

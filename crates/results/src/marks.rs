@@ -179,8 +179,8 @@ fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
         return Vec::new();
     }
     let ((from, to), (low, high)) = (periods.first(), waveform.range());
-    let (mut grids, mut piece) = (Vec::new(), waveform.piece_at(from));
-    while piece.start < to && grids.len() <= MOST_WAY_PARTS {
+    let mut grids = Vec::new();
+    for piece in waveform.pieces_from(from).take_while(|piece| piece.start < to) {
         let [begin, end] = [piece.start, piece.end].map(|t| waveform.sample(&piece, t).value);
         let (parts, length) =
             ((WAY_PARTS * (end - begin).abs() / (high - low)).ceil(), piece.end - piece.start);
@@ -189,9 +189,11 @@ fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
             let grid = |k: u64| Grid { start: at(k), ..Grid::of(&periods, 1.0) };
             grids.extend((1..parts as u64).map(grid));
         }
-        piece = waveform.after(&piece);
+        if grids.len() > MOST_WAY_PARTS {
+            return Vec::new();
+        }
     }
-    if grids.len() > MOST_WAY_PARTS { Vec::new() } else { grids }
+    grids
 }
 
 /// Where the waveform of the figures turns without an event: without a corner, or at one of which a run in fixed steps tells nothing.

@@ -294,8 +294,7 @@ fn share(waveform: &Waveform, period: f64, order: u32) -> f64 {
 /// Largest change of a waveform's rate at a corner of its first period, m/s; 0 where it goes on smoothly.
 fn flank(waveform: &Waveform) -> f64 {
     let until = waveform.period().map_or(f64::INFINITY, |period| waveform.timing().delay + 1.5 * period);
-    let pieces = std::iter::successors(Some(waveform.piece_at(0.0)), |piece| Some(waveform.after(piece)));
-    let mut pieces = pieces.take(PIECES).take_while(|piece| piece.start <= until);
+    let mut pieces = waveform.pieces_from(0.0).take(PIECES).take_while(|piece| piece.start <= until);
     let Some(mut last) = pieces.next() else { return 0.0 };
     let mut most = 0.0_f64;
     for piece in pieces {
@@ -309,7 +308,6 @@ fn flank(waveform: &Waveform) -> f64 {
 
 /// Shortest time between two turns of a waveform within a run of so long, s: its shortest piece there, or half of its shortest wave.
 fn quickest(waveform: &Waveform, until: f64) -> f64 {
-    let pieces = std::iter::successors(Some(waveform.piece_at(0.0)), |piece| Some(waveform.after(piece)));
-    let inside = pieces.take(PIECES).take_while(|piece| piece.end <= until);
+    let inside = waveform.pieces_from(0.0).take(PIECES).take_while(|piece| piece.end <= until);
     inside.map(|piece| piece.end - piece.start).fold(2.0 * waveform.resolution(), f64::min)
 }

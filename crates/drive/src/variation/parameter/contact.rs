@@ -34,9 +34,9 @@ pub(super) struct ContactRates {
 pub(in crate::variation) struct Shift {
     pub(in crate::variation) u: f64,
     pub(in crate::variation) d: f64,
-    /// By which its rate of sliding changes, and that of its depth where bodies press it, m/s.
+    /// By which its rate of sliding changes, m/s.
     pub(in crate::variation) du: f64,
-    /// What of both followers make, m/s.
+    /// What followers make of that, and of the rate of its depth where bodies press it, m/s.
     pub(in crate::variation) driven: [f64; 2],
 }
 
@@ -107,7 +107,6 @@ impl Parameter {
             u: rates.u + slide.value,
             d: depth.value,
             du: slide.rate,
-
             driven: [slide.driven, depth.driven],
         }
     }
