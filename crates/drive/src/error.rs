@@ -99,8 +99,9 @@ pub enum RunError {
     },
     /// Nothing balances the load on a coordinate without mass any more: gross slip, or a contact that has parted.
     #[error(
-        "nothing balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: its contacts hold {limit:.3e} N",
-        .axis.key()
+        "nothing balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: its contacts hold {}",
+        .axis.key(),
+        held(*.load, *.limit)
     )]
     Unbalanced {
         /// Time, s.
@@ -162,6 +163,18 @@ pub enum RunError {
         /// Time, s.
         t: f64,
     },
+}
+
+/// Load and limit that differ by less are told as one number.
+const ALIKE: f64 = 1e-3;
+
+/// What contacts hold of a load, N, in words: a load that grows is at their limit where it is too much for them.
+fn held(load: f64, limit: f64) -> String {
+    if (load.abs() - limit).abs() <= ALIKE * limit {
+        "its contacts hold no more".to_owned()
+    } else {
+        format!("its contacts hold {limit:.3e} N")
+    }
 }
 
 impl RunError {

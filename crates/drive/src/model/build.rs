@@ -69,6 +69,7 @@ impl Model {
         }
         used::hold_the_others(self, &mut room.used);
         let Scaffold { deepest, pushes, scales, .. } = room;
+        scales.find_forces(scene);
         let (contacts, free) = (&mut self.contacts, &mut self.free);
         scale::assign(contacts, free, &self.links, &self.waveforms, (deepest, pushes), scales);
         self.moment = balanced::moment(&self.waveforms);

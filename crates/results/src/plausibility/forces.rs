@@ -16,6 +16,8 @@ struct Pull {
     range: (f64, f64),
     /// Σ μF_N of its contacts, N; none where nothing holds it, or something besides them does.
     holds: Option<f64>,
+    /// Whether it has no inertia, which bears what contacts do not hold.
+    is_balanced: bool,
     /// What pulls most, N, and its place among the loads; none for gravity.
     cause: (f64, Option<usize>),
 }
@@ -25,15 +27,22 @@ impl Implausible<'_> {
     pub(super) fn loads(&mut self) {
         for (body, pull) in self.pulls().into_iter().enumerate() {
             let (low, high) = pull.range;
-            // What changes its sign may hold on average.
-            let least = if low <= 0.0 && high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
-            let Some(holds) = pull.holds.filter(|holds| least > *holds) else { continue };
+            let counts = if pull.is_balanced {
+                low.abs().max(high.abs())
+            } else if low <= 0.0 && high >= 0.0 {
+                // What changes its sign may hold on average.
+                0.0
+            } else {
+                low.abs().min(high.abs())
+            };
+            let Some(holds) = pull.holds.filter(|holds| counts > *holds) else { continue };
             let name = self.job.scenario.scene.bodies[body].name.clone();
             let path = pull.cause.1.map_or("gravity".to_owned(), |i| format!("loads[{i}].x"));
-            let [pull, holds] = [least, holds].map(|force| told(force, "N"));
-            let message = format!(
-                "a load of {pull} on {name} is more than its contacts hold, {holds} (μF_N): it slides away"
-            );
+            let [load, holds] = [counts, holds].map(|force| told(force, "N"));
+            let then =
+                if pull.is_balanced { "nothing balances it, and a run ends there" } else { "it slides away" };
+            let message =
+                format!("a load of {load} on {name} is more than its contacts hold, {holds} (μF_N): {then}");
             self.find(
                 "load",
                 &path,
@@ -51,7 +60,8 @@ impl Implausible<'_> {
             .iter()
             .map(|body| {
                 let weight = -body.part.mass.unwrap_or(0.0) * down;
-                Pull { range: (weight, weight), holds: None, cause: (weight.abs(), None) }
+                let is_balanced = body.part.x.freedom == Freedom::Balanced;
+                Pull { range: (weight, weight), holds: None, is_balanced, cause: (weight.abs(), None) }
             })
             .collect();
         for (i, load) in scene.loads.iter().enumerate() {
@@ -92,7 +102,7 @@ impl Implausible<'_> {
             }
         }
         for (pull, body) in pulls.iter_mut().zip(&scene.bodies) {
-            if body.part.x.freedom != Freedom::Free {
+            if !matches!(body.part.x.freedom, Freedom::Free | Freedom::Balanced) {
                 pull.holds = None;
             }
         }
