@@ -3,7 +3,7 @@
 use crate::driver::Spec;
 
 /// Numbers of a driver's memory.
-pub(crate) const COUNT: usize = 13;
+pub(crate) const COUNT: usize = 15;
 
 /// A driver's memory by its places.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -18,7 +18,7 @@ pub(crate) struct Kept {
     pub(crate) way: f64,
     /// Work drawn where any was, J.
     pub(crate) drawn: f64,
-    /// Largest rate, as a stroke, m/s.
+    /// Largest current, as a rate of the stroke, m/s.
     pub(crate) fastest: f64,
     /// Time at the upper and the lower limit of the current, and at the lower and the upper end of the window, s.
     pub(crate) limited: [f64; 4],
@@ -28,6 +28,9 @@ pub(crate) struct Kept {
     pub(crate) at: f64,
     /// Elongation of a stack whose strain makes charge, then, m.
     pub(crate) elongation: f64,
+    /// Current then, as a rate of the stroke, m/s, and power of the source, W: with both the next step begins behind a resistance.
+    pub(crate) flow: f64,
+    pub(crate) power: f64,
 }
 
 /// Where a driver stood at the end of the last step.
@@ -47,20 +50,26 @@ pub(crate) fn last(memory: &[f64]) -> Last {
     Kept::read(memory).map_or_else(Last::default, of)
 }
 
-/// What a source has given over a step wherever it gave any, J: `given` in all, of which at the power of the step's end it would have
-/// given `last`. Between both ends its work is the parabola through these.
-pub(crate) fn drawn(given: f64, last: f64) -> f64 {
-    // Work less that of the end, by the part σ of the step that is left: bσ² - pσ, which turns at p/2b.
-    let bend = last - given;
-    let turn = if bend == 0.0 { 0.0 } else { last / (2.0 * bend) };
-    let after = if turn > 0.0 && turn < 1.0 { 0.5 * last * turn } else { 0.0 };
-    after.max(0.0) + (given - after).max(0.0)
-}
-
 impl Kept {
     /// Read from a memory; none where that is of another kind.
     pub(crate) fn read(memory: &[f64]) -> Option<Self> {
-        let &[offset, last, work, way, drawn, fastest, up, down, below, above, time, at, elongation] = memory
+        let &[
+            offset,
+            last,
+            work,
+            way,
+            drawn,
+            fastest,
+            up,
+            down,
+            below,
+            above,
+            time,
+            at,
+            elongation,
+            flow,
+            power,
+        ] = memory
         else {
             return None;
         };
@@ -75,14 +84,16 @@ impl Kept {
             time,
             at,
             elongation,
+            flow,
+            power,
         })
     }
 
     /// As a memory.
     pub(crate) fn numbers(&self) -> [f64; COUNT] {
         let [up, down, below, above] = self.limited;
-        let Self { offset, last, work, way, drawn, fastest, time, at, elongation, .. } = *self;
-        [offset, last, work, way, drawn, fastest, up, down, below, above, time, at, elongation]
+        let Self { offset, last, work, way, drawn, fastest, time, at, elongation, flow, power, .. } = *self;
+        [offset, last, work, way, drawn, fastest, up, down, below, above, time, at, elongation, flow, power]
     }
 }
 
@@ -91,7 +102,7 @@ impl Kept {
 pub struct Figures {
     /// Energy that its source gave where it gave any, J; what came back is not taken off.
     pub drawn: f64,
-    /// Largest current, A, at the ends of steps and after jumps.
+    /// Largest current, A.
     pub peak_current: f64,
     /// Mean of |I|, A.
     pub mean_current: f64,
@@ -112,21 +123,5 @@ impl Figures {
             mean_current: farads * over(kept.way),
             limited: kept.limited.map(over),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::drawn;
-
-    /// A power that goes straight from a to b through zero gives half of what lies above it.
-    #[test]
-    fn what_comes_back_within_a_step_is_not_taken_off() {
-        for (a, b) in [(3.0, -1.0), (-1.0, 3.0), (1.0, 2.0), (-1.0, -2.0), (2.0, 0.0), (0.0, 2.0), (0.0, 0.0)]
-        {
-            let above = |x: f64| 0.5 * f64::max(x, 0.0).powi(2);
-            let area = if a == b { f64::max(a, 0.0) } else { (above(b) - above(a)) / (b - a) };
-            assert!((drawn(0.5 * (a + b), b) - area).abs() < 1e-15, "{a} {b}: {}", drawn(0.5 * (a + b), b));
-        }
     }
 }

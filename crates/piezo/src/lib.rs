@@ -15,6 +15,7 @@ pub mod driver;
 mod figures;
 pub mod forecast;
 pub mod hysteresis;
+mod pace;
 mod reading;
 
 pub use figures::Figures;

@@ -7,7 +7,8 @@
 use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
 use super::stage::{At, LOST, LOW, LOW_RATE, Now, ROUNDING, VOLTAGE, WORK};
 use super::{Course, Driver, Output, Window};
-use crate::figures::{Kept, drawn, last};
+use crate::figures::{Kept, last};
+use crate::pace::Pace;
 use stickslip_drive::component::{Block, Component, Input, Passage, Powers, Refused, States};
 use stickslip_drive::{EventKind, Sample};
 
@@ -26,6 +27,53 @@ impl Driver {
         let (down, up) = self.spec.slew();
         let fastest = (up.min(down) / self.span).min(self.quickest.recip());
         self.spec.time().map_or(1.0, |time| (time * fastest).clamp(LEAST_LAG, 1.0))
+    }
+
+    /// How its current, as a rate of the stroke, and the power of its source change, 1/s each; how the elongation accelerates is not
+    /// known.
+    fn slopes_of(&self, followed: Sample, voltage: Sample) -> [f64; 2] {
+        let flow = self.flow(voltage.acceleration, 0.0);
+        let power = self.source(followed, flow)
+            + self.source(Sample { value: followed.rate, ..followed }, voltage.rate);
+        [flow, power]
+    }
+
+    /// Counts what a step has `given`, the way of the voltage and the work of the source, by what both were at its `end`, and by their
+    /// slopes there.
+    fn count(
+        &self,
+        kept: &mut Kept,
+        passage: &Passage,
+        given: [f64; 2],
+        (end, slopes): ([f64; 2], [f64; 2]),
+    ) {
+        let (time, begin) = (passage.duration, [kept.flow, kept.power]);
+        (kept.flow, kept.power) = (end[0], end[1]);
+        kept.fastest = kept.fastest.max(end[0].abs());
+        if !passage.located {
+            // In a step over a corner what is at its end tells nothing of how it began.
+            kept.way += given[0].abs();
+            kept.drawn += given[1].max(0.0);
+            return;
+        }
+        // Behind a resistance the current goes on from step to step, else its slope is known where no strain acts back. Of a step in which
+        // a stage settles neither tells how it began.
+        let is_known =
+            time * self.spec.rate() < 1.0 && (self.spec.resistance.is_some() || self.strain.is_none());
+        let paces = [0, 1].map(|i| {
+            let (given, last) = (given[i], time * end[i]);
+            match self.spec.resistance {
+                Some(_) if is_known => Pace::between(given, time * begin[i], last),
+                None if is_known => Pace::ending(given, last, time * time * slopes[i]),
+                _ => Pace::straight(given, last),
+            }
+        });
+        let [way, drawn] = paces.map(Pace::risen);
+        kept.way += 2.0 * way - given[0];
+        kept.drawn += drawn;
+        if is_known && self.spec.resistance.is_some() {
+            kept.fastest = kept.fastest.max(paces[0].most() / time);
+        }
     }
 }
 
@@ -136,20 +184,27 @@ impl Component for Driver {
         if self.spec.resistance.is_none() && (course.output == Output::Free || !passage.located) {
             kept.offset = voltage.value - passage.states[VOLTAGE];
         }
-        kept.at = passage.t;
-        if !jumps {
-            kept.fastest = kept.fastest.max(self.flow(voltage.rate, elongation.rate).abs());
-        }
         // A start is not told how long the stack is.
         let before = if kept.time > 0.0 { kept.elongation } else { elongation.value };
-        kept.elongation = elongation.value;
-        let given = passage.states[WORK] - kept.work;
-        kept.way += self.flow(voltage.value - kept.last, elongation.value - before).abs();
-        // In a step over a corner the power at its end tells nothing of how it began.
-        let power = self.source(followed, self.flow(voltage.rate, elongation.rate));
-        let last = if passage.located { power * passage.duration } else { given };
-        kept.drawn += drawn(given, last);
+        let given = [
+            self.flow(voltage.value - kept.last, elongation.value - before),
+            passage.states[WORK] - kept.work,
+        ];
+        let flow = self.flow(voltage.rate, elongation.rate);
+        let power = self.source(followed, flow);
+        if jumps {
+            kept.way += given[0].abs();
+            kept.drawn += given[1].max(0.0);
+            // The law is the one before: no more flows than may. Without a resistance all has flowed in no time.
+            let (down, up) = self.spec.slew();
+            let after = if self.spec.resistance.is_some() { flow.clamp(-down, up) } else { 0.0 };
+            (kept.flow, kept.power) = (after, self.source(followed, after));
+            kept.fastest = kept.fastest.max(after.abs());
+        } else {
+            self.count(&mut kept, passage, given, ([flow, power], self.slopes_of(followed, voltage)));
+        }
         (kept.last, kept.work) = (voltage.value, passage.states[WORK]);
+        (kept.at, kept.elongation) = (passage.t, elongation.value);
         kept.time += passage.duration;
         let at = [
             course.output == Output::Rising,
@@ -301,8 +356,9 @@ impl Block for Driver {
         if let Some(worked) = self.worked() {
             states[worked] = 0.0;
         }
-        if let Some(Kept { offset, last, elongation, .. }) = Kept::read(memory) {
-            memory.copy_from_slice(&Kept { offset, last, elongation, at: t, ..Kept::default() }.numbers());
+        if let Some(Kept { offset, last, elongation, flow, power, .. }) = Kept::read(memory) {
+            let kept = Kept { offset, last, elongation, flow, power, at: t, ..Kept::default() };
+            memory.copy_from_slice(&kept.numbers());
         }
     }
 

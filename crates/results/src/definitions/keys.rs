@@ -207,7 +207,10 @@ pub(super) const KEYS: &[Definition] = &[
         "drivers.ACTUATOR.drawn_J",
         "energy that the driver's source gave wherever it gave any; what came back is not taken off",
     ),
-    of("drivers.ACTUATOR.peak_current_A", "largest |I|, at the ends of steps and after jumps"),
+    of(
+        "drivers.ACTUATOR.peak_current_A",
+        "largest |I|, at the ends of steps, within them behind a resistance, and after jumps",
+    ),
     of("drivers.ACTUATOR.mean_current_A", "mean of |I|, C times the way of the voltage over the time"),
     of("drivers.ACTUATOR.at_limit.current_up", "share of the time at the largest current into the stack"),
     of("drivers.ACTUATOR.at_limit.current_down", "share of the time at the largest current out of it"),
