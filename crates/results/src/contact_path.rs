@@ -34,7 +34,8 @@ pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
     let Some(memory) = job.start.memories().get(c) else { return samples };
     let count = f64::from(job.count(c));
     // Where events are left out of a series, turning points may be missing in it.
-    if is_walked(job, c) && job.scenario.written.has_all_events() {
+    // The moment before a jump may be none of the series.
+    if is_walked(job, c) && !job.has_jumps() && job.scenario.written.has_all_events() {
         let d = d.first().copied().unwrap_or(0.0);
         return refined(&samples, law, memory.clone(), (d, count));
     }
@@ -47,15 +48,19 @@ pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
 }
 
 /// Whether the force of contact `c` between two moments of a run follows from the contact's own law: that has no time in it, and
-/// all turning points are events. What never rubs has no events.
+/// all turning points are events, or marks where something jumps: a straight way. What never rubs has no events.
 pub(crate) fn is_walked(job: &Job, c: usize) -> bool {
     let rubs = job.model.contact_natural(c).is_some_and(|natural| natural.force > 0.0);
-    rubs && knows_turns(job) && job.has_law_without_time(c)
+    rubs && locates(job) && job.has_law_without_time(c)
 }
 
 /// Whether all turning points of a run are events, and nothing jumps.
 fn knows_turns(job: &Job) -> bool {
-    !job.has_jumps() && job.model.effective(job.scenario.plan.stepper).locates_events()
+    !job.has_jumps() && locates(job)
+}
+
+fn locates(job: &Job) -> bool {
+    job.model.effective(job.scenario.plan.stepper).locates_events()
 }
 
 /// The way with points between its samples where the load varies: the contact is walked along the motion of its bodies. None

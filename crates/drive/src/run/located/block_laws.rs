@@ -5,6 +5,7 @@ use super::watch::Fallen;
 use crate::RunError;
 use crate::equations::Equations;
 use crate::event::Source;
+use crate::model::Wire;
 use crate::record::Record;
 use crate::state::State;
 use stickslip_stepper::Attempt;
@@ -29,25 +30,37 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Blocks decide afresh where rates of what they read may have jumped, in order: each reads only those before it.
     ///
-    /// One whose guard has just fallen has its law: there a rate is 0 but for rounding. At a corner rates are others than those by
-    /// which it fell.
+    /// One whose guard has just fallen has its law: there a rate is 0 but for rounding. At a corner, and where what it reads has
+    /// another law since then, rates are others than those by which it fell.
     pub(super) fn turn_blocks(
         &mut self,
         state: &mut State,
         corner: bool,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        for k in 0..self.setting.model.blocks.len() {
-            let fell = |fallen: &Fallen| matches!(fallen, Fallen::Block(own, _) if *own == k);
-            if !corner && self.watch.fired.iter().any(fell) {
-                continue;
-            }
-            if let Some((kind, law)) = self.setting.plain(state).block_turn(k, state) {
+        let mut bent = std::mem::take(&mut self.turning.bent);
+        bent.clear();
+        let (model, waveforms) = (self.setting.model, self.setting.model.waveforms.len());
+        for (k, wired) in model.blocks.iter().enumerate() {
+            let fell =
+                self.watch.fired.iter().any(|fallen| matches!(fallen, Fallen::Block(own, _) if *own == k));
+            let is_bent = |wire: &Wire| match wire {
+                Wire::Signal(signal) => signal.checked_sub(waveforms).is_some_and(|before| bent[before]),
+                Wire::Length(_) => false,
+            };
+            let reads_bent = wired.wires.iter().any(is_bent);
+            let mut changes = fell || reads_bent;
+            if (corner || !fell || reads_bent)
+                && let Some((kind, law)) = self.setting.plain(state).block_turn(k, state)
+            {
                 state.blocks[k].law = law;
                 self.note(state, Source::Block(k), kind, record);
-                self.bounds.event(self.setting.model, state, (Source::Block(k), kind))?;
+                self.bounds.event(model, state, (Source::Block(k), kind))?;
+                changes = true;
             }
+            bent.push(changes);
         }
+        self.turning.bent = bent;
         Ok(())
     }
 }

@@ -24,6 +24,8 @@ pub(super) struct Turning {
     pub(super) before: Vec<Mode>,
     /// Waveforms that turned.
     turned: Vec<(usize, EventKind)>,
+    /// Of each block whether it has another law, or reads one that has: room.
+    pub(super) bent: Vec<bool>,
 }
 
 /// Whether any waveform jumps: only then is the energy before a corner asked for.
@@ -41,6 +43,7 @@ impl Turning {
         self.before.reserve(model.contacts.len());
         self.turned.clear();
         self.turned.reserve(model.waveforms.len());
+        self.bent.reserve(model.blocks.len());
         Self { jumps, ..self }
     }
 }

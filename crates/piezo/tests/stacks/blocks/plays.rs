@@ -1,7 +1,9 @@
 //! The Prandtl–Ishlinskii block against plays that are dragged along a finely walked input.
 
 use super::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
-use stickslip_drive::{BytesError, Harmonic, Model, Plan, Run, Shape, State, Stepper, Waveform};
+use crate::parts;
+use stickslip_drive::{BytesError, Harmonic, Model, Plan, Run, Shape, State, Stepper, Timing, Waveform};
+use stickslip_piezo::driver::{Control, Driver, Spec};
 use stickslip_piezo::hysteresis::{PlayBlock, Plays};
 
 fn law() -> Plays {
@@ -93,6 +95,36 @@ fn its_output_is_that_of_plays_walked_finely() {
     // Ten turns in a period, and plays taken up in between.
     assert_eq!(count("input turns"), 30, "{kinds:?}");
     assert!(count("play taken up") > 60, "{}", count("play taken up"));
+}
+
+/// Behind a driver whose current limits let go where they did a period before: the voltage turns at the very place where the plays were
+/// left, so that one is taken up at the moment of the driver's event. That the voltage turns there was not seen, and the stroke
+/// was 30 % off at any tolerance.
+#[test]
+fn it_turns_with_the_driver_where_a_play_is_taken_up() {
+    const GAIN: f64 = 74.47e-9;
+    let spec = Spec {
+        capacitance: 14.47e-6,
+        gain: GAIN,
+        window: None,
+        current: Some((0.26, 0.568)),
+        resistance: None,
+        low: None,
+        control: Control::Voltage,
+    };
+    let triangle = Waveform::new(Shape::Triangle { stroke: -26.23 * GAIN }, Timing::every(1.9e-3)).unwrap();
+    let driver = Driver::new(spec, 0, triangle.range()).shared();
+    for operators in [1, 2, 5] {
+        let plays = Plays::of_loop(0.12, 2.4e-6, operators).unwrap();
+        let block = shared("plays", PlayBlock::new(plays.clone(), reading(1)));
+        let scene = scene(triangle.clone(), vec![parts::named("driver", driver.clone()), block]);
+        let (model, _, trace) = trace(&scene, &event(5.7e-3), 1e-7);
+        let [volts, y] = ["driver.voltage_V", "plays.stroke_m"].map(|name| column(&model, &trace, name));
+        let mut walked = Walked::new(&plays);
+        let off = volts.iter().zip(&y).map(|(v, y)| (walked.to(GAIN * v) - y).abs()).fold(0.0, f64::max);
+        // Extremes lie between rows.
+        assert!(off < 1e-3 * 2.4e-6, "{operators} operators: {off:e}");
+    }
 }
 
 /// The velocity of the foot is the slope of the branch times that of the input: between events, central differences.
