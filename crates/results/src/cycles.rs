@@ -147,11 +147,11 @@ impl Track {
         self.bends.drain(..gone);
     }
 
-    /// Whether u comes back; what is still does. `still` is the range of u up to which that is so, m.
-    fn comes_back(&self, span: &Range<usize>, still: f64) -> bool {
+    /// Whether u comes back to within a share of its range; what is still does. `still` is the range of u up to which that is so, m.
+    fn comes_back(&self, span: &Range<usize>, still: f64, share: f64) -> bool {
         let u = &self.u[span.start..=span.end];
         let (low, high) = range(u);
-        high - low <= still || (u[u.len() - 1] - u[0]).abs() <= CLOSED * (high - low)
+        high - low <= still || (u[u.len() - 1] - u[0]).abs() <= share * (high - low)
     }
 
     fn figures(&self, span: &Range<usize>, setup: &Setup<'_>, walk: Option<&mut Walk>) -> CycleFigures {
@@ -160,7 +160,10 @@ impl Track {
         let ((low, high), (least, most)) = (range(u), range(force));
         let middle = least + 0.5 * (most - least);
         let is_still = high - low <= *still;
-        let mut questions = if is_still { Vec::new() } else { self.questions(span, (low, high), middle) };
+        // Along straight lines from event to event a loop has no shape.
+        let is_known = walk.is_some() || setup.is_dense;
+        let mut questions =
+            if is_still || !is_known { Vec::new() } else { self.questions(span, (low, high), middle) };
         match walk {
             Some(walk) => walk.answer((self, law), span, (*count, middle), &mut questions),
             None => questions.iter_mut().for_each(|question| question.answer = self.chord(question, middle)),
@@ -183,20 +186,21 @@ impl Track {
         };
         // What moves in the last digits has no loop.
         let moves = most - least > ROUNDING * law.friction() * normal;
-        let amplitude = |values: &[f64]| {
-            let (low, high) = if setup.is_dense {
-                self.peaks(span, values, setup.is_continuous)
-            } else {
-                range(&values[a..=b])
-            };
-            0.5 * (high - low)
+        let peaks = |values: &[f64]| {
+            if setup.is_dense { self.peaks(span, values, setup.is_continuous) } else { range(&values[a..=b]) }
         };
+        let ((left, right), (pulled, pushed)) = (peaks(&self.u), peaks(&self.force));
+        // Polynomials beside an event know nothing of the limit of friction, beyond which nothing but damping bears.
+        let limit =
+            if law.damping() > 0.0 { f64::INFINITY } else { law.friction() * range(&self.normal[a..=b]).1 };
+        let (pulled, pushed) = (pulled.max(least.min(-limit)), pushed.min(most.max(limit)));
         let damping = setup.knows_damping.then(|| self.damping[b] - self.damping[a]);
         let cycle = Cycle {
-            displacement_amplitude: amplitude(&self.u),
-            force_amplitude: amplitude(&self.force),
+            displacement_amplitude: 0.5 * (right - left),
+            force_amplitude: 0.5 * (pushed - pulled),
             half_opening: self.half_opening(&questions, middle).filter(|_| moves),
-            dissipated: self.friction[b] - self.friction[a] + damping.unwrap_or(0.0),
+            // Less than nothing is what a tolerance leaves of a contact that sticks.
+            dissipated: (self.friction[b] - self.friction[a]).max(0.0) + damping.unwrap_or(0.0).max(0.0),
             stiffness_after_maximum: tangent(high),
             stiffness_after_minimum: tangent(low),
         };

@@ -6,7 +6,7 @@ use crate::cycles::table_of;
 use crate::job::Job;
 use crate::periods::{Periods, followed};
 use stickslip_drive::Waveform;
-use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
+use stickslip_drive::scene::{Direction, Freedom, Normal, Side, Varying};
 
 /// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
 /// extremes and corners that are no events. On what drives it the body that steps has no loops.
@@ -74,7 +74,9 @@ impl Marks {
                     let drives = followed(job, c).filter_map(|w| scene.waveforms.get(w)).map(|it| &it.part);
                     let fast = drives.chain(load).filter(|_| is_dense);
                     let fast = fast.flat_map(|waveform| fast_pieces(waveform, periods.length / parts));
-                    [Grid::of(&periods, parts)].into_iter().chain(of_load).chain(fast).collect()
+                    let jumping = followed(job, c).filter_map(|w| scene.waveforms.get(w));
+                    let jumps = jumping.flat_map(|waveform| jumps_of(&waveform.part));
+                    [Grid::of(&periods, parts)].into_iter().chain(of_load).chain(fast).chain(jumps).collect()
                 }
                 (None, Some(table)) => Grid::along(table, !is_dense, end),
                 (None, None) => Vec::new(),
@@ -140,12 +142,30 @@ pub(crate) fn are_dense(job: &Job, c: usize) -> bool {
         let frees = |side: &Side| matches!(side, Side::Body(other) if *other != body && is_free(other));
         // What holds it has loops, of which fixed steps tell no turn.
         let is_untold = sides.contains(&Side::Ground) && !tells_turns;
-        sides.contains(&Side::Body(body)) && !sides.iter().any(frees) && !is_untold
+        sides.contains(&Side::Body(body)) && !sides.iter().any(frees) && !is_untold && !is_held(job, body)
     });
     match Periods::of_contact(job, c, f64::INFINITY) {
         Some(_) => !steps,
         None => table_of(job, c).is_some(),
     }
+}
+
+/// Whether a spring or a stack holds a body along x to what does not go along with it: it comes back, and its contacts have loops.
+fn is_held(job: &Job, body: usize) -> bool {
+    let scene = &job.scenario.scene;
+    let own = |side: &Side| *side == Side::Body(body);
+    let stays = |side: &Side| match side {
+        Side::Body(other) => {
+            *other != body && scene.bodies.get(*other).is_some_and(|it| it.part.x.freedom != Freedom::Free)
+        }
+        Side::Ground => true,
+    };
+    let springs = scene.springs.iter().filter(|spring| spring.part.stiffness > 0.0);
+    let springs = springs.map(|spring| (spring.part.between, spring.part.direction));
+    let stacks = scene.actuators.iter().map(|stack| (stack.part.between, stack.part.direction));
+    springs.chain(stacks).any(|(between, direction)| {
+        direction == Direction::X && between.iter().any(own) && between.iter().any(stays)
+    })
 }
 
 /// The waveform that presses a contact.
@@ -170,6 +190,18 @@ fn peaks_of_load(load: &Waveform) -> Vec<Grid> {
     let Some(phases) = Phases::of(load).filter(|_| !load.is_straight()) else { return Vec::new() };
     let grid = |turn: f64| Grid { start: periods.start + turn, ..Grid::of(&periods, 1.0) };
     std::iter::once(0.0).chain(phases.turns()).map(grid).collect()
+}
+
+/// Where a waveform jumps: the moment before is the last of the way that led there.
+fn jumps_of(waveform: &Waveform) -> Vec<Grid> {
+    if !waveform.has_jumps() {
+        return Vec::new();
+    }
+    let Some(periods) = Periods::until(waveform, f64::INFINITY) else { return Vec::new() };
+    let (from, to) = periods.first();
+    let pieces = waveform.pieces_from(from).take_while(|piece| piece.start < to);
+    let jumps = pieces.filter(|piece| waveform.jump_after(piece) != 0.0);
+    jumps.map(|piece| Grid { start: piece.end, ..Grid::of(&periods, 1.0) }).take(MOST_WAY_PARTS).collect()
 }
 
 /// Within pieces of a waveform that go by in a few parts of a period, each so long, s.

@@ -257,9 +257,11 @@ fn tell(curve: &Curve, traced: &Traced) {
         match &landmark.at {
             Ok(at) => {
                 let off = 100.0 * landmark.half_width / at.abs();
+                let there = landmark.value.map(|value| shown(value, landmark.unit()) + " at ");
                 say(format_args!(
-                    "{}: {} \u{b1} {off:.2e} %, {} points",
+                    "{}: {}{} \u{b1} {off:.2e} %, {} points",
                     landmark.words(),
+                    there.unwrap_or_default(),
                     shown(*at, curve.variation.unit),
                     landmark.runs
                 ));

@@ -8,6 +8,7 @@ use crate::job::Job;
 use crate::marks;
 use crate::periods::{Periods, Tracker};
 use std::collections::HashMap;
+use std::ops::Range;
 use stickslip_analysis::{Cut, split_cycles};
 use stickslip_contact::Interface;
 
@@ -15,6 +16,10 @@ use stickslip_contact::Interface;
 const MOST: [usize; 2] = [1 << 18, 1 << 21];
 /// Moments that a walk may be behind: of contacts that never come back no cycle asks for it, and short runs go without.
 const PENDING: usize = 1 << 14;
+/// Shares of the range of u that a way back may have to go to count as a reversal, and by how much of the time more cycles have to be with a
+/// larger one.
+const WAYS_BACK: [f64; 6] = [CLOSED, 0.02, 0.05, 0.1, 0.2, 0.4];
+const MORE: f64 = 1.05;
 /// Quantities of a contact, in the order of its track.
 const QUANTITIES: [&str; 5] = ["u_m", "d_m", "fx_N", "fn_N", "friction_J"];
 
@@ -100,6 +105,8 @@ impl Loops {
         let t = values.first().copied()?;
         let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
         let [u, d, force, normal, friction] = self.places.map(at);
+        // Nothing goes on smoothly to where a run starts.
+        let bends = bends || t == 0.0;
         let moment = Moment { u, d, force, normal, friction, damping: self.damping.map_or(0.0, at), bends };
         let ended = match &mut self.cut {
             Cutting::Periods(tracker) => tracker.pass(t),
@@ -134,14 +141,29 @@ impl Loops {
         if !matches!(self.cut, Cutting::Reversals) || self.track.t.is_empty() {
             return Vec::new();
         }
-        let (low, high) = range(&self.track.u);
-        let cut = Cut::Reversals { least: CLOSED * (high - low) };
-        let spans = split_cycles(&self.track.t, &self.track.u, &self.track.force, cut).unwrap_or_default();
-        let spans = spans.into_iter().map(|span| span.start..span.end - 1);
+        let spans = self.between_reversals();
         let (track, setup, walk) = self.parts(law);
-        let back = spans.filter(|span| track.comes_back(span, setup.still));
         let mut walk = walk.as_mut();
-        back.map(|span| track.figures(&span, &setup, walk.as_deref_mut())).collect()
+        spans.iter().map(|span| track.figures(span, &setup, walk.as_deref_mut())).collect()
+    }
+
+    /// Cycles from one reversal to the next of its kind that come back. Of ways back that are too short to count, those of noise on a
+    /// measured table, and of small loops within larger ones, it takes the shortest with which cycles are most of the time.
+    fn between_reversals(&self) -> Vec<Range<usize>> {
+        let Track { t, u, force, .. } = &self.track;
+        let (low, high) = range(u);
+        let mut best = (0.0, Vec::new());
+        for share in WAYS_BACK {
+            let cut = Cut::Reversals { least: share * (high - low) };
+            let spans = split_cycles(t, u, force, cut).unwrap_or_default();
+            let spans = spans.into_iter().map(|span| span.start..span.end - 1);
+            let back: Vec<_> = spans.filter(|span| self.track.comes_back(span, self.still, share)).collect();
+            let time = back.iter().map(|span| t[span.end] - t[span.start]).sum::<f64>();
+            if time > MORE * best.0 {
+                best = (time, back);
+            }
+        }
+        best.1
     }
 
     fn push(&mut self, law: &Interface, t: f64, moment: Moment) {
@@ -177,7 +199,7 @@ impl Loops {
         let span = 0..self.track.t.len().checked_sub(1)?;
         let is_whole = !self.is_torn;
         let (track, setup, walk) = self.parts(law);
-        let comes_back = is_whole && track.comes_back(&span, setup.still);
+        let comes_back = is_whole && track.comes_back(&span, setup.still, CLOSED);
         comes_back.then(|| track.figures(&span, &setup, walk.as_mut()))
     }
 

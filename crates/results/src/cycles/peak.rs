@@ -12,6 +12,10 @@ use std::ops::Range;
 const NEAR: f64 = 0.01;
 /// How far from an event the next moment may be for a limit there, in mean distances of those after it.
 const FAR: f64 = 1.5;
+/// By how much of the range of values a limit may depend on the last of the moments that tell it: more does where a fast motion follows
+/// an event, such as what is left of damping where a contact begins to slide. Of a damped ball that is shaken by 200 µm the peak was 6.5 %
+/// above the limit of friction.
+const CREDIBLE: f64 = 1e-3;
 /// Neighbours on either side.
 const SIDE: usize = 2;
 /// Halvings of the time between neighbours: values there differ by the square of what is left.
@@ -31,21 +35,28 @@ impl Track {
             return met;
         }
         let events = (span.start..=span.end).filter(|i| self.bends[*i]);
-        let limits = events.flat_map(|event| self.limits(span, values, event));
+        let limits = events.flat_map(|event| self.limits(span, (values, high - low), event));
         limits.fold(met, |(low, high), limit| (low.min(limit), high.max(limit)))
     }
 
     /// What values come to on both sides of an event, by the polynomials through the moments before and after it; none where there are
-    /// too few, or none so near that these tell it.
-    fn limits(&self, span: &Range<usize>, values: &[f64], event: usize) -> impl Iterator<Item = f64> {
+    /// too few, none so near that these tell it, or where one of them less tells another limit, by a share of the `range`.
+    fn limits(
+        &self,
+        span: &Range<usize>,
+        (values, range): (&[f64], f64),
+        event: usize,
+    ) -> impl Iterator<Item = f64> {
         let ends = (span.start, span.end);
         let before = self.side(ends, event, false, |j| (j > span.start).then(|| j - 1));
         let after = self.side(ends, event, false, |j| (j < span.end).then_some(j + 1));
         [before, after].into_iter().filter_map(move |side| {
             let [(_, gone), .., (_, all)] = side[..] else { return None };
             let is_near = gone * (side.len() - 1) as f64 <= FAR * (all - gone);
-            let points = side.iter().map(|(j, way)| (*way, values[*j]));
-            is_near.then(|| Polynomial::through(points).at(0.0)[0]).filter(|limit| limit.is_finite())
+            let points = || side.iter().map(|(j, way)| (*way, values[*j]));
+            let limit = Polynomial::through(points()).at(0.0)[0];
+            let fewer = Polynomial::through(points().take(side.len() - 1)).at(0.0)[0];
+            (is_near && (limit - fewer).abs() <= CREDIBLE * range).then_some(limit)
         })
     }
 

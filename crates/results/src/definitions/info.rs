@@ -93,7 +93,10 @@ pub(super) const INFO: &[Definition] = &[
         "modes.frequency_range_Hz",
         "of the mode of this place at the smallest and the largest indentations, where loads vary",
     ),
-    of("modes.damping_ratio", "share of critical damping: -Re λ/|λ| of its eigenvalue λ"),
+    of(
+        "modes.damping_ratio",
+        "share of critical damping, φᵀCφ/(2ω φᵀMφ) of the undamped shape φ: exact where damping does not couple the modes, else an estimate, which may be above 1",
+    ),
     of("modes.shape.COORDINATE", "displacements in the mode, the largest of them 1"),
     of("stepping.stepper", "the stepper that the run takes"),
     of("stepping.tolerance", "its tolerance: local error per step, relative to the scales of the contacts"),

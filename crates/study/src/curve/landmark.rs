@@ -227,7 +227,12 @@ impl Curve {
                     name,
                     at: Ok(peak.best.at),
                     half_width,
-                    value: Some(peak.best.value),
+                    // Of drives that go back it is below 0; power is what goes into a load whichever way.
+                    value: Some(if yields == Yield::Power {
+                        peak.best.value
+                    } else {
+                        sense * peak.best.value
+                    }),
                     runs,
                     turns: false,
                 }
@@ -321,6 +326,16 @@ impl Landmark {
             "best_speed" => "fastest",
             "best_power" => "most power",
             _ => "longest step",
+        }
+    }
+
+    /// What its value is in.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self.name {
+            "best_speed" => "m/s",
+            "best_power" => "W",
+            _ => "m",
         }
     }
 
