@@ -194,11 +194,12 @@ impl Track {
         let limit =
             if law.damping() > 0.0 { f64::INFINITY } else { law.friction() * range(&self.normal[a..=b]).1 };
         let (pulled, pushed) = (pulled.max(least.min(-limit)), pushed.min(most.max(limit)));
+        let is_closed = !is_still && (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least);
         let damping = setup.knows_damping.then(|| self.damping[b] - self.damping[a]);
         let cycle = Cycle {
             displacement_amplitude: 0.5 * (right - left),
             force_amplitude: 0.5 * (pushed - pulled),
-            half_opening: self.half_opening(&questions, middle).filter(|_| moves),
+            half_opening: self.half_opening(&questions, middle).filter(|_| moves && is_closed),
             // Less than nothing is what a tolerance leaves of a contact that sticks.
             dissipated: (self.friction[b] - self.friction[a]).max(0.0) + damping.unwrap_or(0.0).max(0.0),
             stiffness_after_maximum: tangent(high),
@@ -206,7 +207,7 @@ impl Track {
         };
         CycleFigures {
             time,
-            is_closed: !is_still && (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least),
+            is_closed,
             cycle,
             damping,
             secants: [secant(high), secant(low)],

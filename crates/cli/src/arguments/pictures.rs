@@ -34,7 +34,7 @@ pub(crate) struct PlotArguments {
     /// Folder of the pictures: those of a folder NAME go to OUT/NAME/; by default they go beside the results
     #[arg(long, value_name = "OUT")]
     pub(crate) out: Option<PathBuf>,
-    /// All results over each other, each kind of picture in one: OUT/over-NAME.png; of loop, trajectory, phase and xy
+    /// All results over each other, each kind of picture in one: OUT/over-NAME.png (needs --out); of loop, trajectory, phase and xy
     #[arg(long, requires = "out")]
     pub(crate) over: bool,
     /// Errors only

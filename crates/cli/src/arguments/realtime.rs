@@ -126,7 +126,7 @@ pub(crate) struct ClockArguments {
     /// Priority among real-time threads (first in, first out), 1 to 99
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(1..=99))]
     pub(crate) priority: Option<u8>,
-    /// Keep all memory in memory
+    /// Lock all memory, so that none of it is ever paged out
     #[arg(long)]
     pub(crate) lock: bool,
     /// What is done where a frame ends after the next deadline. skip: the next frame waits for the first deadline that still

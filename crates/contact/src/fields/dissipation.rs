@@ -188,7 +188,7 @@ impl Drag {
             // d = g(r) + τ²: a place that begins to touch is pressed like a root.
             let roots = part.depth.map(|d| (d - here.h).max(0.0).sqrt());
             let (low, high) = (roots[0].min(roots[1]), roots[0].max(roots[1]));
-            let mean = if steady {
+            let mean = if steady || pressure(deepest) == f64::INFINITY {
                 pressure(deepest)
             } else {
                 let by_root =
@@ -197,7 +197,7 @@ impl Drag {
                     / (part.depth[0] - part.depth[1]).abs()
             };
             // Nothing times an infinite pressure is nothing.
-            return (if limit > 0.0 { limit * mean * rise } else { 0.0 }, rise);
+            return (if limit * rise > 0.0 { limit * mean * rise } else { 0.0 }, rise);
         };
         let [outer, inner] = front.map(|h| Rim { h, x: profile.radius(h) });
         let outer = if outer.x > r { here } else { outer };
