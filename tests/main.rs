@@ -20,6 +20,7 @@ mod guide;
 mod info;
 mod info_tables;
 mod insides;
+mod measured_loops;
 mod new;
 mod output;
 mod pictures;

@@ -1,7 +1,16 @@
 //! Cuts a long record into cycles.
 
-use crate::series::{SeriesError, check, check_lengths, check_positive, check_time};
+use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, extent};
 use std::ops::Range;
+
+/// Share of its range to within which u comes back at the end of a cycle.
+pub const CLOSED: f64 = 0.01;
+/// Shares of the range of u that a way back may have to go to count as a reversal, and by how much of the time more cycles have to be with a
+/// larger one.
+const WAYS_BACK: [f64; 6] = [CLOSED, 0.02, 0.05, 0.1, 0.2, 0.4];
+const MORE: f64 = 1.05;
+/// Share of its range to within which u comes back with noise on it: swings that grow do not.
+const ALIKE: f64 = 0.1;
 
 /// Where a cycle ends and the next begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +52,33 @@ pub fn split_cycles(t: &[f64], u: &[f64], q: &[f64], cut: Cut) -> Result<Vec<Ran
         Cut::Period { start, period } => period_starts(t, start, period)?,
     };
     Ok(places.windows(2).map(|ends| ends[0]..ends[1] + 1).collect())
+}
+
+/// Cycles from one reversal to the next of its kind at whose end u comes back, or which move by no more than `still`, m; each
+/// range holds both ends. Of ways back that are too short to count, those of noise on a measured record, and of small loops within larger
+/// ones, it takes the shortest with which cycles are most of the time.
+#[must_use]
+pub fn returning_cycles(t: &[f64], u: &[f64], still: f64) -> Vec<Range<usize>> {
+    let (low, high) = extent(u);
+    let mut best = (0.0, Vec::new());
+    for share in WAYS_BACK {
+        let cut = Cut::Reversals { least: share * (high - low) };
+        let mut cycles = split_cycles(t, u, u, cut).unwrap_or_default();
+        cycles.retain(|cycle| returns(&u[cycle.clone()], still, share.min(ALIKE)));
+        let time = cycles.iter().map(|cycle| t[cycle.end - 1] - t[cycle.start]).sum::<f64>();
+        if time > MORE * best.0 {
+            best = (time, cycles);
+        }
+    }
+    best.1
+}
+
+/// Whether u comes back to within a share of its range, or moves by no more than `still`, m.
+#[must_use]
+pub fn returns(u: &[f64], still: f64, share: f64) -> bool {
+    let (low, high) = extent(u);
+    let way = u.last().zip(u.first()).map_or(0.0, |(last, first)| last - first);
+    high - low <= still || way.abs() <= share * (high - low)
 }
 
 /// Places of the reversals of u, alternately maxima and minima; each is confirmed by a way back longer than
@@ -132,6 +168,24 @@ mod tests {
         let cycles = split_cycles(&t, &u, &u, Cut::Reversals { least: 0.1 }).unwrap();
         assert_eq!(cycles.len(), 4);
         assert!(cycles.iter().all(|c| c.len().abs_diff(101) <= 14), "{cycles:?}");
+    }
+
+    /// Five swings of 1, each with a loop of 0.06 in it: what is taken are the swings, with noise of 0.04 on them as well.
+    #[test]
+    fn loops_within_loops_and_noise_make_no_cycles() {
+        let (t, u) = sine(5, 1000);
+        let within = |t: &f64| 0.03 * (20.0 * TAU * t).sin();
+        let u: Vec<f64> = t.iter().zip(u).map(|(t, u)| u + within(t)).collect();
+        let noisy: Vec<f64> = u.iter().enumerate().map(|(i, u)| u + 0.02 * (i as f64 * 2.4).sin()).collect();
+        for u in [u, noisy] {
+            let cycles = returning_cycles(&t, &u, 0.0);
+            assert_eq!(cycles.len(), 4);
+            assert!(cycles.iter().all(|cycle| cycle.len().abs_diff(1001) < 60), "{cycles:?}");
+        }
+        // Swings that grow come back nowhere.
+        let (t, mut u) = sine(5, 100);
+        u.iter_mut().zip(&t).for_each(|(u, t)| *u *= 1.0 + t);
+        assert!(returning_cycles(&t, &u, 0.0).is_empty());
     }
 
     #[test]

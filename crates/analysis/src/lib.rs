@@ -22,7 +22,7 @@ pub mod series;
 pub mod settling;
 pub mod steps;
 
-pub use cycles::{Cut, split_cycles};
+pub use cycles::{Cut, returning_cycles, split_cycles};
 pub use fretting::Cycle;
 pub use mean::{Mean, Moved};
 pub use prefix::Prefix;

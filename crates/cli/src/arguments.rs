@@ -5,6 +5,7 @@ pub(crate) mod characterise;
 pub(crate) mod compare;
 pub(crate) mod contact;
 pub(crate) mod look;
+pub(crate) mod loops;
 mod pictures;
 pub(crate) mod realtime;
 pub(crate) mod run;
@@ -22,6 +23,7 @@ pub(crate) use bench::BenchArguments;
 pub(crate) use characterise::CharacteriseArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
+pub(crate) use loops::LoopArguments;
 pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
 pub(crate) use realtime::RealtimeArguments;
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
@@ -94,6 +96,9 @@ pub(crate) enum Command {
     /// Answer for one contact of a scenario, without a run: constants, curves, first loadings, fields
     #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
     Contact(ContactArguments),
+    /// Measure loops of a table: amplitudes, lost energy, opening, ratios; beside a simulated one
+    #[command(long_about = loops::ABOUT, after_long_help = loops::EXAMPLES)]
+    Loop(LoopArguments),
     /// Trace a curve of a drive: step over amplitude, speed over frequency, speed against a load
     #[command(long_about = characterise::ABOUT, after_long_help = characterise::EXAMPLES)]
     Characterise(CharacteriseArguments),

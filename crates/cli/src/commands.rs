@@ -9,6 +9,7 @@ pub(crate) mod contact;
 pub(crate) mod explain;
 pub(crate) mod gallery;
 pub(crate) mod info;
+pub(crate) mod loops;
 pub(crate) mod materials;
 pub(crate) mod new;
 pub(crate) mod plot;

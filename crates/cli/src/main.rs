@@ -10,8 +10,8 @@ mod console;
 use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
-    bench, characterise, check, compare, completions, contact, explain, gallery, info, materials, new, plot,
-    realtime, repro, resume, run, schema, sensitivity, soak, steady, validate,
+    bench, characterise, check, compare, completions, contact, explain, gallery, info, loops, materials, new,
+    plot, realtime, repro, resume, run, schema, sensitivity, soak, steady, validate,
 };
 use std::process::ExitCode;
 
@@ -28,6 +28,7 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::info(&arguments),
         Command::Characterise(arguments) => characterise::characterise(&arguments),
         Command::Contact(arguments) => contact::contact(&arguments),
+        Command::Loop(arguments) => loops::loops(&arguments),
         Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
         Command::Steady(arguments) => steady::steady(&arguments),
         Command::New(arguments) => new::new(&arguments),

@@ -4,7 +4,7 @@
 //! what a picture comes from; [`gallery`] draws all pictures of a scenario, and the page that shows them.
 //!
 //! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
-//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop;
+//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop; [`measured`], loops from a table;
 //! [`steady`], the picture of a motion that repeats itself; [`branch`], that of many such motions; [`curve`], those of a machine; [`sensitivity`], what
 //! matters to it.
 
@@ -13,6 +13,7 @@ pub mod comparison;
 pub mod curve;
 pub mod gallery;
 pub mod look;
+pub mod measured;
 mod origin;
 pub mod overlay;
 mod pictures;

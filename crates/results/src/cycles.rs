@@ -22,13 +22,12 @@ use crate::periods::followed;
 use load::Load;
 use std::ops::Range;
 use stickslip_analysis::Cycle;
+use stickslip_analysis::cycles::CLOSED;
 use stickslip_contact::Interface;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::Side;
 use walk::{Question, Walk};
 
-/// Net way of a cycle along u, and net change of its force, as shares of their ranges, up to which it counts as closed.
-const CLOSED: f64 = 0.01;
 /// Change of a force below this share of the limit of friction is rounding.
 const ROUNDING: f64 = 1e-9;
 /// Amplitude of u in natural displacements that rounding alone makes; what a fixed step may make of rest.
@@ -145,13 +144,6 @@ impl Track {
         self.columns().into_iter().for_each(|column| drop(column.drain(..gone)));
         self.t.drain(..gone);
         self.bends.drain(..gone);
-    }
-
-    /// Whether u comes back to within a share of its range; what is still does. `still` is the range of u up to which that is so, m.
-    fn comes_back(&self, span: &Range<usize>, still: f64, share: f64) -> bool {
-        let u = &self.u[span.start..=span.end];
-        let (low, high) = range(u);
-        high - low <= still || (u[u.len() - 1] - u[0]).abs() <= share * (high - low)
     }
 
     fn figures(&self, span: &Range<usize>, setup: &Setup<'_>, walk: Option<&mut Walk>) -> CycleFigures {

@@ -49,6 +49,7 @@ mod kept;
 mod limits;
 pub mod markdown;
 mod marks;
+pub mod measured;
 pub mod moments;
 mod outcome;
 pub mod outlook;

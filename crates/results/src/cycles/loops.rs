@@ -2,24 +2,20 @@
 
 use super::load::Load;
 use super::walk::Walk;
-use super::{CLOSED, CycleFigures, Moment, Setup, Track, range, still, table_of};
+use super::{CLOSED, CycleFigures, Moment, Setup, Track, still, table_of};
 use crate::contact_path::is_walked;
 use crate::job::Job;
 use crate::marks;
 use crate::periods::{Periods, Tracker};
 use std::collections::HashMap;
-use std::ops::Range;
-use stickslip_analysis::{Cut, split_cycles};
+use stickslip_analysis::cycles::returns;
+use stickslip_analysis::returning_cycles;
 use stickslip_contact::Interface;
 
 /// Most moments of a cycle that are kept, and of a whole run whose cycles are told at its end.
 const MOST: [usize; 2] = [1 << 18, 1 << 21];
 /// Moments that a walk may be behind: of contacts that never come back no cycle asks for it, and short runs go without.
 const PENDING: usize = 1 << 14;
-/// Shares of the range of u that a way back may have to go to count as a reversal, and by how much of the time more cycles have to be with a
-/// larger one.
-const WAYS_BACK: [f64; 6] = [CLOSED, 0.02, 0.05, 0.1, 0.2, 0.4];
-const MORE: f64 = 1.05;
 /// Quantities of a contact, in the order of its track.
 const QUANTITIES: [&str; 5] = ["u_m", "d_m", "fx_N", "fn_N", "friction_J"];
 
@@ -141,29 +137,11 @@ impl Loops {
         if !matches!(self.cut, Cutting::Reversals) || self.track.t.is_empty() {
             return Vec::new();
         }
-        let spans = self.between_reversals();
+        let cycles = returning_cycles(&self.track.t, &self.track.u, self.still);
         let (track, setup, walk) = self.parts(law);
         let mut walk = walk.as_mut();
-        spans.iter().map(|span| track.figures(span, &setup, walk.as_deref_mut())).collect()
-    }
-
-    /// Cycles from one reversal to the next of its kind that come back. Of ways back that are too short to count, those of noise on a
-    /// measured table, and of small loops within larger ones, it takes the shortest with which cycles are most of the time.
-    fn between_reversals(&self) -> Vec<Range<usize>> {
-        let Track { t, u, force, .. } = &self.track;
-        let (low, high) = range(u);
-        let mut best = (0.0, Vec::new());
-        for share in WAYS_BACK {
-            let cut = Cut::Reversals { least: share * (high - low) };
-            let spans = split_cycles(t, u, force, cut).unwrap_or_default();
-            let spans = spans.into_iter().map(|span| span.start..span.end - 1);
-            let back: Vec<_> = spans.filter(|span| self.track.comes_back(span, self.still, share)).collect();
-            let time = back.iter().map(|span| t[span.end] - t[span.start]).sum::<f64>();
-            if time > MORE * best.0 {
-                best = (time, back);
-            }
-        }
-        best.1
+        let spans = cycles.into_iter().map(|cycle| cycle.start..cycle.end - 1);
+        spans.map(|span| track.figures(&span, &setup, walk.as_deref_mut())).collect()
     }
 
     fn push(&mut self, law: &Interface, t: f64, moment: Moment) {
@@ -199,7 +177,7 @@ impl Loops {
         let span = 0..self.track.t.len().checked_sub(1)?;
         let is_whole = !self.is_torn;
         let (track, setup, walk) = self.parts(law);
-        let comes_back = is_whole && track.comes_back(&span, setup.still, CLOSED);
+        let comes_back = is_whole && returns(&track.u[span.start..=span.end], setup.still, CLOSED);
         comes_back.then(|| track.figures(&span, &setup, walk.as_mut()))
     }
 

@@ -84,8 +84,9 @@ impl Table<'_> {
 
     /// How the numbers of a column become SI.
     fn scale(&self, place: usize, si: &str) -> Result<units::Scale, ScenarioError> {
-        let measure = self.header[place].measure(Column::Value);
         let Some(wanted) = units::of_si(si) else { return Ok(units::Scale::Ten(0)) };
+        let column = if wanted == Kind::Time { Column::Time } else { Column::Value };
+        let measure = self.header[place].measure(column);
         match measure {
             Ok(measure) if measure.kind.is_none_or(|kind| kind == wanted) => Ok(measure.scale),
             _ => {
