@@ -263,7 +263,7 @@ impl Track {
 }
 
 /// Whether a body of contact `c` moves as forces say.
-fn is_integrated(job: &Job, c: usize) -> bool {
+pub(crate) fn is_integrated(job: &Job, c: usize) -> bool {
     let scene = &job.scenario.scene;
     let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between);
     let mut bodies = sides.filter_map(|side| match side {

@@ -2,7 +2,7 @@
 
 use crate::account::Phases;
 use crate::contact_path::is_walked;
-use crate::cycles::table_of;
+use crate::cycles::{is_integrated, table_of};
 use crate::job::Job;
 use crate::periods::{Periods, followed};
 use stickslip_drive::Waveform;
@@ -14,6 +14,8 @@ const PARTS: f64 = 512.0;
 /// The same of a period of a load that is shorter, where the contact's body goes to and fro in many of them: polynomials through moments
 /// so near find the extremes of a sine to 3e-8 of it.
 const LOAD_PARTS: f64 = 64.0;
+/// The same of a ringing of the contact's bodies: where they rang 208 times in a period the 512 moments of it found 0.92 of a peak.
+const RING_PARTS: f64 = 24.0;
 /// The same of the way of a waveform from least to most, where it goes so fast that parts of the period are longer: a flyback of 0.1 % of the
 /// period went by between two, and openings were told along one chord, half of what they are.
 const WAY_PARTS: f64 = 128.0;
@@ -69,7 +71,11 @@ impl Marks {
             let grids_of_contact = match (Periods::of_contact(job, c, for_ever), table_of(job, c)) {
                 (Some(periods), _) => {
                     let load = load_of(job, c).filter(|_| is_dense);
-                    let parts = if is_dense { parts_of(&periods, load) } else { 1.0 };
+                    let parts = if is_dense {
+                        parts_of(&periods, load).max(of_ringing(job, c, &periods))
+                    } else {
+                        1.0
+                    };
                     let of_load = load.into_iter().flat_map(peaks_of_load);
                     let drives = followed(job, c).filter_map(|w| scene.waveforms.get(w)).map(|it| &it.part);
                     let fast = drives.chain(load).filter(|_| is_dense);
@@ -182,6 +188,12 @@ fn load_of(job: &Job, c: usize) -> Option<&Waveform> {
 fn parts_of(periods: &Periods, load: Option<&Waveform>) -> f64 {
     let loads = load.and_then(Waveform::period).map_or(0.0, |period| periods.length / period);
     (LOAD_PARTS * loads).ceil().clamp(PARTS, MOST_PARTS)
+}
+
+/// The same of a contact whose bodies ring, many times in a period.
+fn of_ringing(job: &Job, c: usize, periods: &Periods) -> f64 {
+    let frequency = job.model.contact_frequency(c).filter(|_| is_integrated(job, c)).unwrap_or(0.0);
+    (RING_PARTS * periods.length * frequency / std::f64::consts::TAU).ceil().min(MOST_PARTS)
 }
 
 /// Where a load turns: there the limit of friction has its extremes, and so has the force of a contact that slides.

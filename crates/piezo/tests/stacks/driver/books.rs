@@ -142,7 +142,6 @@ fn what_flows_back_within_a_step_is_told_apart() {
             let mean = FARADS * way / (1e-3 * PERIODS as f64);
             let off = [told.mean_current / mean, told.drawn / drawn, told.peak_current / peak];
             let off = off.map(|it| (it - 1.0).abs());
-            println!("{resistance} Ω at {tolerance:e}: {off:?}, {:?}", ran.state.counts());
             assert!(off.iter().all(|off| *off < allowed), "{resistance} Ω at {tolerance:e}: {off:?}");
         }
     }
@@ -174,7 +173,6 @@ fn a_sine_draws_by_its_capacitance() {
         let off =
             [told.peak_current / (FARADS * 50.0 * TAU * 1e3), told.mean_current / (FARADS * 200.0 * 1e3)];
         let off = off.map(|it| (it - 1.0).abs());
-        println!("at {tolerance:e}: {off:?}, {:?}", ran.state.counts());
         assert!(off.iter().all(|off| *off < allowed), "at {tolerance:e}: {off:?}");
     }
 }
