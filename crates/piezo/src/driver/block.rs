@@ -29,6 +29,11 @@ impl Driver {
         self.spec.time().map_or(1.0, |time| (time * fastest).clamp(LEAST_LAG, 1.0))
     }
 
+    /// Whether the current never jumps but with its command: behind a resistance, or a low-pass that no limit follows.
+    fn goes_on(&self) -> bool {
+        self.spec.resistance.is_some() || self.spec.low.is_some() && self.spec.current.is_none()
+    }
+
     /// How its current, as a rate of the stroke, and the power of its source change, 1/s each; how the elongation accelerates is not
     /// known.
     fn slopes_of(&self, followed: Sample, voltage: Sample) -> [f64; 2] {
@@ -56,22 +61,21 @@ impl Driver {
             kept.drawn += given[1].max(0.0);
             return;
         }
-        // Behind a resistance the current goes on from step to step, else its slope is known where no strain acts back. Of a step in which
-        // a stage settles neither tells how it began.
-        let is_known =
-            time * self.spec.rate() < 1.0 && (self.spec.resistance.is_some() || self.strain.is_none());
+        // Where the current goes on from step to step both ends are known, else its slope is where no strain acts back. Of a step in which a
+        // stage settles neither tells how it began.
+        let is_known = time * self.spec.rate() < 1.0 && (self.goes_on() || self.strain.is_none());
         let paces = [0, 1].map(|i| {
             let (given, last) = (given[i], time * end[i]);
-            match self.spec.resistance {
-                Some(_) if is_known => Pace::between(given, time * begin[i], last),
-                None if is_known => Pace::ending(given, last, time * time * slopes[i]),
+            match self.goes_on() {
+                true if is_known => Pace::between(given, time * begin[i], last),
+                false if is_known => Pace::ending(given, last, time * time * slopes[i]),
                 _ => Pace::straight(given, last),
             }
         });
         let [way, drawn] = paces.map(Pace::risen);
         kept.way += 2.0 * way - given[0];
         kept.drawn += drawn;
-        if is_known && self.spec.resistance.is_some() {
+        if is_known && self.goes_on() {
             kept.fastest = kept.fastest.max(paces[0].most() / time);
         }
     }
@@ -195,9 +199,9 @@ impl Component for Driver {
         if jumps {
             kept.way += given[0].abs();
             kept.drawn += given[1].max(0.0);
-            // The law is the one before: no more flows than may. Without a resistance all has flowed in no time.
+            // The law is the one before: no more flows than may. What nothing slows has flowed in no time.
             let (down, up) = self.spec.slew();
-            let after = if self.spec.resistance.is_some() { flow.clamp(-down, up) } else { 0.0 };
+            let after = if self.goes_on() { flow.clamp(-down, up) } else { 0.0 };
             (kept.flow, kept.power) = (after, self.source(followed, after));
             kept.fastest = kept.fastest.max(after.abs());
         } else {

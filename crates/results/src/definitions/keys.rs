@@ -209,7 +209,7 @@ pub(super) const KEYS: &[Definition] = &[
     ),
     of(
         "drivers.ACTUATOR.peak_current_A",
-        "largest |I|, at the ends of steps, within them behind a resistance, and after jumps",
+        "largest |I|, at the ends of steps, within short ones behind a resistance or a bandwidth, and after jumps",
     ),
     of("drivers.ACTUATOR.mean_current_A", "mean of |I|, C times the way of the voltage over the time"),
     of("drivers.ACTUATOR.at_limit.current_up", "share of the time at the largest current into the stack"),
