@@ -120,11 +120,7 @@ pub(super) const COLUMNS: &[Definition] = &[
     ),
     of("springs.csv", "time_s", "the moment"),
     of("springs.csv", "contact", "the contact; forces are those of one of its count"),
-    of(
-        "springs.csv",
-        "x_m",
-        "place of the spring in the row, from the middle; one side is told, the other is the same",
-    ),
+    of("springs.csv", "x_m", "place of the spring in the row, from the middle; both sides are told"),
     of("springs.csv", "stretch_m", "tangential stretch s of the spring"),
     of("springs.csv", "state", "`open`, `stick`, `slip+` or `slip-` (the sense of the force)"),
     of(

@@ -143,7 +143,7 @@ pub(super) const INFO: &[Definition] = &[
     of("actuators.ACTUATOR.corner.takes_s", "time that all of that change takes with it"),
     of("actuators.ACTUATOR.words", "what of this is worth a sentence"),
     of("expected.steps", "steps of a stepper of fixed step"),
-    of("expected.events.corners", "corners of waveforms, counted"),
+    of("expected.events.corners", "corners of waveforms: those of a period times the periods, whole or not"),
     of(
         "expected.events.contacts_estimate",
         "events of contacts and blocks, estimated: to a factor of two on the examples, elsewhere a guess",
