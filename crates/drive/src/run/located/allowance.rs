@@ -9,7 +9,7 @@ use super::shift::FAR;
 use crate::Model;
 use crate::contact::Contact;
 use crate::equations::{Components, Equations};
-use crate::model::{Link, Stroke};
+use crate::model::{Binding, Body, Link, Stroke};
 use crate::state::{Allowed, State};
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
@@ -55,7 +55,7 @@ pub(super) struct Allowance {
     pub(super) strict: f64,
     /// Natural scale of work, J.
     work: f64,
-    /// Share of a work that is rounding, where no contact tells how much of it matters.
+    /// Share of a work that is rounding, where no contact and no stroke tells how much of it matters.
     rounding: f64,
 }
 
@@ -90,7 +90,10 @@ impl Allowance {
             own.for_each(|(scale, natural)| *scale = strict * natural);
         }
         let rubs = model.contacts.iter().any(|contact| contact.friction_limit() > 0.0);
-        let rounding = if rubs { 0.0 } else { 8.0 * f64::EPSILON };
+        let follows = |body: &Body| body.bindings.iter().any(|place| matches!(place, Binding::Driven(_)));
+        let strokes = model.links.iter().any(|link| matches!(link.stroke, Stroke::Driven(_)));
+        let is_told = rubs || strokes || model.bodies.iter().any(follows);
+        let rounding = if is_told { 0.0 } else { 8.0 * f64::EPSILON };
         Self { allowed: Allowed { scale, power: 0.0 }, tolerance, strict, work: model.work_scale(), rounding }
     }
 
