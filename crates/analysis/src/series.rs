@@ -107,7 +107,8 @@ pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Serie
 }
 
 /// Smallest and largest value; (∞, -∞) of nothing.
-pub(crate) fn extent(values: &[f64]) -> (f64, f64) {
+#[must_use]
+pub fn extent(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
 }
 

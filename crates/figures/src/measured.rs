@@ -3,6 +3,7 @@
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{HysteresisLoop, Ink, loop_figure};
+use stickslip_results::measured::middle;
 use stickslip_results::program::this_program;
 use stickslip_results::provenance::{PROGRAM, TITLE};
 
@@ -48,11 +49,12 @@ pub fn all_files() -> Vec<String> {
 /// What the drawing itself fails for.
 pub fn draw(loops: &Loops<'_>, look: &Look) -> Result<Vec<Picture>, FigureError> {
     let (simulated, scale) = loops.simulated.unzip();
-    let own = middle(loops.measured);
+    let about = |curve: Curve<'_>| (middle(curve.u), middle(curve.force));
+    let own = about(loops.measured);
     let curves = [
         loops.before.map(|curve| (curve, own)),
         Some((loops.measured, own)),
-        simulated.map(|curve| (curve, middle(curve))),
+        simulated.map(|curve| (curve, about(curve))),
     ];
     let moved: Vec<(&str, Vec<f64>, Vec<f64>)> = curves
         .into_iter()
@@ -84,15 +86,4 @@ pub fn draw(loops: &Loops<'_>, look: &Look) -> Result<Vec<Picture>, FigureError>
 
 fn shifted(values: &[f64], by: f64) -> Vec<f64> {
     values.iter().map(|value| value - by).collect()
-}
-
-/// The middle of a loop.
-fn middle(curve: Curve<'_>) -> (f64, f64) {
-    let of = |values: &[f64]| {
-        let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(*value), high.max(*value))
-        });
-        low + 0.5 * (high - low)
-    };
-    (of(curve.u), of(curve.force))
 }

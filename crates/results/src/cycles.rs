@@ -23,6 +23,7 @@ use load::Load;
 use std::ops::Range;
 use stickslip_analysis::Cycle;
 use stickslip_analysis::cycles::CLOSED;
+use stickslip_analysis::series::extent;
 use stickslip_contact::Interface;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::Side;
@@ -149,7 +150,7 @@ impl Track {
     fn figures(&self, span: &Range<usize>, setup: &Setup<'_>, walk: Option<&mut Walk>) -> CycleFigures {
         let (a, b, Setup { law, count, still, .. }) = (span.start, span.end, setup);
         let (u, force) = (&self.u[a..=b], &self.force[a..=b]);
-        let ((low, high), (least, most)) = (range(u), range(force));
+        let ((low, high), (least, most)) = (extent(u), extent(force));
         let middle = least + 0.5 * (most - least);
         let is_still = high - low <= *still;
         // Along straight lines from event to event a loop has no shape.
@@ -179,12 +180,16 @@ impl Track {
         // What moves in the last digits has no loop.
         let moves = most - least > ROUNDING * law.friction() * normal;
         let peaks = |values: &[f64]| {
-            if setup.is_dense { self.peaks(span, values, setup.is_continuous) } else { range(&values[a..=b]) }
+            if setup.is_dense {
+                self.peaks(span, values, setup.is_continuous)
+            } else {
+                extent(&values[a..=b])
+            }
         };
         let ((left, right), (pulled, pushed)) = (peaks(&self.u), peaks(&self.force));
         // Polynomials beside an event know nothing of the limit of friction, beyond which nothing but damping bears.
         let limit =
-            if law.damping() > 0.0 { f64::INFINITY } else { law.friction() * range(&self.normal[a..=b]).1 };
+            if law.damping() > 0.0 { f64::INFINITY } else { law.friction() * extent(&self.normal[a..=b]).1 };
         let (pulled, pushed) = (pulled.max(least.min(-limit)), pushed.min(most.max(limit)));
         let is_closed = !is_still && (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least);
         let damping = setup.knows_damping.then(|| self.damping[b] - self.damping[a]);
@@ -289,11 +294,6 @@ fn still(job: &Job, c: usize) -> f64 {
 pub(crate) fn table_of(job: &Job, c: usize) -> Option<&Waveform> {
     let waveforms = followed(job, c).filter_map(|w| job.scenario.scene.waveforms.get(w));
     waveforms.map(|waveform| &waveform.part).find(|waveform| waveform.period().is_none())
-}
-
-/// Least and largest value.
-fn range(values: &[f64]) -> (f64, f64) {
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
 }
 
 /// Mean by the trapezium rule; of no time the first value.

@@ -190,9 +190,10 @@ fn parts_of(periods: &Periods, load: Option<&Waveform>) -> f64 {
     (LOAD_PARTS * loads).ceil().clamp(PARTS, MOST_PARTS)
 }
 
-/// The same of a contact whose bodies ring, many times in a period.
+/// The same of a damped contact whose bodies ring, many times in a period: others turn at events.
 fn of_ringing(job: &Job, c: usize, periods: &Periods) -> f64 {
-    let frequency = job.model.contact_frequency(c).filter(|_| is_integrated(job, c)).unwrap_or(0.0);
+    let rings = job.is_damped(c) && is_integrated(job, c);
+    let frequency = job.model.contact_frequency(c).filter(|_| rings).unwrap_or(0.0);
     (RING_PARTS * periods.length * frequency / std::f64::consts::TAU).ceil().min(MOST_PARTS)
 }
 

@@ -7,6 +7,7 @@ use crate::periods::Periods;
 use std::ops::Range;
 use std::path::Path;
 use stickslip_analysis::cycles::Cut;
+use stickslip_analysis::series::extent;
 use stickslip_analysis::{Cycle, SeriesError, returning_cycles, split_cycles};
 use stickslip_scenario::{Pairs, ScenarioError, pairs};
 use thiserror::Error;
@@ -216,12 +217,16 @@ pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
     text
 }
 
+/// The middle between the least and the largest value.
+#[must_use]
+pub fn middle(values: &[f64]) -> f64 {
+    let (low, high) = extent(values);
+    low + 0.5 * (high - low)
+}
+
 /// A loop about the middle of its forces.
 fn of_loop(u: &[f64], force: &[f64]) -> Result<Cycle, SeriesError> {
-    let (low, high) = force
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), force| (low.min(*force), high.max(*force)));
-    let middle = low + 0.5 * (high - low);
+    let middle = middle(force);
     let force: Vec<f64> = force.iter().map(|force| force - middle).collect();
     Cycle::of_loop(u, &force)
 }

@@ -5,8 +5,9 @@
 //! the force is short of its limit by the power 3/2 of the time that is left. So polynomials there are in the root of it, without a term of
 //! the first order.
 
-use super::{ROUNDING, Track, range};
+use super::{ROUNDING, Track};
 use std::ops::Range;
+use stickslip_analysis::series::extent;
 
 /// Moments nearer than this share of their mean distance are one.
 const NEAR: f64 = 0.01;
@@ -27,7 +28,7 @@ impl Track {
     /// began. Where values may jump at events, one next to an event is an extreme as it is.
     /// There the limits on both sides are values, too.
     pub(super) fn peaks(&self, span: &Range<usize>, values: &[f64], is_continuous: bool) -> (f64, f64) {
-        let (low, high) = range(&values[span.start..=span.end]);
+        let (low, high) = extent(&values[span.start..=span.end]);
         let of = (values, high - low, is_continuous);
         let vertex = |extreme: f64| self.vertex((span.start, span.end), of, extreme);
         let met = (vertex(low), vertex(high));
@@ -215,7 +216,7 @@ mod tests {
         for k in 0..10 {
             let track = track(64, 0.1 * h * f64::from(k) + 1.0, false);
             let missed = |(low, high): (f64, f64)| (low + 1.0).abs().max((high - 1.0).abs());
-            worst[0] = worst[0].max(missed(range(&track.force)));
+            worst[0] = worst[0].max(missed(extent(&track.force)));
             worst[1] = worst[1].max(missed(track.peaks(&(0..64), &track.force, true)));
         }
         assert!(worst[0] > 1e-3 && worst[1] < 1.42 * 2.5 * h.powi(6) / 120.0, "{worst:?}");
@@ -259,7 +260,7 @@ mod tests {
     #[test]
     fn an_extreme_that_is_an_event_stays() {
         let bent = track(64, 1.0, true);
-        assert_eq!(bent.peaks(&(0..64), &bent.force, true), range(&bent.force));
+        assert_eq!(bent.peaks(&(0..64), &bent.force, true), extent(&bent.force));
         // Up straight, and at an event down at once: no parabola goes above what it comes to there.
         let mut jumping = Track::default();
         for (t, force, bends) in [(0.0, 0.0, false), (0.5, 0.5, false), (1.0, 1.0, false), (1.5, -9.0, true)]

@@ -102,7 +102,7 @@ impl Allowance {
     ///
     /// With ε the spacing of doubles at 1: positions tolerance·length + 8ε|x|; velocities tolerance·speed +
     /// 8ε|x|·speed/length + 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers,
-    /// and where more is asked than the tolerance that of [`surge`].
+    /// where more is asked than the tolerance that of [`surge`], and 8ε|W| of works W where loads alone move bodies.
     pub(super) fn set(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
         let Allowed { scale, power } = &mut self.allowed;
