@@ -4,6 +4,10 @@ use crate::series::{SeriesError, check, check_lengths, extent, mean, sum};
 
 /// Share of the displacement range after a reversal over which the tangential stiffness is fitted.
 pub const STIFFNESS_WINDOW: f64 = 0.1;
+/// Share of the smaller of both extremes of Q, on its two sides of 0, that Q has to reach to have passed 0.
+// Of a loop of 2 000 points with noise of 0.5 % all crossings of one sense apart from all of the other gave an opening of a quarter: on
+// either branch both are in the same place.
+pub const PASSED: f64 = 0.3;
 /// Share of δ\* below which an opening is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -17,8 +21,9 @@ pub struct Cycle {
     pub displacement_amplitude: f64,
     /// Force amplitude Q\*: half of peak to peak, N.
     pub force_amplitude: f64,
-    /// δ₀: half opening of the loop at Q = 0, m; none where Q does not change sign. With several crossings
-    /// (noise), the mean of the falling less the mean of the rising ones, halved.
+    /// δ₀: half opening of the loop at Q = 0, m; none where Q does not change sign. Where Q goes to and fro about 0 on its way, as with noise,
+    /// it is there in the middle of all crossings ([`PASSED`]); with several such ways, the mean of the falling less that of the rising
+    /// ones counts, halved.
     pub half_opening: Option<f64>,
     /// `E_d`: loop area ∮Q du, J.
     pub dissipated: f64,
@@ -111,15 +116,34 @@ fn loop_area(u: &[f64], q: &[f64]) -> f64 {
     }))
 }
 
-/// Half the distance between falling and rising crossings of Q = 0, by linear interpolation.
+/// Half the distance between falling and rising passages of Q through 0.
 fn half_opening(u: &[f64], q: &[f64]) -> Option<f64> {
-    let (mut falling, mut rising) = (Vec::new(), Vec::new());
-    for i in 0..u.len() {
-        let j = (i + 1) % u.len();
+    let (low, high) = extent(q);
+    if !(low < 0.0 && high >= 0.0) {
+        return None;
+    }
+    let far = PASSED * high.min(-low);
+    let start = q.iter().position(|q| *q == high)?;
+    let (mut falling, mut rising, mut crossings) = (Vec::new(), Vec::new(), Vec::new());
+    let mut is_above = true;
+    for k in 0..u.len() {
+        let (i, j) = ((start + k) % u.len(), (start + k + 1) % u.len());
         if (q[i] < 0.0) != (q[j] < 0.0) {
             let share = q[i] / (q[i] - q[j]);
-            let at = u[i] + share * (u[j] - u[i]);
-            if q[j] < 0.0 { falling.push(at) } else { rising.push(at) }
+            crossings.push(u[i] + share * (u[j] - u[i]));
+        }
+        if q[j] <= -far && q[j] < 0.0 {
+            if is_above {
+                falling.push(mean(&crossings));
+            }
+            is_above = false;
+            crossings.clear();
+        } else if q[j] >= far {
+            if !is_above {
+                rising.push(mean(&crossings));
+            }
+            is_above = true;
+            crossings.clear();
         }
     }
     if falling.is_empty() || rising.is_empty() {
@@ -234,6 +258,28 @@ mod tests {
             (point.energy_ratio(), point.slip_ratio(), point.stiffness_after_maximum),
             (None, None, None)
         );
+    }
+
+    /// A parallelogram of 4 000 points under noise of 2 %, and the same with a small loop across 0 on its way up: opening 0.8 as without.
+    #[test]
+    fn noise_and_loops_across_zero_leave_the_opening() {
+        let corners = [(1.0, 1.0), (0.6, -1.0), (-1.0, -1.0), (-0.6, 1.0), (1.0, 1.0)];
+        let points = 4000;
+        let on = |i: usize| {
+            let (side, share) = (4 * i / points, (4 * i % points) as f64 / points as f64);
+            let ((u0, q0), (u1, q1)) = (corners[side], corners[side + 1]);
+            (u0 + share * (u1 - u0), q0 + share * (q1 - q0))
+        };
+        let noise = |i: usize| 0.02 * (2.4 * i as f64).sin();
+        let (u, q): (Vec<f64>, Vec<f64>) = (0..points).map(on).unzip();
+        let noisy: Vec<f64> = q.iter().enumerate().map(|(i, q)| q + noise(i)).collect();
+        assert!(noisy.windows(2).filter(|q| q[0] * q[1] < 0.0).count() > 10);
+        assert_abs_diff_eq!(Cycle::of_loop(&u, &noisy).unwrap().half_opening.unwrap(), 0.8, epsilon = 1e-3);
+        // On the side from (-1, -1) to (-0.6, 1), which is at 0 in -0.8.
+        let looped: Vec<f64> = (0..points)
+            .map(|i| if i % 1000 > 480 && i % 1000 < 520 && i > 2000 && i < 3000 { -q[i] } else { q[i] })
+            .collect();
+        assert_abs_diff_eq!(Cycle::of_loop(&u, &looped).unwrap().half_opening.unwrap(), 0.8, epsilon = 1e-3);
     }
 
     #[test]
