@@ -37,6 +37,7 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
     let stepper = job.model.effective(job.scenario.plan.stepper);
     odd.frames(stepper);
     odd.drivers(stepper);
+    odd.chatter(stepper);
     let Implausible { mut found, left_out, .. } = odd;
     if let (Some(last), 1..) = (found.last_mut(), left_out) {
         let (more, help) = (format!("{left_out} more warnings are not shown"), &mut last.report.help);
@@ -50,6 +51,7 @@ pub(crate) fn of_frames(job: &Job, stepper: Stepper) -> Vec<Warning> {
     let mut odd = Implausible { job, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.frames(stepper);
     odd.drivers(stepper);
+    odd.chatter(stepper);
     odd.found
 }
 

@@ -11,6 +11,23 @@ const STRIDE: f64 = 6.0;
 const MANY: f64 = 1e6;
 
 impl Implausible<'_> {
+    /// Limits of current that the charge of strain meets, under a stepper whose steps do not end there: it goes into the limit and out
+    /// of it from step to step, however short they are.
+    pub(super) fn chatter(&mut self, stepper: Stepper) {
+        if stepper.locates_events() {
+            return;
+        }
+        for piezo in self.job.scenario.stacks.iter().filter(|piezo| piezo.is_reciprocal) {
+            let Some(spec) = &piezo.driver else { continue };
+            if spec.current.is_some() && spec.resistance.is_none() {
+                let path = format!("actuators.{}.driver.reciprocal", piezo.name);
+                let message = "without events a reciprocal driver chatters at its limit of current, whatever the step: what it draws may be a third too much, what dampers take many times as much".to_owned();
+                let help = "take the stepper event, or give the driver its resistance";
+                self.find("driver_chatters", &path, message, help);
+            }
+        }
+    }
+
     /// Drivers that follow so fast that stability, not what is to be seen, makes the steps.
     pub(super) fn drivers(&mut self, stepper: Stepper) {
         let job = self.job;

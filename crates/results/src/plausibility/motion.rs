@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use stickslip_drive::facts::{ExpectedEvents, fixed_steps, zero_step_stroke};
 use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 use stickslip_drive::{Accuracy, Shape, Stepper, Waveform};
+use stickslip_scenario::Hysteresis;
 
 /// Strokes of piezo drives, m: below the first the noise of any amplifier is larger, and above the second there is no flexure.
 const STROKES: (f64, f64) = (1e-12, 1e-3);
@@ -29,6 +30,8 @@ const STRUCK: f64 = 0.1;
 /// Accuracy of frames down to which limits of drivers may be met a step late: of two drawn drives 7e-5 and 8e-4 of a stroke were lost
 /// where 1e-5 was asked.
 const LIMITS: f64 = 1e-3;
+/// The same where a window cuts a voltage that follows at once: 7e-3 were lost where 1e-3 was asked, and 3.4e-4 of 1e-6.
+const HARD_LIMITS: f64 = 1e-2;
 /// Pieces of a waveform that are looked at.
 const PIECES: usize = 100_000;
 /// Events, or steps, of a run of some days.
@@ -242,18 +245,29 @@ impl Implausible<'_> {
         self.limited_frames(accuracy);
     }
 
-    /// Drivers that meet a limit of their current: steps do not end there.
+    /// Stacks that meet a limit or whose plays turn: steps do not end there.
     fn limited_frames(&mut self, accuracy: f64) {
         let job = self.job;
-        for piezo in job.scenario.stacks.iter().filter(|_| accuracy < LIMITS) {
-            if piezo.driver.is_some_and(|driver| driver.current.is_some()) {
-                let path = format!("actuators.{}.driver.current", piezo.name);
-                let message = format!(
-                    "frames meet this limit late by up to a step: more than {accuracy:e} may be lost of a stroke where it acts"
-                );
-                let help = "compare with shorter frames, or take the stepper event in frames";
-                self.find("frames_under_limits", &path, message, help);
-            }
+        for piezo in &job.scenario.stacks {
+            let spec = piezo.driver.as_ref();
+            let follows = spec.is_none_or(|spec| spec.resistance.is_none() && spec.low.is_none());
+            let plays =
+                matches!(piezo.ceramic.hysteresis, Some(Hysteresis::Plays(..))) && !piezo.ceramic.idle;
+            let (key, what) = if spec.is_some_and(|spec| spec.current.is_some()) && accuracy < LIMITS {
+                ("driver.current", "meet this limit")
+            } else if piezo.is_cut && follows && accuracy < HARD_LIMITS {
+                ("driver.window", "meet an end of this window")
+            } else if plays && accuracy < LIMITS {
+                ("hysteresis", "see plays of this hysteresis turn")
+            } else {
+                continue;
+            };
+            let path = format!("actuators.{}.{key}", piezo.name);
+            let message = format!(
+                "frames {what} late by up to a step: more than {accuracy:e} may be lost of a stroke where it acts"
+            );
+            let help = "compare with shorter frames, or take the stepper event in frames";
+            self.find("frames_under_limits", &path, message, help);
         }
     }
 

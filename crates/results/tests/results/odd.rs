@@ -42,7 +42,9 @@ fn odd_scenes_are_warned_of_word_for_word() {
     kinds.dedup();
     let all = [
         "damping",
+        "driver_chatters",
         "endless",
+        "frames_under_limits",
         "friction",
         "geometry",
         "load",

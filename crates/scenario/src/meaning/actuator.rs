@@ -34,6 +34,10 @@ pub struct Piezo {
     pub by_voltage: bool,
     /// What its driver can do, where it has one.
     pub driver: Option<Spec>,
+    /// Whether the window of that cuts its command.
+    pub is_cut: bool,
+    /// Whether the charge of strain acts back on that.
+    pub is_reciprocal: bool,
     /// Smallest step of its voltage, V, where the scenario tells it.
     pub resolution: Option<f64>,
     /// Hysteresis and creep.
@@ -58,6 +62,8 @@ impl Builder<'_> {
                 command: Varying::default(),
                 by_voltage: actuator.voltage.is_some(),
                 driver: None,
+                is_cut: false,
+                is_reciprocal: false,
                 resolution: None,
                 ceramic: Ceramic::default(),
                 block: None,

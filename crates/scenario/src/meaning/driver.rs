@@ -58,6 +58,7 @@ impl Builder<'_> {
             if first < low - slack || first > high + slack {
                 return outside(format!("expected a start inside {window}, got {} V", range::short(first)));
             }
+            self.stacks[i].is_cut = least < low - slack || most > high + slack;
         }
         let coupling = if form.reciprocal { Some(self.coupling(&at, i)?) } else { None };
         if let (Some(coupling), Control::Charge) = (coupling, spec.control) {
@@ -70,7 +71,9 @@ impl Builder<'_> {
             Some(waveform) => driver.commanded_within(waveform.part.quickest()),
             None => driver,
         };
-        let driver = match coupling.filter(|_| spec.control == Control::Voltage) {
+        let coupling = coupling.filter(|_| spec.control == Control::Voltage);
+        self.stacks[i].is_reciprocal = coupling.is_some();
+        let driver = match coupling {
             Some(coupling) => driver.reciprocal(coupling, self.elongation(i)),
             None => driver,
         };
