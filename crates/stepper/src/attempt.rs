@@ -1,6 +1,7 @@
 //! What an event-aware run asks of a method.
 
 use crate::Grade;
+use std::ops::Range;
 
 /// What a method is, whatever it is at.
 // Three small contracts instead of one, and only the last one knows the system: who asks for the ends of a step names no
@@ -73,6 +74,21 @@ pub trait Attempt<S: ?Sized>: Method + Step {
     ///
     /// May be called any number of times from the same start.
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64;
+    /// All components at a time `t` inside the step tried, as exactly as at its end, where the dense output is not as exact as that; false
+    /// where it is, or is all there is. The step stays as it is, and nothing is counted. `scale` as for an attempt.
+    fn visit(&mut self, system: &S, t: f64, scale: &[f64], out: &mut [f64]) -> bool {
+        let _ = (system, t, scale, out);
+        false
+    }
+    /// Puts some components of a step that was cut as exactly as [`visit`](Self::visit) tells them, and counts that.
+    fn settle(&mut self, system: &S, scale: &[f64], components: Range<usize>) {
+        let _ = (system, scale, components);
+    }
+    /// Cuts the step at an earlier time `t`, where the dense output is there, into the state that [`visit`](Self::visit) tells.
+    fn cut_exactly(&mut self, system: &S, t: f64, scale: &[f64]) {
+        let _ = (system, scale);
+        self.cut(t);
+    }
     /// Makes more known of the step tried, at the first call only.
     fn complete(&mut self, system: &S, what: Completion);
 }

@@ -11,10 +11,12 @@ mod order5;
 mod order8;
 mod stages;
 mod tableau;
+mod visit;
 
 pub use grade::Grade;
 
 use crate::{Attempt, Completion, End, Hand, Method, Span, Step, System, Target};
+use std::ops::Range;
 use tableau::Slopes;
 
 /// Order of the method.
@@ -47,6 +49,8 @@ pub struct DormandPrince {
     /// The dense output, component by component.
     polynomials: Vec<dense::Polynomial>,
     dense_known: bool,
+    /// Goes from the start to moments inside the step; there once somebody has asked.
+    visitor: Option<Box<Self>>,
     evaluations: u64,
 }
 
@@ -94,6 +98,7 @@ impl DormandPrince {
             k: vec![Slopes::default(); total.div_ceil(2)],
             polynomials: vec![dense::Polynomial::default(); total],
             dense_known: false,
+            visitor: None,
             evaluations: 0,
         }
     }
@@ -242,6 +247,15 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
     #[inline]
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
         self.attempt_span(system, to, scale)
+    }
+
+    fn visit(&mut self, system: &S, t: f64, scale: &[f64], out: &mut [f64]) -> bool {
+        self.invite();
+        self.visit_inside(system, t, scale, out)
+    }
+
+    fn settle(&mut self, system: &S, scale: &[f64], components: Range<usize>) {
+        self.settle_cut(system, scale, components);
     }
 
     /// The slopes at the end cost one evaluation, the dense output three more.

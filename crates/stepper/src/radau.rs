@@ -1,4 +1,5 @@
-//! The implicit Runge–Kutta method Radau IIA of order 9, for stiff systems: error estimate and dense output of order 5.
+//! The implicit Runge–Kutta method Radau IIA of order 9, for stiff systems: error estimate and dense output of order 5. What is to be
+//! known of a moment as exactly as an end is had by a step up to there.
 //!
 //! Where something settles within nanoseconds what is to be seen for milliseconds, an explicit method takes steps of
 //! nanoseconds all the time, or its own errors grow. This one is L-stable: what fades within a step is gone at its end, whatever
@@ -12,10 +13,12 @@ mod estimate;
 mod jacobian;
 mod newton;
 mod tableau;
+mod visit;
 
 use crate::{Attempt, Completion, End, Hand, Method, Span, Step, System, Target};
 use elimination::Elimination;
 use jacobian::Jacobian;
+use std::ops::Range;
 use tableau::{NODES, STAGES, Stages};
 
 /// Power of the step with which the error estimate falls, and the error of the dense output.
@@ -58,6 +61,8 @@ pub struct Radau {
     newest: Vec<f64>,
     polynomials: Vec<dense::Polynomial>,
     dense_known: bool,
+    /// Goes from the start to moments inside the step; there once somebody has asked.
+    visitor: Option<Box<Self>>,
     evaluations: u64,
 }
 
@@ -107,6 +112,7 @@ impl Radau {
             newest: vec![0.0; total],
             polynomials: vec![[0.0; STAGES]; total],
             dense_known: false,
+            visitor: None,
             evaluations: 0,
         }
     }
@@ -284,6 +290,20 @@ impl<S: System + ?Sized> Attempt<S> for Radau {
         self.arrive();
         let error = self.error(scale);
         if self.end.iter().sum::<f64>().is_finite() { error } else { f64::INFINITY }
+    }
+
+    fn visit(&mut self, system: &S, t: f64, scale: &[f64], out: &mut [f64]) -> bool {
+        self.invite();
+        self.visit_inside(system, t, scale, out)
+    }
+
+    fn settle(&mut self, system: &S, scale: &[f64], components: Range<usize>) {
+        self.settle_cut(system, scale, components);
+    }
+
+    fn cut_exactly(&mut self, system: &S, t: f64, scale: &[f64]) {
+        self.cut(t);
+        self.settle_cut(system, scale, 0..self.end.len());
     }
 
     /// Neither costs an evaluation.

@@ -109,21 +109,21 @@ fn an_apex_that_crosses_its_old_curve_back_and_forth_is_seen() {
     against_fixed_steps("back_and_forth", ["200 ns", "100 ns"], &[1e-7, 1e-8, 1e-10, 1e-12], 100.0);
 }
 
-/// Stick and slip push each other back behind a driver, too: one detour, on which its states go along.
+/// Stick and slip push each other back behind a driver, too, as long as its voltage is off where a step is cut: where it belongs none is
+/// needed. With it on the dense output there was a detour at each of these tolerances, and places were off by up to 300 of them.
 #[test]
-fn a_scene_with_a_driver_takes_detours() {
+fn a_scene_with_a_driver_needs_no_detours() {
     let places_at = |tolerance: f64| {
         let (job, outcome) = event("behind_a_driver", tolerance);
         (places(&job, &outcome.state), outcome.state.counts().detours)
     };
-    // From 1e-7 on none is needed. Classical Runge-Kutta at 5 us is 1.5e-5 off it, at 10 us 5e-4.
-    let (finest, none) = places_at(1e-9);
-    assert_eq!(none, 0);
+    // Classical Runge-Kutta at 5 us is 1.5e-5 off it, at 10 us 5e-4.
+    let (finest, _) = places_at(1e-9);
     for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
         let (now, detours) = places_at(tolerance);
         let off = off(&now, &finest);
         println!("behind_a_driver at {tolerance:e}: {off:.2e} u_c off, {detours} detours");
-        assert!(detours > 0 && off < 300.0 * tolerance, "{tolerance:e}: {off:e}, {detours} detours");
+        assert!(detours == 0 && off < tolerance, "{tolerance:e}: {off:e}, {detours} detours");
     }
     against_fixed_steps("rests_behind_a_driver", ["10 us", "5 us"], &[1e-2, 1e-3, 1e-6], 100.0);
 }

@@ -35,6 +35,13 @@ impl Jacobian {
         }
     }
 
+    /// Takes over what another one of the same size knows, in the room there is.
+    pub(super) fn copy(&mut self, of: &Self) {
+        self.entries.copy_from_slice(&of.entries);
+        self.base.copy_from_slice(&of.base);
+        self.known = of.known;
+    }
+
     /// Evaluations that it takes.
     pub(super) fn cost(&self) -> u64 {
         self.dimension as u64 + 1
@@ -71,5 +78,11 @@ impl Jacobian {
     pub(super) fn along(&self, i: usize, changes: &[f64]) -> f64 {
         let row = &self.entries[i * self.dimension..(i + 1) * self.dimension];
         row.iter().zip(changes).map(|(a, change)| a * change).sum()
+    }
+
+    /// Σ |∂(slope of `i`)/∂(component `j`) · component `j`|: what a relative change of every component may make of a slope.
+    pub(super) fn size(&self, i: usize, y: &[f64]) -> f64 {
+        let row = &self.entries[i * self.dimension..(i + 1) * self.dimension];
+        row.iter().zip(y).map(|(a, y)| (a * y).abs()).sum()
     }
 }

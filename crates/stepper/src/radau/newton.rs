@@ -24,6 +24,11 @@ impl Radau {
             return false;
         }
         self.k.fill([0.0; STAGES]);
+        self.correct_stages(system, scale)
+    }
+
+    /// The same from slopes that are there, by the matrix that is there.
+    pub(super) fn correct_stages<S: System + ?Sized>(&mut self, system: &S, scale: &[f64]) -> bool {
         self.follow();
         let mut before = f64::INFINITY;
         for round in 0..CORRECTIONS {
@@ -44,7 +49,7 @@ impl Radau {
     }
 
     /// The matrix of the corrections, stage by stage.
-    fn factor_stages(&mut self) -> bool {
+    pub(super) fn factor_stages(&mut self) -> bool {
         let (p, m, h) = (self.positions, self.dimension - self.positions, self.extent.step);
         let jacobian = &self.jacobian;
         self.matrix.factor(|row, column| {

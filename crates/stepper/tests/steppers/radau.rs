@@ -109,6 +109,35 @@ fn what_is_stiff_stays_on_its_solution() {
     }
 }
 
+/// Inside a step a visit stays there, too, and the polynomial does not: off by a part of 10⁻¹⁰, at 10⁷/s it is no longer where the equation
+/// has slopes of the order of 1. Neither moves the step.
+#[test]
+fn a_visit_inside_a_step_is_where_what_is_stiff_belongs() {
+    let system = ProtheroRobinson { rate: 1e7 };
+    let scale = [1e-10; 2];
+    let mut stepper = stepper(&system);
+    stepper.start(&system, 0.0, &[1.0, 0.0]);
+    stepper.attempt(&system, Target::even(0.5), &scale);
+    stepper.complete(&system, Completion::Dense);
+    let (end, evaluations) = (stepper.span().end.to_vec(), stepper.evaluations());
+    let slope = |t: f64, y: f64| -system.rate * (y - t.cos()) - t.sin();
+    let mut dense: f64 = 0.0;
+    for t in [0.02, 0.1, 0.2, 0.3, 0.45] {
+        let mut at = [0.0; 2];
+        assert!(stepper.visit(&system, t, &scale, &mut at));
+        assert!((slope(t, at[0]) + t.sin()).abs() < 1e-6, "{t}: {at:?}");
+        assert!((at[1] - (0.5 * t + 0.25 * (2.0 * t).sin())).abs() < 1e-10, "{t}: {at:?}");
+        dense = dense.max((slope(t, stepper.value(0, t)) + t.sin()).abs());
+    }
+    assert!(dense > 1e-2, "{dense}");
+    assert!(!stepper.visit(&system, 0.5, &scale, &mut [0.0; 2]), "the end is as exact");
+    assert!(stepper.span().end == end && stepper.evaluations() == evaluations);
+    // Cut there, it ends so.
+    stepper.cut_exactly(&system, 0.3, &scale);
+    let cut = stepper.span().end[0];
+    assert!((slope(0.3, cut) + 0.3_f64.sin()).abs() < 1e-6 && stepper.span().end_time == 0.3);
+}
+
 /// A fall from beside the solution at 10⁹/s is resolved, and then forgotten: ∫(y-cos t)² of it is 1/(2λ).
 #[test]
 fn a_layer_is_resolved_and_left_behind() {

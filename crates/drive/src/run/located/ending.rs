@@ -64,7 +64,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let eq = self.setting.equations(state, &self.interval);
         let solver = &mut self.motion.solver;
         solver.complete(&eq, Completion::Dense);
-        solver.cut(self.horizon.end);
+        solver.cut_exactly(&eq, self.horizon.end, &self.motion.allowance.allowed.scale);
         solver.complete(&eq, Completion::EndSlopes);
         self.watch.arrive(&eq, &self.motion.solver);
         self.watch.fired.clear();

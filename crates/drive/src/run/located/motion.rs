@@ -37,6 +37,8 @@ pub(super) struct Motion<A> {
     pub(super) whereabouts: Whereabouts,
     pub(super) allowance: Allowance,
     pub(super) pace: Pace,
+    /// Whether something may fade several times within a step: of that the dense output is off by far more than the ends of steps.
+    pub(super) fades: bool,
     /// Where the law has kinks that end no step: room for the channels of a moment, by whose books steps are judged as well.
     books: Option<Vec<f64>>,
 }
@@ -77,7 +79,8 @@ impl<A> Motion<A> {
         };
         let allowance = Allowance::new(model, tolerance, scale);
         let books = is_kinked(model).then(Vec::new);
-        Self { solver, whereabouts: Whereabouts::Behind, allowance, pace, books }
+        let fades = model.stiff || !model.blocks.is_empty();
+        Self { solver, whereabouts: Whereabouts::Behind, allowance, pace, fades, books }
     }
 }
 

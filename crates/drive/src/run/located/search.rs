@@ -8,6 +8,7 @@
 //!
 //! What falls at the same moment, or is as good as down there, is one event: all of it fires before any law is chosen.
 
+mod meeting;
 mod reading;
 mod side;
 
@@ -75,16 +76,21 @@ impl Watch {
     /// Ends the step where a guard falls, or where one does that is up at both ends of the step but down there, such as that of a
     /// piece of memory that an edge has used up before it turns back: that one came first. Collected are the guard that ends the
     /// step, whatever its last bit says, and all others that are down or as good as down there: simultaneous events are one.
+    ///
+    /// Where something fades within steps, errors are allowed of it, and the cut is met as exactly as an end.
     pub(super) fn end_at<'e, A: for<'q> Attempt<Equations<'q>>>(
         &mut self,
-        solver: &mut A,
+        (solver, fading): (&mut A, Option<&Vec<f64>>),
         eq: &Equations<'e>,
         mut fall: Fall<'e>,
     ) {
         for round in 0.. {
             let is_cut = fall.t < solver.span().end_time;
             if is_cut {
-                solver.cut(fall.t);
+                match fading {
+                    Some(scale) => self.meet((solver, scale), eq, &mut fall),
+                    None => solver.cut(fall.t),
+                }
                 self.arrive_at_cut(eq, solver);
             }
             let Self { from, to, near, tolerance, fired, .. } = self;

@@ -267,7 +267,8 @@ fn attempt<A: for<'e> Attempt<Equations<'e>>>(
         watch.arrive(eq, &motion.solver);
         watch.fired.clear();
         if let Some(fall) = watch.first_fall(&mut motion.solver, eq) {
-            watch.end_at(&mut motion.solver, eq, fall);
+            let scale = &motion.allowance.allowed.scale;
+            watch.end_at((&mut motion.solver, motion.fades.then_some(scale)), eq, fall);
         }
     }
     verdict

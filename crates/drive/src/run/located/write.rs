@@ -3,8 +3,8 @@
 //! Output never changes the trajectory: what is written is read off a step already accepted, memories are
 //! shown as copies, and the evaluations that the dense output costs are taken off the run's count.
 
-use super::Located;
 use super::path::Growth;
+use super::{Located, Motion};
 use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::record::Record;
@@ -53,16 +53,25 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.motion.solver.complete(&self.setting.equations(state, &self.interval), Completion::Dense);
         // Integrals of the state that this run has no need to integrate stay as they are.
         let known = self.motion.solver.span().end.len();
+        let mut visited = std::mem::take(&mut self.output.components);
+        visited[known..].copy_from_slice(&state.y[known..]);
         while let Some(due) = self.output.grid.due(t) {
-            let y = |i: usize| if i < known { self.motion.solver.value(i, due) } else { state.y[i] };
-            self.output.grid.write(eq, state, due, &y, record);
+            self.visit(state, due, &mut visited[..known]);
+            self.output.grid.write(eq, state, due, &|i| visited[i], record);
         }
-        let at = |i: usize, t: f64| if i < known { self.motion.solver.value(i, t) } else { state.y[i] };
+        let solver = &self.motion.solver;
+        let at = |i: usize, t: f64| if i < known { solver.value(i, t) } else { state.y[i] };
         self.output.turns.locate(eq, [state.t, t], at);
         while let Some(due) = self.output.marks.due(t) {
+            self.visit(state, due, &mut visited[..known]);
+            let solver = &self.motion.solver;
+            let at = |i: usize, t: f64| if i < known { solver.value(i, t) } else { state.y[i] };
             self.output.tell_turns(eq, state, due, at, record);
-            self.output.marks.write(eq, state, due, &|i| at(i, due), record);
+            self.output.marks.write(eq, state, due, &|i| visited[i], record);
         }
+        self.output.components = visited;
+        let solver = &self.motion.solver;
+        let at = |i: usize, t: f64| if i < known { solver.value(i, t) } else { state.y[i] };
         self.output.tell_turns(eq, state, t, at, record);
         while let Some(due) = self.output.looks.due(t) {
             let memories = self.memories_at(eq, state, due, |i| self.motion.component(i, due));
@@ -70,6 +79,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         // What output asks for is no part of the run.
         self.output.evaluations += self.motion.solver.evaluations() - asked;
+    }
+
+    /// All components of the solver at a time inside the step: by its dense output, or as exactly as at its end where something fades
+    /// within steps, of which the dense output is off by far more.
+    fn visit(&mut self, state: &State, t: f64, out: &mut [f64]) {
+        let eq = self.setting.equations(state, &self.interval);
+        let Motion { solver, allowance, fades, .. } = &mut self.motion;
+        if !*fades || !solver.visit(&eq, t, &allowance.allowed.scale, out) {
+            let part = solver.part(t);
+            out.iter_mut().enumerate().for_each(|(i, to)| *to = solver.value_at(i, part));
+        }
     }
 
     /// The memories of all contacts at a time inside the step, as if it ended there; `y` reads the components. Kept out of the way of rows.

@@ -120,3 +120,44 @@ fn books_close_with_the_work_of_the_stack_in_them() {
         assert!(worked.iter().any(|work| work.abs() > 1e-4 * scale), "it works");
     }
 }
+
+/// A driver that settles within nanoseconds holds V = f: the current is C(1 - κ)ḟ + kαv at every row, however many of them lie inside a
+/// step. A step's dense output leaves V beside f by little, and the current is what little there is over R.
+#[test]
+fn the_current_is_right_inside_steps_over_what_settles() {
+    const OHMS: f64 = 1e-3;
+    let swing = 50.0;
+    let command = every(Shape::Sine { amplitude: swing * GAIN, phase: -0.25 * TAU, offset: swing * GAIN });
+    for tolerance in [1e-3, 1e-4, 1e-6] {
+        let ran = ran(
+            &stack(command.clone(), spec(Some(OHMS), None), Coordinate::FREE),
+            &event(tolerance, 4e-3),
+            3.7e-6,
+        );
+        let (t, v) = (ran.column("time_s"), ran.column("foot.vx_m_s"));
+        let current = ran.column("stack.current_A");
+        let omega = TAU / crate::parts::PERIOD;
+        let exact = |t: f64, v: f64| {
+            FARADS * (1.0 - COUPLING) * swing * omega * (omega * t).sin() + STIFFNESS * GAIN * v
+        };
+        // The voltage lags by RC: a current differs by ωRC of itself.
+        let peak = current.iter().fold(0.0, |most: f64, i| most.max(i.abs()));
+        let worst =
+            t.iter().zip(&v).zip(&current).map(|((t, v), i)| (i - exact(*t, *v)).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-4 * peak, "{tolerance:e}: {worst} of {peak}");
+        assert!(t.len() as u64 > 4 * ran.state.counts().steps, "{:?}", ran.state.counts());
+    }
+}
+
+/// Rounding of a voltage over a resistance of 1 µΩ is a power far above a tolerance of 1e-11, and no shorter step has less of it: steps
+/// go with the eighth root of the tolerance or so, and not with its inverse.
+#[test]
+fn rounding_of_what_settles_shortens_no_steps() {
+    let command = every(Shape::Sine { amplitude: 50.0 * GAIN, phase: -0.25 * TAU, offset: 50.0 * GAIN });
+    let scene = stack(command, spec(Some(1e-6), None), Coordinate::FREE);
+    let [coarse, fine] = [1e-7, 1e-11].map(|tolerance| {
+        let ran = ran(&scene, &event(tolerance, 2e-3), 1e-3);
+        ran.state.counts().steps
+    });
+    assert!(fine < 10 * coarse, "{coarse} {fine}");
+}
