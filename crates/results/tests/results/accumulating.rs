@@ -109,8 +109,8 @@ fn an_apex_that_crosses_its_old_curve_back_and_forth_is_seen() {
     against_fixed_steps("back_and_forth", ["200 ns", "100 ns"], &[1e-7, 1e-8, 1e-10, 1e-12], 100.0);
 }
 
-/// Stick and slip push each other back behind a driver, too, as long as its voltage is off where a step is cut: where it belongs none is
-/// needed. With it on the dense output there was a detour at each of these tolerances, and places were off by up to 300 of them.
+/// Behind a driver whose voltage is off where steps are cut stick and slip push each other back, and took a detour or two at each of these
+/// tolerances. Where it belongs none is needed.
 #[test]
 fn a_scene_with_a_driver_needs_no_detours() {
     let places_at = |tolerance: f64| {

@@ -92,7 +92,7 @@ fn drivers_of_nanoseconds_are_stepped_over() {
 }
 
 /// A voltage through RC = 5 µs behind lines, V = f - ḟRC + (V₀ - f₀ + ḟRC)e^{-t/RC}, at every row between and after the events of a contact: a
-/// step that an event cuts ends where the voltage belongs. On the dense output it was off by 4e-3 of the range at 1e-3, row after row.
+/// step that an event cuts ends where the voltage belongs. On the dense output it was off by 8e-4 of the range at 1e-3.
 #[test]
 fn events_of_contacts_leave_a_lagging_voltage_where_it_belongs() {
     const OHMS: f64 = 5.0;
