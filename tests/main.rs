@@ -1,6 +1,7 @@
 //! Behaviour of the whole program: what it writes, says and answers.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
+mod back_step;
 mod bench;
 mod bench_frames;
 mod broken_files;

@@ -30,4 +30,4 @@ pub use regime::{Regime, Thresholds};
 pub use sequence::Sequence;
 pub use series::SeriesError;
 pub use settling::{Bounds, Settled, Settling};
-pub use steps::{Steady, Step, Steps, Stride, Strides};
+pub use steps::{Steady, Steps, Stride, Strides};

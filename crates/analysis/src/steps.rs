@@ -16,6 +16,10 @@ pub struct Stride {
     pub least: f64,
     /// The largest.
     pub most: f64,
+    /// The largest fall after a maximum within it.
+    pub fall: f64,
+    /// The largest rise after a minimum within it.
+    pub rise: f64,
 }
 
 /// Strides in order: in memory, or on a disk where there are too many.
@@ -50,18 +54,6 @@ impl<S: Strides + ?Sized> Sequence for Lengths<'_, S> {
     }
 }
 
-/// One period of a drive.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
-    /// Step length: x at the end less x at the start of the period, m.
-    pub length: f64,
-    /// Forward stroke: the largest x within the period less x at its start, m, in the direction of travel.
-    pub forward: f64,
-    /// Way lost in the flyback and after: the largest x within the period less x at its end, m, in the
-    /// direction of travel.
-    pub backward: f64,
-}
-
 /// The steady state: statistics over the last periods, of a drive that has settled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steady {
@@ -75,8 +67,8 @@ pub struct Steady {
     pub error: f64,
     /// Repeatability: standard deviation of the step length (n-1), m; none for a single period.
     pub repeatability: Option<f64>,
-    /// Mean back-step; none where a period has no forward stroke.
-    pub back_step: Option<f64>,
+    /// Mean back-step, m: [`Stride::back_step`].
+    pub back_step: f64,
 }
 
 /// The quantities of a drive's record.
@@ -95,24 +87,32 @@ pub struct Steps {
 }
 
 impl Stride {
+    /// That of a body that goes through some positions from its start to its end, m.
+    fn along(start: f64, inside: impl Iterator<Item = f64>, end: f64) -> Self {
+        let blank = Self { start, end, least: start, most: start, fall: 0.0, rise: 0.0 };
+        inside.chain([end]).fold(blank, |so_far, x| Self {
+            least: so_far.least.min(x),
+            most: so_far.most.max(x),
+            fall: so_far.fall.max(so_far.most - x),
+            rise: so_far.rise.max(x - so_far.least),
+            ..so_far
+        })
+    }
+
     /// Length of the step, m.
     pub fn length(&self) -> f64 {
         self.end - self.start
     }
 
-    /// The step of a drive that goes forward, or backward.
-    fn step(self, is_forward: bool) -> Step {
-        let Self { start, end, least, most } = self;
-        let [forward, backward] =
-            if is_forward { [most - start, most - end] } else { [start - least, end - least] };
-        Step { length: self.length(), forward, backward }
-    }
-}
-
-impl Step {
-    /// Back-step: the share of the forward stroke that is lost; none without forward stroke.
-    pub fn back_step(&self) -> Option<f64> {
-        Some(self.backward / self.forward).filter(|share| self.forward > 0.0 && share.is_finite())
+    /// Back-step, m: the largest motion against the step after an extreme, within this period and its repetition: max x(t₁) - x(t₂)
+    /// over t₁ ≤ t₂ of a step forward. Without a step it is the peak-to-peak motion.
+    pub fn back_step(&self) -> f64 {
+        let step = self.length();
+        if step >= 0.0 {
+            self.fall.max(self.most - (self.least + step))
+        } else {
+            self.rise.max(self.most + step - self.least)
+        }
     }
 }
 
@@ -134,7 +134,7 @@ impl Steps {
         let travel = last.zip(first).map_or(0.0, |(last, first)| last.end - first.start);
         let settling = Settling::of(&Lengths(strides), bounds);
         let steady = match settling {
-            Settling::Settled(settled) => Some(Steady::of_strides(strides, settled, travel >= 0.0)),
+            Settling::Settled(settled) => Some(Steady::of_strides(strides, settled)),
             _ => None,
         };
         let time = (periods as f64 * period).max(f64::MIN_POSITIVE);
@@ -154,14 +154,9 @@ impl Steps {
         check_positive("period", period)?;
         let count = whole_periods(t, period)?;
         let ends: Vec<f64> = (0..=count).map(|k| position(t, x, t[0] + k as f64 * period)).collect();
-        let range = |k: usize| {
-            let inside = span(t, t[0] + k as f64 * period, t[0] + (k + 1) as f64 * period);
-            let both = [ends[k].min(ends[k + 1]), ends[k].max(ends[k + 1])];
-            x[inside].iter().fold(both, |[least, most], &x| [least.min(x), most.max(x)])
-        };
         let stride = |k: usize| {
-            let [least, most] = range(k);
-            Stride { start: ends[k], end: ends[k + 1], least, most }
+            let inside = span(t, t[0] + k as f64 * period, t[0] + (k + 1) as f64 * period);
+            Stride::along(ends[k], x[inside].iter().copied(), ends[k + 1])
         };
         let strides: Vec<Stride> = (0..count).map(stride).collect();
         Ok(Self::of_strides(strides.as_slice(), period, x[x.len() - 1] - x[0], bounds))
@@ -169,23 +164,20 @@ impl Steps {
 }
 
 impl Steady {
-    fn of_strides<S: Strides + ?Sized>(strides: &S, settled: Settled, is_forward: bool) -> Self {
+    fn of_strides<S: Strides + ?Sized>(strides: &S, settled: Settled) -> Self {
         let count = strides.count();
         let averaged = count - settled.last.min(count)..count;
         let periods = averaged.len();
         let spread =
             sum(strides.part(averaged.clone()).map(|stride| (stride.length() - settled.value).powi(2)));
-        // One that has no share has no mean.
-        let has_all =
-            strides.part(averaged.clone()).all(|stride| stride.step(is_forward).back_step().is_some());
-        let shares = strides.part(averaged).filter_map(|stride| stride.step(is_forward).back_step());
+        let back_steps = strides.part(averaged).map(|stride| stride.back_step());
         Self {
             from: settled.from,
             periods,
             step: settled.value,
             error: settled.error,
             repeatability: (periods > 1).then(|| (spread / (periods - 1) as f64).sqrt()),
-            back_step: has_all.then(|| sum(shares) / periods as f64),
+            back_step: sum(back_steps) / periods as f64,
         }
     }
 }
@@ -250,7 +242,7 @@ mod tests {
         assert_eq!(steps.periods, 8);
         assert_relative_eq!(steady.step, 1.5, max_relative = 1e-14);
         assert_abs_diff_eq!(steady.repeatability.unwrap(), 0.0, epsilon = 1e-14);
-        assert_relative_eq!(steady.back_step.unwrap(), 0.25, max_relative = 1e-14);
+        assert_relative_eq!(steady.back_step, 0.5, max_relative = 1e-14);
         assert_relative_eq!(steps.mean_speed, 1.5, max_relative = 1e-14);
         assert_relative_eq!(steps.net_travel, 12.0, max_relative = 1e-14);
         assert_eq!((steady.from, steady.periods), (0, 8));
@@ -305,10 +297,21 @@ mod tests {
     }
 
     #[test]
+    fn a_back_step_goes_on_into_the_next_period() {
+        // From the third of these positions down to the first after the end of the period, which is the start of the next one.
+        let stride = Stride::along(0.0, [-1.0, 2.5, 4.0, 3.0].into_iter(), 2.0);
+        assert_eq!((stride.fall, stride.rise, stride.back_step()), (2.0, 5.0, 3.0));
+        let mirrored = Stride::along(0.0, [1.0, -2.5, -4.0, -3.0].into_iter(), -2.0);
+        assert_eq!((mirrored.fall, mirrored.rise, mirrored.back_step()), (5.0, 2.0, 3.0));
+        // Without a step: peak to peak.
+        assert_eq!(Stride::along(0.0, [1.0, -0.5].into_iter(), 0.0).back_step(), 1.5);
+    }
+
+    #[test]
     fn no_motion_is_no_back_step_and_no_error() {
         let steps = Steps::of_record(&[0.0, 1.0, 2.0, 3.0, 4.0], &[1.0; 5], 1.0, BOUNDS).unwrap();
         let steady = steps.steady.unwrap();
-        assert_eq!((steady.step, steady.back_step, steady.from), (0.0, None, 0));
+        assert_eq!((steady.step, steady.back_step, steady.from), (0.0, 0.0, 0));
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub use linearised::{Indentations, Linearised, NormalMode};
 pub use method::{Expected, Method, Tally, Treatment, Why};
 pub use model::{Model, NaturalScale, Pressing, Spared};
 pub use plan::{Accuracy, Limits, Plan, Stepper, UntilSteady};
-pub use record::{Channel, Record, Stride, Trace, state_name};
+pub use record::{Channel, Extent, Record, Stride, Trace, state_name};
 pub use run::{Run, VariantError, Variants, WALK_TOLERANCE, run};
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};

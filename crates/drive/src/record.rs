@@ -1,7 +1,9 @@
 //! What is written down: rows on a regular grid, events, and their channels; looks into the contacts.
 
+mod extent;
 mod trace;
 
+pub use extent::Extent;
 pub use trace::Trace;
 
 use crate::Model;
@@ -60,15 +62,16 @@ pub trait Record {
         let _ = values;
     }
 
-    /// The body, by its place in the scene, whose range of x is wanted; asked before the run. Such a record reads every step.
-    fn watched(&self) -> Option<usize> {
-        None
+    /// The bodies, by their place in the scene, whose extent along x is wanted: the one that steps, and the one that moves it; asked
+    /// before the run. Such a record reads every step.
+    fn watched(&self) -> [Option<usize>; 2] {
+        [None; 2]
     }
 
-    /// Least and largest x of that body, m, since the last range that was told: before every mark, and whenever a run is put
-    /// down. Between both ends of a step x is the cubic that has its places and velocities.
-    fn range(&mut self, range: [f64; 2]) {
-        let _ = range;
+    /// How far these bodies went along x since the last call: before every mark, and whenever a run is put down. Between both ends
+    /// of a step x is the cubic that has its positions and velocities.
+    fn extents(&mut self, extents: [Extent; 2]) {
+        let _ = extents;
     }
 
     /// Asked now and then with the time reached, s; `false` interrupts the run.

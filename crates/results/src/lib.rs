@@ -10,7 +10,7 @@
 //! * [`Job`], within its `limits`; `plausibility` (what is odd about it); [`info`], what it means and will take; [`Columns`];
 //!   [`program`], which computes;
 //! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run;
-//! * what it leaves: [`Kept`] with [`Series`], the moments of its `marks`, the `account` of its last period and [`Tracks`] in memory, `books` (energies); `table`,
+//! * what it leaves: [`Kept`] with [`Series`], the moments of its `marks`, the `foot` of a drive, the `account` of its last period and [`Tracks`] in memory, `books` (energies); `table`,
 //!   `insides` and `sheet` with its `digest` on disk, under the names of [`files`], in a [`folder`] on a `disk`, each table with its [`Seal`]; its [`fingerprint`];
 //! * what it means: [`Periods`], [`Trail`] and [`contact_path()`] (series prepared for the analysis), [`cycles`] and their
 //!   table, [`summary`] with
@@ -40,6 +40,7 @@ mod excess;
 pub mod files;
 pub mod fingerprint;
 pub mod folder;
+mod foot;
 pub mod frame;
 mod guard;
 pub mod info;

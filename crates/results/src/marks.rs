@@ -3,6 +3,7 @@
 use crate::account::Phases;
 use crate::contact_path::is_walked;
 use crate::cycles::{is_integrated, table_of};
+use crate::foot::Foot;
 use crate::job::Job;
 use crate::periods::{Periods, followed};
 use stickslip_drive::Waveform;
@@ -37,6 +38,8 @@ pub(crate) struct Marks {
     pub(crate) are_dense: bool,
     /// Body whose way in each period is wanted.
     pub(crate) body: Option<usize>,
+    /// The foot that a stack moves under it, whose way is wanted, too.
+    pub(crate) foot: Option<usize>,
     /// Periods of the figures.
     figures: Option<Periods>,
     /// End of the run, s.
@@ -95,7 +98,9 @@ impl Marks {
         }
         let common = grids.len();
         grids.extend(figures.iter().flat_map(|periods| turns(job, periods)));
-        Self { grids, common, are_dense: any_dense, body: body.filter(|_| figures.is_some()), figures, end }
+        let body = body.filter(|_| figures.is_some());
+        let foot = body.and_then(|_| Foot::of(job)?.driven());
+        Self { grids, common, are_dense: any_dense, body, foot, figures, end }
     }
 
     /// Whether a moment is one for all figures, and not for the account of a period alone.

@@ -16,7 +16,7 @@ use crate::tally::Tally;
 use crate::watcher::Watcher;
 use std::io;
 use stickslip_contact::{Memory, Segment};
-use stickslip_drive::{Event, EventKind, Record, Source};
+use stickslip_drive::{Event, EventKind, Extent, Record, Source};
 use tables::{Closed, Tables};
 
 /// Writes rows, events and looks into the contacts as they come.
@@ -206,7 +206,7 @@ impl<'a> Recorder<'a> {
 
     /// Ends a period of the figures, by its number.
     fn end_period(&mut self, number: u64) {
-        let Some(stride) = self.recorded.tally.end_range() else { return };
+        let Some(stride) = self.recorded.tally.end_extents() else { return };
         if let Some(failure) = self.recorded.tally.take_failure() {
             self.fail(failure);
         }
@@ -320,22 +320,22 @@ impl Record for Recorder<'_> {
             self.moment(values, None);
         }
         match self.marks.period_ended(t) {
-            Some(0) => self.recorded.tally.begin_range(),
+            Some(0) => self.recorded.tally.begin_extents(),
             Some(number) => self.end_period(number),
             None => {}
         }
     }
 
-    fn watched(&self) -> Option<usize> {
-        self.marks.body
+    fn watched(&self) -> [Option<usize>; 2] {
+        [self.marks.body, self.marks.foot]
     }
 
     fn rows_within(&self) -> [f64; 2] {
         self.selection.window()
     }
 
-    fn range(&mut self, range: [f64; 2]) {
-        self.recorded.tally.range(range);
+    fn extents(&mut self, extents: [Extent; 2]) {
+        self.recorded.tally.extents(extents);
     }
 
     fn goes_on(&mut self, t: f64) -> bool {

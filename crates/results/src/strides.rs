@@ -8,10 +8,17 @@ use stickslip_analysis::{Stride, Strides};
 
 /// Most that are kept in memory where there is a file.
 const MOST: usize = 1 << 13;
-/// Bytes of one in the file: four numbers.
-const BYTES: usize = 32;
+/// Bytes of one in the file: six numbers.
+const BYTES: usize = 48;
 /// One that could not be read.
-const UNREADABLE: Stride = Stride { start: f64::NAN, end: f64::NAN, least: f64::NAN, most: f64::NAN };
+const UNREADABLE: Stride = Stride {
+    start: f64::NAN,
+    end: f64::NAN,
+    least: f64::NAN,
+    most: f64::NAN,
+    fall: f64::NAN,
+    rise: f64::NAN,
+};
 
 /// The steps so far.
 #[derive(Debug, Default)]
@@ -40,7 +47,7 @@ impl StrideList {
             && self.failure.is_none()
             && let Some(file) = &self.file
         {
-            let numbers = self.recent.iter().flat_map(|s| [s.start, s.end, s.least, s.most]);
+            let numbers = self.recent.iter().flat_map(|s| [s.start, s.end, s.least, s.most, s.fall, s.rise]);
             let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
             let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
             // What a write that failed has left behind is written over.
@@ -92,12 +99,12 @@ impl StrideList {
 }
 
 fn stride(bytes: &[u8; BYTES]) -> Stride {
-    let mut numbers = [0.0; 4];
+    let mut numbers = [0.0; 6];
     for (number, bytes) in numbers.iter_mut().zip(bytes.as_chunks::<8>().0) {
         *number = f64::from_le_bytes(*bytes);
     }
-    let [start, end, least, most] = numbers;
-    Stride { start, end, least, most }
+    let [start, end, least, most, fall, rise] = numbers;
+    Stride { start, end, least, most, fall, rise }
 }
 
 impl Strides for StrideList {
@@ -124,7 +131,7 @@ mod tests {
     fn steps_in_a_file_are_those_in_memory() {
         let stride = |k: usize| {
             let start = k as f64;
-            Stride { start, end: start + 1.5, least: start - 0.1, most: start + 2.0 }
+            Stride { start, end: start + 1.5, least: start - 0.1, most: start + 2.0, fall: 0.5, rise: 2.1 }
         };
         let (mut all, mut spilled) = (StrideList::default(), StrideList::default());
         spilled.spill(tempfile::tempfile().unwrap());
@@ -153,7 +160,7 @@ mod tests {
         file.write_all(b"torn").unwrap();
         let mut strides = StrideList::default();
         strides.spill(file);
-        let stride = Stride { start: 0.5, end: 1.0, least: 0.25, most: 2.0 };
+        let stride = Stride { start: 0.5, end: 1.0, least: 0.25, most: 2.0, fall: 1.0, rise: 1.75 };
         (0..MOST).for_each(|_| strides.push(stride));
         assert!(strides.recent.is_empty() && strides.part(0..MOST).all(|read| read == stride));
     }
@@ -163,7 +170,7 @@ mod tests {
         let mut strides = StrideList::default();
         let unwritable = tempfile::NamedTempFile::new().unwrap();
         strides.spill(File::open(unwritable.path()).unwrap());
-        let stride = Stride { start: 0.0, end: 1.0, least: 0.0, most: 1.0 };
+        let stride = Stride { start: 0.0, end: 1.0, least: 0.0, most: 1.0, fall: 0.0, rise: 1.0 };
         (0..MOST + 5).for_each(|_| strides.push(stride));
         assert_eq!(strides.count(), MOST + 5);
         assert!(strides.take_failure().is_some());

@@ -3,6 +3,7 @@
 mod contacts;
 mod drivers;
 mod fretting;
+mod losses;
 mod period;
 mod steps;
 mod why;
@@ -31,6 +32,7 @@ pub use crate::cycles::JudgedCycle;
 pub use contacts::ContactSummary;
 pub use drivers::DriverSummary;
 pub use fretting::Fretting;
+pub use losses::Losses;
 pub use period::{ContactPeriod, LastPeriod, PeriodWork, Way, load};
 pub(crate) use steps::flight;
 pub use steps::{DriveSummary, SettlingSummary, Steady, step_bounds};
@@ -277,9 +279,10 @@ impl Summary {
         self.error.as_ref().map(|stop| (stop.message.as_str(), stop.advice))
     }
 
-    /// What there is to say of events that were thinned without having been asked to be.
-    pub fn thinned(&self) -> Option<&str> {
-        self.notes.iter().map(String::as_str).find(|note| note.starts_with(EVENTS))
+    /// The notes for the terminal: on events that were thinned without having been asked to be, and why no step is reported.
+    pub fn printed_notes(&self) -> impl Iterator<Item = &str> {
+        let is_printed = |note: &&str| note.starts_with(EVENTS) || note.starts_with(steps::NO_STEP);
+        self.notes.iter().map(String::as_str).filter(is_printed)
     }
 
     /// The files beside the summary.

@@ -2,13 +2,14 @@
 
 use crate::account::Accounts;
 use crate::cycles::{CycleFigures, Loops};
+use crate::foot::Foot;
 use crate::job::Job;
 use crate::periods::{Periods, Tracker};
 use crate::strides::StrideList;
 use std::collections::HashMap;
 use stickslip_analysis::Stride;
-use stickslip_drive::Source;
 use stickslip_drive::scene::Freedom;
+use stickslip_drive::{Extent, Source};
 
 /// No place yet.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -21,8 +22,12 @@ pub(crate) struct Tally {
     part_of: Vec<usize>,
     walker: Option<Walker>,
     accounts: Option<Accounts>,
-    /// Least and largest x of the body of the figures in the period under way, m.
-    range: [f64; 2],
+    /// How far the body of the figures and its foot went in the period under way, and the foot in the last whole one.
+    extents: [Extent; 2],
+    foot: Option<Extent>,
+    /// The same of the voltage behind the driver of the foot's stack, at events and marks, and its place among all channels.
+    voltages: [Extent; 2],
+    voltage_place: Option<usize>,
 }
 
 /// What a contact has come to, over all rows and events.
@@ -67,8 +72,21 @@ impl Tally {
         let parts: Vec<Vec<usize>> = job.model.part_contacts().map(<[usize]>::to_vec).collect();
         let mut part_of = vec![0; contacts.len()];
         parts.iter().enumerate().for_each(|(k, part)| part.iter().for_each(|c| part_of[*c] = k));
+        let voltage_place = Foot::of(job)
+            .and_then(|foot| foot.voltage(job))
+            .and_then(|name| places.get(name.as_str()).copied());
         let (walker, accounts) = (Walker::of(job, &places), Accounts::of(job, &places));
-        Self { contacts, parts, part_of, walker, accounts, range: NOWHERE }
+        Self {
+            contacts,
+            parts,
+            part_of,
+            walker,
+            accounts,
+            extents: [Extent::NONE; 2],
+            foot: None,
+            voltages: [Extent::NONE; 2],
+            voltage_place,
+        }
     }
 
     /// Keeps what there is too much of in a file without a name.
@@ -123,6 +141,10 @@ impl Tally {
         if let Some(accounts) = &mut self.accounts {
             accounts.moment(event, values);
         }
+        let voltage = self.voltage_place.and_then(|place| values.get(place));
+        if let (Some(voltage), Some(t)) = (voltage, values.first()) {
+            self.voltages[0] = self.voltages[0].join(Extent::at(*voltage, *t));
+        }
     }
 
     /// What happened in the last whole period, where that is told.
@@ -130,20 +152,33 @@ impl Tally {
         self.accounts.as_ref()
     }
 
-    /// Takes where the body of the figures has been, m.
-    pub(crate) fn range(&mut self, [least, most]: [f64; 2]) {
-        self.range = [self.range[0].min(least), self.range[1].max(most)];
+    /// Takes how far the body of the figures and its foot went.
+    pub(crate) fn extents(&mut self, [body, foot]: [Extent; 2]) {
+        self.extents = [self.extents[0].join(body), self.extents[1].join(foot)];
     }
 
     /// Begins the first period of the figures: what was before it is none of theirs.
-    pub(crate) fn begin_range(&mut self) {
-        self.range = NOWHERE;
+    pub(crate) fn begin_extents(&mut self) {
+        self.extents = [Extent::NONE; 2];
+        self.voltages[0] = Extent::NONE;
     }
 
     /// Ends a period of the figures.
-    pub(crate) fn end_range(&mut self) -> Option<Stride> {
-        let range = std::mem::replace(&mut self.range, NOWHERE);
-        self.walker.as_mut()?.end_stride(range)
+    pub(crate) fn end_extents(&mut self) -> Option<Stride> {
+        let [body, foot] = std::mem::replace(&mut self.extents, [Extent::NONE; 2]);
+        self.foot = Some(foot).filter(|foot| !foot.is_none());
+        self.voltages = [Extent::NONE, self.voltages[0]];
+        self.walker.as_mut()?.end_stride(body)
+    }
+
+    /// How far the foot went in the last whole period of the figures; none of a foot that is not free.
+    pub(crate) fn foot(&self) -> Option<Extent> {
+        self.foot
+    }
+
+    /// How far the voltage behind the driver of its stack went meanwhile; none without a driver.
+    pub(crate) fn voltage(&self) -> Option<Extent> {
+        Some(self.voltages[1]).filter(|voltage| !voltage.is_none())
     }
 
     /// Why no more steps can be kept.
@@ -259,9 +294,10 @@ impl Walker {
     }
 
     /// The step of a period in whose end it has come to stand; none of one whose end was not among the moments.
-    fn end_stride(&mut self, [least, most]: [f64; 2]) -> Option<Stride> {
+    fn end_stride(&mut self, extent: Extent) -> Option<Stride> {
         let [start, end] = self.ends;
-        let stride = Stride { start: start?, end: end?, least, most };
+        let Extent { least: [least, _], most: [most, _], fall, rise } = extent;
+        let stride = Stride { start: start?, end: end?, least, most, fall, rise };
         self.ends = [end, None];
         self.strides.push(stride);
         Some(stride)

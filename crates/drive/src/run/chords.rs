@@ -270,9 +270,10 @@ impl<'a> Chords<'a> {
         while let Some(due) = self.output.marks.due(t) {
             self.output.marks.write(&eq, state, due, &|i| step.value(i, due), record);
         }
-        if let Some(i) = self.output.marks.watches() {
-            let to = [t, state.shifts[i] + step.value(i, t), step.value(self.layout.velocity(i), t)];
-            self.output.marks.pass(state, to);
+        if self.output.marks.watches() {
+            let point =
+                |i: usize| [t, state.shifts[i] + step.value(i, t), step.value(self.layout.velocity(i), t)];
+            self.output.marks.pass(state, point);
             self.output.marks.end_step();
         }
         while let Some(due) = self.output.looks.due(t) {

@@ -73,7 +73,7 @@ impl Output {
         record: &mut dyn Record,
     ) {
         self.looks = Looks::begin(at, opening, record);
-        self.turns.begin(at.0, record.watched().filter(|_| record.wants_events()));
+        self.turns.begin(at.0, record.watched()[0].filter(|_| record.wants_events()));
         // Whoever listens now: a run may be told to another record on its way.
         self.rows.begin(at.0);
         self.marks.begin(equations, at, opening == Opening::Resumed, record);
@@ -84,7 +84,7 @@ impl Output {
     /// A few comparisons: all that a step without output pays for it.
     #[inline(always)]
     pub(super) fn due(&self, t: f64) -> bool {
-        self.marks.watches().is_some() || self.reads(t)
+        self.marks.watches() || self.reads(t)
     }
 
     /// Whether something is read inside a step that ends at t.

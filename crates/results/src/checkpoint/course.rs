@@ -6,7 +6,7 @@ use crate::outcome::{Ended, Outcome};
 use crate::record::{Draft, Recorder};
 use std::io;
 use stickslip_contact::{Memory, Segment};
-use stickslip_drive::{Event, Record, Run, RunError};
+use stickslip_drive::{Event, Extent, Record, Run, RunError};
 
 impl Job {
     /// [`Self::run_recorded`] with checkpoints: the recorder is a fresh one, or one that was told of the parts before.
@@ -110,13 +110,13 @@ impl Record for Journalled<'_> {
         self.recorder.mark(values);
     }
 
-    fn watched(&self) -> Option<usize> {
+    fn watched(&self) -> [Option<usize>; 2] {
         self.recorder.watched()
     }
 
-    fn range(&mut self, range: [f64; 2]) {
-        self.keeper.journal.range(range);
-        self.recorder.range(range);
+    fn extents(&mut self, extents: [Extent; 2]) {
+        self.keeper.journal.extents(extents);
+        self.recorder.extents(extents);
     }
 
     fn rows_within(&self) -> [f64; 2] {

@@ -33,7 +33,7 @@ pub enum CheckpointError {
     /// Something else under the name of a checkpoint.
     #[error("{}: expected a checkpoint of stickslip, found something else", .0.display())]
     Foreign(PathBuf),
-    /// A checkpoint in a later form.
+    /// A checkpoint in another form.
     #[error("{}: written by {program}, in a form that this program, {}, does not know", .path.display(), this_program())]
     Newer {
         /// Which file.

@@ -10,14 +10,14 @@
 //! | look | tag, time, number of words (u64), the words of each contact's memory |
 //! | mark | tag, a number for each channel |
 //! | path | tag, place of the contact (u32), kind (u8), end (d, u), force and energy at it |
-//! | range | tag, least and largest place |
+//! | extents | tag, and of each of two bodies: least position and its time, largest position and its time, largest fall and rise |
 
 use sha2::{Digest, Sha256};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
 use stickslip_contact::{Memory, Segment};
-use stickslip_drive::{Event, Source};
+use stickslip_drive::{Event, Extent, Source};
 
 /// What a record begins with.
 pub(super) mod tag {
@@ -25,7 +25,7 @@ pub(super) mod tag {
     pub(in super::super) const EVENT: u8 = 1;
     pub(in super::super) const LOOK: u8 = 2;
     pub(in super::super) const MARK: u8 = 3;
-    pub(in super::super) const RANGE: u8 = 4;
+    pub(in super::super) const EXTENTS: u8 = 4;
     pub(in super::super) const PATH: u8 = 5;
 }
 
@@ -129,9 +129,11 @@ impl Journal {
         self.put();
     }
 
-    pub(super) fn range(&mut self, range: [f64; 2]) {
-        self.bytes.push(tag::RANGE);
-        self.reals(&range);
+    pub(super) fn extents(&mut self, extents: [Extent; 2]) {
+        self.bytes.push(tag::EXTENTS);
+        for Extent { least, most, fall, rise } in extents {
+            self.reals(&[least[0], least[1], most[0], most[1], fall, rise]);
+        }
         self.put();
     }
 

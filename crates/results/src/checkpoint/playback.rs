@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
 use stickslip_contact::{Apex, Engine, Interface, Memory, Segment, Words};
-use stickslip_drive::{Record, Source};
+use stickslip_drive::{Extent, Record, Source};
 
 /// Bytes read at a time.
 const CHUNK: usize = 1 << 16;
@@ -134,6 +134,15 @@ struct Playback<'a, 'r> {
 }
 
 impl Playback<'_, '_> {
+    fn extent(&mut self) -> io::Result<Extent> {
+        let mut numbers = [0.0; 6];
+        for number in &mut numbers {
+            *number = f64::from_le_bytes(self.array()?);
+        }
+        let [least, at, most, then, fall, rise] = numbers;
+        Ok(Extent { least: [least, at], most: [most, then], fall, rise })
+    }
+
     /// Tells the next record; none for one that no run has written.
     fn record(&mut self) -> io::Result<Option<()>> {
         match self.array()? {
@@ -147,9 +156,9 @@ impl Playback<'_, '_> {
                 self.recorder.mark(&self.values);
                 Ok(Some(()))
             }
-            [tag::RANGE] => {
-                let range = [f64::from_le_bytes(self.array()?), f64::from_le_bytes(self.array()?)];
-                self.recorder.range(range);
+            [tag::EXTENTS] => {
+                let extents = [self.extent()?, self.extent()?];
+                self.recorder.extents(extents);
                 Ok(Some(()))
             }
             [tag::PATH] => self.path(),

@@ -11,7 +11,7 @@ use std::path::Path;
 
 const MAGIC: &[u8] = b"stickslip checkpoint\n";
 /// Version of the form that this program reads and writes.
-const FORM: u32 = 1;
+const FORM: u32 = 2;
 /// Where the length of the file stands.
 const LENGTH: usize = MAGIC.len() + 4;
 /// Bytes of a digest.
@@ -76,7 +76,7 @@ impl Stub {
             return Err(CheckpointError::Short { path: path(), expected, found });
         }
         let program = reader.text();
-        if form > FORM {
+        if form != FORM {
             let program = program.unwrap_or_else(|| "another program".to_owned());
             return Err(CheckpointError::Newer { path: path(), program });
         }
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn what_a_later_program_wrote_is_told_from_what_is_damaged() {
         let mut bytes = stub().to_bytes();
-        bytes[MAGIC.len()] = 2;
+        bytes[MAGIC.len()] = FORM.to_le_bytes()[0] + 1;
         let this = this_program();
         assert_eq!(
             read(&bytes),

@@ -155,7 +155,18 @@ pub(super) const KEYS: &[Definition] = &[
         "how far the mean of all later steps may lie from it; at least as far as it is from the steady motion found directly, where that is stable and within a thousandth, of fixed steps within a tenth; with `frames` at least what may be lost of a stroke. What fixed steps miss by their length is not in it where no steady motion was found, nor what a tolerance allows",
     ),
     of("steps.steady.repeatability_m", "standard deviation of those steps"),
-    of("steps.steady.back_step", "share of the forward stroke that is lost in the flyback and after"),
+    of(
+        "steps.steady.back_step",
+        "back-step as a share of the body's forward motion: back_step_m / (|step_m| + back_step_m); left out where the step is 0 within its error",
+    ),
+    of(
+        "steps.steady.back_step_m",
+        "back-step: the largest fall of x after a maximum within a period and its repetition, counted in the direction of the step, max x(t1) - x(t2) over t1 <= t2; without a step the peak-to-peak motion. The mean of the last periods",
+    ),
+    of(
+        "steps.steady.lost_stroke_m",
+        "lost stroke: peak-to-peak travel of the foot over the last whole period, minus |step_m|; below 0 where the step exceeds it. Of the foot that the waveform of the figures moves, itself or by a stack; left out, with the reason in steps.why, without one such foot and where the waveform goes back as slowly as it goes forward",
+    ),
     of("steps.mean_speed_m_s", "way in the whole periods over their time"),
     of(
         "steps.net_travel_m",
@@ -164,6 +175,9 @@ pub(super) const KEYS: &[Definition] = &[
     of("steps.last_period.from_s", "start of the last whole period"),
     of("steps.last_period.to_s", "its end"),
     of("steps.last_period.step_m", "how far the body came in it"),
+    of("steps.last_period.back_step", "back-step of that period, as a share: see steps.steady.back_step"),
+    of("steps.last_period.back_step_m", "back-step of that period: see steps.steady.back_step_m"),
+    of("steps.last_period.lost_stroke_m", "lost stroke of that period: see steps.steady.lost_stroke_m"),
     of(
         "steps.last_period.forth.time_s",
         "how long the waveform goes forth: its slower way, of two as slow that of the step, or without a step the rising one",

@@ -43,10 +43,7 @@ impl DriverSummary {
         let limits = [told(current, "at its current limit"), told(window, "at an end of its window")];
         let limits: Vec<String> = limits.into_iter().flatten().collect();
         (!limits.is_empty()).then(|| {
-            format!(
-                "the driver of {name} was {}: it made less of the command than this says",
-                limits.join(" and ")
-            )
+            format!("the driver of {name} was {}: the stack lags behind its command", limits.join(" and "))
         })
     }
 }

@@ -1,11 +1,13 @@
 //! The account of the last period of a drive.
 
+use super::losses::{self, FootMotion, Losses};
 use crate::account::{Account, ContactAccount, Extreme, Phases};
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
 use crate::real::Real;
 use serde::Serialize;
+use stickslip_analysis::Stride;
 use stickslip_drive::scene::{Scene, Varying};
 
 /// The last whole period of the waveform of the figures. Forth is the way on which the waveform takes longer; of two that take
@@ -19,6 +21,12 @@ pub struct LastPeriod {
     /// How far the body came.
     #[serde(rename = "step_m")]
     pub(super) step: Real,
+    /// What the step loses.
+    #[serde(flatten)]
+    pub(super) losses: Losses,
+    /// How its foot moved, or why a step is not measured by that.
+    #[serde(skip)]
+    pub(super) foot: Result<FootMotion, &'static str>,
     /// While the waveform goes forth.
     pub(super) forth: Way,
     /// While it goes back.
@@ -83,8 +91,13 @@ pub struct ContactPeriod {
     pub(super) ringing_left: Real,
 }
 
-/// The last period; none of a run without one.
-pub(super) fn of(job: &Job, outcome: &Outcome, is_length: bool) -> Option<LastPeriod> {
+/// The last period, with the stride that the body made in it; none of a run without one. A step below `error`, m, is none.
+pub(super) fn of(
+    job: &Job,
+    outcome: &Outcome,
+    (stride, error): (Stride, f64),
+    is_length: bool,
+) -> Option<LastPeriod> {
     let accounts = outcome.tally.accounts()?;
     let account = accounts.last()?;
     let forth = forth(account);
@@ -101,12 +114,17 @@ pub(super) fn of(job: &Job, outcome: &Outcome, is_length: bool) -> Option<LastPe
         .contacts
         .iter()
         .filter_map(|it| Some(((*names.get(it.c)?).to_owned(), contact(it, account.time, forth))));
+    let [forth_way, back_way] = [way(forth), way(1 - forth)];
+    let foot = losses::foot(job, outcome, [&forth_way, &back_way]);
+    let travel = foot.ok().map(|foot| foot.travel);
     Some(LastPeriod {
         from,
         to,
         step: Real(step),
-        forth: way(forth),
-        back: way(1 - forth),
+        losses: Losses::of([step, error], stride.back_step(), travel),
+        foot,
+        forth: forth_way,
+        back: back_way,
         work: work(account, load(job)),
         contacts: Parts(contacts.collect()),
     })

@@ -1,5 +1,6 @@
 //! The quantities of a drive.
 
+use super::losses::Losses;
 use super::period::LastPeriod;
 use super::{DriverSummary, period, why};
 use crate::job::Job;
@@ -25,6 +26,8 @@ const FIXED: f64 = 1e-9;
 const COARSE: f64 = 0.1;
 /// Share of the time in which all contacts of a body are open that hops.
 const FLIES: f64 = 0.01;
+/// What a note begins with that says why there are no steps.
+pub(super) const NO_STEP: &str = "no step reported";
 /// A step below this share of how far the body goes in a period is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -84,7 +87,7 @@ impl DriveSummary {
         let apart = (steady.step.0 - motion.step.0 / motion.periods as f64).abs();
         let band = if self.promised.is_some() { COARSE } else { BAND };
         if motion.stable == Some(true) && apart <= band * steady.step.0.abs() {
-            steady.error = Real(steady.error.0.max(apart));
+            steady.widen(apart);
         }
     }
 }
@@ -148,9 +151,19 @@ pub struct Steady {
     /// Standard deviation of the step.
     #[serde(rename = "repeatability_m", skip_serializing_if = "Option::is_none")]
     pub repeatability: Option<Real>,
-    /// Share of the forward stroke lost in the flyback and after.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub back_step: Option<Real>,
+    /// What a step loses.
+    #[serde(flatten)]
+    pub losses: Losses,
+}
+
+impl Steady {
+    /// Widens the error of the step.
+    fn widen(&mut self, error: f64) {
+        self.error = Real(self.error.0.max(error));
+        if self.step.0.abs() <= self.error.0 {
+            self.losses.back_step = None;
+        }
+    }
 }
 
 /// Periods after which a run ended before its time without a fault.
@@ -170,6 +183,7 @@ pub(super) fn of(
     notes: &mut Vec<String>,
 ) -> Option<DriveSummary> {
     let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
+    notes.extend(unchosen(job));
     let body = scene.bodies.get(figures.body?)?;
     let waveform = scene.waveforms.get(figures.waveform?)?;
     let period = waveform.part.period()?;
@@ -210,11 +224,33 @@ pub(super) fn of(
     let mut summary = summary(&steps, ends, (&body.name, &waveform.name, period));
     summary.promised = promised(job);
     if let (Some(steady), Some(promised)) = (&mut summary.steady, summary.promised) {
-        steady.error = Real(steady.error.0.max(promised));
+        steady.widen(promised);
     }
-    summary.last_period = period::of(job, outcome, stroke(job).is_some());
-    summary.why = summary.last_period.as_ref().map(|last| why::of(job, drivers, last)).unwrap_or_default();
+    let last = strides.last().map(|last| (last, bounds.error));
+    summary.last_period = last.and_then(|last| period::of(job, outcome, last, stroke(job).is_some()));
+    if let Some(last) = &summary.last_period {
+        summary.why = why::of(job, drivers, last);
+        if let (Some(steady), Ok(foot)) = (&mut summary.steady, last.foot) {
+            steady.losses.lost_stroke = Some(Real(foot.travel - steady.step.0.abs()));
+        }
+    }
     Some(summary)
+}
+
+/// That a scene of several free bodies has no step reported, for it does not say of which; none where there is nothing to choose.
+fn unchosen(job: &Job) -> Option<String> {
+    let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
+    let free = scene.bodies.iter().filter(|body| body.part.x.freedom == Freedom::Free);
+    let free: Vec<String> = free.map(|body| format!("\"{}\"", body.name)).collect();
+    let periodic = scene.waveforms.iter().filter(|waveform| waveform.part.period().is_some());
+    let periodic: Vec<String> = periodic.map(|waveform| format!("\"{}\"", waveform.name)).collect();
+    let (key, names) = match () {
+        () if free.is_empty() || periodic.is_empty() => return None,
+        () if figures.body.is_none() => ("body", free),
+        () if figures.waveform.is_none() => ("waveform", periodic),
+        () => return None,
+    };
+    Some(format!("{NO_STEP}: name a {key} in figures, one of {}", names.join(", ")))
 }
 
 /// Since when all contacts of the body of the figures are open, s, where that is a whole period of their waveform and more.
@@ -264,7 +300,7 @@ fn promised(job: &Job) -> Option<f64> {
 }
 
 /// Stroke of the waveform of the figures, where it is a length: one that a body or an actuator follows.
-fn stroke(job: &Job) -> Option<f64> {
+pub(super) fn stroke(job: &Job) -> Option<f64> {
     let (scene, waveform) = (&job.scenario.scene, job.scenario.figures.waveform?);
     let is_here = |signal: usize| scene.waveform_of(signal) == Some(waveform);
     let followed =
@@ -304,7 +340,7 @@ fn summary(
             step: Real(steady.step),
             error: Real(steady.error),
             repeatability: steady.repeatability.map(Real),
-            back_step: steady.back_step.map(Real),
+            losses: Losses::of([steady.step, steady.error], steady.back_step, None),
         }),
         mean_speed: Real(steps.mean_speed),
         net_travel: Real(steps.net_travel),

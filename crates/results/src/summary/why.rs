@@ -1,6 +1,7 @@
 //! Why a step is as long as it is, in sentences with numbers.
 
 use super::drivers::DriverSummary;
+use super::losses::FootMotion;
 use super::period::{ContactPeriod, LastPeriod, PeriodWork};
 use crate::job::Job;
 use crate::parts::Parts;
@@ -16,10 +17,11 @@ pub(super) fn is_odd(last: &LastPeriod) -> bool {
     last.forth.stroke.is_some_and(|stroke| last.step.0 * stroke.0.signum() <= NOTHING * stroke.0.abs())
 }
 
-/// The sentences of a period; ways are those that are commanded, whatever a driver makes of them.
+/// The sentences of a period.
 pub(super) fn of(job: &Job, drivers: &Parts<DriverSummary>, last: &LastPeriod) -> Vec<String> {
     let mut lines = Vec::new();
     lines.extend(way(last));
+    lines.extend(lost(last));
     lines.extend(drivers.0.iter().filter_map(|(name, driver)| driver.line(name)));
     lines.extend(last.contacts.0.iter().map(|(name, contact)| contact_line(name, contact)));
     lines.extend(short(job, last));
@@ -38,29 +40,41 @@ fn percent(share: f64) -> String {
 /// What became of the stroke.
 fn way(last: &LastPeriod) -> Option<String> {
     let stroke = last.forth.stroke?.0;
-    let along = |value: f64| value * stroke.signum();
-    let [forth, back] = [along(last.forth.travel.0), along(last.back.travel.0)];
-    let (step, stroke) = (forth + back, stroke.abs());
+    let (step, fall) = (last.step.0 * stroke.signum(), last.losses.back_step_length.0);
+    let stroke = stroke.abs();
+    let forward = step.abs() + fall;
+    let came = format!("the body came forward by {} and fell back by {}", length(forward), length(fall));
     let result = if step.abs() <= NOTHING * stroke {
-        "no step".to_owned()
+        format!("no step, the body moved by {} peak to peak", length(forward))
     } else if step < 0.0 {
-        format!("a step of {} the other way", length(-step))
+        format!("a step of {} the other way; {came}", length(-step))
     } else {
-        format!("a step of {}, {} of the stroke", length(step), percent(step / stroke))
+        format!("a step of {}, {} of the stroke; {came}", length(step), percent(step / stroke))
     };
-    let short = match stroke - forth {
-        short if short >= 0.0 => format!("{} short of it", length(short)),
-        ahead => format!("{} ahead of it", length(-ahead)),
+    let times = |[forward, back]: [f64; 2]| {
+        format!("in {} and back in {}", quantity(Real(forward), "s"), quantity(Real(back), "s"))
     };
-    let returned = if back < 0.0 { "lost" } else { "won" };
-    Some(format!(
-        "the drive went forth by {} in {} and back in {}: {result}; on the way forth the body came {}, {short}, on the way back it {returned} {}",
-        length(stroke),
-        quantity(last.forth.time, "s"),
-        quantity(last.back.time, "s"),
-        length(forth),
-        length(back.abs()),
-    ))
+    let command = format!("by {} {}", length(stroke), times([last.forth.time.0, last.back.time.0]));
+    Some(match last.foot {
+        Ok(FootMotion { travel, own_times: Some(own) }) => {
+            let own = if last.forth.stroke?.0 > 0.0 { own } else { [own[1], own[0]] };
+            let moved = format!("by {} {}", length(travel), times(own));
+            format!("the stack moved the foot forward {moved} (commanded: {command}): {result}")
+        }
+        _ => format!("the drive moved forward {command}: {result}"),
+    })
+}
+
+/// How much of the foot's travel is no step, or why that is not said.
+fn lost(last: &LastPeriod) -> Option<String> {
+    last.forth.stroke?;
+    Some(match (last.losses.lost_stroke, last.foot) {
+        (Some(lost), _) if lost.0 < 0.0 => {
+            format!("the step exceeds the travel of the foot by {}", length(-lost.0))
+        }
+        (Some(lost), _) => format!("{} of the travel of the foot are lost", length(lost.0)),
+        (None, foot) => format!("no lost stroke: {}", foot.err()?),
+    })
 }
 
 /// What a contact did.

@@ -10,7 +10,7 @@ use stickslip_results::Real;
 use stickslip_results::complaint::words;
 use stickslip_results::outlook::Outlook;
 use stickslip_results::quantity;
-use stickslip_results::summary::{DriveSummary, Fretting, SettlingSummary, Status, Summary};
+use stickslip_results::summary::{DriveSummary, Fretting, Losses, SettlingSummary, Status, Summary};
 
 /// An error below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;
@@ -160,8 +160,7 @@ fn settling(steps: &DriveSummary) -> String {
         (_, Some(steady)) => {
             let error = Some(steady.error).filter(|e| e.0 > SHOWN * steady.step.0.abs());
             let error = error.map(|error| format!(" ± {}", length(error))).unwrap_or_default();
-            let back =
-                steady.back_step.map(|b| format!(", back-step {:.1} %", 100.0 * b.0)).unwrap_or_default();
+            let back = back_step(&steady.losses);
             let step = length(steady.step);
             format!("steady step {step}{error}, settled from period {}{back}", steady.from + 1)
         }
@@ -197,6 +196,15 @@ fn settling(steps: &DriveSummary) -> String {
             )
         }
         (SettlingSummary::Settled, None) => "settled".to_owned(),
+    }
+}
+
+/// How far the body falls back in a step, where it does, and the share of its forward motion that this is.
+fn back_step(losses: &Losses) -> String {
+    let share = losses.back_step.map(|share| format!(" ({:.1} %)", 100.0 * share.0)).unwrap_or_default();
+    match losses.back_step_length {
+        Real(0.0) => ", no back-step".to_owned(),
+        fall => format!(", back-step {}{share}", quantity(fall, "m")),
     }
 }
 
@@ -250,7 +258,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
             lines.push(format!("  {name}: {}", cycle(fretting)));
         }
     }
-    lines.extend(summary.thinned().map(|note| format!("  {note}")));
+    lines.extend(summary.printed_notes().map(|note| format!("  {note}")));
     lines.push(format!("  {}: {}", job.folder.display(), summary.files().join(", ")));
     lines.join("\n")
 }

@@ -138,7 +138,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.fill(state, due, to, &mut y);
             self.output.grid.write(&eq, state, due, &|i| y[i], record);
         }
-        if self.output.marks.watches().is_some() {
+        if self.output.marks.watches() {
             self.pass_leap(&eq, state, to, (&mut y, record));
         }
         while let Some(due) = self.output.marks.due(to.t) {
@@ -190,9 +190,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                     turns = [(from, middle), (middle, to)].map(|(a, b)| Some(self.turn_between(a, b)));
                 }
             }
-            turns.into_iter().flatten().for_each(|turn| self.output.marks.pass(state, point(turn)));
+            turns.into_iter().flatten().for_each(|turn| self.output.marks.pass(state, |_| point(turn)));
         }
-        self.output.marks.pass(state, point(to));
+        self.output.marks.pass(state, |_| point(to));
     }
 
     /// Where the velocity changes its sign, by secants that keep it between (Illinois).

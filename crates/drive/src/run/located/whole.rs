@@ -336,9 +336,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.output.marks.write(&eq, state, due, &|i| half.value(i, due), record);
         }
         self.output.tell_turns(&eq, state, t, at, record);
-        if let Some(i) = self.output.marks.watches() {
-            let to = [t, state.shifts[i] + y(i), y(self.setting.layout.velocity(i))];
-            self.output.marks.pass(state, to);
+        if self.output.marks.watches() {
+            let point = |i: usize| [t, state.shifts[i] + y(i), y(self.setting.layout.velocity(i))];
+            self.output.marks.pass(state, point);
             self.output.marks.end_step();
         }
         while let Some(due) = self.output.looks.due(t) {

@@ -25,10 +25,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if turns || self.output.reads(t) {
             self.read(&eq, state, t, record);
         }
-        if let Some(i) = self.output.marks.watches() {
-            let end = self.motion.solver.span().end;
-            let to = [t, state.shifts[i] + end[i], end[self.setting.layout.velocity(i)]];
-            self.output.marks.pass(state, to);
+        if self.output.marks.watches() {
+            let (end, layout) = (self.motion.solver.span().end, self.setting.layout);
+            let point = |i: usize| [t, state.shifts[i] + end[i], end[layout.velocity(i)]];
+            self.output.marks.pass(state, point);
             self.output.marks.end_step();
         }
     }

@@ -1,11 +1,11 @@
-//! Rows at moments that a record asks for itself, and how far a body has moved between them.
+//! Rows at moments that a record asks for itself, and how far bodies have moved between them.
 //!
 //! They are read off steps as rows are, but for the record's own figures: so that these do not depend on where rows lie.
 
 use crate::Model;
 use crate::equations::Equations;
 use crate::model::Binding;
-use crate::record::{self, Record};
+use crate::record::{self, Extent, Record};
 use crate::scene::Axis;
 use crate::state::State;
 
@@ -15,29 +15,32 @@ pub(in crate::run) const SAME: f64 = 4.0 * f64::EPSILON;
 /// Time (s), place (m) and velocity (m/s) of a body.
 pub(in crate::run) type Point = [f64; 3];
 
-/// The marks ahead, and the way of a body since the last one.
+/// The marks ahead, and how far bodies went since the last one.
 pub(in crate::run) struct Marks {
     /// The next moment, s; infinite where none is left.
     due: f64,
     /// From when on a moment is as good as that, s.
     nearly: f64,
-    /// The free coordinate whose range is asked for.
-    coordinate: Option<usize>,
-    /// Where it was read last inside the present step.
-    inside: Option<Point>,
-    /// Least and largest place since the last mark, m; counted from the coordinate's origin.
-    range: [f64; 2],
+    /// The free coordinates whose extents are asked for.
+    watched: [Option<Watched>; 2],
     row: Vec<f64>,
 }
 
-/// No place yet.
-const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+/// A free coordinate whose extent is asked for.
+#[derive(Clone, Copy)]
+struct Watched {
+    coordinate: usize,
+    /// Where it was read last inside the present step.
+    inside: Option<Point>,
+    /// Its extent since the last mark, counted from the coordinate's origin.
+    extent: Extent,
+}
 
 impl Marks {
     /// Before a run: nobody has asked yet.
     pub(in crate::run) const fn none() -> Self {
         let never = f64::INFINITY;
-        Self { due: never, nearly: never, coordinate: None, inside: None, range: NOWHERE, row: Vec::new() }
+        Self { due: never, nearly: never, watched: [None; 2], row: Vec::new() }
     }
 
     /// None, in the room there is.
@@ -53,24 +56,23 @@ impl Marks {
         resumed: bool,
         record: &mut dyn Record,
     ) {
-        let binding =
-            record.watched().and_then(|body| Some(model.bodies.get(body)?.bindings[Axis::X as usize]));
-        self.coordinate = match binding {
-            Some(Binding::Free(i)) => Some(i),
-            _ => None,
-        };
+        self.watched =
+            record.watched().map(|body| match model.bodies.get(body?)?.bindings[Axis::X as usize] {
+                Binding::Free(i) => {
+                    let extent = Extent::at(state.shifts[i] + state.y[i], state.t);
+                    Some(Watched { coordinate: i, inside: None, extent })
+                }
+                _ => None,
+            });
         self.due = f64::NEG_INFINITY;
         self.ask(record);
         while self.due < state.t || resumed && self.due(state.t).is_some() {
             self.ask(record);
         }
-        if let Some(i) = self.coordinate {
-            self.range = [state.shifts[i] + state.y[i]; 2];
-        }
         while self.due(state.t).is_some() {
             self.write(equations, state, state.t, &|i| state.y[i], record);
         }
-        self.inside = None;
+        self.end_step();
     }
 
     /// The next moment, if it lies at `t` or before it; `t` itself where it is as good as there.
@@ -79,10 +81,10 @@ impl Marks {
         (t >= self.nearly).then(|| self.due.min(t))
     }
 
-    /// Whether the range of a coordinate is asked for: then every step is read.
+    /// Whether the extent of a coordinate is asked for: then every step is read.
     #[inline(always)]
-    pub(in crate::run) fn watches(&self) -> Option<usize> {
-        self.coordinate
+    pub(in crate::run) fn watches(&self) -> bool {
+        self.watched.iter().any(Option::is_some)
     }
 
     /// Hands over the row at a moment of the present step, and asks for the next.
@@ -94,38 +96,45 @@ impl Marks {
         y: &impl Fn(usize) -> f64,
         record: &mut dyn Record,
     ) {
-        if let Some(i) = self.coordinate {
-            let point = [t, state.shifts[i] + y(i), y(equations.layout.velocity(i))];
+        if self.watches() {
+            let point = |i: usize| [t, state.shifts[i] + y(i), y(equations.layout.velocity(i))];
             self.pass(state, point);
-            self.inside = Some(point);
             self.hand_over(record);
-            self.range = [point[1]; 2];
+            for watched in self.watched.iter_mut().flatten() {
+                let [t, x, _] = point(watched.coordinate);
+                watched.extent = Extent::at(x, t);
+            }
         }
         record::fill(equations, state, t, y, &mut self.row);
         record.mark(&self.row);
         self.ask(record);
     }
 
-    /// Takes the way to a point of the present step, at whose start the state is.
-    pub(in crate::run) fn pass(&mut self, state: &State, to: Point) {
-        let Some(i) = self.coordinate else { return };
-        let start = || [state.t, state.shifts[i] + state.y[i], state.y[state.shifts.len() + i]];
-        let from = self.inside.take().unwrap_or_else(start);
-        let [least, most] = extent(from, to);
-        self.range = [self.range[0].min(least), self.range[1].max(most)];
-        self.inside = Some(to);
+    /// Takes the motion up to a point of the present step, at whose start the state is; `point` reads a coordinate there.
+    pub(in crate::run) fn pass(&mut self, state: &State, point: impl Fn(usize) -> Point) {
+        for watched in self.watched.iter_mut().flatten() {
+            let (i, to) = (watched.coordinate, point(watched.coordinate));
+            let start = || [state.t, state.shifts[i] + state.y[i], state.y[state.shifts.len() + i]];
+            let from = watched.inside.replace(to).unwrap_or_else(start);
+            watched.extent = watched.extent.join(extent(from, to));
+        }
     }
 
     /// The present step is over.
     pub(in crate::run) fn end_step(&mut self) {
-        self.inside = None;
+        self.watched.iter_mut().flatten().for_each(|watched| watched.inside = None);
     }
 
-    /// Hands over the range so far.
+    /// Hands over the extents so far.
     pub(in crate::run) fn hand_over(&mut self, record: &mut dyn Record) {
-        if self.range[0] <= self.range[1] {
-            record.range(self.range);
-            self.range = NOWHERE;
+        let take = |watched: &mut Option<Watched>| {
+            watched
+                .as_mut()
+                .map_or(Extent::NONE, |watched| std::mem::replace(&mut watched.extent, Extent::NONE))
+        };
+        let extents = self.watched.each_mut().map(take);
+        if extents.iter().any(|extent| !extent.is_none()) {
+            record.extents(extents);
         }
     }
 
@@ -137,11 +146,12 @@ impl Marks {
     }
 }
 
-/// Least and largest place on the cubic that has places and velocities of both points.
-fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> [f64; 2] {
-    let (h, ends) = (t1 - t0, [x0.min(x1), x0.max(x1)]);
+/// The extent of the cubic that has positions and velocities of both points.
+fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> Extent {
+    let ends = || Extent::at(x0, t0).join(Extent::at(x1, t1));
+    let h = t1 - t0;
     if h.is_nan() || h <= 0.0 {
-        return ends;
+        return ends();
     }
     // Slopes of one sign, none above thrice the mean one: it rises or falls all the way (Fritsch and Carlson 1980).
     let mean = (x1 - x0) / h;
@@ -149,7 +159,7 @@ fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> [f64; 2] {
         && (0.0..=3.0 * mean.abs()).contains(&(v0 * mean.signum()))
         && (0.0..=3.0 * mean.abs()).contains(&(v1 * mean.signum()))
     {
-        return ends;
+        return ends();
     }
     // x(s) = x₀ + hv₀s + bs² + cs³, s from 0 to 1; its slope vanishes where hv₀ + 2bs + 3cs² = 0.
     let (slope, rise) = (h * v0, x1 - x0);
@@ -157,28 +167,34 @@ fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> [f64; 2] {
     let root = (b * b - 3.0 * c * slope).sqrt();
     // Either root without the difference of two nearly equal numbers.
     let q = -(b + root.copysign(b));
-    let turns = [q / (3.0 * c), slope / q].into_iter().filter(|s| *s > 0.0 && *s < 1.0);
-    turns.fold(ends, |[least, most], s| {
-        let x = x0 + s * (slope + s * (b + s * c));
-        [least.min(x), most.max(x)]
-    })
+    let [mut first, mut second] = [q / (3.0 * c), slope / q];
+    if second < first {
+        std::mem::swap(&mut first, &mut second);
+    }
+    let turns = [first, second].into_iter().filter(|s| *s > 0.0 && *s < 1.0);
+    let turns = turns.map(|s| Extent::at(x0 + s * (slope + s * (b + s * c)), t0 + s * h));
+    turns.fold(Extent::at(x0, t0), Extent::join).join(Extent::at(x1, t1))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::extent;
+    use super::{Extent, extent};
 
     #[test]
     fn a_cubic_has_its_turning_points() {
         // x = t³ - 3t turns at -1 and 1, with 2 and -2.
         let (x, v) = (|t: f64| t.powi(3) - 3.0 * t, |t: f64| 3.0 * t * t - 3.0);
-        let between = |a: f64, b: f64| extent([a, x(a), v(a)], [b, x(b), v(b)]);
-        assert_eq!(between(-1.5, 1.5), [-2.0, 2.0]);
-        assert_eq!(between(0.0, 1.5), [-2.0, 0.0]);
-        assert_eq!(between(1.5, 2.0), [x(1.5), 2.0]);
+        let ends = |from, to| {
+            let Extent { least: [least, _], most: [most, _], fall, rise } = extent(from, to);
+            [least, most, fall, rise]
+        };
+        let between = |a: f64, b: f64| ends([a, x(a), v(a)], [b, x(b), v(b)]);
+        assert_eq!(between(-1.5, 1.5), [-2.0, 2.0, 4.0, 2.0 - x(-1.5)]);
+        assert_eq!(between(0.0, 1.5), [-2.0, 0.0, 2.0, x(1.5) + 2.0]);
+        assert_eq!(between(1.5, 2.0), [x(1.5), 2.0, 0.0, 2.0 - x(1.5)]);
         // A parabola, thrown at 1 m/s against 2 m/s², a straight way, and rest.
-        assert_eq!(extent([0.0, 0.0, 1.0], [1.0, 0.0, -1.0]), [0.0, 0.25]);
-        assert_eq!(extent([0.0, 1.0, 2.0], [1.0, 3.0, 2.0]), [1.0, 3.0]);
-        assert_eq!(extent([0.0, 1.0, 0.0], [1.0, 1.0, 0.0]), [1.0, 1.0]);
+        assert_eq!(ends([0.0, 0.0, 1.0], [1.0, 0.0, -1.0]), [0.0, 0.25, 0.25, 0.25]);
+        assert_eq!(ends([0.0, 1.0, 2.0], [1.0, 3.0, 2.0]), [1.0, 3.0, 0.0, 2.0]);
+        assert_eq!(ends([0.0, 1.0, 0.0], [1.0, 1.0, 0.0]), [1.0, 1.0, 0.0, 0.0]);
     }
 }

@@ -1,10 +1,10 @@
 //! What the parts have written, put together by time.
 
 use super::lane::Lane;
-use super::sheet::{NOWHERE, key};
+use super::sheet::key;
 use crate::event::{Event, Source};
 use crate::model::{ENERGIES, Model};
-use crate::record::Record;
+use crate::record::{Extent, Record};
 use crate::run::output::{Grid, Opening, SAME_MARK};
 use stickslip_contact::Memory;
 
@@ -202,9 +202,9 @@ impl Merged {
     pub(super) fn tell_range(&mut self, lanes: &mut [Lane<'_>], record: &mut dyn Record) {
         for lane in lanes {
             lane.hand_over();
-            let range = std::mem::replace(&mut lane.sheet.range, NOWHERE);
-            if range[0] <= range[1] {
-                record.range(range);
+            let extents = std::mem::replace(&mut lane.sheet.extents, [Extent::NONE; 2]);
+            if extents.iter().any(|extent| !extent.is_none()) {
+                record.extents(extents);
             }
         }
     }

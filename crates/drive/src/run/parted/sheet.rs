@@ -4,13 +4,11 @@ use super::calendar::Key;
 use super::rows::Rows;
 use crate::event::{Event, Source};
 use crate::model::Part;
-use crate::record::Record;
+use crate::record::{Extent, Record};
 use stickslip_contact::{Memory, Segment};
 
 /// Asks for leave to go on after which a part pauses, so that whoever watches the run is asked in time.
 pub(super) const ASKS: u32 = 16;
-/// No place yet.
-pub(super) const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 /// A record that keeps what it is told of one part.
 pub(super) struct Sheet {
@@ -21,7 +19,7 @@ pub(super) struct Sheet {
     window: [f64; 2],
     pub(super) wants_events: bool,
     follows: bool,
-    watched: Option<usize>,
+    watched: [Option<usize>; 2],
     /// Whether the step at hand will be taken again: paths are told then.
     pub(super) glances: bool,
     /// The next look and the moments to be read, s.
@@ -39,10 +37,10 @@ pub(super) struct Sheet {
     reads: Rows,
     pub(super) memories: Option<Vec<Memory>>,
     paths: Vec<(usize, Segment)>,
-    /// Where its body was since the last mark, m.
-    pub(super) range: [f64; 2],
+    /// How far its bodies went since the last mark.
+    pub(super) extents: [Extent; 2],
     /// The same at the beginning of the stretch, and whether the way up to there is told again.
-    range_before: [f64; 2],
+    extents_before: [Extent; 2],
     repeats: Repeats,
 }
 
@@ -65,7 +63,7 @@ impl Sheet {
             window: record.rows_within(),
             wants_events: record.wants_events(),
             follows: record.follows(),
-            watched: record.watched().and_then(|body| part.bodies.iter().position(|b| *b == body)),
+            watched: record.watched().map(|body| part.bodies.iter().position(|b| Some(*b) == body)),
             glances: false,
             look: None,
             asked: Vec::new(),
@@ -79,15 +77,15 @@ impl Sheet {
             reads: Rows::default(),
             memories: None,
             paths: Vec::new(),
-            range: NOWHERE,
-            range_before: NOWHERE,
+            extents: [Extent::NONE; 2],
+            extents_before: [Extent::NONE; 2],
             repeats: Repeats::No,
         }
     }
 
     /// Whether it is to tell how far its body went.
     pub(super) fn watches(&self) -> bool {
-        self.watched.is_some()
+        self.watched.iter().any(Option::is_some)
     }
 
     /// Numbers of the rows that are asked of it in a stretch.
@@ -100,7 +98,7 @@ impl Sheet {
         self.anew = !self.asked.is_empty();
         self.asked.clear();
         self.look = None;
-        self.range_before = self.range;
+        self.extents_before = self.extents;
         self.repeats = if repeats && self.watches() { Repeats::Yes } else { Repeats::No };
     }
 
@@ -143,7 +141,7 @@ impl Sheet {
     /// Forgets a stretch.
     pub(super) fn give_up(&mut self) {
         self.clear();
-        (self.range, self.glances) = (self.range_before, false);
+        (self.extents, self.glances) = (self.extents_before, false);
         if self.repeats == Repeats::Over {
             self.repeats = Repeats::Yes;
         }
@@ -254,17 +252,17 @@ impl Record for Sheet {
 
     fn mark(&mut self, values: &[f64]) {
         if self.repeats == Repeats::Yes {
-            (self.range, self.repeats) = (self.range_before, Repeats::Over);
+            (self.extents, self.repeats) = (self.extents_before, Repeats::Over);
         }
         self.reads.push(values);
     }
 
-    fn watched(&self) -> Option<usize> {
+    fn watched(&self) -> [Option<usize>; 2] {
         self.watched
     }
 
-    fn range(&mut self, [least, most]: [f64; 2]) {
-        self.range = [self.range[0].min(least), self.range[1].max(most)];
+    fn extents(&mut self, [body, foot]: [Extent; 2]) {
+        self.extents = [self.extents[0].join(body), self.extents[1].join(foot)];
     }
 
     fn goes_on(&mut self, _: f64) -> bool {
